@@ -1,0 +1,19 @@
+//! What can be measured on a run: parasitic modes, preserved two-forms, sections, Lyapunov exponents.
+//!
+//! Energy and momenta are methods of [`Integrator`](crate::Integrator).
+
+mod alternating;
+mod convergence;
+mod hessian;
+mod lyapunov;
+mod section;
+mod tangent;
+mod two_point;
+
+pub use alternating::AlternatingComponent;
+pub use convergence::convergence_order;
+pub use hessian::DiscreteHessian;
+pub use lyapunov::LyapunovExponent;
+pub use section::{Crossing, Direction, Section};
+pub use tangent::TangentMap;
+pub use two_point::TwoPointTangentMap;

@@ -1,0 +1,100 @@
+//! The exact derivative of a step of the σ-family in (q, p).
+//!
+//! Differentiating p0 = −D₁L_d(q0, q1), p1 = D₂L_d(q0, q1) implicitly:
+//!
+//! δq1 = −(D₁D₂)⁻¹(δp0 + D₁D₁δq0)
+//! δp1 = (D₁D₂)ᵀδq0 + D₂D₂δq1
+
+use super::DiscreteHessian;
+use crate::elimination::{self, multiply_add, multiply_transposed_add};
+use crate::error::StepFailure;
+use crate::{Lagrangian, Matrix, Permutation, Real, Space, Vector};
+
+/// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step.
+#[derive(Debug)]
+pub struct TangentMap<S: Lagrangian, T: Real = f64> {
+    hessian: DiscreteHessian<S, T>,
+    factors: Matrix<S, T>,
+    permutation: Permutation<S>,
+    next: [Vector<S, T>; 2],
+}
+
+impl<S: Lagrangian, T: Real> TangentMap<S, T> {
+    /// Storage for `system`; the map is that of the step given to [`evaluate`](Self::evaluate).
+    pub fn new(system: &S) -> Self {
+        let space = system.space();
+        Self {
+            hessian: DiscreteHessian::new(system),
+            factors: space.matrix(),
+            permutation: space.permutation(),
+            next: [space.vector(), space.vector()],
+        }
+    }
+
+    /// Linearizes the step of length `h` from (`q0`, `t`) to `q1`.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] where D₁D₂L_d is singular.
+    pub fn evaluate(
+        &mut self,
+        system: &S,
+        sigma: T,
+        t: T,
+        h: T,
+        q0: &[T],
+        q1: &[T],
+    ) -> Result<(), StepFailure> {
+        self.hessian.evaluate(system, sigma, t, h, q0, q1);
+        self.factors.copy_from_slice(&self.hessian.d12);
+        elimination::factor(&mut self.factors, &mut self.permutation)
+    }
+
+    /// The second derivatives of L_d for the step.
+    pub fn hessian(&self) -> &DiscreteHessian<S, T> {
+        &self.hessian
+    }
+
+    /// Maps (δq0, δp0), in place, to (δq1, δp1).
+    pub fn apply(&mut self, dq: &mut Vector<S, T>, dp: &mut Vector<S, T>) {
+        let DiscreteHessian { d11, d12, d22, .. } = &self.hessian;
+        let [dq1, dp1] = &mut self.next;
+        dq1.copy_from_slice(dp);
+        multiply_add(d11, dq, dq1);
+        elimination::solve(&self.factors, &self.permutation, dq1);
+        dq1.iter_mut().for_each(|x| *x = -*x);
+        dp1.fill(T::lift(0.0));
+        multiply_transposed_add(d12, dq, dp1);
+        multiply_add(d22, dq1, dp1);
+        dq.copy_from_slice(dq1);
+        dp.copy_from_slice(dp1);
+    }
+
+    /// max |MᵀJM − J| for the matrix M of the map and J = (0 1; −1 0): zero up to rounding.
+    #[cfg(feature = "alloc")]
+    pub fn symplectic_defect(&mut self, system: &S) -> T {
+        let n = system.space().dimension();
+        let columns: alloc::vec::Vec<_> = (0..2 * n)
+            .map(|a| {
+                let mut column: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
+                column[a / n][a % n] = T::lift(1.0);
+                let [dq, dp] = &mut column;
+                self.apply(dq, dp);
+                column
+            })
+            .collect();
+        let dot = |x: &[T], y: &[T]| x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y);
+        let mut defect = T::lift(0.0);
+        for (a, [uq, up]) in columns.iter().enumerate() {
+            for (b, [wq, wp]) in columns.iter().enumerate() {
+                let canonical = match (a + n == b, b + n == a) {
+                    (true, _) => 1.0,
+                    (_, true) => -1.0,
+                    _ => 0.0,
+                };
+                let pulled_back = dot(uq, wp) - dot(up, wq);
+                defect = defect.max(crate::Scalar::abs(pulled_back - T::lift(canonical)));
+            }
+        }
+        defect
+    }
+}

@@ -1,0 +1,115 @@
+//! Failures as values: small, `Copy`, with the numbers in them.
+
+use thiserror::Error;
+
+/// An array of a state does not have the length that its system declares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("`{array}` has length {found}, but the system declares {expected}")]
+pub struct LengthError {
+    /// The array.
+    pub array: &'static str,
+    /// The declared length.
+    pub expected: usize,
+    /// The length that was given.
+    pub found: usize,
+}
+
+/// A formula goes beyond the end of an array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the formulas use index {index} of `{array}`, which has length {len}")]
+pub struct IndexError {
+    /// The array, a coordinate or a parameter.
+    pub array: &'static str,
+    /// The index, negative if a formula steps below zero.
+    pub index: i64,
+    /// The length of the array.
+    pub len: usize,
+}
+
+/// A run that cannot begin.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StartError {
+    /// The step is zero, infinite or not a number.
+    #[error("the step h = {h} must be finite and different from zero")]
+    Step {
+        /// The step that was given.
+        h: f64,
+    },
+    /// An option of the method is out of its range.
+    #[error("{name} = {value} is out of range: {range}")]
+    Parameter {
+        /// The option.
+        name: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// What is allowed.
+        range: &'static str,
+    },
+    /// A coordinate of the initial state is infinite or not a number.
+    #[error("coordinate {coordinate} of the initial state is {value}")]
+    NotFinite {
+        /// The flat index of the coordinate.
+        coordinate: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// An array of the state has the wrong length.
+    #[error(transparent)]
+    Length(#[from] LengthError),
+    /// A parameter array is too short for the formulas.
+    #[error(transparent)]
+    Index(#[from] IndexError),
+    /// The step that computes the starting values failed.
+    #[error("the starting step failed: {0}")]
+    Starter(StepFailure),
+}
+
+/// Why a step could not be completed.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// The iteration ran out of its budget or moved away from a solution.
+    #[error(
+        "no convergence: after {iterations} iterations the correction is {correction:e}, \
+         {tolerance:e} was asked for; a smaller step helps"
+    )]
+    NotConverged {
+        /// Iterations taken.
+        iterations: usize,
+        /// The largest component of the last correction.
+        correction: f64,
+        /// The largest correction that would have been accepted.
+        tolerance: f64,
+    },
+    /// A matrix that must be solved with is singular to working precision.
+    #[error(
+        "singular matrix: pivot {pivot:e} in column {column}; the discrete Lagrangian is degenerate here"
+    )]
+    Singular {
+        /// The column without a usable pivot.
+        column: usize,
+        /// The largest candidate.
+        pivot: f64,
+    },
+    /// A coordinate became infinite or not a number: a collision, or a formula left its domain.
+    #[error("coordinate {coordinate} became {value}: a collision, or a formula left its domain")]
+    NotFinite {
+        /// The flat index of the coordinate.
+        coordinate: usize,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// A step that failed, and where. The run keeps the last good state.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("step {step} from t = {time}: {failure}")]
+pub struct StepError {
+    /// The number of steps completed before this one.
+    pub step: u64,
+    /// The time at which the failed step began.
+    pub time: f64,
+    /// Why.
+    pub failure: StepFailure,
+}

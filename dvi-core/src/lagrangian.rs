@@ -1,0 +1,116 @@
+//! What the compiler knows of a system, as traits.
+//!
+//! [`Lagrangian`] carries any L(q, v, t): its value, its first derivatives, and one weighted sum of
+//! its second derivatives, which is all that a discrete Lagrangian of the quadrature family needs
+//! (its D1, D2, D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to
+//! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
+//!
+//! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
+//! order of the declared coordinates; the integrators of this crate pass no others.
+
+use core::fmt::Debug;
+
+use crate::error::{IndexError, LengthError};
+use crate::report::Report;
+use crate::{Scalar, Space};
+
+/// A state with named coordinates, as users see it.
+///
+/// `block_len` gives the size of each coordinate block, as [`Lagrangian::block_len`] does.
+pub trait State<T: Scalar>: Sized {
+    /// Writes the coordinates into `flat`, in the order of declaration.
+    ///
+    /// # Errors
+    /// [`LengthError`] if an array of the state does not have the length that the system declares.
+    fn write(&self, block_len: impl Fn(usize) -> usize, flat: &mut [T]) -> Result<(), LengthError>;
+    /// Reads the coordinates from `flat`, in the order of declaration.
+    fn read(block_len: impl Fn(usize) -> usize, flat: &[T]) -> Self;
+}
+
+/// The weights of the four blocks of the second derivative of L(q, v, t).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights<T> {
+    /// Weight of ∂²L/∂qⁱ∂qʲ.
+    pub qq: T,
+    /// Weight of ∂²L/∂qⁱ∂vʲ.
+    pub qv: T,
+    /// Weight of ∂²L/∂vⁱ∂qʲ.
+    pub vq: T,
+    /// Weight of ∂²L/∂vⁱ∂vʲ.
+    pub vv: T,
+}
+
+/// A mechanical system with Lagrangian L(q, v, t).
+pub trait Lagrangian {
+    /// The shape of the configuration space.
+    type Space: Space;
+    /// The state with named coordinates.
+    type State<T: Scalar>: State<T> + Clone + Debug;
+    /// What the compiler saw: formulas, structure, operation counts, sparsity.
+    const REPORT: Report;
+
+    /// The configuration space of this system.
+    fn space(&self) -> Self::Space;
+    /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`.
+    fn block_len(&self, block: usize) -> usize;
+    /// Walks every index that the formulas use and checks it against the arrays that it goes to.
+    ///
+    /// # Errors
+    /// [`IndexError`] names the first array that is too short, and the index.
+    fn check(&self) -> Result<(), IndexError>;
+
+    /// L(q, v, t).
+    fn lagrangian<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
+    /// Sets `l_q` to ∂L/∂q and `l_v` to ∂L/∂v.
+    fn gradient<T: Scalar>(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
+    /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to the row-major `matrix`
+    /// w.qq ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ.
+    #[allow(clippy::too_many_arguments)]
+    fn linearize<T: Scalar>(
+        &self,
+        q: &[T],
+        v: &[T],
+        t: T,
+        w: Weights<T>,
+        l_q: &mut [T],
+        l_v: &mut [T],
+        matrix: &mut [T],
+    );
+
+    /// The value of declared momentum `index` (see [`Report::momenta`]).
+    fn momentum<T: Scalar>(&self, index: usize, q: &[T], t: T) -> T;
+    /// Sets `out` to the gradient of declared momentum `index`.
+    fn momentum_gradient<T: Scalar>(&self, index: usize, q: &[T], t: T, out: &mut [T]);
+}
+
+/// A system with L(q, v, t) = α(q, t)·v − H(q, t).
+///
+/// Dα is the matrix ∂αᵢ/∂qʲ. Its combinations a Dα + b (Dα)ᵀ are what a step solves with: Ω itself is
+/// a = −1, b = 1, the matrix of the explicit step a = 0, b = 1 (Rowley & Marsden 2002, eq. 17).
+pub trait DegenerateLagrangian: Lagrangian {
+    /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
+    const LINEAR: bool;
+    /// Whether Dα couples each coordinate to exactly one other, its partner, and to nothing else; then
+    /// a Dα + b (Dα)ᵀ is solved by one division per coordinate.
+    const MATCHING: bool;
+    /// Whether Ω = (Dα)ᵀ − Dα couples each coordinate to exactly one other. Weaker than
+    /// [`MATCHING`](Self::MATCHING): diagonal entries of Dα cancel in Ω.
+    const CANONICAL: bool;
+
+    /// H(q, t).
+    fn hamiltonian<T: Scalar>(&self, q: &[T], t: T) -> T;
+    /// Sets `out` to ∇H(q, t).
+    fn hamiltonian_gradient<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    /// Sets `out` to ∇H(q, t) + ∂α/∂t: the right side of Ω q' = ∇H + ∂α/∂t, the equation of the flow.
+    fn flow_source<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    /// Sets `out` to the components of α(q, t).
+    fn one_form<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    /// Adds a Dα + b (Dα)ᵀ to the row-major `matrix`.
+    fn one_form_jacobian<T: Scalar>(&self, q: &[T], t: T, a: T, b: T, matrix: &mut [T]);
+    /// Where [`CANONICAL`](Self::CANONICAL) holds: sets `out[i]` to the entry of a Dα + b (Dα)ᵀ in row i
+    /// and the column of i's partner. Elsewhere it leaves zeros.
+    fn partner_entries<T: Scalar>(&self, q: &[T], t: T, a: T, b: T, out: &mut [T]);
+    /// Where [`CANONICAL`](Self::CANONICAL) holds: the partner of coordinate `i`, of any index below the
+    /// dimension. Elsewhere `i` itself.
+    fn partner(&self, i: usize) -> usize;
+}

@@ -1,0 +1,47 @@
+//! The few measures of a vector that the solvers decide by.
+
+use crate::error::StepFailure;
+use crate::{Real, Scalar};
+
+/// The number as it is reported in errors.
+pub(crate) fn reported<T: Real>(value: T) -> f64 {
+    nalgebra::convert_unchecked(value)
+}
+
+/// maxᵢ |xᵢ|; an entry that is not a number does not count.
+#[inline(always)]
+pub(crate) fn largest<T: Real>(x: &[T]) -> T {
+    x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)))
+}
+
+/// maxᵢ |xᵢ − yᵢ|; an entry that is not a number does not count.
+#[inline(always)]
+pub(crate) fn distance<T: Real>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::lift(0.0), |largest, (&x, &y)| larger(largest, Scalar::abs(x - y)))
+}
+
+#[inline(always)]
+pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
+    if b > a { b } else { a }
+}
+
+/// Whether all entries are finite, else which one is not.
+///
+/// The sum of the entries is finite only if they all are, or overflows; so one comparison settles the
+/// usual case and only the unusual one looks at each entry.
+#[inline(always)]
+pub(crate) fn finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
+    // Four partial sums do not wait for one another.
+    let (chunks, rest) = x.as_chunks::<4>();
+    let partial = chunks.iter().fold([T::lift(0.0); 4], |sum, x| [0, 1, 2, 3].map(|i| sum[i] + x[i]));
+    let sum = rest.iter().fold((partial[0] + partial[2]) + (partial[1] + partial[3]), |sum, &x| sum + x);
+    if sum * T::lift(0.0) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
+}
+
+#[cold]
+fn each_finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
+    match x.iter().position(|x| !x.is_finite()) {
+        Some(coordinate) => Err(StepFailure::NotFinite { coordinate, value: reported(x[coordinate]) }),
+        None => Ok(()),
+    }
+}

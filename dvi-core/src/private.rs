@@ -1,0 +1,101 @@
+//! What generated code calls. Not part of the interface.
+
+#[cfg(feature = "alloc")]
+pub use alloc::vec::Vec;
+
+#[cfg(feature = "alloc")]
+use crate::Scalar;
+use crate::error::{IndexError, LengthError};
+
+/// A parameter that a formula may use: a number, or a reference to one.
+#[diagnostic::on_unimplemented(
+    message = "a parameter of a formula must be a number, `{Self}` is not",
+    label = "not a number"
+)]
+pub trait Number: Copy {
+    /// Its value.
+    fn number(self) -> f64;
+}
+
+macro_rules! number {
+    ($($type:ty),*) => {$(
+        impl Number for $type {
+            #[inline(always)]
+            fn number(self) -> f64 {
+                self as f64
+            }
+        }
+    )*};
+}
+
+number!(f64, f32, i8, i16, i32, i64, isize, u8, u16, u32, u64, usize);
+
+impl<N: Number> Number for &N {
+    #[inline(always)]
+    fn number(self) -> f64 {
+        (*self).number()
+    }
+}
+
+/// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
+#[inline]
+pub fn wrap(index: i64, modulus: i64) -> usize {
+    let turned = if index < 0 {
+        index + modulus
+    } else if index >= modulus {
+        index - modulus
+    } else {
+        index
+    };
+    (if (0..modulus).contains(&turned) { turned } else { remainder(index, modulus) }) as usize
+}
+
+/// The Euclidean remainder, −1 where there is none.
+pub fn remainder(index: i64, modulus: i64) -> i64 {
+    index.checked_rem_euclid(modulus).unwrap_or(-1)
+}
+
+/// Checks one index.
+///
+/// # Errors
+/// [`IndexError`] if it is not in 0..len.
+pub fn check_index(array: &'static str, index: i64, len: usize) -> Result<(), IndexError> {
+    match usize::try_from(index) {
+        Ok(position) if position < len => Ok(()),
+        _ => Err(IndexError { array, index, len }),
+    }
+}
+
+/// Copies a block of a state to its place in a flat slice.
+///
+/// # Errors
+/// [`LengthError`] if the block does not have the declared length.
+pub fn write_block<T: Copy>(
+    array: &'static str,
+    block: &[T],
+    expected: usize,
+    at: &mut usize,
+    flat: &mut [T],
+) -> Result<(), LengthError> {
+    let error = LengthError { array, expected, found: block.len() };
+    let place = flat.get_mut(*at..*at + block.len()).filter(|_| block.len() == expected).ok_or(error)?;
+    place.copy_from_slice(block);
+    *at += expected;
+    Ok(())
+}
+
+/// Reads a block of known length.
+#[inline]
+pub fn read_array<T: Copy, const N: usize>(_len: usize, at: &mut usize, flat: &[T]) -> [T; N] {
+    let start = *at;
+    *at += N;
+    core::array::from_fn(|i| flat[start + i])
+}
+
+/// Reads a block whose length the run knows.
+#[cfg(feature = "alloc")]
+pub fn read_vec<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> Vec<T> {
+    let start = *at;
+    *at += len;
+    flat[start..*at].to_vec()
+}

@@ -1,0 +1,136 @@
+//! What the macro saw of a system, as data that prints.
+
+use core::fmt;
+
+/// A block of coordinates as declared: `x`, or `x[n]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CoordinateBlock {
+    /// The name.
+    pub name: &'static str,
+    /// The size as written in the attribute; empty for a single coordinate.
+    pub size: &'static str,
+}
+
+/// A quantity and its formula as text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Formula {
+    /// What it is: `H`, `∂H/∂x[i]`.
+    pub name: &'static str,
+    /// The formula.
+    pub text: &'static str,
+}
+
+/// The operations of one pass through the body of one loop nest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OperationCount {
+    /// The loops, outermost first, as `i in 0..n`; empty for straight-line code.
+    pub loops: &'static str,
+    /// Additions and subtractions.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Divisions.
+    pub divisions: usize,
+    /// Calls of elementary functions and of the user's own.
+    pub calls: usize,
+}
+
+/// A set of entries of a matrix that can differ from zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The coordinate of the row, as `x[i]`.
+    pub row: &'static str,
+    /// The coordinate of the column, as `y[i]`.
+    pub column: &'static str,
+    /// The loops that the indices run over; empty for one entry.
+    pub loops: &'static str,
+}
+
+/// What the compiler saw of a system. `println!("{}", System::REPORT)` shows all of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Report {
+    /// The name of the struct.
+    pub system: &'static str,
+    /// The coordinates in the order in which flat slices hold them.
+    pub coordinates: &'static [CoordinateBlock],
+    /// The names of the declared momenta.
+    pub momenta: &'static [&'static str],
+    /// The formulas: as declared, and as differentiated.
+    pub formulas: &'static [Formula],
+    /// Statements on the structure, a sentence each: linear or nonlinear α, explicit or implicit steps.
+    pub structure: &'static [&'static str],
+    /// Operations of the residual (first derivatives of L).
+    pub residual: &'static [OperationCount],
+    /// Operations of the residual and the exact Jacobian together.
+    pub jacobian: &'static [OperationCount],
+    /// The sparsity of the Jacobian.
+    pub sparsity: &'static [Entry],
+}
+
+impl Report {
+    #[doc(hidden)]
+    #[allow(clippy::too_many_arguments)]
+    pub const fn new(
+        system: &'static str,
+        coordinates: &'static [CoordinateBlock],
+        momenta: &'static [&'static str],
+        formulas: &'static [Formula],
+        structure: &'static [&'static str],
+        residual: &'static [OperationCount],
+        jacobian: &'static [OperationCount],
+        sparsity: &'static [Entry],
+    ) -> Self {
+        Self { system, coordinates, momenta, formulas, structure, residual, jacobian, sparsity }
+    }
+}
+
+impl fmt::Display for CoordinateBlock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.size {
+            "" => f.write_str(self.name),
+            size => write!(f, "{}[{size}]", self.name),
+        }
+    }
+}
+
+impl fmt::Display for OperationCount {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let nest = if self.loops.is_empty() { "once" } else { self.loops };
+        write!(
+            f,
+            "{nest}: {} additions, {} multiplications, {} divisions, {} calls",
+            self.additions, self.multiplications, self.divisions, self.calls
+        )
+    }
+}
+
+impl fmt::Display for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({}, {})", self.row, self.column)?;
+        if self.loops.is_empty() { Ok(()) } else { write!(f, " for {}", self.loops) }
+    }
+}
+
+fn section<I>(f: &mut fmt::Formatter<'_>, title: &str, lines: I) -> fmt::Result
+where
+    I: IntoIterator<Item: fmt::Display>,
+{
+    writeln!(f, "{title}")?;
+    lines.into_iter().try_for_each(|line| writeln!(f, "  {line}"))
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.system)?;
+        section(f, "coordinates", self.coordinates)?;
+        writeln!(f, "formulas")?;
+        for formula in self.formulas {
+            writeln!(f, "  {} = {}", formula.name, formula.text)?;
+        }
+        section(f, "structure", self.structure)?;
+        section(f, "operations of the residual", self.residual)?;
+        section(f, "operations of residual and Jacobian", self.jacobian)?;
+        section(f, "entries of the Jacobian", self.sparsity)
+    }
+}

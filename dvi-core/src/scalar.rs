@@ -1,0 +1,149 @@
+//! The numbers that formulas are evaluated on.
+//!
+//! Generated code asks for [`Scalar`] and nothing more: ring operations, elementary functions, and a
+//! branch-free choice. Every real field of nalgebra that is `Copy` is a scalar (`f64`, `f32`, dual
+//! numbers); a pack of SIMD lanes can become one, because nothing here orders or tests a value.
+//! The solvers, which must decide, ask for [`Real`].
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use nalgebra::RealField;
+
+/// How an `if` of a formula compares its two sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// `a < b`
+    Less,
+    /// `a <= b`
+    LessOrEqual,
+    /// `a > b`
+    Greater,
+    /// `a >= b`
+    GreaterOrEqual,
+}
+
+macro_rules! scalar {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
+        /// A number that a generated formula can be evaluated on.
+        pub trait Scalar:
+            Copy
+            + Debug
+            + Add<Output = Self>
+            + Sub<Output = Self>
+            + Mul<Output = Self>
+            + Div<Output = Self>
+            + Neg<Output = Self>
+            + AddAssign
+            + SubAssign
+            + 'static
+        {
+            /// The constant `value`.
+            fn lift(value: f64) -> Self;
+            /// `then` where `a` compares to `b` as asked, `otherwise` elsewhere.
+            fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self;
+            /// The angle of the point (`x`, `self`), in radians.
+            fn atan2(self, x: Self) -> Self;
+            /// √(`self`² + `y`²) without undue overflow.
+            fn hypot(self, y: Self) -> Self;
+            /// `self` raised to a real power.
+            fn powf(self, exponent: Self) -> Self;
+            /// `self` raised to an integer power.
+            fn powi(self, exponent: i32) -> Self;
+            $($(#[$doc])* fn $name(self) -> Self;)*
+        }
+
+        impl<T: RealField + Copy> Scalar for T {
+            #[inline(always)]
+            fn lift(value: f64) -> Self {
+                nalgebra::convert(value)
+            }
+            #[inline(always)]
+            fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
+                let holds = match comparison {
+                    Comparison::Less => a < b,
+                    Comparison::LessOrEqual => a <= b,
+                    Comparison::Greater => a > b,
+                    Comparison::GreaterOrEqual => a >= b,
+                };
+                if holds { then } else { otherwise }
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                RealField::atan2(self, x)
+            }
+            #[inline(always)]
+            fn hypot(self, y: Self) -> Self {
+                nalgebra::ComplexField::hypot(self, y)
+            }
+            #[inline(always)]
+            fn powf(self, exponent: Self) -> Self {
+                nalgebra::ComplexField::powf(self, exponent)
+            }
+            #[inline(always)]
+            fn powi(self, exponent: i32) -> Self {
+                nalgebra::ComplexField::powi(self, exponent)
+            }
+            $(#[inline(always)]
+            fn $name(self) -> Self {
+                nalgebra::ComplexField::$name(self)
+            })*
+        }
+    };
+}
+
+scalar! {
+    /// √self
+    sqrt,
+    /// ∛self
+    cbrt,
+    /// eˢᵉˡᶠ
+    exp,
+    /// 2ˢᵉˡᶠ
+    exp2,
+    /// eˢᵉˡᶠ − 1, accurate near zero.
+    exp_m1,
+    /// Natural logarithm.
+    ln,
+    /// ln(1 + self), accurate near zero.
+    ln_1p,
+    /// Logarithm to base 2.
+    log2,
+    /// Logarithm to base 10.
+    log10,
+    /// Sine of an angle in radians.
+    sin,
+    /// Cosine of an angle in radians.
+    cos,
+    /// Tangent of an angle in radians.
+    tan,
+    /// Arc sine, in radians.
+    asin,
+    /// Arc cosine, in radians.
+    acos,
+    /// Arc tangent, in radians.
+    atan,
+    /// Hyperbolic sine.
+    sinh,
+    /// Hyperbolic cosine.
+    cosh,
+    /// Hyperbolic tangent.
+    tanh,
+    /// Inverse hyperbolic sine.
+    asinh,
+    /// Inverse hyperbolic cosine.
+    acosh,
+    /// Inverse hyperbolic tangent.
+    atanh,
+    /// Absolute value.
+    abs,
+    /// −1, 0 or 1 with the sign of `self`.
+    signum,
+}
+
+/// A scalar with an order: what the solvers need to decide whether they are done.
+///
+/// Implemented for every real field of nalgebra that is `Copy`.
+pub trait Real: Scalar + RealField + Copy {}
+
+impl<T: RealField + Copy> Real for T {}

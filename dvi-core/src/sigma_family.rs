@@ -1,0 +1,186 @@
+//! The σ-family of two-step variational integrators for degenerate Lagrangians.
+//!
+//! L_d(q0, q1) = h L(q_σ, Δ/h) = α(q_σ)·Δ − h H(q_σ),   Δ = q1 − q0,   q_σ = q0 + σΔ at t + σh
+//! (Rowley & Marsden 2002, eqs. 9–10), stepped in position–momentum form p0 = −D₁L_d, p1 = D₂L_d, so that
+//! a step evaluates derivatives at one node and not at two. The state is (q, c) with the *defect*
+//! c = p − α(q): on the exact flow p = α(q), hence |c| is the amplitude of the parasitic mode in p.
+//! With G = (Dα)ᵀΔ − h∇H at q_σ, a step solves the first equation for Δ and evaluates the second:
+//!
+//! r(Δ) = c0 + α(q0) − α(q_σ) + (1−σ)G = 0        c1 = α(q_σ) + σG − α(q1)
+
+mod linear;
+mod memory;
+mod newton;
+mod nonlinear;
+mod start;
+
+use crate::error::{StartError, StepFailure};
+use crate::method::{Method, PreservedForm, Scheme, TwoPoint};
+use crate::solver::{Solver, Stopping};
+use crate::statistics::Statistics;
+use crate::{DegenerateLagrangian, Real, Vector};
+
+pub use memory::SigmaMemory;
+pub use start::Start;
+
+/// The σ-family: L_d(q0, q1) = α(q_σ)·(q1 − q0) − h H(q_σ), q_σ = (1−σ)q0 + σq1.
+///
+/// Second order on nonlinear systems for every σ ∈ \[0, 1\]; symmetric for σ = ½; σ = (3 − √3)/6 is of
+/// fourth order on linear systems. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden
+/// 2002, eq. 17) and, for symmetries that act by affine maps, the discrete momenta.
+///
+/// | α | σ = 0 | 0 < σ < 1 | σ = 1 |
+/// |---|---|---|---|
+/// | affine | explicit, one ∇H | implicit | explicit, one ∇H |
+/// | nonlinear | one linear solve | implicit | implicit: α(q1) = p0 |
+///
+/// # Limits
+/// A two-step map has twice the freedom of the flow. What becomes of the other half, the parasitic mode
+/// that alternates from step to step, decides whether a run can be used:
+/// - σ = ½, α affine, [`Start::Consistent`]: there is none, c = 0, and the scheme is the implicit
+///   midpoint rule. With another start its amplitude stays constant. On an identical pair of vortices at
+///   distance d the equation has solutions for h ≤ πd²/Γ only.
+/// - σ = 0, α affine: it grows like the distance of neighbouring trajectories, soon on chaotic data.
+/// - other σ, α affine: it grows exponentially on many orbits, at a rate of (1 − 2σ)² times one of the
+///   flow, whatever h.
+/// - σ ≠ ½, α affine with Dα not antisymmetric: c is multiplied by K'K⁻¹ in each step, whose eigenvalues
+///   then leave the unit circle (for α = −z dφ they are −σ/(1 − σ) and its inverse): not zero-stable. The
+///   symmetric gauge, ½(x dy − y dx) in place of x dy, has all of them at −1.
+/// - σ ≠ ½, α nonlinear: the scheme is not zero-stable; runs end within some hundred steps.
+///   σ = ½ grows at a rate that does not depend on h either.
+///
+/// The amplitude can be read while a run goes on ([`SigmaMemory::defect`],
+/// [`crate::diagnostics::AlternatingComponent`]). On a linear oscillation of frequency ω the scheme is
+/// stable for |ωh| < 1/|1 − 2σ|.
+/// If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a singular matrix and cannot be stepped this way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sigma<T = f64> {
+    /// Where between q0 and q1 the Lagrangian is evaluated, in \[0, 1\].
+    pub sigma: T,
+    /// How the second starting value is found. Default: [`Start::Consistent`].
+    pub start: Start,
+    /// How implicit steps are solved. Default: [`Solver::Automatic`].
+    pub solver: Solver,
+    /// When an implicit step counts as solved. Default: to rounding errors.
+    pub stopping: Stopping,
+}
+
+impl<T: Real> Sigma<T> {
+    /// The member `sigma` with default options. The range is checked when a run begins.
+    pub fn new(sigma: T) -> Self {
+        Self { sigma, start: Start::default(), solver: Solver::default(), stopping: Stopping::default() }
+    }
+
+    /// σ = ½: symmetric; the implicit midpoint rule if α is affine.
+    pub fn midpoint() -> Self {
+        Self::new(T::lift(0.5))
+    }
+
+    /// σ = 0: explicit if α is affine; the leapfrog scheme of Rowley & Marsden for point vortices.
+    pub fn leapfrog() -> Self {
+        Self::new(T::lift(0.0))
+    }
+
+    fn is_midpoint(&self) -> bool {
+        self.sigma == T::lift(0.5)
+    }
+
+    /// Whether no iteration is needed on an affine one-form.
+    fn is_end(&self) -> bool {
+        self.sigma == T::lift(0.0) || self.sigma == T::lift(1.0)
+    }
+
+    fn validate(&self) -> Result<(), StartError> {
+        if self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0) {
+            self.stopping.validate()
+        } else {
+            let value = crate::norm::reported(self.sigma);
+            Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" })
+        }
+    }
+}
+
+/// One step: where it starts, how long it is, and which member of the family takes it.
+#[derive(Clone, Copy, Debug)]
+struct Step<'a, S, T> {
+    system: &'a S,
+    method: &'a Sigma<T>,
+    t: T,
+    h: T,
+}
+
+impl<S, T: Real> Step<'_, S, T> {
+    /// The time at which the discrete Lagrangian is evaluated.
+    #[inline(always)]
+    fn node_time(&self) -> T {
+        self.t + self.method.sigma * self.h
+    }
+
+    /// How many iterations the fixed point gets. Where Newton stands by, a slow contraction is given up
+    /// as soon as Newton would be cheaper; its advantage shrinks with the dimension.
+    #[inline(always)]
+    fn budget(&self, dimension: usize) -> usize {
+        let max = self.method.stopping.max_iterations;
+        match self.method.solver {
+            Solver::Automatic => max.min(12 + dimension),
+            Solver::FixedPoint | Solver::Newton => max,
+        }
+    }
+}
+
+impl<T: Real> Scheme for Sigma<T> {
+    fn order(&self) -> usize {
+        2
+    }
+    fn is_symmetric(&self) -> bool {
+        self.is_midpoint()
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        PreservedForm::Discrete
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
+    type Memory = SigmaMemory<S, T>;
+
+    fn begin(&self, system: &S, q: &Vector<S, T>, t: T, h: T) -> Result<Self::Memory, StartError> {
+        self.validate()?;
+        if S::LINEAR && self.is_midpoint() && self.start == Start::Consistent {
+            return SigmaMemory::without_defect(system, self, q, t, h);
+        }
+        let q1 = self.start.second_point(system, q, t, h)?;
+        SigmaMemory::between(system, self, q, &q1, t, h)
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, method: self, t, h };
+        if S::LINEAR {
+            linear::step(&step, memory, q, statistics)
+        } else {
+            nonlinear::step(&step, memory, q, statistics)
+        }
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> TwoPoint<S, T> for Sigma<T> {
+    fn begin_between(
+        &self,
+        system: &S,
+        q0: &Vector<S, T>,
+        q1: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError> {
+        self.validate()?;
+        SigmaMemory::between(system, self, q0, q1, t, h)
+    }
+}

@@ -1,0 +1,208 @@
+//! What a run of the σ-family carries from step to step.
+//!
+//! For affine α the increment splits as Δ = K⁻¹c0 + s, K = σDα − (1−σ)(Dα)ᵀ, where the first part
+//! alternates with the defect and s = −(1−σ)h K⁻¹∇H is smooth; the history extrapolates s. For
+//! nonlinear α it extrapolates Δ.
+
+use super::Sigma;
+use crate::error::StartError;
+use crate::form::{Combination, Form, Product};
+use crate::history::History;
+use crate::solver::Solver;
+use crate::statistics::Statistics;
+use crate::{DegenerateLagrangian, Lagrangian, Matrix, Real, Space, Vector};
+
+/// The defect of a run of the σ-family, its guesses and its work space.
+#[derive(Debug)]
+pub struct SigmaMemory<S: Lagrangian, T: Real> {
+    /// c = p − α(q) at the current point.
+    pub(super) defect: Vector<S, T>,
+    /// Whether c = 0 for all times, so that nothing needs to be done about it.
+    pub(super) defect_vanishes: bool,
+    /// α at the current point; kept if α is not affine.
+    pub(super) one_form: Vector<S, T>,
+    pub(super) history: History<S, T>,
+    /// The matrix of the fixed point: constant if α is affine, and else frozen for one step.
+    pub(super) inverse: Form<S, T>,
+    /// K' = σ(Dα)ᵀ − (1−σ)Dα; kept if α is affine and c is not just reversed.
+    pub(super) product: Option<Product<S, T>>,
+    /// Storage for the Newton matrix.
+    pub(super) newton: Option<Matrix<S, T>>,
+    /// How many steps Newton takes before the fixed point is tried again.
+    pub(super) newton_steps: u32,
+    pub(super) work: Work<S, T>,
+}
+
+/// Vectors that are written before they are read in each step.
+#[derive(Debug)]
+pub(super) struct Work<S: Lagrangian, T: Real> {
+    /// K⁻¹c0, or p0.
+    pub(super) shift: Vector<S, T>,
+    /// The smooth part of the increment.
+    pub(super) increment: Vector<S, T>,
+    pub(super) trial: Vector<S, T>,
+    pub(super) point: Vector<S, T>,
+    pub(super) velocity: Vector<S, T>,
+    /// ∂L/∂q or ∇H.
+    pub(super) gradient: Vector<S, T>,
+    /// ∂L/∂v.
+    pub(super) momentum: Vector<S, T>,
+    pub(super) next: Vector<S, T>,
+}
+
+impl<S: Lagrangian, T: Real> Work<S, T> {
+    fn new(system: &S) -> Self {
+        let vector = || system.space().vector();
+        Self {
+            shift: vector(),
+            increment: vector(),
+            trial: vector(),
+            point: vector(),
+            velocity: vector(),
+            gradient: vector(),
+            momentum: vector(),
+            next: vector(),
+        }
+    }
+}
+
+impl<S: Lagrangian, T: Real> SigmaMemory<S, T> {
+    /// c = p − α(q) at the current point, one entry per coordinate: the parasitic mode in p.
+    pub fn defect(&self) -> &[T] {
+        &self.defect
+    }
+
+    /// max |c|.
+    pub fn parasitic_amplitude(&self) -> T {
+        crate::norm::largest(&self.defect)
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
+    /// For a run on the constraint p = α(q) that stays on it.
+    pub(super) fn without_defect(
+        system: &S,
+        method: &Sigma<T>,
+        q: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Self, StartError> {
+        let mut memory = Self::new(system, method, q, t, h)?;
+        memory.defect_vanishes = true;
+        Ok(memory)
+    }
+
+    /// For a run whose first step leads from `q0` to `q1`: p0 = −D₁L_d(q0, q1).
+    pub(super) fn between(
+        system: &S,
+        method: &Sigma<T>,
+        q0: &Vector<S, T>,
+        q1: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Self, StartError> {
+        let mut memory = Self::new(system, method, q0, t, h)?;
+        let (sigma, work) = (method.sigma, &mut memory.work);
+        let left = T::lift(1.0) - sigma;
+        for i in 0..q0.len() {
+            work.increment[i] = q1[i] - q0[i];
+            work.point[i] = q0[i] + sigma * work.increment[i];
+            work.velocity[i] = work.increment[i] / h;
+        }
+        let node_time = t + sigma * h;
+        system.gradient(&work.point, &work.velocity, node_time, &mut work.gradient, &mut work.momentum);
+        system.one_form(q0, t, &mut memory.one_form);
+        for i in 0..q0.len() {
+            memory.defect[i] = work.momentum[i] - left * h * work.gradient[i] - memory.one_form[i];
+        }
+        crate::norm::finite(&memory.defect).map_err(StartError::Starter)?;
+        if S::LINEAR && !method.is_end() {
+            memory.shift_by_defect(system, method, h);
+            let work = &mut memory.work;
+            for i in 0..q0.len() {
+                work.increment[i] -= work.shift[i];
+            }
+        }
+        memory.history = History::new(system, Some(memory.work.increment.clone()));
+        Ok(memory)
+    }
+
+    fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
+        let (space, sigma) = (system.space(), method.sigma);
+        let left = T::lift(1.0) - sigma;
+        let explicit = if S::LINEAR { method.is_end() } else { sigma == T::lift(0.0) };
+        let combination = fixed_point_matrix::<S, T>(method, h);
+        let mut inverse = Form::new(system, combination);
+        let mut work = Work::new(system);
+        if S::LINEAR {
+            let mut unused = Statistics::default();
+            inverse
+                .prepare(system, q, t, combination, &mut work.trial, &mut unused)
+                .map_err(StartError::Starter)?;
+        }
+        let product = (S::LINEAR && !method.is_midpoint())
+            .then(|| Product::new(system, q, t, Combination { a: -left, b: sigma }));
+        let newton = (!explicit && method.solver != Solver::FixedPoint).then(|| space.matrix());
+        let mut one_form = space.vector();
+        system.one_form(q, t, &mut one_form);
+        Ok(Self {
+            defect: space.vector(),
+            defect_vanishes: false,
+            one_form,
+            history: History::new(system, None),
+            inverse,
+            product,
+            newton,
+            newton_steps: 0,
+            work,
+        })
+    }
+
+    /// Sets `work.shift` to K⁻¹c0.
+    #[inline(always)]
+    pub(super) fn shift_by_defect(&mut self, system: &S, method: &Sigma<T>, h: T) {
+        let scale = fixed_point_scale(method, h);
+        let work = &mut self.work;
+        for (trial, &c) in work.trial.iter_mut().zip(self.defect.iter()) {
+            *trial = c * scale;
+        }
+        self.inverse.solve(system, &work.trial, &mut work.shift);
+    }
+}
+
+/// Affine and implicit: K times −1/((1−σ)h), whose inverse maps ∇H to s. Else K.
+/// Nonlinear and σ = 0: (Dα)ᵀ.
+pub(super) fn fixed_point_matrix<S: DegenerateLagrangian, T: Real>(
+    method: &Sigma<T>,
+    h: T,
+) -> Combination<T> {
+    let sigma = method.sigma;
+    let left = T::lift(1.0) - sigma;
+    if S::LINEAR && !method.is_end() {
+        let scale = fixed_point_scale(method, h);
+        Combination { a: sigma * scale, b: -left * scale }
+    } else if !S::LINEAR && sigma == T::lift(0.0) {
+        Combination { a: T::lift(0.0), b: T::lift(1.0) }
+    } else {
+        Combination { a: sigma, b: -left }
+    }
+}
+
+fn fixed_point_scale<T: Real>(method: &Sigma<T>, h: T) -> T {
+    T::lift(-1.0) / ((T::lift(1.0) - method.sigma) * h)
+}
+
+/// `scratch!(name = system, field)`: a vector to work in, on the stack if that is where vectors of the
+/// system live, so that it can stay in registers, and else the given field.
+macro_rules! scratch {
+    ($name:ident = $system:expr, $field:expr) => {
+        let mut on_stack;
+        let $name: &mut [T] = if <S::Space as $crate::Space>::ON_STACK {
+            on_stack = $crate::Space::vector($system.space());
+            &mut on_stack
+        } else {
+            &mut $field
+        };
+    };
+}
+pub(super) use scratch;

@@ -1,0 +1,130 @@
+//! How the equation of a step is solved, and when an iterate is accepted.
+//!
+//! An iterate is accepted when its last correction d, in the maximum norm, is at most
+//! tolerance · (max|q| + max|Δ|); or when the rate θ = d/d' at which corrections shrink says that the
+//! next one, θ d/(1 − θ) with all that follow, will be (Hairer & Wanner 1996, section IV.8); or when
+//! corrections have stopped shrinking and are nothing but rounding errors of the coordinates.
+
+use crate::Real;
+use crate::error::{StartError, StepFailure};
+use crate::norm::reported;
+
+/// The iteration that solves an implicit step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Solver {
+    /// Fixed point where it contracts fast, Newton where it does not: a step whose fixed-point iteration
+    /// is slow is done again by Newton, and so are the 31 steps after it before the fixed point is tried
+    /// anew. It holds storage for the Newton matrix.
+    #[default]
+    Automatic,
+    /// One gradient per iteration, no matrix (nonlinear α: one matrix of first derivatives per step).
+    FixedPoint,
+    /// The exact matrix of second derivatives, factored in each iteration.
+    Newton,
+}
+
+/// When an iteration is done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stopping {
+    /// The largest error to accept, relative to max|q| + max|Δ|. Default: 1e-17. That is below the
+    /// rounding of double precision, so that the errors left behind are random and do not add up to a
+    /// drift (Hairer, McLachlan & Razakarivony 2008). Where the arithmetic cannot resolve the tolerance,
+    /// corrections of rounding size that no longer shrink are accepted.
+    pub tolerance: f64,
+    /// The largest number of iterations. Default: 100.
+    pub max_iterations: usize,
+}
+
+impl Default for Stopping {
+    fn default() -> Self {
+        Self { tolerance: 1e-17, max_iterations: 100 }
+    }
+}
+
+impl Stopping {
+    pub(crate) fn validate(self) -> Result<(), StartError> {
+        if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
+            let range = "0 <= tolerance < 1";
+            return Err(StartError::Parameter { name: "tolerance", value: self.tolerance, range });
+        }
+        if self.max_iterations == 0 {
+            return Err(StartError::Parameter { name: "max_iterations", value: 0.0, range: "at least 1" });
+        }
+        Ok(())
+    }
+}
+
+/// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
+const FLOOR: f64 = 32.0;
+
+/// What to do with an iterate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    Continue,
+    Accept,
+    /// The corrections grow, or the budget is spent.
+    GiveUp,
+}
+
+/// The corrections of one step so far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Convergence<T> {
+    tolerance: T,
+    floor: T,
+    correction: T,
+    growths: usize,
+    pub(crate) iterations: usize,
+    budget: usize,
+}
+
+impl<T: Real> Convergence<T> {
+    /// Of an iteration that may take `budget` iterations, for numbers of size `scale`.
+    #[inline(always)]
+    pub(crate) fn new(stopping: Stopping, scale: T, budget: usize) -> Self {
+        Self {
+            tolerance: T::lift(stopping.tolerance) * scale,
+            floor: T::lift(FLOOR) * T::default_epsilon() * scale,
+            correction: T::lift(0.0),
+            growths: 0,
+            iterations: 0,
+            budget,
+        }
+    }
+
+    /// Takes note of the size of the latest correction and decides.
+    #[inline(always)]
+    pub(crate) fn judge(&mut self, correction: T) -> Verdict {
+        let previous = self.correction;
+        self.correction = correction;
+        self.iterations += 1;
+        // θ d/(1 − θ) = d²/(d' − d), written without a division.
+        let predicted = correction * correction <= self.tolerance * (previous - correction);
+        if correction <= self.tolerance || (correction < previous && predicted) {
+            Verdict::Accept
+        } else {
+            self.hesitate(previous)
+        }
+    }
+
+    #[inline]
+    fn hesitate(&mut self, previous: T) -> Verdict {
+        let first = self.iterations == 1;
+        if !first && self.correction * T::lift(2.0) >= previous && self.correction <= self.floor {
+            return Verdict::Accept;
+        }
+        if !first && self.correction >= previous {
+            self.growths += 1;
+        }
+        if self.growths > 2 || self.iterations >= self.budget { Verdict::GiveUp } else { Verdict::Continue }
+    }
+
+    /// The failure to report after [`Verdict::GiveUp`].
+    #[cold]
+    pub(crate) fn failure(&self) -> StepFailure {
+        StepFailure::NotConverged {
+            iterations: self.iterations,
+            correction: reported(self.correction),
+            tolerance: reported(self.tolerance),
+        }
+    }
+}

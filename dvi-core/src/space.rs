@@ -1,0 +1,131 @@
+//! The two sizes of a configuration space: fixed at compile time, or known at run time only.
+//!
+//! A [`Space`] says how many coordinates there are and how a point, and a matrix over points, are
+//! stored. Everything else in this crate sees flat slices, so that one body of code serves both: with
+//! [`Fixed`] every length is a constant and all storage lives on the stack; with [`RunTime`] each
+//! array is allocated once, before the first step.
+//!
+//! A fixed space is `BLOCKS` blocks of `N` coordinates, because stable Rust can write
+//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; BLOCKS * N]`.
+
+use core::fmt::Debug;
+use core::ops::{Deref, DerefMut};
+
+use crate::Scalar;
+
+/// The shape of a configuration space and the storage for it.
+pub trait Space: Copy + Debug + PartialEq {
+    /// Whether vectors live in the value itself, so that a new one on the stack costs nothing and may
+    /// stay in registers. Where this does not hold, work space is kept from step to step.
+    const ON_STACK: bool;
+    /// A point, a velocity or a covector: `dimension` numbers.
+    type Vector<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug;
+    /// A square matrix, `dimension`² numbers row by row.
+    type Matrix<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug;
+    /// A row permutation, `dimension` indices.
+    type Permutation: Deref<Target = [usize]> + DerefMut + Clone + Debug;
+
+    /// The number of coordinates.
+    fn dimension(self) -> usize;
+    /// A vector of zeros.
+    fn vector<T: Scalar>(self) -> Self::Vector<T>;
+    /// A matrix of zeros.
+    fn matrix<T: Scalar>(self) -> Self::Matrix<T>;
+    /// A permutation, all zeros until it is written.
+    fn permutation(self) -> Self::Permutation;
+}
+
+/// A space of `BLOCKS` × `N` coordinates, stored on the stack.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Fixed<const BLOCKS: usize, const N: usize>;
+
+/// The vector of a [`Fixed`] space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedVector<T, const BLOCKS: usize, const N: usize>([[T; N]; BLOCKS]);
+
+/// The matrix of a [`Fixed`] space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedMatrix<T, const BLOCKS: usize, const N: usize>([[[[T; N]; BLOCKS]; N]; BLOCKS]);
+
+impl<T, const BLOCKS: usize, const N: usize> Deref for FixedVector<T, BLOCKS, N> {
+    type Target = [T];
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        self.0.as_flattened()
+    }
+}
+
+impl<T, const BLOCKS: usize, const N: usize> DerefMut for FixedVector<T, BLOCKS, N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        self.0.as_flattened_mut()
+    }
+}
+
+impl<T, const BLOCKS: usize, const N: usize> Deref for FixedMatrix<T, BLOCKS, N> {
+    type Target = [T];
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        self.0.as_flattened().as_flattened().as_flattened()
+    }
+}
+
+impl<T, const BLOCKS: usize, const N: usize> DerefMut for FixedMatrix<T, BLOCKS, N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        self.0.as_flattened_mut().as_flattened_mut().as_flattened_mut()
+    }
+}
+
+impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
+    const ON_STACK: bool = true;
+    type Vector<T: Scalar> = FixedVector<T, BLOCKS, N>;
+    type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N>;
+    type Permutation = FixedVector<usize, BLOCKS, N>;
+
+    #[inline(always)]
+    fn dimension(self) -> usize {
+        BLOCKS * N
+    }
+    #[inline(always)]
+    fn vector<T: Scalar>(self) -> Self::Vector<T> {
+        FixedVector([[T::lift(0.0); N]; BLOCKS])
+    }
+    #[inline(always)]
+    fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
+        FixedMatrix([[[[T::lift(0.0); N]; BLOCKS]; N]; BLOCKS])
+    }
+    #[inline(always)]
+    fn permutation(self) -> Self::Permutation {
+        FixedVector([[0; N]; BLOCKS])
+    }
+}
+
+/// A space whose dimension is known at run time only; its storage is on the heap.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RunTime {
+    /// The number of coordinates.
+    pub dimension: usize,
+}
+
+#[cfg(feature = "alloc")]
+impl Space for RunTime {
+    const ON_STACK: bool = false;
+    type Vector<T: Scalar> = alloc::vec::Vec<T>;
+    type Matrix<T: Scalar> = alloc::vec::Vec<T>;
+    type Permutation = alloc::vec::Vec<usize>;
+
+    fn dimension(self) -> usize {
+        self.dimension
+    }
+    fn vector<T: Scalar>(self) -> Self::Vector<T> {
+        alloc::vec![T::lift(0.0); self.dimension]
+    }
+    fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
+        alloc::vec![T::lift(0.0); self.dimension * self.dimension]
+    }
+    fn permutation(self) -> Self::Permutation {
+        alloc::vec![0; self.dimension]
+    }
+}

@@ -1,0 +1,28 @@
+//! What a run has cost.
+
+use core::ops::AddAssign;
+
+/// Counters of the work done by a run, starting values not included.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Completed steps.
+    pub steps: u64,
+    /// Iterations of nonlinear solvers, of both kinds.
+    pub iterations: u64,
+    /// Evaluations of ∇H, or of ∂L/∂q and ∂L/∂v together.
+    pub gradients: u64,
+    /// Evaluations of second derivatives of L.
+    pub linearizations: u64,
+    /// Factorisations of a matrix; divisions by the entries of a matching do not count.
+    pub factorisations: u64,
+}
+
+impl AddAssign for Statistics {
+    fn add_assign(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.iterations += other.iterations;
+        self.gradients += other.gradients;
+        self.linearizations += other.linearizations;
+        self.factorisations += other.factorisations;
+    }
+}

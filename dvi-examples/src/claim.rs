@@ -1,0 +1,203 @@
+//! What a paper says, what was measured, and the verdict that follows from the two.
+//!
+//! A verdict is never typed in: a claim is a list of checks, a check is a number and a bound, and the
+//! verdict is computed. Where the paper is known to err, the claim carries a second list, what holds
+//! instead, and the verdict is *differs* only if that list passes.
+
+use std::fmt;
+
+/// What a number must satisfy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    AtMost(f64),
+    AtLeast(f64),
+    Within(f64, f64),
+    Near(f64, f64),
+}
+
+impl Bound {
+    fn holds(self, value: f64) -> bool {
+        match self {
+            Bound::AtMost(high) => value <= high,
+            Bound::AtLeast(low) => value >= low,
+            Bound::Within(low, high) => (low..=high).contains(&value),
+            Bound::Near(target, tolerance) => (value - target).abs() <= tolerance,
+        }
+    }
+}
+
+/// A measured number and what it must satisfy; `None` if this run was too short to measure it.
+#[derive(Clone, Debug)]
+pub struct Check {
+    quantity: String,
+    value: Option<f64>,
+    bound: Bound,
+}
+
+/// What a paper says, with the checks that decide on it.
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// Where the paper says it.
+    pub place: &'static str,
+    /// What it says.
+    pub says: String,
+    printed: Vec<Check>,
+    instead: Option<(String, Vec<Check>)>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    Reproduced,
+    /// Not as printed; the text says what holds instead, and was checked.
+    Differs(String),
+    NotReproduced,
+    /// Something could not be measured in a run of this length.
+    Undecided,
+}
+
+impl Claim {
+    pub fn new(place: &'static str, says: impl Into<String>) -> Self {
+        Self { place, says: says.into(), printed: Vec::new(), instead: None }
+    }
+
+    /// Adds a check; after [`instead`](Self::instead), to the list of what holds instead.
+    pub fn check(mut self, quantity: impl Into<String>, value: impl Into<Option<f64>>, bound: Bound) -> Self {
+        let check = Check { quantity: quantity.into(), value: value.into(), bound };
+        match &mut self.instead {
+            Some((_, checks)) => checks.push(check),
+            None => self.printed.push(check),
+        }
+        self
+    }
+
+    /// What holds where the claim as printed does not; the checks that follow decide on it.
+    pub fn instead(mut self, text: impl Into<String>) -> Self {
+        self.instead = Some((text.into(), Vec::new()));
+        self
+    }
+
+    pub fn verdict(&self) -> Verdict {
+        let all = |checks: &[Check], passes: fn(&Check) -> bool| checks.iter().all(passes);
+        let measured = |check: &Check| check.value.is_some();
+        if !all(&self.printed, measured) {
+            return Verdict::Undecided;
+        }
+        if all(&self.printed, Check::passes) {
+            return Verdict::Reproduced;
+        }
+        match &self.instead {
+            Some((_, checks)) if !all(checks, measured) => Verdict::Undecided,
+            Some((text, checks)) if all(checks, Check::passes) => Verdict::Differs(text.clone()),
+            _ => Verdict::NotReproduced,
+        }
+    }
+
+    /// The checks that the verdict rests on.
+    pub fn checks(&self) -> impl Iterator<Item = &Check> {
+        let instead = self.instead.iter().flat_map(|(_, checks)| checks);
+        self.printed.iter().chain(instead)
+    }
+}
+
+impl Check {
+    fn passes(&self) -> bool {
+        self.value.is_some_and(|value| self.bound.holds(value))
+    }
+}
+
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Bound::AtMost(high) => write!(f, "at most {}", short(high)),
+            Bound::AtLeast(low) => write!(f, "at least {}", short(low)),
+            Bound::Within(low, high) => write!(f, "{} to {}", short(low), short(high)),
+            Bound::Near(target, tolerance) => write!(f, "{} ± {}", long(target), short(tolerance)),
+        }
+    }
+}
+
+impl fmt::Display for Check {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { quantity, value, bound } = self;
+        match *value {
+            None => write!(f, "{quantity}: needs a longer run"),
+            Some(value) if self.passes() => write!(f, "{quantity} = {} ({bound})", long(value)),
+            Some(value) => write!(f, "{quantity} = {} (not {bound})", long(value)),
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Verdict::Reproduced => f.write_str("reproduced"),
+            Verdict::Differs(text) => write!(f, "differs: {text}"),
+            Verdict::NotReproduced => f.write_str("not reproduced"),
+            Verdict::Undecided => f.write_str("undecided: needs the full run"),
+        }
+    }
+}
+
+/// Up to four digits, for bounds.
+fn short(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// Up to seven digits, for measured numbers.
+fn long(value: f64) -> String {
+    digits(value, 7)
+}
+
+/// `value` with that many significant digits, without trailing zeros.
+fn digits(value: f64, significant: usize) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    if (1e-2..1e6).contains(&magnitude) {
+        let decimals = (significant as i32 - 1 - magnitude.log10().floor() as i32).max(0) as usize;
+        let text = format!("{value:.decimals$}");
+        return trimmed(&text).to_owned();
+    }
+    let text = format!("{value:.*e}", significant - 1);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
+        None => text,
+    }
+}
+
+fn trimmed(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(value: impl Into<Option<f64>>) -> Claim {
+        Claim::new("p. 1", "it is one").check("it", value, Bound::Near(1.0, 0.1))
+    }
+
+    #[test]
+    fn verdicts_follow_from_the_numbers() {
+        assert_eq!(claim(1.05).verdict(), Verdict::Reproduced);
+        assert_eq!(claim(1.2).verdict(), Verdict::NotReproduced);
+        assert_eq!(claim(f64::NAN).verdict(), Verdict::NotReproduced);
+        assert_eq!(claim(None).verdict(), Verdict::Undecided);
+    }
+
+    #[test]
+    fn a_known_error_of_the_paper_is_confirmed_by_measurement_too() {
+        let with =
+            |it, other| claim(it).instead("it is two").check("it", other, Bound::AtLeast(1.9)).verdict();
+        assert_eq!(with(1.0, 1.0), Verdict::Reproduced);
+        assert_eq!(with(2.0, 2.0), Verdict::Differs("it is two".into()));
+        assert_eq!(with(1.5, 1.5), Verdict::NotReproduced);
+    }
+
+    #[test]
+    fn numbers_are_shown_with_the_digits_that_matter() {
+        let shown = [3.268824e-3, 2.0, 6362.0, -0.06, 1.25e7, 0.0].map(|value| digits(value, 5));
+        assert_eq!(shown, ["3.2688e-3", "2", "6362", "-0.06", "1.25e7", "0"]);
+    }
+}

@@ -1,0 +1,158 @@
+//! Rowley & Marsden 2002, Fig. 5: Poincaré sections of a chaotic motion, 0 ≤ t ≤ 10⁶.
+//!
+//! Orbits fill a region with sharp borders. A run is *blurred* to the extent that its crossings lie
+//! outside of the region that accurate orbits of the same energy fill.
+
+use std::collections::HashMap;
+
+use anyhow::Result;
+
+use super::sections::{self, CAVEAT, Crossings, Scheme, compare, energy_panel, lyapunov_exponent};
+use crate::claim::{Bound, Claim};
+use crate::figure::{Axis, Corner, Figure, Panel, scientific};
+use crate::gallery::{Experiment, Outcome};
+use crate::job::Job;
+use crate::models;
+
+pub const EXPERIMENT: Experiment =
+    Experiment { name: "fig5-chaotic", title: "Poincaré sections of a chaotic motion", run };
+
+const RUNS: [(Scheme, f64); 6] = [
+    (Scheme::Vi2, 0.2),
+    (Scheme::Vi2, 0.5),
+    (Scheme::Vi2, 1.0),
+    (Scheme::Rk4, 0.2),
+    (Scheme::Rk4, 0.5),
+    (Scheme::Rk4, 1.0),
+];
+
+fn run(job: &Job<'_>) -> Result<Outcome> {
+    let end = job.choose(1e6, 1e5);
+    let case = models::chaotic();
+    let all = compare(job, &case, &RUNS, end)?;
+    let exact = compare(job, &case, &[(Scheme::Gauss6, 0.4)], 1e6)?;
+    let region = Region::around(&exact[0].places());
+    let exponent = lyapunov_exponent(job, &case)?;
+    figure(&all, &region, end).save(&job.folder, EXPERIMENT.name)?;
+    sections::table(&all)?.save(&job.folder, EXPERIMENT.name)?;
+    let mut notes = sections::notes(&all);
+    notes.push(
+        "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes regular, differ \
+         between machines; the quantities above do not."
+            .to_owned(),
+    );
+    Ok(Outcome { claims: claims(job, &all, &region, exponent), notes })
+}
+
+fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f64>) -> Vec<Claim> {
+    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, rk_large] = all else { return Vec::new() };
+    let outside = |run: &Crossings| region.share_outside(run);
+    let share = |run: &Crossings| format!("share of crossings outside of the exact region, {}", run.name());
+    let error = |run: &Crossings| format!("max|ΔH|, {}", run.name());
+    let growth = |run: &Crossings| format!("late growth of a displacement, {}", run.name());
+    vec![
+        Claim::new("section 5", "the motion is chaotic").check(
+            "largest Lyapunov exponent up to t = 2·10⁴",
+            exponent,
+            Bound::AtLeast(0.03),
+        ),
+        Claim::new("Fig. 5", "both schemes produce clear sections for h = 0.2")
+            .check(share(vi_small), outside(vi_small), Bound::AtMost(2e-3))
+            .check(share(rk_small), outside(rk_small), Bound::AtMost(2e-3)),
+        Claim::new("Fig. 5", "for h = 0.5 the section of RK4 is blurred")
+            .check(share(rk_middle), job.only_full(outside(rk_middle)), Bound::AtLeast(8e-3))
+            .check(error(rk_middle), job.only_full(rk_middle.largest_error), Bound::Within(0.03, 0.05)),
+        Claim::new("Fig. 5", "the section of VI2 remains crisp for h = 1")
+            .check(share(vi_middle), outside(vi_middle), Bound::AtMost(2e-3))
+            .check(share(vi_large), outside(vi_large), Bound::AtMost(2e-3)),
+        Claim::new("Fig. 5", "for h = 1 RK4 deviates completely and becomes quasi-periodic")
+            .check(error(rk_large), job.only_full(rk_large.largest_error), Bound::Within(0.1, 0.2))
+            .check(growth(rk_large), job.only_full(rk_large.growth), Bound::AtMost(1e5))
+            .check(growth(vi_large), vi_large.growth, Bound::AtLeast(1e8)),
+        Claim::new(
+            "section 5",
+            "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts",
+        )
+        .check(error(vi_middle), vi_middle.largest_error, Bound::AtMost(4.3e-4))
+        .check(error(vi_large), vi_large.largest_error, Bound::AtMost(1.8e-3))
+        .check(
+            "ΔH at the end / max|ΔH|, RK4 at h = 0.2",
+            rk_small.last_error / rk_small.largest_error,
+            Bound::AtLeast(0.98),
+        ),
+    ]
+}
+
+fn figure(all: &[Crossings], region: &Region, end: f64) -> Figure {
+    let (schemes_vi, schemes_rk) = all.split_at(3);
+    let row = |runs: &[Crossings]| runs.iter().map(|run| panel(run, region)).collect();
+    Figure::new(
+        "Chaotic motion: sections of the variational scheme stay crisp at five times the step",
+        "Poincaré sections *R*₂ = 0, d*R*₂/d*t* > 0 of four equal vortices; stray crossings lie outside of the exact region",
+    )
+    .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
+    .row(370.0, row(schemes_vi))
+    .row(370.0, row(schemes_rk))
+    .row(330.0, vec![energy_panel(all, end)])
+    .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"))
+}
+
+fn panel(run: &Crossings, region: &Region) -> Panel {
+    let axis = |name| Axis::linear(name).within(-2.6, 2.6);
+    let stray = format!("{:.1} % stray", 100.0 * region.share_outside(run));
+    let panel = run.panel(axis("*R*₁"), axis("*P*₁"), 0.7).caption(Corner::TopRight, stray);
+    match run.points.last() {
+        Some(&[last, ..]) if last < 0.9 * run.end => {
+            panel.caption(Corner::TopLeft, format!("none after *t* = {}", scientific(last)))
+        }
+        _ => panel,
+    }
+}
+
+/// The region that an orbit fills: all places within a short distance of one of its crossings.
+struct Region {
+    cells: HashMap<[i64; 2], Vec<[f64; 2]>>,
+}
+
+impl Region {
+    const DISTANCE: f64 = 0.05;
+
+    /// The section is its own mirror image in both axes: relabelling the vortices turns it by 180°, and
+    /// complex conjugation with reversed time and order turns P₁ around. So each crossing counts four times.
+    fn around(places: &[[f64; 2]]) -> Self {
+        let mut cells: HashMap<_, Vec<_>> = HashMap::new();
+        let images = places.iter().flat_map(|&[r1, p1]| [[r1, p1], [-r1, p1], [r1, -p1], [-r1, -p1]]);
+        for place in images {
+            cells.entry(Self::cell(place)).or_default().push(place);
+        }
+        Self { cells }
+    }
+
+    fn cell(place: [f64; 2]) -> [i64; 2] {
+        place.map(|x| (x / Self::DISTANCE).floor() as i64)
+    }
+
+    fn contains(&self, place: [f64; 2]) -> bool {
+        let [i, j] = Self::cell(place);
+        let neighbours = (i - 1..=i + 1).flat_map(|i| (j - 1..=j + 1).map(move |j| [i, j]));
+        let close = |&[x, y]: &[f64; 2]| (x - place[0]).hypot(y - place[1]) <= Self::DISTANCE;
+        neighbours.filter_map(|cell| self.cells.get(&cell)).flatten().any(close)
+    }
+
+    fn share_outside(&self, run: &Crossings) -> f64 {
+        let outside = run.places().into_iter().filter(|&place| !self.contains(place));
+        outside.count() as f64 / run.points.len().max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_region_reaches_as_far_as_its_distance_and_is_symmetric() {
+        let region = Region::around(&[[1.0, 0.5]]);
+        assert!(region.contains([1.04, 0.5]) && region.contains([-1.0, -0.54]));
+        assert!(!region.contains([1.06, 0.5]) && !region.contains([0.0, 0.0]));
+    }
+}

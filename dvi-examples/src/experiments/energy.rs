@@ -1,0 +1,143 @@
+//! Rowley & Marsden 2002, Fig. 2: H(t) − H(0) of two leapfrogging pairs.
+//!
+//! The explicit variational scheme (VE2, σ = 0) at h = 2 against the Runge–Kutta method of the same order
+//! (RK2, explicit midpoint) at half the step.
+
+use anyhow::Result;
+use dvi_core::Method;
+use dvi_core::prelude::*;
+
+use crate::claim::{Bound, Claim};
+use crate::figure::{Axis, BLUE, Corner, Envelope, Figure, Panel, Stroke, VERMILLION};
+use crate::gallery::{Experiment, Outcome};
+use crate::job::Job;
+use crate::models::{self, Case, FourVortices};
+use crate::output::Table;
+
+pub const EXPERIMENT: Experiment =
+    Experiment { name: "fig2-energy", title: "Energy error of two leapfrogging pairs, VE2 against RK2", run };
+
+/// How much of the beginning the right panel shows.
+const CLOSE_UP: f64 = 400.0;
+
+struct Series {
+    envelope: Envelope,
+    beginning: Vec<[f64; 2]>,
+    /// max |H − H(0)| so far, and what it was after a tenth of the time.
+    largest: f64,
+    largest_early: f64,
+    at_ten_thousand: f64,
+    last: f64,
+    evaluations: u64,
+}
+
+fn run(job: &Job<'_>) -> Result<Outcome> {
+    let end = job.choose(2e5, 2e4);
+    let starter = Start::RungeKutta(RungeKutta::midpoint());
+    let ve2 = series(job, Sigma { start: starter, ..Sigma::leapfrog() }, 2.0, end)?;
+    let rk2 = series(job, RungeKutta::midpoint(), 1.0, end)?;
+    figure(&ve2, &rk2, end).save(&job.folder, EXPERIMENT.name)?;
+    table(&ve2, &rk2)?.save(&job.folder, EXPERIMENT.name)?;
+    Ok(Outcome { claims: claims(job, &ve2, &rk2), notes: vec![] })
+}
+
+fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f64) -> Result<Series> {
+    let Case { vortices, start } = models::leapfrogging();
+    let mut run = Integrator::new(&vortices, method, h, start)?;
+    let initial = run.energy();
+    let mut series = Series {
+        envelope: Envelope::new(end, 500),
+        beginning: vec![[0.0, 0.0]],
+        largest: 0.0,
+        largest_early: 0.0,
+        at_ten_thousand: f64::NAN,
+        last: 0.0,
+        evaluations: 0,
+    };
+    let steps = (end / h) as u64;
+    job.expect(steps);
+    job.repeat(steps, || {
+        run.advance()?;
+        series.note(run.time(), run.energy() - initial, end);
+        Ok(())
+    });
+    series.evaluations = run.statistics().gradients;
+    Ok(series)
+}
+
+impl Series {
+    fn note(&mut self, t: f64, error: f64, end: f64) {
+        self.envelope.push(t, error);
+        self.largest = self.largest.max(error.abs());
+        self.last = error;
+        if t <= CLOSE_UP {
+            self.beginning.push([t, error]);
+        }
+        if t <= 0.1 * end {
+            self.largest_early = self.largest;
+        }
+        if t == 1e4 {
+            self.at_ten_thousand = error;
+        }
+    }
+}
+
+fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series) -> Vec<Claim> {
+    let drift = Claim::new("Fig. 2", "RK2 shows a secular drift in the Hamiltonian")
+        .check("ΔH of RK2 at t = 10⁴", rk2.at_ten_thousand, Bound::Near(8.510_481_2e-3, 1e-9))
+        .check("ΔH of RK2 at t = 2·10⁵", job.only_full(rk2.last), Bound::Within(0.06, 0.08));
+    let bounded =
+        Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value for all time")
+            .check("max|ΔH| of VE2", job.only_full(ve2.largest), Bound::Near(3.268_824e-3, 1e-8))
+            .check(
+                "max|ΔH| over all / over the first tenth",
+                ve2.largest / ve2.largest_early,
+                Bound::AtMost(1.01),
+            );
+    let ratio = rk2.evaluations as f64 / ve2.evaluations as f64;
+    let cost = Claim::new("p. 4", "RK2 takes approximately four times the computational time of VE2").check(
+        "evaluations of ∇H, RK2 / VE2",
+        ratio,
+        Bound::Near(4.0, 0.01),
+    );
+    vec![bounded, drift, cost]
+}
+
+fn figure(ve2: &Series, rk2: &Series, end: f64) -> Figure {
+    let energy = || Axis::linear("*H*(*t*) − *H*(0)   [Γ²]");
+    let time = || Axis::linear("time *t*   [*L*²/Γ]");
+    let whole = Panel::new("The whole run (range and mean)", time().within(0.0, end), energy())
+        .band(ve2.envelope.band(), BLUE)
+        .band(rk2.envelope.band(), VERMILLION)
+        .line(ve2.envelope.mean(), Stroke::solid(BLUE))
+        .labelled("VE2 (σ = 0), *h* = 2")
+        .line(rk2.envelope.mean(), Stroke::solid(VERMILLION))
+        .labelled("RK2 (midpoint), *h* = 1")
+        .legend_at(Corner::TopLeft)
+        .weight(1.25);
+    let beginning = Panel::new("The beginning", time().within(0.0, CLOSE_UP), energy())
+        .line(ve2.beginning.clone(), Stroke::solid(BLUE).width(1.3))
+        .line(rk2.beginning.clone(), Stroke::solid(VERMILLION).width(1.3));
+    Figure::new(
+        "Two leapfrogging pairs: the variational scheme does not drift",
+        "Error of the Hamiltonian; VE2 takes one evaluation of ∇*H* per step, RK2 two",
+    )
+    .row(430.0, vec![whole, beginning])
+    .footer("After Rowley & Marsden 2002, Fig. 2. Γ and *L*: units of circulation and length.")
+}
+
+fn table(ve2: &Series, rk2: &Series) -> Result<Table> {
+    let mut table = Table::new(&["scheme", "t", "lowest", "mean", "highest"])?;
+    for (name, series) in [("VE2 h=2", ve2), ("RK2 h=1", rk2)] {
+        for [t, low, mean, high] in series.envelope.rows() {
+            table.row([
+                name.to_owned(),
+                t.to_string(),
+                low.to_string(),
+                mean.to_string(),
+                high.to_string(),
+            ])?;
+        }
+    }
+    Ok(table)
+}

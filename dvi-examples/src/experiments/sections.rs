@@ -1,0 +1,247 @@
+//! Poincaré sections of four equal vortices, for Figs. 4 and 5.
+//!
+//! With Q_n = ½ Σ_a z_{a+1} e^{−2πi na/4} and φ = arg Q₃: R₁ + iP₁ = Q₂e^{−iφ}, R₂ = Im Q₁e^{−iφ}, and the
+//! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
+//! coordinates that Pullin & Saffman used, and the paper with them, may be others.
+
+use std::cell::Cell;
+
+use anyhow::Result;
+use dvi_core::Method;
+use dvi_core::prelude::*;
+use rayon::prelude::*;
+
+use crate::figure::{Axis, Envelope, Panel, SEQUENCE, Stroke, thin};
+use crate::figure::{BLUE, Corner, GREEN, VERMILLION};
+use crate::job::Job;
+use crate::models::{Case, FourPoints, FourVortices};
+use crate::output::Table;
+
+pub const CAVEAT: &str =
+    "*R*₁, *P*₁: a canonical pair of the reduced motion, not necessarily the paper's axes.";
+
+/// More crossings than these make files larger, and no clearer.
+const SHOWN: usize = 15_000;
+
+/// The schemes that the sections compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// σ = ½.
+    Vi2,
+    Rk4,
+    /// Gauss collocation of order six.
+    Gauss6,
+}
+
+/// The section of one run.
+#[derive(Clone, Debug)]
+pub struct Crossings {
+    pub scheme: Scheme,
+    pub h: f64,
+    /// The time at which the run ends.
+    pub end: f64,
+    /// [t, R₁, P₁] of each crossing.
+    pub points: Vec<[f64; 3]>,
+    /// H − H(0).
+    pub error: Envelope,
+    /// max |H − H(0)|.
+    pub largest_error: f64,
+    /// H − H(0) at the end.
+    pub last_error: f64,
+    /// By what factor a displacement of 1e-10 at the end grows in 2000 units of time more.
+    pub growth: f64,
+    /// Where the run ended early, and why.
+    pub failure: Option<StepError>,
+}
+
+/// R₁, P₁ and R₂ of a state in flat form.
+fn coordinates(q: &[f64]) -> [f64; 3] {
+    let (x, y) = q.split_at(4);
+    let (ux, uy) = (x[0] - x[2], y[0] - y[2]);
+    let (wx, wy) = (x[1] - x[3], y[1] - y[3]);
+    let q1 = [0.5 * (ux + wy), 0.5 * (uy - wx)];
+    let q2 = [0.5 * (x[0] - x[1] + x[2] - x[3]), 0.5 * (y[0] - y[1] + y[2] - y[3])];
+    let q3 = [0.5 * (ux - wy), 0.5 * (uy + wx)];
+    let length = q3[0].hypot(q3[1]);
+    let (cos, sin) = (q3[0] / length, q3[1] / length);
+    [q2[0] * cos + q2[1] * sin, q2[1] * cos - q2[0] * sin, q1[1] * cos - q1[0] * sin]
+}
+
+/// The sections of the same motion by several schemes and steps, up to time `end`.
+pub fn compare(job: &Job<'_>, case: &Case, runs: &[(Scheme, f64)], end: f64) -> Result<Vec<Crossings>> {
+    runs.iter().for_each(|(_, h)| job.expect((end / h) as u64));
+    let one = |&(scheme, h): &(Scheme, f64)| match scheme {
+        Scheme::Vi2 => collect(job, case, Sigma::midpoint(), (scheme, h), end),
+        Scheme::Rk4 => collect(job, case, RungeKutta::classical(), (scheme, h), end),
+        Scheme::Gauss6 => collect(job, case, Gauss::<3>::new(), (scheme, h), end),
+    };
+    runs.par_iter().map(one).collect()
+}
+
+fn collect<M>(
+    job: &Job<'_>,
+    Case { vortices, start }: &Case,
+    method: M,
+    (scheme, h): (Scheme, f64),
+    end: f64,
+) -> Result<Crossings>
+where
+    M: Method<FourVortices, f64> + Copy,
+{
+    let mut run = Integrator::new(vortices, method, h, start.clone())?;
+    let initial = run.energy();
+    let (mut error, mut largest_error, mut last_error) = (Envelope::new(end, 300), 0.0f64, 0.0);
+    let steps = (end / h) as u64;
+    let (steps_left, flip) = (Cell::new(steps), Cell::new(1.0));
+    let section = Section::new(&mut run, Direction::Rising, |q| {
+        if steps_left.get() == 0 || job.is_stopping() {
+            // A run need not cross again: a made-up crossing hands the control back.
+            return flip.replace(-flip.get());
+        }
+        // Every point of the run passes through here, so the energy is watched here as well.
+        last_error = vortices.hamiltonian(q, 0.0) - initial;
+        largest_error = largest_error.max(last_error.abs());
+        error.push((steps - steps_left.get()) as f64 * h, last_error);
+        steps_left.set(steps_left.get() - 1);
+        coordinates(q)[2]
+    });
+    let (mut points, mut failure, mut counted) = (Vec::new(), None, 0);
+    for crossing in section {
+        let Crossing { time, state: FourPoints { x, y } } = match crossing {
+            Ok(crossing) => crossing,
+            Err(error) => {
+                failure = Some(error);
+                break;
+            }
+        };
+        if steps_left.get() == 0 || job.is_stopping() {
+            break;
+        }
+        let [r1, p1, _] = coordinates(&[x, y].concat());
+        points.push([time, r1, p1]);
+        // The search for the crossing has used the counter too.
+        let done = (time / h) as u64;
+        steps_left.set(steps.saturating_sub(done));
+        job.proceed(done - counted);
+        counted = done;
+    }
+    job.proceed(steps - counted);
+    let growth = growth(vortices, method, h, &run.state()).unwrap_or(f64::NAN);
+    Ok(Crossings { scheme, h, end, points, error, largest_error, last_error, growth, failure })
+}
+
+/// By what factor a small displacement grows in 2000 units of time: exponential growth reaches the size
+/// of the motion and saturates at some 1e10, on a torus the growth is linear.
+fn growth<M>(vortices: &FourVortices, method: M, h: f64, start: &FourPoints) -> Result<f64>
+where
+    M: Method<FourVortices, f64> + Copy,
+{
+    const DISPLACEMENT: f64 = 1e-10;
+    let mut displaced = start.clone();
+    displaced.x[0] += DISPLACEMENT;
+    let mut pair = [
+        Integrator::new(vortices, method, h, start.clone())?,
+        Integrator::new(vortices, method, h, displaced)?,
+    ];
+    for run in &mut pair {
+        while run.time() < 2000.0 {
+            run.advance()?;
+        }
+    }
+    let distances = pair[0].q().iter().zip(pair[1].q()).map(|(a, b)| (a - b).abs());
+    Ok(distances.fold(0.0, f64::max) / DISPLACEMENT)
+}
+
+/// The largest Lyapunov exponent by the tangent map of VI2 (h = 0.2, t = 2·10⁴).
+pub fn lyapunov_exponent(job: &Job<'_>, Case { vortices, start }: &Case) -> Result<Option<f64>> {
+    let (h, steps) = (0.2, 100_000);
+    let mut run = Integrator::new(vortices, Sigma::midpoint(), h, start.clone())?;
+    let mut exponent = LyapunovExponent::new(&run);
+    job.expect(steps);
+    job.repeat(steps, || exponent.advance(&mut run));
+    Ok(exponent.exponent())
+}
+
+impl Scheme {
+    pub fn name(self) -> &'static str {
+        match self {
+            Scheme::Vi2 => "VI2",
+            Scheme::Rk4 => "RK4",
+            Scheme::Gauss6 => "Gauss6",
+        }
+    }
+}
+
+impl Crossings {
+    pub fn name(&self) -> String {
+        format!("{} at h = {}", self.scheme.name(), self.h)
+    }
+
+    /// (R₁, P₁) of each crossing.
+    pub fn places(&self) -> Vec<[f64; 2]> {
+        self.points.iter().map(|&[_, r1, p1]| [r1, p1]).collect()
+    }
+
+    /// A panel with the section, coloured by time.
+    pub fn panel(&self, r1: Axis, p1: Axis, radius: f64) -> Panel {
+        let title = format!("{}, *h* = {}", self.scheme.name(), self.h);
+        let shown = thin(&self.points, SHOWN);
+        let interval = |t: f64| (t / self.end * SEQUENCE.len() as f64) as usize;
+        SEQUENCE.into_iter().enumerate().fold(Panel::new(title, r1, p1).equal(), |panel, (i, colour)| {
+            let places = shown.iter().filter(|[t, ..]| interval(*t) == i).map(|&[_, r1, p1]| [r1, p1]);
+            panel.dots(places.collect(), radius, colour)
+        })
+    }
+}
+
+/// |H − H(0)| of all runs over time.
+pub fn energy_panel(all: &[Crossings], end: f64) -> Panel {
+    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
+    let title = "Largest error of the Hamiltonian in each interval of time";
+    let empty = Panel::new(title, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]"));
+    let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
+    let panel = all.iter().zip(colours).fold(empty, |panel, (run, colour)| {
+        let stroke = if run.scheme == Scheme::Vi2 { Stroke::solid(colour) } else { Stroke::dashed(colour) };
+        panel.line(run.error.magnitude(), stroke).labelled(format!("{}, *h* = {}", run.scheme.name(), run.h))
+    });
+    panel.legend_at(Corner::Beside)
+}
+
+/// The section coordinates, and the runs that ended early.
+pub fn notes(all: &[Crossings]) -> Vec<String> {
+    let ends =
+        all.iter().filter_map(|run| run.failure.map(|error| format!("{} ended early: {error}.", run.name())));
+    [CAVEAT.replace('*', "")].into_iter().chain(ends).collect()
+}
+
+/// The sections as a table.
+pub fn table(all: &[Crossings]) -> Result<Table> {
+    let mut table = Table::new(&["scheme", "h", "t", "R1", "P1"])?;
+    for section in all {
+        for [t, r1, p1] in thin(&section.points, SHOWN) {
+            let numbers = [section.h, t, r1, p1].map(|number| number.to_string());
+            table.row([section.scheme.name().to_owned()].into_iter().chain(numbers))?;
+        }
+    }
+    Ok(table)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_do_not_see_translations_and_rotations() {
+        let q = [1.0, 0.866, -0.85, -0.5, 1.0, 0.45, -1.363636, -0.15];
+        let (sin, cos) = 0.7f64.sin_cos();
+        let moved: Vec<f64> = (0..8)
+            .map(|i| match i {
+                0..4 => cos * q[i] - sin * q[i + 4] + 3.0,
+                _ => sin * q[i - 4] + cos * q[i] - 5.0,
+            })
+            .collect();
+        for (a, b) in coordinates(&q).into_iter().zip(coordinates(&moved)) {
+            assert!((a - b).abs() < 1e-14, "{a} {b}");
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Axes: ranges, ticks at round numbers, and their labels.
+
+/// An axis with its label, linear or logarithmic.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    pub(super) label: String,
+    pub(super) range: Option<[f64; 2]>,
+    pub(super) logarithmic: bool,
+    pub(super) names: Vec<String>,
+}
+
+impl Axis {
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self { label: label.into(), range: None, logarithmic: false, names: Vec::new() }
+    }
+
+    pub fn logarithmic(label: impl Into<String>) -> Self {
+        Self { logarithmic: true, ..Self::linear(label) }
+    }
+
+    /// An axis on which 0, 1, 2, … have names.
+    pub fn names(label: impl Into<String>, names: Vec<String>) -> Self {
+        let range = Some([-0.6, names.len() as f64 - 0.4]);
+        Self { range, names, ..Self::linear(label) }
+    }
+
+    /// Fixes the range; without it the data decide.
+    pub fn within(mut self, low: f64, high: f64) -> Self {
+        self.range = Some([low, high]);
+        self
+    }
+
+    /// The range to draw for data that span `data`: fixed, or a little wider than the data.
+    pub(super) fn fit(&self, data: Option<[f64; 2]>) -> [f64; 2] {
+        if let Some(range) = self.range {
+            return range;
+        }
+        match (data, self.logarithmic) {
+            (None, false) => [0.0, 1.0],
+            (None, true) => [1.0, 10.0],
+            (Some([low, high]), true) => [low / 1.5, high * 1.5],
+            (Some([low, high]), false) => {
+                let width = high - low;
+                let margin = if width > 0.0 { 0.05 * width } else { low.abs().max(1.0) * 0.05 };
+                [low - margin, high + margin]
+            }
+        }
+    }
+
+    /// The ticks on `scale`, about `wanted` of them.
+    pub(super) fn ticks(&self, scale: &Scale, wanted: f64) -> Ticks {
+        if !self.names.is_empty() {
+            let marks = self.names.iter().enumerate().map(|(i, name)| (i as f64, name.clone()));
+            return Ticks { marks: marks.collect(), factor: String::new() };
+        }
+        if self.logarithmic { decades(scale.range) } else { round_numbers(scale.range, wanted) }
+    }
+
+    /// The number of letters of the longest name.
+    pub(super) fn longest_name(&self) -> usize {
+        self.names.iter().map(|name| name.chars().count()).max().unwrap_or(0)
+    }
+
+    pub(super) fn shows(&self, value: f64) -> bool {
+        value.is_finite() && (!self.logarithmic || value > 0.0)
+    }
+}
+
+/// The map from values of an axis to pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale {
+    pub(super) range: [f64; 2],
+    pub(super) pixels: [f64; 2],
+    pub(super) logarithmic: bool,
+}
+
+impl Scale {
+    pub(super) fn place(&self, value: f64) -> f64 {
+        let [low, high] = self.range;
+        let [from, to] = self.pixels;
+        let fraction = if self.logarithmic {
+            (value / low).ln() / (high / low).ln()
+        } else {
+            (value - low) / (high - low)
+        };
+        from + fraction * (to - from)
+    }
+}
+
+/// The ticks of an axis; an empty label is a minor tick.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Ticks {
+    pub(super) marks: Vec<(f64, String)>,
+    /// The power of ten that the labels leave out, as in “×10⁻³”; empty if none.
+    pub(super) factor: String,
+}
+
+/// Multiples of 1, 2 or 5 times a power of ten, about `wanted` of them.
+fn round_numbers([low, high]: [f64; 2], wanted: f64) -> Ticks {
+    let raw = (high - low) / wanted;
+    let decade = 10f64.powf(raw.log10().floor());
+    let step = decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= raw * 0.75).unwrap_or(10.0);
+    let exponent = low.abs().max(high.abs()).log10().floor() as i32;
+    let exponent = if (-2..=3).contains(&exponent) { 0 } else { exponent };
+    let unit = 10f64.powi(exponent);
+    let decimals = (-(step / unit * 1.001).log10().floor()).max(0.0) as usize;
+    let first = (low / step - 1e-9).ceil() as i64;
+    let last = (high / step + 1e-9).floor() as i64;
+    let marks = (first..=last).map(|k| (k as f64 * step, signed(k as f64 * step / unit, decimals)));
+    let factor = if exponent == 0 { String::new() } else { format!("×{}", power_of_ten(exponent)) };
+    Ticks { marks: marks.collect(), factor }
+}
+
+/// Powers of ten, thinned out where there are many; minor ticks at 2…9 where there are few.
+fn decades([low, high]: [f64; 2]) -> Ticks {
+    let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
+    let span = last - first;
+    let every = match span {
+        0..=7 => 1,
+        8..=15 => 2,
+        _ => 4,
+    };
+    let mut marks = Vec::new();
+    for exponent in first..=last {
+        let label = if exponent % every == 0 { power_of_ten(exponent) } else { String::new() };
+        marks.push((10f64.powi(exponent), label));
+        if span <= 4 {
+            marks.extend((2..10).map(|m| {
+                let label = if span <= 1 && (m == 2 || m == 5) {
+                    format!("{m}·{}", power_of_ten(exponent))
+                } else {
+                    String::new()
+                };
+                (f64::from(m) * 10f64.powi(exponent), label)
+            }));
+        }
+    }
+    marks.retain(|(value, _)| (low * 0.999..=high * 1.001).contains(value));
+    Ticks { marks, factor: String::new() }
+}
+
+/// A number with a proper minus sign, and no minus on zero.
+fn signed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
+        Some(digits) => format!("−{digits}"),
+        None => text,
+    }
+}
+
+/// A number with one decimal and a power of ten, as in “3.8·10⁻⁵”.
+pub fn scientific(value: f64) -> String {
+    let text = format!("{value:.1e}");
+    match text.split_once('e').map(|(mantissa, exponent)| (mantissa, exponent.parse())) {
+        Some((mantissa, Ok(exponent))) => {
+            format!("{}·{}", mantissa.replace('-', "−"), power_of_ten(exponent))
+        }
+        _ => text,
+    }
+}
+
+/// 10ⁿ in Unicode.
+fn power_of_ten(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digits = exponent.to_string();
+    let superscript = digits.chars().map(|c| match c {
+        '-' => '⁻',
+        digit => DIGITS[digit as usize - '0' as usize],
+    });
+    "10".chars().chain(superscript).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(ticks: &Ticks) -> Vec<&str> {
+        ticks.marks.iter().map(|(_, label)| label.as_str()).filter(|label| !label.is_empty()).collect()
+    }
+
+    #[test]
+    fn linear_ticks_are_round_and_inside_the_range() {
+        let ticks = round_numbers([-0.31, 1.04], 5.0);
+        assert_eq!(labels(&ticks), ["0.0", "0.5", "1.0"]);
+        let ticks = round_numbers([0.0, 2e5], 4.0);
+        assert_eq!(
+            (labels(&ticks), ticks.factor.as_str()),
+            (vec!["0.0", "0.5", "1.0", "1.5", "2.0"], "×10⁵")
+        );
+        let ticks = round_numbers([-3.2e-3, 3.2e-3], 6.0);
+        assert_eq!(
+            (labels(&ticks), ticks.factor.as_str()),
+            (vec!["−3", "−2", "−1", "0", "1", "2", "3"], "×10⁻³")
+        );
+    }
+
+    #[test]
+    fn scientific_numbers_are_typeset() {
+        let shown = [3.847e-5, -0.2, 1e6, 0.0, f64::NAN].map(scientific);
+        assert_eq!(shown, ["3.8·10⁻⁵", "−2.0·10⁻¹", "1.0·10⁶", "0.0·10⁰", "NaN"]);
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_decades() {
+        assert_eq!(labels(&decades([0.5e-4, 2.0])), ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰"]);
+    }
+
+    #[test]
+    fn the_ends_of_a_scale_are_the_ends_of_the_axis() {
+        for logarithmic in [false, true] {
+            let scale = Scale { range: [1e-3, 10.0], pixels: [400.0, 50.0], logarithmic };
+            assert!((scale.place(1e-3) - 400.0).abs() < 1e-9 && (scale.place(10.0) - 50.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn data_without_width_or_without_points_still_give_a_range() {
+        for data in [None, Some([3.0, 3.0]), Some([0.0, 0.0])] {
+            let [low, high] = Axis::linear("x").fit(data);
+            assert!(low < high && low.is_finite() && high.is_finite());
+        }
+    }
+}

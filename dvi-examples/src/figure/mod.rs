@@ -1,0 +1,175 @@
+//! Figures for a talk: panels in rows, written as SVG and as PNG of the same picture.
+//!
+//! The SVG is written directly: what the experiments need is little (axes, lines, bands, dots), a dot
+//! of a Poincaré section costs a dozen bytes in one long path where an element of its own costs ten
+//! times as much, and the picture is the same on every machine because the fonts are carried along.
+
+mod axis;
+mod decimate;
+mod mark;
+mod palette;
+mod panel;
+mod raster;
+mod svg;
+
+use std::path::Path;
+
+use anyhow::Result;
+
+use crate::output::write_whole;
+
+pub use axis::{Axis, scientific};
+pub use decimate::{Envelope, thin};
+pub use mark::{Fill, Stroke};
+pub use palette::*;
+pub use panel::{Corner, Panel};
+pub use svg::Anchor;
+use svg::{Label, Pen, Svg, number};
+
+const WIDTH: f64 = 1200.0;
+const MARGIN: f64 = 22.0;
+const HEADER: f64 = 72.0;
+const FOOTER: f64 = 30.0;
+
+/// Rows of panels under a title.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    title: String,
+    subtitle: String,
+    footer: String,
+    key: Option<[String; 2]>,
+    rows: Vec<(f64, Vec<Panel>)>,
+}
+
+impl Figure {
+    pub fn new(title: impl Into<String>, subtitle: impl Into<String>) -> Self {
+        let (title, subtitle) = (title.into(), subtitle.into());
+        Self { title, subtitle, footer: String::new(), key: None, rows: Vec::new() }
+    }
+
+    /// Adds a row of panels, `height` units high; a figure is 1200 wide.
+    pub fn row(mut self, height: f64, panels: Vec<Panel>) -> Self {
+        self.rows.push((height, panels));
+        self
+    }
+
+    /// Small print: the source, and what the reader should be warned of.
+    pub fn footer(mut self, text: impl Into<String>) -> Self {
+        self.footer = text.into();
+        self
+    }
+
+    /// Explains the colours of [`SEQUENCE`], from its first to its last.
+    pub fn sequence_key(mut self, from: impl Into<String>, to: impl Into<String>) -> Self {
+        self.key = Some([from.into(), to.into()]);
+        self
+    }
+
+    pub fn svg(&self) -> String {
+        let height = HEADER + self.rows.iter().map(|(height, _)| height).sum::<f64>() + FOOTER;
+        let mut svg = Svg::new(WIDTH, height, &self.title);
+        svg.label(Label { bold: true, ..Label::new(&self.title, [MARGIN, 36.0], 20.0) });
+        svg.label(Label { colour: SLATE, ..Label::new(&self.subtitle, [MARGIN, 59.0], 14.0) });
+        self.draw_key(&mut svg);
+        let mut top = HEADER;
+        for (height, panels) in &self.rows {
+            let total: f64 = panels.iter().map(|panel| panel.weight).sum();
+            let mut left = MARGIN;
+            for panel in panels {
+                let width = (WIDTH - 2.0 * MARGIN) * panel.weight / total;
+                panel.draw(&mut svg, [left, top, width, *height]);
+                left += width;
+            }
+            top += height;
+        }
+        svg.label(Label { colour: SLATE, ..Label::new(&self.footer, [MARGIN, height - 13.0], 11.5) });
+        svg.finish()
+    }
+
+    fn draw_key(&self, svg: &mut Svg) {
+        let Some([from, to]) = &self.key else { return };
+        let (right, y, step) = (WIDTH - MARGIN - 90.0, 55.0, 18.0);
+        let left = right - step * SEQUENCE.len() as f64;
+        for (i, &colour) in SEQUENCE.iter().enumerate() {
+            let x = number(left + step * i as f64);
+            svg.stroke(&format!("M{x} {y}h{}", step + 0.5), Pen::new(colour, 12.0));
+        }
+        let label = |text, x, anchor| Label { anchor, ..Label::new(text, [x, y + 4.5], 13.0) };
+        svg.label(label(from, left - 8.0, Anchor::End));
+        svg.label(label(to, right + 8.0, Anchor::Start));
+    }
+
+    /// Writes `name.svg` and `name.png` into the folder.
+    pub fn save(&self, folder: &Path, name: &str) -> Result<()> {
+        let svg = self.svg();
+        write_whole(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+        write_whole(&folder.join(format!("{name}.png")), &raster::png(&svg)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Figure {
+        let wave = (0..20_000).map(|i| [f64::from(i) * 0.01, 1e-3 * (f64::from(i) * 0.3).sin()]).collect();
+        let dots = (0..5_000).map(|i| [f64::from(i).cos(), f64::from(i).sin()]).collect();
+        let left = Panel::new("Left", Axis::linear("time *t*"), Axis::linear("*H* < 1 & more"))
+            .line(wave, Stroke::solid(BLUE))
+            .labelled("a wave");
+        let right = Panel::new("Right", Axis::linear("*x*"), Axis::linear("*y*"))
+            .dots(dots, 1.0, PURPLE)
+            .equal()
+            .labelled("a circle");
+        Figure::new("A title", "and more")
+            .row(400.0, vec![left, right])
+            .sequence_key("first", "last")
+            .footer("source")
+    }
+
+    #[test]
+    fn the_svg_is_well_formed_and_holds_every_label() {
+        let svg = sample().svg();
+        let document = roxmltree::Document::parse(&svg).expect("well-formed");
+        let is_text = |node: &roxmltree::Node<'_, '_>| node.has_tag_name("text");
+        let texts: Vec<String> = document
+            .descendants()
+            .filter(is_text)
+            .map(|node| node.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect())
+            .collect();
+        for wanted in ["A title", "time t", "H < 1 & more", "a wave", "a circle", "×10⁻³", "first", "source"]
+        {
+            assert!(texts.iter().any(|text| text == wanted), "`{wanted}` is not among {texts:?}");
+        }
+    }
+
+    #[test]
+    fn long_series_do_not_make_large_files() {
+        let size = sample().svg().len();
+        assert!(size < 150_000, "{size} bytes");
+    }
+
+    #[test]
+    fn the_png_shows_text_and_data() {
+        let png = raster::png(&sample().svg()).expect("drawable");
+        let image = resvg::tiny_skia::Pixmap::decode_png(&png).expect("a PNG");
+        assert_eq!((image.width(), image.height()), (2400, 1004));
+        let dark = |x: std::ops::Range<u32>, y: std::ops::Range<u32>| {
+            let pixels = y.flat_map(|y| x.clone().map(move |x| (x, y)));
+            pixels.filter(|&(x, y)| image.pixel(x, y).is_some_and(|p| p.red() < 128)).count()
+        };
+        assert!(dark(40..400, 30..80) > 200, "the title is missing");
+        assert!(dark(1300..2300, 250..800) > 1000, "the dots are missing");
+    }
+
+    #[test]
+    fn a_figure_without_data_is_still_a_figure() {
+        let empty = Panel::new("Empty", Axis::linear("*x*"), Axis::logarithmic("*y*"))
+            .line(vec![[f64::NAN, 1.0]], Stroke::solid(BLUE))
+            .band(vec![], BLUE)
+            .dots(vec![], 1.0, PURPLE);
+        let svg = Figure::new("", "").row(300.0, vec![empty]).svg();
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        assert!(raster::png(&svg).is_ok());
+    }
+}

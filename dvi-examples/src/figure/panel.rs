@@ -1,0 +1,260 @@
+//! One pair of axes with what is drawn on it.
+
+use super::axis::{Axis, Scale, Ticks};
+use super::mark::{Fill, Frame, Mark, Stroke};
+use super::palette::{Colour, GRID, SLATE};
+use super::svg::{Anchor, Label, Pen, Svg, number};
+
+/// A corner of a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Corner {
+    TopLeft,
+    TopRight,
+    BottomLeft,
+    BottomRight,
+    /// To the right of the panel, from the top, for legends that would cover data.
+    Beside,
+}
+
+/// One pair of axes with what is drawn on it, in the order in which it was added.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    title: String,
+    x: Axis,
+    y: Axis,
+    marks: Vec<Mark>,
+    legend: Vec<(usize, String)>,
+    corner: Corner,
+    notes: Vec<Note>,
+    captions: Vec<(Corner, String)>,
+    pub(super) weight: f64,
+    equal: bool,
+}
+
+#[derive(Clone, Debug)]
+struct Note {
+    at: [f64; 2],
+    text: String,
+    anchor: Anchor,
+    colour: Colour,
+}
+
+const LEFT: f64 = 70.0;
+const RIGHT: f64 = 18.0;
+const TOP: f64 = 34.0;
+const BOTTOM: f64 = 56.0;
+const TEXT: f64 = 13.0;
+/// The width of a letter of a name on the y axis, generously.
+const NAME: f64 = 8.0;
+/// The width of a legend beside its panel.
+const BESIDE: f64 = 190.0;
+
+impl Panel {
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        Self {
+            title: title.into(),
+            x,
+            y,
+            marks: Vec::new(),
+            legend: Vec::new(),
+            corner: Corner::TopRight,
+            notes: Vec::new(),
+            captions: Vec::new(),
+            weight: 1.0,
+            equal: false,
+        }
+    }
+
+    /// A line through the points; of long series, what the pixels can show.
+    pub fn line(self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+        self.with(Mark::Line(points, stroke))
+    }
+
+    /// The area between two curves, as [x, low, high].
+    pub fn band(self, edges: Vec<[f64; 3]>, colour: Colour) -> Self {
+        self.with(Mark::Band(edges, colour))
+    }
+
+    /// Small dots.
+    pub fn dots(self, points: Vec<[f64; 2]>, radius: f64, colour: Colour) -> Self {
+        self.with(Mark::Dots(points, radius, colour))
+    }
+
+    /// Large dots, for few points.
+    pub fn discs(self, points: Vec<[f64; 2]>, colour: Colour, fill: Fill) -> Self {
+        self.with(Mark::Discs(points, colour, fill))
+    }
+
+    /// Gives what was added last a line in the legend.
+    pub fn labelled(mut self, text: impl Into<String>) -> Self {
+        self.legend.push((self.marks.len().saturating_sub(1), text.into()));
+        self
+    }
+
+    /// Writes on the panel, at a point in data coordinates.
+    pub fn note(mut self, at: [f64; 2], anchor: Anchor, colour: Colour, text: impl Into<String>) -> Self {
+        self.notes.push(Note { at, text: text.into(), anchor, colour });
+        self
+    }
+
+    /// Writes into a corner of the panel.
+    pub fn caption(mut self, corner: Corner, text: impl Into<String>) -> Self {
+        self.captions.push((corner, text.into()));
+        self
+    }
+
+    pub fn legend_at(mut self, corner: Corner) -> Self {
+        self.corner = corner;
+        self
+    }
+
+    /// Leaves the legend to a neighbour that shows the same.
+    pub fn without_legend(mut self) -> Self {
+        self.legend.clear();
+        self
+    }
+
+    /// The width of the panel relative to the others of its row.
+    pub fn weight(mut self, weight: f64) -> Self {
+        self.weight = weight;
+        self
+    }
+
+    /// One unit is as long on the x axis as on the y axis.
+    pub fn equal(mut self) -> Self {
+        self.equal = true;
+        self
+    }
+
+    fn with(mut self, mark: Mark) -> Self {
+        self.marks.push(mark);
+        self
+    }
+
+    fn frame(&self, [left, top, width, height]: [f64; 4]) -> Frame {
+        let points: Vec<[f64; 2]> = self.marks.iter().flat_map(Mark::corners).collect();
+        let span = |axis: &Axis, i: usize| {
+            let values = points.iter().map(|point| point[i]).filter(|&value| axis.shows(value));
+            values.fold(None, |span: Option<[f64; 2]>, v| {
+                Some(span.map_or([v, v], |[low, high]| [low.min(v), high.max(v)]))
+            })
+        };
+        let (mut x, mut y) = (self.x.fit(span(&self.x, 0)), self.y.fit(span(&self.y, 1)));
+        if self.equal {
+            let unit = ((x[1] - x[0]) / width).max((y[1] - y[0]) / height);
+            x = centred(x, unit * width);
+            y = centred(y, unit * height);
+        }
+        Frame {
+            x: Scale { range: x, pixels: [left, left + width], logarithmic: self.x.logarithmic },
+            y: Scale { range: y, pixels: [top + height, top], logarithmic: self.y.logarithmic },
+        }
+    }
+
+    pub(super) fn draw(&self, svg: &mut Svg, [left, top, width, height]: [f64; 4]) {
+        let beside = if self.corner == Corner::Beside { BESIDE } else { RIGHT };
+        let before = LEFT.max(self.y.longest_name() as f64 * NAME + 12.0);
+        let inner = [left + before, top + TOP, width - before - beside, height - TOP - BOTTOM];
+        let frame = self.frame(inner);
+        self.draw_axes(svg, &frame);
+        svg.open_clipped(inner);
+        for mark in &self.marks {
+            mark.draw(svg, &frame, [&self.x, &self.y]);
+        }
+        svg.close();
+        self.draw_legend(svg, inner);
+        for (corner, text) in &self.captions {
+            let ([x, y], anchor) = hold(*corner, inner, 10.0, 0.0);
+            svg.label(Label { anchor, halo: true, ..Label::new(text, [x, y + 4.5], TEXT) });
+        }
+        for note in &self.notes {
+            let at = [frame.x.place(note.at[0]), frame.y.place(note.at[1])];
+            let label = Label::new(&note.text, at, TEXT);
+            svg.label(Label { anchor: note.anchor, colour: note.colour, halo: true, ..label });
+        }
+    }
+
+    fn draw_axes(&self, svg: &mut Svg, frame: &Frame) {
+        let [left, top, width, height] = frame.rectangle();
+        let (bottom, right) = (top + height, left + width);
+        let (x, y) = (self.x.ticks(&frame.x, width / 95.0), self.y.ticks(&frame.y, height / 65.0));
+        draw_grid(svg, frame, &x, &y);
+        svg.stroke(
+            &format!(
+                "M{l} {t}V{b}H{r}",
+                l = number(left),
+                t = number(top),
+                b = number(bottom),
+                r = number(right)
+            ),
+            Pen::new(SLATE, 1.0),
+        );
+        let label = |text, at, anchor| Label { anchor, ..Label::new(text, at, TEXT) };
+        for (value, text) in &x.marks {
+            svg.label(label(text, [frame.x.place(*value), bottom + 20.0], Anchor::Middle));
+        }
+        for (value, text) in &y.marks {
+            svg.label(label(text, [left - 8.0, frame.y.place(*value) + 4.5], Anchor::End));
+        }
+        let grey = |label| Label { colour: SLATE, ..label };
+        svg.label(grey(label(&x.factor, [right, bottom + 38.0], Anchor::End)));
+        svg.label(grey(label(&y.factor, [left - 8.0, top - 10.0], Anchor::Middle)));
+        svg.label(label(&self.x.label, [left + width / 2.0, bottom + 44.0], Anchor::Middle));
+        let aside = label(&self.y.label, [left - LEFT + 16.0, top + height / 2.0], Anchor::Middle);
+        svg.label(Label { upright: false, ..aside });
+        let title = Label { bold: true, ..Label::new(&self.title, [left + width / 2.0, top - 12.0], 14.0) };
+        svg.label(Label { anchor: Anchor::Middle, ..title });
+    }
+
+    fn draw_legend(&self, svg: &mut Svg, inner: [f64; 4]) {
+        const LINE: f64 = 21.0;
+        const SAMPLE: f64 = 44.0;
+        let below = LINE * self.legend.len().saturating_sub(1) as f64;
+        let ([x, first], anchor) = hold(self.corner, inner, SAMPLE, below);
+        let sample = if anchor == Anchor::Start { x - 20.0 } else { x + 20.0 };
+        for (i, (mark, text)) in self.legend.iter().enumerate() {
+            let y = first + LINE * i as f64;
+            svg.label(Label { anchor, halo: true, ..Label::new(text, [x, y + 4.5], TEXT) });
+            if let Some(mark) = self.marks.get(*mark) {
+                mark.draw_sample(svg, [sample, y]);
+            }
+        }
+    }
+}
+
+/// Where text of `below` more height begins in a corner, `indent` away from the side.
+fn hold(corner: Corner, [left, top, width, height]: [f64; 4], indent: f64, below: f64) -> ([f64; 2], Anchor) {
+    let (first, last) = (top + 16.0, top + height - 14.0 - below);
+    match corner {
+        Corner::TopLeft => ([left + indent, first], Anchor::Start),
+        Corner::BottomLeft => ([left + indent, last], Anchor::Start),
+        Corner::TopRight => ([left + width - indent, first], Anchor::End),
+        Corner::BottomRight => ([left + width - indent, last], Anchor::End),
+        Corner::Beside => ([left + width + indent, first], Anchor::Start),
+    }
+}
+
+fn centred([low, high]: [f64; 2], width: f64) -> [f64; 2] {
+    let middle = 0.5 * (low + high);
+    [middle - 0.5 * width, middle + 0.5 * width]
+}
+
+fn draw_grid(svg: &mut Svg, frame: &Frame, x: &Ticks, y: &Ticks) {
+    let [left, top, width, height] = frame.rectangle().map(|v| (v * 100.0).round() / 100.0);
+    let labelled = |ticks: &Ticks, major: bool| {
+        let marks = ticks.marks.iter().filter(move |(_, label)| label.is_empty() != major);
+        marks.map(|(value, _)| *value).collect::<Vec<_>>()
+    };
+    let across = |y: f64| format!("M{left} {}h{width}", number(frame.y.place(y)));
+    let along = |x: f64| format!("M{} {top}v{height}", number(frame.x.place(x)));
+    let grid: String = labelled(y, true).into_iter().map(across).collect();
+    svg.stroke(&grid, Pen::new(GRID, 1.0));
+    let grid: String = labelled(x, true).into_iter().map(along).collect();
+    svg.stroke(&grid, Pen::new(GRID, 1.0));
+    let minor = |y: f64| format!("M{left} {}h4", number(frame.y.place(y)));
+    let ticks: String = labelled(y, false).into_iter().map(minor).collect();
+    svg.stroke(&ticks, Pen::new(SLATE, 1.0));
+    let minor = |x: f64| format!("M{} {}v-4", number(frame.x.place(x)), number(top + height));
+    let ticks: String = labelled(x, false).into_iter().map(minor).collect();
+    svg.stroke(&ticks, Pen::new(SLATE, 1.0));
+}

@@ -1,0 +1,87 @@
+//! The gallery: published experiments on variational integrators, reproduced with figures, tables and
+//! a summary that compares claim by claim.
+//!
+//! `cargo run --release -p dvi-examples` runs them all; `--help` says what else there is.
+
+mod by_hand;
+mod claim;
+mod experiments;
+mod figure;
+mod gallery;
+mod job;
+mod models;
+mod options;
+mod output;
+mod summary;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Context as _, Result};
+use clap::Parser as _;
+
+use crate::gallery::{Ended, Experiment};
+use crate::job::Length;
+use crate::options::Options;
+
+static STOP: AtomicBool = AtomicBool::new(false);
+const INTERRUPTED: u8 = 130;
+
+fn main() -> ExitCode {
+    let options = Options::parse();
+    let done = if options.list { list() } else { run(&options) };
+    done.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::FAILURE
+    })
+}
+
+fn list() -> Result<ExitCode> {
+    let line = |experiment: &Experiment| format!("{:<16} {}\n", experiment.name, experiment.title);
+    say(&experiments::ALL.iter().map(line).collect::<String>())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn run(options: &Options) -> Result<ExitCode> {
+    output::prepare_folder(&options.out)?;
+    ctrlc::set_handler(interrupt).context("cannot listen to Ctrl-C")?;
+    let wanted = |experiment: &Experiment| {
+        options.only.is_empty() || options.only.iter().any(|n| n == experiment.name)
+    };
+    let chosen: Vec<Experiment> = experiments::ALL.iter().copied().filter(wanted).collect();
+    let length = if options.short { Length::Short } else { Length::Full };
+    eprintln!("experiments: {}; results go to {}", chosen.len(), options.out.display());
+
+    let ended = gallery::run(&chosen, &options.out, length, options.threads, &STOP)?;
+    let results: Vec<_> = chosen.iter().zip(&ended).collect();
+    output::write_whole(&options.out.join("summary.md"), summary::markdown(&results, length).as_bytes())?;
+    say(&format!("\n{}", summary::plain(&results)))?;
+    Ok(exit_code(&ended))
+}
+
+/// The first Ctrl-C lets the experiments write what they have; a second one does not wait for them.
+fn interrupt() {
+    if STOP.swap(true, Ordering::Relaxed) {
+        std::process::exit(INTERRUPTED.into());
+    }
+}
+
+fn exit_code(ended: &[Ended]) -> ExitCode {
+    let any = |what: fn(&Ended) -> bool| ended.iter().any(what);
+    if any(|ended| matches!(ended, Ended::Failed(_))) {
+        ExitCode::FAILURE
+    } else if any(|ended| matches!(ended, Ended::Interrupted(_) | Ended::NotStarted)) {
+        ExitCode::from(INTERRUPTED)
+    } else {
+        ExitCode::SUCCESS
+    }
+}
+
+/// Prints, and does not mind a reader who has seen enough.
+fn say(text: &str) -> Result<()> {
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        other => other.context("cannot print"),
+    }
+}

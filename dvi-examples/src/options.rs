@@ -1,0 +1,65 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+use clap::builder::PossibleValuesParser;
+
+use crate::experiments;
+
+/// Reproduces the published experiments on variational integrators.
+///
+/// Without options all experiments run at full length. Each writes a figure (SVG and PNG of the same
+/// picture) and its data (CSV); at the end `summary.md` says, claim by claim, what the paper says, what
+/// was measured, and whether it was reproduced.
+#[derive(Debug, Parser)]
+#[command(name = "dvi-examples", version, after_help = AFTER_HELP)]
+pub struct Options {
+    /// The folder for figures, tables and the summary; it is created if it does not exist
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    pub out: PathBuf,
+
+    /// Run the same experiments for shorter times; claims that need longer ones stay undecided
+    #[arg(long)]
+    pub short: bool,
+
+    /// Run only these experiments (see --list)
+    #[arg(long, value_name = "NAME", num_args = 1.., value_parser = PossibleValuesParser::new(names()),
+          hide_possible_values = true)]
+    pub only: Vec<String>,
+
+    /// List the experiments and exit
+    #[arg(long)]
+    pub list: bool,
+
+    /// Threads to use; the results are the same for every number [default: all processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+const AFTER_HELP: &str = "\
+Ctrl-C stops early: what was computed until then is written and marked as interrupted.
+
+Exit status: 0 all experiments ran, 1 an error, 2 a bad argument, 130 interrupted.";
+
+fn names() -> Vec<&'static str> {
+    experiments::ALL.iter().map(|experiment| experiment.name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        <Options as clap::CommandFactory>::command().debug_assert();
+    }
+
+    #[test]
+    fn unknown_experiments_and_zero_threads_are_refused() {
+        for arguments in [["", "--only", "fig9"], ["", "--threads", "0"]] {
+            let error = Options::try_parse_from(arguments).expect_err("refused");
+            assert_eq!(error.exit_code(), 2);
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The summary: claim by claim, what the paper says, what was measured, and the verdict.
+
+use std::fmt::Write as _;
+
+use crate::claim::{Claim, Verdict};
+use crate::gallery::{Ended, Experiment, Outcome};
+use crate::job::Length;
+
+/// The experiments with how they ended.
+pub type Results<'a> = [(&'a Experiment, &'a Ended)];
+
+/// The summary as Markdown.
+pub fn markdown(results: &Results<'_>, length: Length) -> String {
+    let mut text = String::from("# Claim by claim\n\n");
+    if length == Length::Short {
+        text += "This was the **short** form: shorter times, and claims that need longer ones stay undecided.\n\n";
+    }
+    let _ = writeln!(text, "{}.\n", tally(results));
+    for (experiment, ended) in results {
+        let Experiment { name, title, .. } = experiment;
+        let _ = writeln!(text, "## {name}: {title}\n");
+        match ended {
+            Ended::Failed(error) => drop(writeln!(text, "**Failed**: {error:#}\n")),
+            Ended::NotStarted => text += "**Interrupted** before it started.\n\n",
+            Ended::Complete(outcome) => section(&mut text, name, outcome, false),
+            Ended::Interrupted(outcome) => {
+                text += "**Interrupted**: the series end early, and no claim was decided.\n\n";
+                section(&mut text, name, outcome, true);
+            }
+        }
+    }
+    text
+}
+
+fn section(text: &mut String, name: &str, outcome: &Outcome, interrupted: bool) {
+    let _ = writeln!(text, "![]({name}.png)\n");
+    *text += "| The paper says | Measured (required) | Verdict |\n|---|---|---|\n";
+    for claim in &outcome.claims {
+        let measured: Vec<String> = claim.checks().map(|check| cell(&check.to_string())).collect();
+        let says = cell(&claim.says);
+        let verdict = if interrupted { "interrupted".into() } else { cell(&claim.verdict().to_string()) };
+        let _ = writeln!(text, "| {says} ({}) | {} | {verdict} |", claim.place, measured.join("<br>"));
+    }
+    *text += "\n";
+    for note in &outcome.notes {
+        let _ = writeln!(text, "- {note}");
+    }
+    if !outcome.notes.is_empty() {
+        *text += "\n";
+    }
+}
+
+/// Vertical bars would end the cell.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+/// The summary for a terminal.
+pub fn plain(results: &Results<'_>) -> String {
+    let mut text = String::new();
+    for (experiment, ended) in results {
+        let _ = writeln!(text, "{}: {}", experiment.name, experiment.title);
+        match ended {
+            Ended::Failed(error) => drop(writeln!(text, "  failed: {error:#}")),
+            Ended::NotStarted => text += "  interrupted before it started\n",
+            Ended::Complete(outcome) => {
+                outcome.claims.iter().for_each(|claim| entry(&mut text, claim, false))
+            }
+            Ended::Interrupted(outcome) => {
+                outcome.claims.iter().for_each(|claim| entry(&mut text, claim, true))
+            }
+        }
+        text.push('\n');
+    }
+    text + &tally(results) + ".\n"
+}
+
+fn entry(text: &mut String, claim: &Claim, interrupted: bool) {
+    let (mark, verdict) = match claim.verdict() {
+        _ if interrupted => ("…", "interrupted".into()),
+        Verdict::Reproduced => ("✓", String::new()),
+        verdict @ Verdict::Differs(_) => ("≠", verdict.to_string()),
+        verdict @ Verdict::NotReproduced => ("✗", verdict.to_string()),
+        verdict @ Verdict::Undecided => ("?", verdict.to_string()),
+    };
+    let _ = writeln!(text, "  {mark} {} ({})", claim.says, claim.place);
+    for check in claim.checks() {
+        let _ = writeln!(text, "      {check}");
+    }
+    if !verdict.is_empty() {
+        let _ = writeln!(text, "      → {verdict}");
+    }
+}
+
+fn tally(results: &Results<'_>) -> String {
+    let complete = results.iter().filter_map(|(_, ended)| match ended {
+        Ended::Complete(outcome) => Some(&outcome.claims),
+        _ => None,
+    });
+    let verdicts: Vec<Verdict> = complete.flatten().map(Claim::verdict).collect();
+    let count = |wanted: fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| wanted(verdict)).count();
+    let parts = [
+        (count(|v| *v == Verdict::Reproduced), "reproduced"),
+        (count(|v| matches!(v, Verdict::Differs(_))), "differ from what is printed"),
+        (count(|v| *v == Verdict::NotReproduced), "not reproduced"),
+        (count(|v| *v == Verdict::Undecided), "undecided"),
+    ];
+    let shown = parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
+    let shown: Vec<String> = shown.collect();
+    format!(
+        "{} claims: {}",
+        verdicts.len(),
+        if shown.is_empty() { "none decided".into() } else { shown.join(", ") }
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claim::Bound;
+
+    fn outcome() -> Outcome {
+        let claim = |value| Claim::new("p. 1", "|x| is small").check("|x|", value, Bound::AtMost(1.0));
+        Outcome { claims: vec![claim(0.5), claim(2.0)], notes: vec!["A note.".into()] }
+    }
+
+    fn experiment() -> Experiment {
+        Experiment { name: "sample", title: "A sample", run: |_| Ok(Outcome::default()) }
+    }
+
+    #[test]
+    fn both_forms_tell_verdicts_and_numbers() {
+        let (experiment, ended) = (experiment(), Ended::Complete(outcome()));
+        let results = [(&experiment, &ended)];
+        let page = markdown(&results, Length::Short);
+        assert!(page.contains("2 claims: 1 reproduced, 1 not reproduced."), "{page}");
+        assert!(
+            page.contains("| \\|x\\| is small (p. 1) | \\|x\\| = 0.5 (at most 1) | reproduced |"),
+            "{page}"
+        );
+        assert!(page.contains("short") && page.contains("- A note."), "{page}");
+        assert!(plain(&results).contains("      |x| = 2 (not at most 1)\n"), "{}", plain(&results));
+    }
+
+    #[test]
+    fn an_interrupted_experiment_decides_nothing() {
+        let (experiment, ended) = (experiment(), Ended::Interrupted(outcome()));
+        let page = markdown(&[(&experiment, &ended)], Length::Full);
+        assert!(page.contains("| interrupted |") && !page.contains("| reproduced |"), "{page}");
+        assert!(page.contains("0 claims: none decided"), "{page}");
+    }
+}

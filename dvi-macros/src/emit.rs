@@ -1,0 +1,452 @@
+//! Loops to tokens. Nothing here can fail.
+//!
+//! A scope such as `for j { for k > j { … } }` becomes
+//! ```text
+//! for __i0 in 0usize..__n0 {
+//!     let __r1 = __q0[__i0];
+//!     let mut __r9 = __T::lift(-0.0);
+//!     for __i1 in (__i0 + 1usize)..__n0 {
+//!         …
+//!         __r9 += …;
+//!         __vector0[__i1] -= …;
+//!     }
+//!     __vector0[__i0] += __r9;
+//! }
+//! ```
+//! Sums begin at −0, which is neutral for every number, so that the optimiser may drop the first
+//! addition.
+
+use proc_macro2::{Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+use syn::{Ident, Path};
+
+use crate::instructions::{Instruction, Instructions, Register, Signed, select};
+use crate::model::{Model, Shape};
+use crate::program::{Output, Place, Statement};
+use crate::schedule::{Step, schedule};
+use crate::symbolic::{Atom, Binder, Coordinate, Graph, Index, Node, Parameter, Relation, Weight};
+
+/// Operations of the innermost body of one loop nest.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Operations {
+    pub(crate) loops: Vec<Binder>,
+    pub(crate) additions: usize,
+    pub(crate) multiplications: usize,
+    pub(crate) divisions: usize,
+    pub(crate) calls: usize,
+}
+
+pub(crate) struct Emitter<'a> {
+    pub(crate) graph: &'a Graph,
+    pub(crate) model: &'a Model,
+}
+
+/// One function on its way to tokens.
+struct Function<'a> {
+    emitter: &'a Emitter<'a>,
+    code: &'a Instructions,
+    statements: &'a [Statement],
+    /// Registers that are written into the one expression that uses them.
+    inlined: Vec<bool>,
+}
+
+pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
+    Ident::new(&format!("__{name}"), Span::mixed_site())
+}
+
+fn bound(level: u32) -> Ident {
+    local(format_args!("i{level}"))
+}
+
+fn name(register: Register) -> Ident {
+    local(format_args!("r{}", register.0))
+}
+
+fn plain(value: i64) -> Literal {
+    Literal::usize_suffixed(usize::try_from(value).unwrap_or(0))
+}
+
+impl Emitter<'_> {
+    pub(crate) fn krate(&self) -> &Path {
+        &self.model.crate_path
+    }
+
+    /// The body of a function that carries out the statements.
+    pub(crate) fn body(&self, statements: &[Statement]) -> TokenStream {
+        let (code, values) = select(self.graph, statements);
+        let steps = schedule(&code, statements, &values);
+        let mut uses = vec![0_u32; code.len()];
+        let mut elsewhere = vec![false; code.len()];
+        count_uses(&code, &steps, &mut uses, &mut elsewhere);
+        let inlined = (0..code.len()).map(|position| {
+            let leaf = matches!(code.get(Register(position as u32)), Instruction::Literal(_));
+            leaf || (uses[position] == 1 && !elsewhere[position])
+        });
+        let inlined = inlined.collect();
+        Function { emitter: self, code: &code, statements, inlined }.steps(&steps)
+    }
+
+    /// Operation counts of the same body, loop nest by loop nest.
+    pub(crate) fn operations(&self, statements: &[Statement]) -> Vec<Operations> {
+        let (code, values) = select(self.graph, statements);
+        let steps = schedule(&code, statements, &values);
+        let mut counted = vec![Operations::default()];
+        count_operations(&code, &steps, &[], &mut counted);
+        counted.retain(|o| o.additions + o.multiplications + o.divisions + o.calls > 0);
+        counted
+    }
+
+    /// An index as an expression of type `usize`; negative intermediate values do not occur.
+    pub(crate) fn index(&self, index: &Index) -> TokenStream {
+        self.difference(index, &quote!(wrapping_sub))
+    }
+
+    /// The bound of a range: a negative one is zero.
+    fn range_bound(&self, index: &Index) -> TokenStream {
+        self.difference(index, &quote!(saturating_sub))
+    }
+
+    fn difference(&self, index: &Index, subtract: &TokenStream) -> TokenStream {
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for (atom, coefficient) in &index.terms {
+            let atom = self.atom(atom);
+            let factor = plain(coefficient.abs());
+            let term = if coefficient.abs() == 1 { atom } else { quote!(#factor * #atom) };
+            if *coefficient > 0 { above.push(term) } else { below.push(term) }
+        }
+        let constant = plain(index.constant.abs());
+        match index.constant {
+            0 if !above.is_empty() => {}
+            0.. => above.push(quote!(#constant)),
+            _ => below.push(quote!(#constant)),
+        }
+        let above = if above.is_empty() { quote!(0usize) } else { quote!(#(#above)+*) };
+        if below.is_empty() { above } else { quote!((#above).#subtract(#(#below)+*)) }
+    }
+
+    fn atom(&self, atom: &Atom) -> TokenStream {
+        match atom {
+            Atom::Bound(level) => {
+                let bound = bound(*level);
+                quote!(#bound)
+            }
+            Atom::Size(size) => self.size(size.0),
+            Atom::Remainder(value, modulus) => {
+                let krate = self.krate();
+                let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
+                quote!(#krate::__private::wrap(#value, #modulus))
+            }
+        }
+    }
+
+    pub(crate) fn size(&self, size: u32) -> TokenStream {
+        self.model.sizes[size as usize].tokens.clone()
+    }
+
+    /// An index as an expression of type `i64`.
+    pub(crate) fn signed_index(&self, index: &Index) -> TokenStream {
+        let krate = self.krate();
+        let mut terms =
+            vec![Literal::i64_suffixed(index.constant)].into_iter().map(|c| quote!(#c)).collect::<Vec<_>>();
+        for (atom, coefficient) in &index.terms {
+            let atom = match atom {
+                Atom::Remainder(value, modulus) => {
+                    let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
+                    quote!(#krate::__private::remainder(#value, #modulus))
+                }
+                other => {
+                    let value = self.atom(other);
+                    quote!((#value as i64))
+                }
+            };
+            let coefficient = Literal::i64_suffixed(*coefficient);
+            terms.push(quote!(#coefficient * #atom));
+        }
+        quote!((#(#terms)+*))
+    }
+
+    pub(crate) fn range(&self, binder: &Binder) -> TokenStream {
+        let (lower, upper) = (self.range_bound(&binder.lower), self.range_bound(&binder.upper));
+        quote!((#lower)..(#upper))
+    }
+
+    pub(crate) fn loop_over(&self, binder: &Binder, body: &TokenStream) -> TokenStream {
+        let (index, range) = (bound(binder.level), self.range(binder));
+        let except = binder.except.as_ref().map(|except| {
+            let except = self.index(except);
+            quote!(if #index == #except { continue; })
+        });
+        quote!(for #index in #range { #except #body })
+    }
+}
+
+/// Counts the uses of each register, and notes those whose use is in another scope.
+fn count_uses(
+    code: &Instructions,
+    steps: &[Step],
+    uses: &mut [u32],
+    elsewhere: &mut [bool],
+) -> Vec<Register> {
+    let mut used = Vec::new();
+    let mut defined = Vec::new();
+    for step in steps {
+        match step {
+            Step::Let(register) => {
+                defined.push(*register);
+                used.extend(code.get(*register).operands());
+            }
+            Step::Write(_, value) => used.push(value.register),
+            Step::Loop { sums, body, .. } => {
+                defined.extend(sums.iter().map(|(result, _)| *result));
+                let inner = count_uses(code, body, uses, elsewhere);
+                inner.into_iter().chain(sums.iter().map(|(_, body)| *body)).for_each(|register| {
+                    elsewhere[register.0 as usize] = true;
+                });
+            }
+        }
+    }
+    used.iter().for_each(|register| uses[register.0 as usize] += 1);
+    used.retain(|register| !defined.contains(register));
+    used
+}
+
+fn count_operations(code: &Instructions, steps: &[Step], loops: &[Binder], counted: &mut Vec<Operations>) {
+    let mut here = Operations { loops: loops.to_vec(), ..Operations::default() };
+    for step in steps {
+        match step {
+            Step::Let(register) => match code.get(*register) {
+                Instruction::Sum(terms) => here.additions += terms.len() - 1,
+                Instruction::Multiply(..) => here.multiplications += 1,
+                Instruction::Divide(..) => here.divisions += 1,
+                Instruction::Unary(..)
+                | Instruction::Binary(..)
+                | Instruction::Power(..)
+                | Instruction::Call(..) => {
+                    here.calls += 1;
+                }
+                _ => {}
+            },
+            Step::Loop { binder, sums, body } => {
+                let inside: Vec<Binder> = loops.iter().chain([binder]).cloned().collect();
+                count_operations(code, body, &inside, counted);
+                if let Some(inner) = counted.iter_mut().find(|operations| operations.loops == inside) {
+                    inner.additions += sums.len();
+                }
+            }
+            // A scatter adds; a returned value does not.
+            Step::Write(..) => here.additions += usize::from(!loops.is_empty()),
+        }
+    }
+    match counted.iter_mut().find(|operations| operations.loops == here.loops) {
+        Some(known) => {
+            known.additions += here.additions;
+            known.multiplications += here.multiplications;
+            known.divisions += here.divisions;
+            known.calls += here.calls;
+        }
+        None => counted.push(here),
+    }
+}
+
+impl Function<'_> {
+    fn steps(&self, steps: &[Step]) -> TokenStream {
+        steps.iter().map(|step| self.step(step)).collect()
+    }
+
+    fn step(&self, step: &Step) -> TokenStream {
+        match step {
+            Step::Let(register) if self.inlined[register.0 as usize] => TokenStream::new(),
+            Step::Let(register) => {
+                let (name, value) = (name(*register), self.instruction(*register));
+                quote!(let #name = #value;)
+            }
+            Step::Loop { binder, sums, body } => {
+                let krate = self.emitter.krate();
+                let names: Vec<Ident> = sums.iter().map(|(result, _)| name(*result)).collect();
+                let bodies = sums.iter().map(|(_, body)| self.register(*body));
+                let inner = self.steps(body);
+                let body = quote!(#inner #(#names += #bodies;)*);
+                let repeated = self.emitter.loop_over(binder, &body);
+                quote! {
+                    #(let mut #names = <__T as #krate::Scalar>::lift(-0.0);)*
+                    #repeated
+                }
+            }
+            Step::Write(statement, value) => self.write(&self.statements[*statement].place, *value),
+        }
+    }
+
+    fn write(&self, place: &Place, value: Signed) -> TokenStream {
+        let target = match place {
+            Place::Result => return self.signed(value),
+            Place::Entry(output, coordinate) => {
+                let array =
+                    format_ident!("{}", output_block(*output, coordinate.block), span = Span::mixed_site());
+                let index = self.emitter.index(&coordinate.index);
+                quote!(#array[#index])
+            }
+            Place::MatrixEntry(row, column) => {
+                let (row, column) = (self.flat(row), self.flat(column));
+                quote!(__matrix[(#row) * __dimension + #column])
+            }
+        };
+        let register = self.register(value.register);
+        if value.negative { quote!(#target -= #register;) } else { quote!(#target += #register;) }
+    }
+
+    /// The position of a coordinate in a flat slice.
+    fn flat(&self, coordinate: &Coordinate) -> TokenStream {
+        let offset = local(format_args!("offset{}", coordinate.block));
+        let index = self.emitter.index(&coordinate.index);
+        quote!(#offset + #index)
+    }
+
+    fn register(&self, register: Register) -> TokenStream {
+        if self.inlined[register.0 as usize] {
+            let value = self.instruction(register);
+            match self.code.get(register) {
+                Instruction::Leaf(_) | Instruction::Literal(_) | Instruction::Reduce(..) => value,
+                _ => quote!((#value)),
+            }
+        } else {
+            let name = name(register);
+            quote!(#name)
+        }
+    }
+
+    fn signed(&self, value: Signed) -> TokenStream {
+        let register = self.register(value.register);
+        if value.negative { quote!((-#register)) } else { register }
+    }
+
+    fn instruction(&self, register: Register) -> TokenStream {
+        let krate = self.emitter.krate();
+        let scalar = quote!(<__T as #krate::Scalar>);
+        match self.code.get(register) {
+            Instruction::Leaf(id) => self.emitter.leaf(*id),
+            Instruction::Literal(bits) => {
+                let value = literal(f64::from_bits(*bits));
+                quote!(#scalar::lift(#value))
+            }
+            Instruction::Multiply(a, b) => {
+                let (a, b) = (self.register(*a), self.register(*b));
+                quote!(#a * #b)
+            }
+            Instruction::Divide(a, b) => {
+                let (a, b) = (self.register(*a), self.register(*b));
+                quote!(#a / #b)
+            }
+            Instruction::Sum(terms) => self.sum(terms),
+            Instruction::Unary(function, of) => {
+                let (function, of) = (format_ident!("{}", function.name()), self.signed(*of));
+                quote!(#scalar::#function(#of))
+            }
+            Instruction::Binary(function, a, b) => {
+                let (function, a, b) =
+                    (format_ident!("{}", function.name()), self.signed(*a), self.signed(*b));
+                quote!(#scalar::#function(#a, #b))
+            }
+            Instruction::Power(of, exponent) => {
+                let of = self.register(*of);
+                let exponent = Literal::i32_suffixed(i32::try_from(*exponent).unwrap_or(i32::MAX));
+                quote!(#scalar::powi(#of, #exponent))
+            }
+            Instruction::Call(function, order, of) => {
+                let path = &self.emitter.model.functions[*function as usize].derivatives[*order as usize];
+                let of = self.signed(*of);
+                quote!(#path(#of))
+            }
+            Instruction::Choose(left, relation, right, then, otherwise) => {
+                let relation = match relation {
+                    Relation::Less => quote!(Less),
+                    Relation::LessOrEqual => quote!(LessOrEqual),
+                    Relation::Greater => quote!(Greater),
+                    Relation::GreaterOrEqual => quote!(GreaterOrEqual),
+                };
+                let [left, right, then, otherwise] =
+                    [left, right, then, otherwise].map(|part| self.signed(*part));
+                quote!(#scalar::choose(#left, #krate::Comparison::#relation, #right, #then, #otherwise))
+            }
+            Instruction::Reduce(..) => {
+                let name = name(register);
+                quote!(#name)
+            }
+        }
+    }
+
+    /// A positive term first: a − b rather than −b + a.
+    fn sum(&self, terms: &[Signed]) -> TokenStream {
+        let mut order: Vec<&Signed> = terms.iter().collect();
+        order.sort_by_key(|term| term.negative);
+        let mut tokens = self.signed(*order[0]);
+        for term in &order[1..] {
+            let value = self.register(term.register);
+            tokens = if term.negative { quote!(#tokens - #value) } else { quote!(#tokens + #value) };
+        }
+        tokens
+    }
+}
+
+impl Emitter<'_> {
+    fn leaf(&self, id: crate::symbolic::Id) -> TokenStream {
+        let krate = self.krate();
+        match self.graph.node(id) {
+            Node::Coordinate(coordinate) => self.gather("q", coordinate),
+            Node::Velocity(coordinate) => self.gather("v", coordinate),
+            Node::Parameter(parameter) => {
+                let place = self.parameter(parameter);
+                quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place)))
+            }
+            Node::Count(index) => {
+                let index = self.signed_index(index);
+                quote!(<__T as #krate::Scalar>::lift(#index as f64))
+            }
+            Node::Weight(weight) => match weight {
+                Weight::Qq => quote!(__w.qq),
+                Weight::Qv => quote!(__w.qv),
+                Weight::Vq => quote!(__w.vq),
+                Weight::Vv => quote!(__w.vv),
+                Weight::A => quote!(__a),
+                Weight::B => quote!(__b),
+            },
+            _ => quote!(__t),
+        }
+    }
+
+    fn gather(&self, array: &str, coordinate: &Coordinate) -> TokenStream {
+        let array = local(format_args!("{array}{}", coordinate.block));
+        let index = self.index(&coordinate.index);
+        quote!(#array[#index])
+    }
+
+    fn parameter(&self, parameter: &Parameter) -> TokenStream {
+        let place = &self.model.parameters[parameter.field as usize];
+        let (tokens, indices) = (&place.tokens, parameter.indices.iter().map(|index| self.index(index)));
+        let indexed = quote!(#tokens #([#indices])*);
+        // A place of type `&f64` or `&[f64]` stays one; numbers are `Copy`.
+        if place.shape == Shape::Number || !parameter.indices.is_empty() {
+            quote!(#indexed)
+        } else {
+            quote!(#tokens)
+        }
+    }
+}
+
+pub(crate) fn output_block(output: Output, block: u32) -> String {
+    match output {
+        Output::Lq => format!("__l_q{block}"),
+        Output::Lv => format!("__l_v{block}"),
+        Output::Vector => format!("__vector{block}"),
+    }
+}
+
+fn literal(value: f64) -> TokenStream {
+    if value.is_finite() {
+        let literal = Literal::f64_suffixed(value);
+        quote!(#literal)
+    } else if value.is_nan() {
+        quote!(f64::NAN)
+    } else {
+        quote!(f64::INFINITY)
+    }
+}

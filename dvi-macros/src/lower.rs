@@ -1,0 +1,411 @@
+//! Formulas to graph: the last stage that can fail.
+//!
+//! A formula is a Rust expression, admitted node by node. Each mistake is reported on the
+//! sub-expression at fault; `None` stands for an expression that was reported, and silences everything
+//! above it while its siblings are still read.
+
+use std::collections::{HashMap, HashSet};
+
+use syn::visit::Visit;
+use syn::{BinOp, Expr as Syntax, ExprBlock, ExprIf, Ident, Lit, Pat, Stmt, UnOp};
+
+use crate::errors::{Errors, listed, nearest};
+use crate::model::{Model, Shape};
+use crate::symbolic::{Binder, Expr, Graph, Id, Index, Node, Parameter, Relation};
+
+mod affine;
+mod calls;
+mod names;
+mod sums;
+mod unsupported;
+
+/// What a formula is for; it decides whether velocities may stand in it and how they are written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Role {
+    OneForm,
+    Component,
+    Hamiltonian,
+    Lagrangian,
+    Momentum,
+}
+
+impl Role {
+    fn name(self) -> &'static str {
+        match self {
+            Self::OneForm => "the one-form",
+            Self::Component => "a component of the one-form",
+            Self::Hamiltonian => "the Hamiltonian",
+            Self::Lagrangian => "the Lagrangian",
+            Self::Momentum => "a momentum",
+        }
+    }
+}
+
+/// What a name of an inner scope stands for.
+#[derive(Clone, Debug)]
+enum Binding {
+    Value(Option<Expr>),
+    /// An index with its largest and smallest value where the range is literal.
+    Index {
+        level: u32,
+        range: Option<(i64, i64)>,
+    },
+}
+
+pub(crate) struct Lowering<'a> {
+    pub(crate) graph: &'a mut Graph,
+    pub(crate) model: &'a mut Model,
+    pub(crate) errors: &'a mut Errors,
+    role: Role,
+    scope: Vec<(String, Binding)>,
+    level: u32,
+    depth: u32,
+    /// Names that some closure of the formula binds, to recognise an index outside of its sum.
+    index_names: HashSet<String>,
+    degrees: HashMap<Id, u8>,
+}
+
+const DEEPEST: u32 = 500;
+const DEEPEST_SUM: u32 = 24;
+
+struct IndexNames(HashSet<String>);
+
+impl<'ast> Visit<'ast> for IndexNames {
+    fn visit_expr_closure(&mut self, closure: &'ast syn::ExprClosure) {
+        for input in &closure.inputs {
+            if let Pat::Ident(pattern) = input {
+                self.0.insert(pattern.ident.to_string());
+            }
+        }
+        syn::visit::visit_expr_closure(self, closure);
+    }
+}
+
+impl<'a> Lowering<'a> {
+    pub(crate) fn new(graph: &'a mut Graph, model: &'a mut Model, errors: &'a mut Errors) -> Self {
+        Self {
+            graph,
+            model,
+            errors,
+            role: Role::Hamiltonian,
+            scope: Vec::new(),
+            level: 0,
+            depth: 0,
+            index_names: HashSet::new(),
+            degrees: HashMap::new(),
+        }
+    }
+
+    pub(crate) fn formula(&mut self, formula: &Syntax, role: Role) -> Option<Expr> {
+        self.role = role;
+        let mut names = IndexNames(HashSet::new());
+        names.visit_expr(formula);
+        self.index_names = names.0;
+        self.expr(formula)
+    }
+
+    /// A list of components, one for each block: Σ_b Σ_i αᵇᵢ·d(xᵇᵢ).
+    pub(crate) fn components(&mut self, list: &syn::ExprArray) -> Option<Expr> {
+        let expected = self.model.blocks.len();
+        if list.elems.len() != expected {
+            let names = listed(
+                self.model
+                    .blocks
+                    .iter()
+                    .map(|b| b.name.to_string())
+                    .collect::<Vec<_>>()
+                    .iter()
+                    .map(String::as_str),
+            );
+            let message = format!(
+                "the one-form has {} components, but there are {expected} coordinates: write one for each of {names}",
+                list.elems.len()
+            );
+            self.errors.push(list, message);
+            return None;
+        }
+        let terms: Vec<Option<Expr>> = list
+            .elems
+            .iter()
+            .enumerate()
+            .map(|(block, component)| self.component(block, component))
+            .collect();
+        let terms: Vec<Expr> = terms.into_iter().collect::<Option<_>>()?;
+        Some(self.graph.sum(&terms))
+    }
+
+    fn component(&mut self, block: usize, component: &Syntax) -> Option<Expr> {
+        let name = self.model.blocks[block].name.clone();
+        match (self.model.blocks[block].array.clone(), component) {
+            (None, Syntax::Closure(_)) => {
+                self.errors.push(
+                    component,
+                    format!("`{name}` is a single coordinate: write its component without `|…|`"),
+                );
+                None
+            }
+            (None, _) => {
+                let value = self.formula(component, Role::Component)?;
+                let velocity = self.velocity_node(block, Index::literal(0));
+                Some(self.graph.multiply(value, velocity))
+            }
+            (Some((size, _)), Syntax::Closure(closure)) => {
+                self.role = Role::Component;
+                let [index] = self.closure_indices::<1>(closure)?;
+                let binder = Binder { level: 0, lower: Index::literal(0), upper: size, except: None };
+                let body = self.inside(&[(index, &binder)], &closure.body)?;
+                let velocity = self.velocity_node(block, Index::bound(0));
+                let term = self.graph.multiply(body, velocity);
+                Some(self.graph.reduce(binder, term))
+            }
+            (Some(_), _) => {
+                self.errors.push(
+                    component,
+                    format!("`{name}` is an array: write its component as `|i| …`, for entry i"),
+                );
+                None
+            }
+        }
+    }
+
+    fn velocity_node(&mut self, block: usize, index: Index) -> Expr {
+        let coordinate = crate::symbolic::Coordinate { block: block as u32, index };
+        self.graph.intern(Node::Velocity(coordinate)).into()
+    }
+
+    fn expr(&mut self, syntax: &Syntax) -> Option<Expr> {
+        if self.depth >= DEEPEST {
+            self.errors.push_once(
+                "depth",
+                syntax,
+                "this formula is nested too deeply; give its parts names with `let`",
+            );
+            return None;
+        }
+        self.depth += 1;
+        let value = self.expr_inside(syntax);
+        self.depth -= 1;
+        value
+    }
+
+    fn expr_inside(&mut self, syntax: &Syntax) -> Option<Expr> {
+        match syntax {
+            Syntax::Lit(literal) => self.literal(&literal.lit),
+            Syntax::Paren(inner) => self.expr(&inner.expr),
+            Syntax::Group(inner) => self.expr(&inner.expr),
+            Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+                Some(self.expr(&unary.expr)?.negated())
+            }
+            Syntax::Binary(binary) => self.binary(binary),
+            Syntax::Path(path) => self.path(&path.path),
+            Syntax::Field(field) => self.field(field),
+            Syntax::Index(_) => self.indexed(syntax),
+            Syntax::MethodCall(call) => self.method(call),
+            Syntax::Call(call) => self.call(call),
+            Syntax::Cast(cast) => self.cast(cast),
+            Syntax::Block(block) => self.block(block),
+            Syntax::If(choice) => self.choice(choice),
+            other => {
+                self.unsupported(other);
+                None
+            }
+        }
+    }
+
+    fn literal(&mut self, literal: &Lit) -> Option<Expr> {
+        let value = match literal {
+            Lit::Float(value) => value.base10_parse::<f64>().ok(),
+            Lit::Int(value) => value.base10_parse::<u64>().ok().map(|value| value as f64),
+            _ => None,
+        };
+        if value.is_none() {
+            self.errors.push(literal, "expected a number");
+        }
+        value.map(Expr::number)
+    }
+
+    fn binary(&mut self, syntax: &syn::ExprBinary) -> Option<Expr> {
+        let (left, right) = (self.expr(&syntax.left), self.expr(&syntax.right));
+        let whole = Syntax::Binary(syntax.clone());
+        match syntax.op {
+            BinOp::Add(_) | BinOp::Sub(_) => {
+                let (left, right) = (left?, right?);
+                self.check_homogeneous((&syntax.left, left), (&syntax.right, right))?;
+                let right = if matches!(syntax.op, BinOp::Sub(_)) { right.negated() } else { right };
+                Some(self.graph.add(left, right))
+            }
+            BinOp::Mul(_) => {
+                let value = self.graph.multiply(left?, right?);
+                self.affine(&whole, value)
+            }
+            BinOp::Div(_) => {
+                let (left, right) = (left?, right?);
+                if right.is_zero() {
+                    self.errors.push(&syntax.right, "division by zero");
+                    return None;
+                }
+                let value = self.graph.divide(left, right);
+                self.affine(&whole, value)
+            }
+            _ => {
+                self.unsupported(&whole);
+                None
+            }
+        }
+    }
+
+    /// `value as f64`: numbers pass, and an index becomes a number.
+    fn cast(&mut self, cast: &syn::ExprCast) -> Option<Expr> {
+        let is_float = matches!(&*cast.ty, syn::Type::Path(path) if path.path.is_ident("f64") || path.path.is_ident("f32"));
+        if !is_float {
+            self.errors.push(&cast.ty, "formulas are real: only `as f64` is possible here");
+            return None;
+        }
+        if self.is_index(&cast.expr) {
+            let index = self.index(&cast.expr)?;
+            return Some(self.graph.count(index));
+        }
+        self.expr(&cast.expr)
+    }
+
+    fn block(&mut self, block: &ExprBlock) -> Option<Expr> {
+        self.statements(&block.block)
+    }
+
+    /// `{ let a = …; let b = …; value }`
+    fn statements(&mut self, block: &syn::Block) -> Option<Expr> {
+        let outside = self.scope.len();
+        let mut value = None;
+        let mut ended = false;
+        for (position, statement) in block.stmts.iter().enumerate() {
+            match statement {
+                Stmt::Local(local) => self.binding(local),
+                Stmt::Expr(expr, None) if position + 1 == block.stmts.len() => {
+                    ended = true;
+                    value = self.expr(expr);
+                }
+                other => {
+                    ended = true;
+                    self.errors.push_once(
+                        "statement",
+                        other,
+                        "a block of a formula holds `let` bindings and ends with its value",
+                    );
+                }
+            }
+        }
+        if !ended {
+            self.errors.push(block, "this block has no value: end it with an expression, without `;`");
+        }
+        self.scope.truncate(outside);
+        value
+    }
+
+    fn binding(&mut self, local: &syn::Local) {
+        let value = match &local.init {
+            Some(init) if init.diverge.is_none() => self.expr(&init.expr),
+            _ => {
+                self.errors.push(local, "write `let name = value;`");
+                None
+            }
+        };
+        let pattern = match &local.pat {
+            Pat::Type(typed) => &*typed.pat,
+            other => other,
+        };
+        match pattern {
+            Pat::Ident(name) if name.by_ref.is_none() && name.subpat.is_none() => {
+                self.scope.push((name.ident.to_string(), Binding::Value(value)));
+            }
+            other => self.errors.push(other, "write `let name = value;`: a formula binds one name at a time"),
+        }
+    }
+
+    /// `if a < b { value } else { value }`
+    fn choice(&mut self, choice: &ExprIf) -> Option<Expr> {
+        let then = self.statements(&choice.then_branch);
+        let Some((_, otherwise)) = &choice.else_branch else {
+            self.errors.push(choice, "an `if` of a formula needs its `else` branch");
+            return None;
+        };
+        let otherwise = self.expr(otherwise);
+        self.condition(&choice.cond, then, otherwise)
+    }
+
+    fn condition(&mut self, condition: &Syntax, then: Option<Expr>, otherwise: Option<Expr>) -> Option<Expr> {
+        match condition {
+            Syntax::Paren(inner) => self.condition(&inner.expr, then, otherwise),
+            Syntax::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => {
+                self.condition(&unary.expr, otherwise, then)
+            }
+            Syntax::Binary(binary) => {
+                let relation = match binary.op {
+                    BinOp::Lt(_) => Relation::Less,
+                    BinOp::Le(_) => Relation::LessOrEqual,
+                    BinOp::Gt(_) => Relation::Greater,
+                    BinOp::Ge(_) => Relation::GreaterOrEqual,
+                    BinOp::And(_) => {
+                        let inner = self.condition(&binary.right, then, otherwise);
+                        return self.condition(&binary.left, inner, otherwise);
+                    }
+                    BinOp::Or(_) => {
+                        let inner = self.condition(&binary.right, then, otherwise);
+                        return self.condition(&binary.left, then, inner);
+                    }
+                    _ => {
+                        self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
+                        return None;
+                    }
+                };
+                let (left, right) = (self.expr(&binary.left), self.expr(&binary.right));
+                let value = self.graph.choose(left?, relation, right?, then?, otherwise?);
+                self.affine(condition, value)
+            }
+            _ => {
+                self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
+                None
+            }
+        }
+    }
+
+    fn binding_of(&self, name: &str) -> Option<&Binding> {
+        self.scope.iter().rev().find(|(known, _)| known == name).map(|(_, binding)| binding)
+    }
+
+    fn parameter(&mut self, name: &Ident) -> Option<u32> {
+        self.model
+            .parameters
+            .iter()
+            .position(|parameter| *name == parameter.text)
+            .map(|position| position as u32)
+    }
+
+    fn parameter_node(&mut self, field: u32, indices: Vec<Index>) -> Expr {
+        self.graph.intern(Node::Parameter(Parameter { field, indices })).into()
+    }
+
+    /// The declared name nearest to an unknown one, as the end of a sentence.
+    fn suggestion(&self, name: &str) -> String {
+        let mut declared: Vec<String> =
+            self.model.blocks.iter().map(|block| block.name.to_string()).collect();
+        declared.extend(self.model.parameters.iter().map(|parameter| parameter.text.clone()));
+        declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));
+        declared.extend(self.scope.iter().map(|(name, _)| name.clone()));
+        declared.extend(names::CONSTANTS.iter().map(|(name, _)| (*name).to_string()));
+        match nearest(name, declared.iter().map(String::as_str)) {
+            Some(near) => format!("; did you mean `{near}`?"),
+            None => {
+                let coordinates: Vec<&str> =
+                    declared.iter().take(self.model.blocks.len()).map(String::as_str).collect();
+                format!(
+                    "; a formula may use the coordinates {}, the fields of the struct, constants such as `PI`, and `t`",
+                    listed(coordinates)
+                )
+            }
+        }
+    }
+
+    fn shape_of(&self, field: u32) -> Shape {
+        self.model.parameters[field as usize].shape
+    }
+}

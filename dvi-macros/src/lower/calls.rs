@@ -1,0 +1,195 @@
+//! Functions: methods of numbers, velocities, and the user's own.
+
+use syn::{Expr as Syntax, ExprCall, ExprMethodCall};
+
+use super::{Lowering, Role};
+use crate::errors::{listed, nearest};
+use crate::symbolic::{Binary, Expr, Node, binary_by_name, unary_by_name, unary_names};
+
+/// Methods that are arithmetic rather than functions of the table, with their number of arguments.
+const ARITHMETIC: [(&str, usize); 5] =
+    [("powi", 1), ("recip", 0), ("mul_add", 2), ("to_radians", 0), ("to_degrees", 0)];
+
+impl Lowering<'_> {
+    pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Expr> {
+        let name = call.method.to_string();
+        let Some(arity) = arity(&name) else {
+            self.unknown_function(&call.method, &name);
+            for argument in &call.args {
+                self.expr(argument);
+            }
+            return None;
+        };
+        if call.args.len() != arity {
+            let message = format!("`{name}` takes {}, here are {}", arguments(arity), call.args.len());
+            self.errors.push(&call.method, message);
+            return None;
+        }
+        let receiver = self.expr(&call.receiver);
+        let whole = Syntax::MethodCall(call.clone());
+        if name == "powi" {
+            let exponent = self.integer(&call.args[0]);
+            let (receiver, exponent) = (receiver?, exponent?);
+            let value = self.graph.powi(receiver, exponent);
+            return self.affine(&whole, value);
+        }
+        let arguments: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
+        let arguments: Vec<Expr> = arguments.into_iter().collect::<Option<_>>()?;
+        let value = self.apply(&name, receiver?, &arguments);
+        self.affine(&whole, value)
+    }
+
+    fn apply(&mut self, name: &str, x: Expr, arguments: &[Expr]) -> Expr {
+        if let Some(function) = unary_by_name(name) {
+            return self.graph.unary(function, x);
+        }
+        if let Some(function) = binary_by_name(name) {
+            return self.graph.binary(function, x, arguments[0]);
+        }
+        match name {
+            "mul_add" => {
+                let product = self.graph.multiply(x, arguments[0]);
+                self.graph.add(product, arguments[1])
+            }
+            "to_radians" => x.scaled(std::f64::consts::PI / 180.0),
+            "to_degrees" => x.scaled(180.0 / std::f64::consts::PI),
+            _ => self.graph.reciprocal(x),
+        }
+    }
+
+    /// A literal exponent.
+    fn integer(&mut self, syntax: &Syntax) -> Option<i32> {
+        let value = self.literal_index(syntax).and_then(|value| i32::try_from(value).ok());
+        if value.is_none_or(|value| value.unsigned_abs() > 4096) {
+            self.errors.push(
+                syntax,
+                "`powi` takes a literal integer exponent of moderate size; `powf` takes any expression",
+            );
+            return None;
+        }
+        value
+    }
+
+    pub(super) fn call(&mut self, call: &ExprCall) -> Option<Expr> {
+        let Syntax::Path(path) = &*call.func else {
+            self.unsupported(&call.func);
+            return None;
+        };
+        let Some(name) = path.path.get_ident().map(ToString::to_string) else {
+            return self.path_call(call, &path.path);
+        };
+        match name.as_str() {
+            "sum" | "sum_pairs" | "sum_ordered_pairs" => self.sum(&name, call),
+            "d" | "dot" => self.velocity(&name, call),
+            _ => self.own_function(&name, call),
+        }
+    }
+
+    /// `f64::sin(x)` is `x.sin()`.
+    fn path_call(&mut self, call: &ExprCall, path: &syn::Path) -> Option<Expr> {
+        let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+        match (segments.as_slice(), call.args.first()) {
+            ([float, method], Some(receiver)) if float == "f64" || float == "f32" => {
+                let method = syn::Ident::new(method, path.segments[1].ident.span());
+                let rest = call.args.iter().skip(1);
+                self.method(&syn::parse_quote!((#receiver).#method(#(#rest),*)))
+            }
+            _ => {
+                let message = "a function of a formula is declared as `functions(f = [path, derivative, second_derivative])` \
+                               and called by its name";
+                self.errors.push(path, message);
+                None
+            }
+        }
+    }
+
+    fn own_function(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
+        let Some(function) = self.model.functions.iter().position(|function| function.name == name) else {
+            if arity(name).is_some() {
+                self.errors.push(&call.func, format!("functions are written as methods: `x.{name}()`"));
+            } else {
+                self.unknown_function(&call.func, name);
+            }
+            return None;
+        };
+        if call.args.len() != 1 {
+            self.errors
+                .push(&call.func, format!("`{name}` takes one argument, here are {}", call.args.len()));
+            return None;
+        }
+        let argument = self.expr(&call.args[0])?;
+        let value = self.graph.call(function as u32, 0, argument);
+        self.affine(&Syntax::Call(call.clone()), value)
+    }
+
+    fn unknown_function(&mut self, at: &impl quote::ToTokens, name: &str) {
+        let own: Vec<String> =
+            self.model.functions.iter().map(|function| function.name.to_string()).collect();
+        let mut known: Vec<&str> = unary_names().collect();
+        known.extend(ARITHMETIC.iter().map(|(name, _)| *name));
+        known.extend(["sum", "sum_pairs", "sum_ordered_pairs", "d", "dot"]);
+        known.extend(own.iter().map(String::as_str));
+        let near = nearest(name, known.iter().copied())
+            .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        self.errors.push(at, format!("unknown function `{name}`{near}\nthe functions are {}", listed(known)));
+    }
+
+    /// `d(x)` in a one-form, `dot(x)` in a Lagrangian.
+    fn velocity(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
+        let wanted = match self.role {
+            Role::OneForm => "d",
+            Role::Lagrangian => "dot",
+            role => {
+                let message =
+                    format!("{} is a function of the coordinates: no velocity may stand in it", role.name());
+                self.errors.push(call, message);
+                return None;
+            }
+        };
+        if name != wanted {
+            let message = format!("in {} a velocity is written `{wanted}(x)`", self.role.name());
+            self.errors.push(&call.func, message);
+            return None;
+        }
+        if call.args.len() != 1 {
+            self.errors.push(
+                &call.func,
+                format!("`{name}` takes one coordinate, here are {} arguments", call.args.len()),
+            );
+            return None;
+        }
+        let coordinate = self.expr(&call.args[0])?;
+        match (coordinate.scale == 1.0, self.graph.node(coordinate.node)) {
+            (true, Node::Coordinate(coordinate)) => {
+                let coordinate = coordinate.clone();
+                Some(self.graph.intern(Node::Velocity(coordinate)).into())
+            }
+            _ => {
+                self.errors.push(
+                    &call.args[0],
+                    format!("`{name}` takes a coordinate, as in `{name}(x)` or `{name}(x[j])`"),
+                );
+                None
+            }
+        }
+    }
+}
+
+/// The number of arguments of a method, its receiver not counted.
+fn arity(name: &str) -> Option<usize> {
+    if unary_by_name(name).is_some() {
+        return Some(0);
+    }
+    match binary_by_name(name) {
+        Some(Binary::Atan2 | Binary::Hypot | Binary::Powf) => Some(1),
+        None => ARITHMETIC.iter().find(|(known, _)| *known == name).map(|(_, arity)| *arity),
+    }
+}
+
+fn arguments(arity: usize) -> String {
+    match arity {
+        0 => "no argument".into(),
+        1 => "one argument".into(),
+        many => format!("{many} arguments"),
+    }
+}

@@ -1,0 +1,192 @@
+//! Names: coordinates, parameters, constants, time; and indices into arrays.
+
+use std::f64::consts;
+
+use syn::{Expr as Syntax, ExprField, Path};
+
+use super::{Binding, Lowering};
+use crate::model::Shape;
+use crate::symbolic::{Coordinate, Expr, Index, Node};
+
+#[rustfmt::skip]
+pub(super) const CONSTANTS: [(&str, f64); 8] = [
+    ("PI",          consts::PI),
+    ("TAU",         consts::TAU),
+    ("E",           consts::E),
+    ("SQRT_2",      consts::SQRT_2),
+    ("LN_2",        consts::LN_2),
+    ("LN_10",       consts::LN_10),
+    ("FRAC_PI_2",   consts::FRAC_PI_2),
+    ("FRAC_1_PI",   consts::FRAC_1_PI),
+];
+
+impl Lowering<'_> {
+    pub(super) fn path(&mut self, path: &Path) -> Option<Expr> {
+        let Some(ident) = path.get_ident() else {
+            let last = path.segments.last()?.ident.to_string();
+            let standard = path.segments.iter().any(|segment| segment.ident == "consts");
+            if let Some((_, value)) = CONSTANTS.iter().find(|(name, _)| *name == last && standard) {
+                return Some(Expr::number(*value));
+            }
+            let field = self.model.path_parameter(path);
+            return Some(self.parameter_node(field, Vec::new()));
+        };
+        let name = ident.to_string();
+        match self.binding_of(&name) {
+            Some(Binding::Value(value)) => return *value,
+            Some(Binding::Index { .. }) => {
+                self.errors
+                    .push(path, format!("`{name}` is an index: as a number it is written `{name} as f64`"));
+                return None;
+            }
+            None => {}
+        }
+        if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
+            if self.model.blocks[block].array.is_some() {
+                self.errors.push(path, format!("`{name}` is an array of coordinates: write `{name}[i]`"));
+                return None;
+            }
+            let coordinate = Coordinate { block: block as u32, index: Index::literal(0) };
+            return Some(self.graph.intern(Node::Coordinate(coordinate)).into());
+        }
+        if let Some(field) = self.parameter(ident) {
+            return self.scalar_parameter(path, field);
+        }
+        if let Some(size) = self.model.size(&Syntax::Path(syn::parse_quote!(#path))) {
+            return Some(self.graph.count(size));
+        }
+        if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
+            return Some(Expr::number(*value));
+        }
+        if name == "t" {
+            return Some(self.graph.intern(Node::Time).into());
+        }
+        if self.index_names.contains(&name) {
+            self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
+        } else {
+            let suggestion = self.suggestion(&name);
+            self.errors.push(path, format!("unknown name `{name}`{suggestion}"));
+        }
+        None
+    }
+
+    fn scalar_parameter(&mut self, at: &impl quote::ToTokens, field: u32) -> Option<Expr> {
+        let name = &self.model.parameters[field as usize].text;
+        match self.shape_of(field) {
+            Shape::Array(_) => {
+                self.errors.push(at, format!("`{name}` is an array of parameters: write `{name}[i]`"));
+                None
+            }
+            Shape::Other => {
+                self.errors.push(at, format!("the field `{name}` is not a number"));
+                None
+            }
+            _ => Some(self.parameter_node(field, Vec::new())),
+        }
+    }
+
+    /// `self.name` is `name`.
+    pub(super) fn field(&mut self, field: &ExprField) -> Option<Expr> {
+        match (&*field.base, &field.member) {
+            (Syntax::Path(base), syn::Member::Named(name)) if base.path.is_ident("self") => {
+                match self.parameter(name) {
+                    Some(parameter) => self.scalar_parameter(field, parameter),
+                    None => {
+                        let suggestion = self.suggestion(&name.to_string());
+                        self.errors.push(name, format!("the struct has no field `{name}`{suggestion}"));
+                        None
+                    }
+                }
+            }
+            _ => {
+                self.unsupported(&Syntax::Field(field.clone()));
+                None
+            }
+        }
+    }
+
+    /// `x[i]`, `gamma[i]`, `coupling[i][j]`.
+    pub(super) fn indexed(&mut self, syntax: &Syntax) -> Option<Expr> {
+        let mut indices = Vec::new();
+        let mut base = syntax;
+        while let Syntax::Index(index) = base {
+            indices.push(&*index.index);
+            base = &index.expr;
+        }
+        indices.reverse();
+        let name = match base {
+            Syntax::Path(path) => path.path.get_ident().cloned(),
+            Syntax::Field(field) => match (&*field.base, &field.member) {
+                (Syntax::Path(path), syn::Member::Named(name)) if path.path.is_ident("self") => {
+                    Some(name.clone())
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+        let Some(name) = name else {
+            self.errors.push(base, "only coordinates and fields of the struct take an index");
+            return None;
+        };
+        let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
+        if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
+            return self.indexed_coordinate(syntax, block, &indices, lowered);
+        }
+        let Some(field) = self.parameter(&name) else {
+            let suggestion = self.suggestion(&name.to_string());
+            self.errors.push(&name, format!("unknown name `{name}`{suggestion}"));
+            return None;
+        };
+        let lowered: Vec<Index> = lowered.into_iter().collect::<Option<_>>()?;
+        match self.shape_of(field) {
+            Shape::Array(Some(length)) => {
+                self.check_range(indices[0], &lowered[0], length, &name.to_string())?;
+            }
+            Shape::Array(None) | Shape::Unknown => {}
+            _ => {
+                self.errors.push(syntax, format!("`{name}` is a single number: it takes no index"));
+                return None;
+            }
+        }
+        Some(self.parameter_node(field, lowered))
+    }
+
+    fn indexed_coordinate(
+        &mut self,
+        syntax: &Syntax,
+        block: usize,
+        indices: &[&Syntax],
+        lowered: Vec<Option<Index>>,
+    ) -> Option<Expr> {
+        let name = self.model.blocks[block].name.to_string();
+        if self.model.blocks[block].array.is_none() {
+            self.errors.push(syntax, format!("`{name}` is a single coordinate: it takes no index"));
+            return None;
+        }
+        let [Some(index)] = lowered.as_slice() else {
+            if lowered.len() > 1 {
+                self.errors.push(syntax, format!("`{name}` takes one index"));
+            }
+            return None;
+        };
+        if let Some(size) = self.model.block_size(block).as_literal() {
+            self.check_range(indices[0], index, size, &name)?;
+        }
+        let coordinate = Coordinate { block: block as u32, index: index.clone() };
+        Some(self.graph.intern(Node::Coordinate(coordinate)).into())
+    }
+
+    /// Reports an index that is known to leave 0..length.
+    fn check_range(&mut self, at: &Syntax, index: &Index, length: i64, name: &str) -> Option<()> {
+        let Some((least, largest)) = self.extent(index) else { return Some(()) };
+        let outside = if least < 0 { least } else { largest };
+        if (0..length).contains(&outside) {
+            return Some(());
+        }
+        self.errors.push(
+            at,
+            format!("index {outside} is out of range: `{name}` has {length} entries, 0 to {}", length - 1),
+        );
+        None
+    }
+}

@@ -1,0 +1,247 @@
+//! Index sums and index arithmetic.
+
+use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, Pat, RangeLimits, UnOp};
+
+use super::{Binding, DEEPEST_SUM, Lowering};
+use crate::symbolic::{Atom, Binder, Expr, Index};
+
+impl Lowering<'_> {
+    /// `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k, `sum_ordered_pairs` over j ≠ k.
+    pub(super) fn sum(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
+        let pairs = name != "sum";
+        let form = if pairs { format!("{name}(0..n, |j, k| …)") } else { "sum(0..n, |j| …)".to_string() };
+        let (Some(range), Some(Syntax::Closure(closure)), 2) =
+            (call.args.first(), call.args.get(1), call.args.len())
+        else {
+            self.errors.push(call, format!("write `{form}`"));
+            return None;
+        };
+        if self.level + 2 > DEEPEST_SUM {
+            self.errors.push_once("depth of sums", call, "sums are nested too deeply");
+            return None;
+        }
+        let bounds = self.range(range);
+        let level = self.level;
+        if !pairs {
+            let indices = self.closure_indices::<1>(closure);
+            let ((lower, upper), [index]) = (bounds?, indices?);
+            let binder = Binder { level, lower, upper, except: None };
+            let body = self.inside(&[(index, &binder)], &closure.body)?;
+            return Some(self.graph.reduce(binder, body));
+        }
+        let indices = self.closure_indices::<2>(closure);
+        let ((lower, upper), [first, second]) = (bounds?, indices?);
+        let outer = Binder { level, lower: lower.clone(), upper: upper.clone(), except: None };
+        let inner = if name == "sum_pairs" {
+            Binder {
+                level: level + 1,
+                lower: Index::bound(level).plus(&Index::literal(1), 1),
+                upper,
+                except: None,
+            }
+        } else {
+            Binder { level: level + 1, lower, upper, except: Some(Index::bound(level)) }
+        };
+        let body = self.inside(&[(first, &outer), (second, &inner)], &closure.body)?;
+        let body = self.graph.reduce(inner, body);
+        Some(self.graph.reduce(outer, body))
+    }
+
+    /// The body of a closure with its indices bound to these ranges.
+    pub(super) fn inside(&mut self, indices: &[(String, &Binder)], body: &Syntax) -> Option<Expr> {
+        let outside = self.scope.len();
+        for (name, binder) in indices {
+            let range = match (self.extent(&binder.lower), self.extent(&binder.upper)) {
+                (Some((least, _)), Some((_, beyond))) if beyond > least => Some((least, beyond - 1)),
+                _ => None,
+            };
+            self.scope.push((name.clone(), Binding::Index { level: binder.level, range }));
+        }
+        self.level += indices.len() as u32;
+        let value = self.expr(body);
+        self.level -= indices.len() as u32;
+        self.scope.truncate(outside);
+        value
+    }
+
+    pub(super) fn closure_indices<const COUNT: usize>(
+        &mut self,
+        closure: &ExprClosure,
+    ) -> Option<[String; COUNT]> {
+        let names: Vec<String> = closure
+            .inputs
+            .iter()
+            .filter_map(|input| match input {
+                Pat::Ident(pattern) => Some(pattern.ident.to_string()),
+                Pat::Wild(_) => Some("_".to_string()),
+                _ => None,
+            })
+            .collect();
+        let count = names.len();
+        match <[String; COUNT]>::try_from(names) {
+            Ok(names) if closure.inputs.len() == COUNT => Some(names),
+            _ => {
+                let expected = if COUNT == 1 { "one index: `|j| …`" } else { "two indices: `|j, k| …`" };
+                self.errors.push(
+                    closure,
+                    format!("this sum binds {expected}, here are {}", count.max(closure.inputs.len())),
+                );
+                None
+            }
+        }
+    }
+
+    fn range(&mut self, syntax: &Syntax) -> Option<(Index, Index)> {
+        let Syntax::Range(range) = syntax else {
+            self.errors.push(syntax, "expected a range of indices, as in `0..n`");
+            return None;
+        };
+        let lower = match &range.start {
+            Some(start) => self.index(start),
+            None => Some(Index::literal(0)),
+        };
+        let Some(end) = &range.end else {
+            self.errors.push(syntax, "this range has no end: write `0..n`");
+            return None;
+        };
+        let upper = self.index(end);
+        let (lower, upper) = (lower?, upper?);
+        match range.limits {
+            RangeLimits::HalfOpen(_) => Some((lower, upper)),
+            RangeLimits::Closed(_) => Some((lower, upper.plus(&Index::literal(1), 1))),
+        }
+    }
+
+    /// Whether an expression is index arithmetic: it names a bound index or a size.
+    pub(super) fn is_index(&mut self, syntax: &Syntax) -> bool {
+        match syntax {
+            Syntax::Path(path) => match path.path.get_ident().map(ToString::to_string) {
+                Some(name) => match self.binding_of(&name) {
+                    Some(binding) => matches!(binding, Binding::Index { .. }),
+                    None => self.model.size(syntax).is_some(),
+                },
+                None => false,
+            },
+            Syntax::Paren(inner) => self.is_index(&inner.expr),
+            Syntax::Binary(binary) => self.is_index(&binary.left) || self.is_index(&binary.right),
+            Syntax::MethodCall(call) => call.method == "len",
+            _ => false,
+        }
+    }
+
+    /// Sums, differences and literal multiples of indices, sizes and literals; and remainders.
+    pub(super) fn index(&mut self, syntax: &Syntax) -> Option<Index> {
+        match syntax {
+            Syntax::Lit(literal) => match &literal.lit {
+                Lit::Int(value) => match value.base10_parse() {
+                    Ok(value) => return Some(Index::literal(value)),
+                    Err(error) => self.errors.push_syn(error),
+                },
+                _ => self.errors.push(syntax, "an index is an integer"),
+            },
+            Syntax::Paren(inner) => return self.index(&inner.expr),
+            Syntax::Group(inner) => return self.index(&inner.expr),
+            Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+                return Some(self.index(&unary.expr)?.times(-1));
+            }
+            Syntax::Path(path) => {
+                let name = path.path.get_ident().map(ToString::to_string).unwrap_or_default();
+                if let Some(Binding::Index { level, .. }) = self.binding_of(&name) {
+                    return Some(Index::bound(*level));
+                }
+                if let Some(size) = self.model.size(syntax) {
+                    return Some(size);
+                }
+                if self.index_names.contains(&name) {
+                    self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
+                } else {
+                    let suggestion = self.index_suggestion(&name);
+                    self.errors.push(path, format!("`{name}` is not an index{suggestion}"));
+                }
+            }
+            Syntax::MethodCall(_) | Syntax::Field(_) => match self.model.size(syntax) {
+                Some(size) => return Some(size),
+                None => self
+                    .errors
+                    .push(syntax, "expected an index or a size: `field.len()` of an array of the struct"),
+            },
+            Syntax::Binary(binary) => return self.index_arithmetic(binary),
+            other => self
+                .errors
+                .push(other, "expected an index: sums and differences of indices, sizes and integers"),
+        }
+        None
+    }
+
+    fn index_arithmetic(&mut self, binary: &syn::ExprBinary) -> Option<Index> {
+        let (left, right) = (self.index(&binary.left), self.index(&binary.right));
+        let (left, right) = (left?, right?);
+        match binary.op {
+            BinOp::Add(_) => Some(left.plus(&right, 1)),
+            BinOp::Sub(_) => Some(left.plus(&right, -1)),
+            BinOp::Rem(_) => {
+                if right.as_literal().is_some_and(|modulus| modulus < 1) {
+                    self.errors.push(&binary.right, "a remainder is taken by a positive number");
+                    return None;
+                }
+                Some(left.remainder(&right))
+            }
+            BinOp::Mul(_) => match (left.as_literal(), right.as_literal()) {
+                (Some(factor), _) => Some(right.times(factor)),
+                (_, Some(factor)) => Some(left.times(factor)),
+                _ => {
+                    self.errors.push(binary, "an index may be multiplied by a literal only");
+                    None
+                }
+            },
+            _ => {
+                self.errors.push(binary, "index arithmetic knows `+`, `-`, `*` by a literal, and `%`");
+                None
+            }
+        }
+    }
+
+    fn index_suggestion(&self, name: &str) -> String {
+        let bound = self.scope.iter().filter(|(_, binding)| matches!(binding, Binding::Index { .. }));
+        let known: Vec<&str> = bound
+            .map(|(name, _)| name.as_str())
+            .chain(self.model.sizes.iter().map(|size| size.text.as_str()))
+            .collect();
+        crate::errors::nearest(name, known)
+            .map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
+    }
+
+    pub(super) fn literal_index(&mut self, syntax: &Syntax) -> Option<i64> {
+        match syntax {
+            Syntax::Lit(literal) => match &literal.lit {
+                Lit::Int(value) => value.base10_parse().ok(),
+                _ => None,
+            },
+            Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+                self.literal_index(&unary.expr).map(|value| -value)
+            }
+            Syntax::Paren(inner) => self.literal_index(&inner.expr),
+            Syntax::Group(inner) => self.literal_index(&inner.expr),
+            _ => None,
+        }
+    }
+
+    /// The smallest and the largest value of an index, where all ranges in it are literal.
+    pub(super) fn extent(&self, index: &Index) -> Option<(i64, i64)> {
+        index.terms.iter().try_fold(
+            (index.constant, index.constant),
+            |(least, largest), (atom, coefficient)| {
+                let (low, high) = match atom {
+                    Atom::Bound(level) => self.scope.iter().find_map(|(_, binding)| match binding {
+                        Binding::Index { level: known, range } if known == level => *range,
+                        _ => None,
+                    })?,
+                    Atom::Remainder(_, modulus) => (0, modulus.as_literal()? - 1),
+                    Atom::Size(_) => return None,
+                };
+                let ends = (low.checked_mul(*coefficient)?, high.checked_mul(*coefficient)?);
+                Some((least.checked_add(ends.0.min(ends.1))?, largest.checked_add(ends.0.max(ends.1))?))
+            },
+        )
+    }
+}

@@ -1,0 +1,142 @@
+//! Instructions to loops: each one as far outside as it can stand, sums over the same range together.
+//!
+//! A scope is the body of a function or of a loop. It computes what depends on its open indices only
+//! and is needed here or further inside; then it runs its loops. Sums and statements over the same
+//! range share one loop, unless one needs the result of the other.
+
+use crate::instructions::{Instruction, Instructions, Register, Signed};
+use crate::program::Statement;
+use crate::symbolic::Binder;
+
+#[derive(Debug)]
+pub(crate) enum Step {
+    Let(Register),
+    /// Sums `(result, body)` accumulated, and statements carried out, over one range.
+    Loop {
+        binder: Binder,
+        sums: Vec<(Register, Register)>,
+        body: Vec<Step>,
+    },
+    /// Statement number and its value.
+    Write(usize, Signed),
+}
+
+#[derive(Clone, Copy)]
+enum Duty<'a> {
+    Write { statement: usize, loops: &'a [Binder], value: Signed },
+    Sum { body: Register },
+}
+
+impl Duty<'_> {
+    fn register(&self) -> Register {
+        match self {
+            Self::Write { value, .. } => value.register,
+            Self::Sum { body } => *body,
+        }
+    }
+}
+
+struct Group<'a> {
+    entry: usize,
+    binder: &'a Binder,
+    sums: Vec<(Register, Register)>,
+    duties: Vec<Duty<'a>>,
+}
+
+struct Scheduler<'a> {
+    code: &'a Instructions,
+}
+
+pub(crate) fn schedule(code: &Instructions, statements: &[Statement], values: &[Signed]) -> Vec<Step> {
+    let duties: Vec<Duty<'_>> = statements
+        .iter()
+        .zip(values)
+        .enumerate()
+        .map(|(number, (statement, value))| Duty::Write {
+            statement: number,
+            loops: &statement.loops,
+            value: *value,
+        })
+        .collect();
+    Scheduler { code }.scope(0, &vec![false; code.len()], &duties)
+}
+
+impl<'a> Scheduler<'a> {
+    fn scope(&self, open: u64, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Step> {
+        let needed: Vec<Register> = self
+            .code
+            .reachable(duties.iter().map(Duty::register))
+            .into_iter()
+            .filter(|register| !outside[register.0 as usize] && self.code.free(*register) & !open == 0)
+            .collect();
+        let stages = self.stages(&needed);
+        let mut defined = outside.to_vec();
+        needed.iter().for_each(|register| defined[register.0 as usize] = true);
+        let groups = self.groups(&needed, &stages, duties);
+        let last = needed
+            .iter()
+            .map(|r| stages[r.0 as usize])
+            .chain(groups.iter().map(|g| g.entry))
+            .max()
+            .unwrap_or(0);
+        let mut steps = Vec::new();
+        for stage in 0..=last {
+            let here = needed.iter().filter(|register| stages[register.0 as usize] == stage);
+            let values =
+                here.filter(|register| !matches!(self.code.get(**register), Instruction::Reduce(..)));
+            steps.extend(values.map(|register| Step::Let(*register)));
+            for group in groups.iter().filter(|group| group.entry == stage) {
+                let sums = group.sums.iter().map(|(_, body)| Duty::Sum { body: *body });
+                let inside: Vec<Duty<'a>> = sums.chain(group.duties.iter().copied()).collect();
+                let body = self.scope(open | 1 << group.binder.level, &defined, &inside);
+                steps.push(Step::Loop { binder: group.binder.clone(), sums: group.sums.clone(), body });
+            }
+        }
+        steps.extend(duties.iter().filter_map(|duty| match duty {
+            Duty::Write { statement, loops: [], value } => Some(Step::Write(*statement, *value)),
+            _ => None,
+        }));
+        steps
+    }
+
+    /// How many loops of this scope must have run before a register of it is known.
+    fn stages(&self, needed: &[Register]) -> Vec<usize> {
+        let mut stages = vec![0; self.code.len()];
+        for register in needed {
+            stages[register.0 as usize] = match self.code.get(*register) {
+                Instruction::Reduce(_, body) => 1 + self.entry(*body, &stages),
+                other => other.operands().iter().map(|operand| stages[operand.0 as usize]).max().unwrap_or(0),
+            };
+        }
+        stages
+    }
+
+    /// The stage after which everything below `register` that this scope computes is known.
+    fn entry(&self, register: Register, stages: &[usize]) -> usize {
+        self.code.reachable([register]).iter().map(|below| stages[below.0 as usize]).max().unwrap_or(0)
+    }
+
+    fn groups(&self, needed: &[Register], stages: &[usize], duties: &[Duty<'a>]) -> Vec<Group<'a>> {
+        let mut groups: Vec<Group<'a>> = Vec::new();
+        for register in needed {
+            let Instruction::Reduce(binder, body) = self.code.get(*register) else { continue };
+            let entry = stages[register.0 as usize] - 1;
+            match groups.iter_mut().find(|group| group.entry == entry && group.binder == binder) {
+                Some(group) => group.sums.push((*register, *body)),
+                None => {
+                    groups.push(Group { entry, binder, sums: vec![(*register, *body)], duties: Vec::new() });
+                }
+            }
+        }
+        for duty in duties {
+            let Duty::Write { statement, loops: [binder, inner @ ..], value } = *duty else { continue };
+            let entry = self.entry(value.register, stages);
+            let duty = Duty::Write { statement, loops: inner, value };
+            match groups.iter_mut().find(|group| group.entry >= entry && group.binder == binder) {
+                Some(group) => group.duties.push(duty),
+                None => groups.push(Group { entry, binder, sums: Vec::new(), duties: vec![duty] }),
+            }
+        }
+        groups
+    }
+}

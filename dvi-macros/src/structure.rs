@@ -1,0 +1,123 @@
+//! What the compiler can decide about Ω and Dα before any number is known.
+
+use crate::errors::Errors;
+use crate::model::Model;
+use crate::program::dalpha;
+use crate::symbolic::{Binder, Coordinate, Expr, Graph, Index, Node, SecondContribution};
+
+/// The structure of a one-form; see the constants of `dvi_core::DegenerateLagrangian`.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Structure {
+    pub(crate) linear: bool,
+    pub(crate) matching: bool,
+    pub(crate) canonical: bool,
+    /// The partner of each block, where canonical.
+    pub(crate) partners: Vec<usize>,
+    /// Blocks that Ω does not involve.
+    untouched: Vec<usize>,
+}
+
+/// An entry of Ω = (Dα)ᵀ − Dα above its diagonal.
+struct FormEntry {
+    row: Coordinate,
+    column: Coordinate,
+    loops: Vec<Binder>,
+    value: Expr,
+}
+
+pub(crate) fn analyse(graph: &mut Graph, model: &Model, entries: &[SecondContribution]) -> Structure {
+    let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Time);
+    let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, varies));
+    let diagonal = dalpha(graph, entries).iter().any(|(i, j, _)| i == j);
+    let omega = omega(graph, entries);
+    let touched = |block: usize| {
+        omega.iter().any(|entry| entry.row.block as usize == block || entry.column.block as usize == block)
+    };
+    let untouched = (0..model.blocks.len()).filter(|block| !touched(*block)).collect();
+    let partners = partners(model, &omega, &off_diagonal(graph, entries));
+    let canonical = partners.is_some();
+    let matching = canonical && !diagonal;
+    let partners = partners.unwrap_or_else(|| (0..model.blocks.len()).collect());
+    Structure { linear, matching, canonical, partners, untouched }
+}
+
+/// Ω entry by entry: what (i, j) and (j, i) of Dα contribute, cancelled where they are the same formula.
+fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<FormEntry> {
+    let mut omega: Vec<FormEntry> = Vec::new();
+    for (i, j, entry) in dalpha(graph, entries) {
+        if i == j {
+            continue;
+        }
+        let (row, column, value) = if i < j { (i, j, entry.value.negated()) } else { (j, i, entry.value) };
+        let same =
+            |known: &&mut FormEntry| known.row == row && known.column == column && known.loops == entry.loops;
+        match omega.iter_mut().find(same) {
+            Some(known) => known.value = graph.add(known.value, value),
+            None => omega.push(FormEntry { row, column, loops: entry.loops.clone(), value }),
+        }
+    }
+    omega.retain(|entry| !entry.value.is_zero());
+    omega
+}
+
+/// The places of Dα off its diagonal, whether or not they cancel in Ω.
+fn off_diagonal(graph: &Graph, entries: &[SecondContribution]) -> Vec<(u32, u32)> {
+    dalpha(graph, entries).iter().filter(|(i, j, _)| i != j).map(|(i, j, _)| (i.block, j.block)).collect()
+}
+
+/// The partner of each block, if Ω couples block to block, entry by entry.
+fn partners(model: &Model, omega: &[FormEntry], dalpha: &[(u32, u32)]) -> Option<Vec<usize>> {
+    let mut partners: Vec<Option<usize>> = vec![None; model.blocks.len()];
+    for entry in omega {
+        let (row, column) = (entry.row.block as usize, entry.column.block as usize);
+        if row == column || entry.row.index != entry.column.index || !covers(model, row, column, entry) {
+            return None;
+        }
+        for (one, other) in [(row, column), (column, row)] {
+            if partners[one].is_some_and(|known| known != other) {
+                return None;
+            }
+            partners[one] = Some(other);
+        }
+    }
+    let partners: Vec<usize> = partners.into_iter().collect::<Option<_>>()?;
+    dalpha.iter().all(|(i, j)| partners[*i as usize] == *j as usize).then_some(partners)
+}
+
+/// Whether the loops of an entry visit each index of its blocks.
+fn covers(model: &Model, row: usize, column: usize, entry: &FormEntry) -> bool {
+    match (entry.loops.as_slice(), &model.blocks[row].array, &model.blocks[column].array) {
+        ([], None, None) => true,
+        ([binder], Some((size, _)), Some((other, _))) => {
+            size == other
+                && binder.lower == Index::literal(0)
+                && binder.upper == *size
+                && binder.except.is_none()
+                && entry.row.index == Index::bound(binder.level)
+        }
+        _ => false,
+    }
+}
+
+impl Structure {
+    /// Reports what makes Ω singular for certain.
+    pub(crate) fn check(&self, model: &Model, errors: &mut Errors) {
+        let odd = model.dimension().as_literal().filter(|dimension| dimension % 2 != 0);
+        if let (Some(dimension), Some(last)) = (odd, model.blocks.last()) {
+            let message = format!(
+                "there are {dimension} coordinates, but Ω = -dα is nondegenerate in even dimension only; \
+                 add the conjugate coordinate or remove one"
+            );
+            errors.push(&last.name, message);
+            return;
+        }
+        for block in &self.untouched {
+            let name = &model.blocks[*block].name;
+            let message = format!(
+                "Ω = -dα does not involve `{name}`, so it is singular and the motion of `{name}` is not \
+                 determined; the one-form needs a term that couples it, such as `{name} * d(other)`"
+            );
+            errors.push(name, message);
+        }
+    }
+}

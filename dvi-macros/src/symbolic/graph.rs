@@ -1,0 +1,333 @@
+//! The expression graph: hash-consed, append-only.
+//!
+//! A node is stored once, so common subexpressions are shared by construction, and an id is larger
+//! than the ids of its operands, so passes are loops in id order. An [`Expr`] is a literal factor
+//! times a node: signs and literal factors stay outside of the nodes, and f and −2f are one node.
+
+use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
+
+use super::index::{Binder, Index};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Id(pub(crate) u32);
+
+/// `scale` · `node`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expr {
+    pub(crate) scale: f64,
+    pub(crate) node: Id,
+}
+
+/// A coordinate or velocity: a block of the declaration and an index into it (0 for a single one).
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Coordinate {
+    pub(crate) block: u32,
+    pub(crate) index: Index,
+}
+
+/// A constant of the system: an entry of the model's table of parameters, indexed.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Parameter {
+    pub(crate) field: u32,
+    pub(crate) indices: Vec<Index>,
+}
+
+/// A factor that the caller of a generated function passes in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Weight {
+    Qq,
+    Qv,
+    Vq,
+    Vv,
+    A,
+    B,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Unary {
+    Sqrt,
+    Cbrt,
+    Exp,
+    Exp2,
+    ExpM1,
+    Ln,
+    Ln1p,
+    Log2,
+    Log10,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    Abs,
+    Signum,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Binary {
+    Atan2,
+    Hypot,
+    Powf,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Relation {
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Node {
+    One,
+    Coordinate(Coordinate),
+    Velocity(Coordinate),
+    Time,
+    Parameter(Parameter),
+    /// An index as a number.
+    Count(Index),
+    Weight(Weight),
+    /// Two or more terms in id order, distinct nodes; the constant is the term on [`Node::One`].
+    Sum(Vec<Expr>),
+    /// Factors with positive exponents in id order; never a single factor to the power one.
+    Product(Vec<(Id, u32)>),
+    Reciprocal(Id),
+    Unary(Unary, Expr),
+    Binary(Binary, Expr, Expr),
+    /// The user's own function: entry of the model's table, order of the derivative, argument.
+    Call(u32, u32, Expr),
+    /// `if left ~ right { then } else { otherwise }`
+    Choose {
+        left: Expr,
+        relation: Relation,
+        right: Expr,
+        then: Expr,
+        otherwise: Expr,
+    },
+    /// An index sum. It stays one.
+    Reduce(Binder, Id),
+}
+
+#[derive(Debug)]
+pub(crate) struct Graph {
+    nodes: Vec<Node>,
+    /// Bound levels on which a node depends, a bit each.
+    free: Vec<u64>,
+    known: HashMap<Node, Id>,
+    /// For a node that a shift of levels made: the node that it was made from.
+    pub(super) origins: HashMap<Id, Id>,
+    pub(super) derivatives: HashMap<(Id, Id), Expr>,
+}
+
+impl PartialEq for Expr {
+    fn eq(&self, other: &Self) -> bool {
+        self.scale.to_bits() == other.scale.to_bits() && self.node == other.node
+    }
+}
+
+impl Eq for Expr {}
+
+impl Hash for Expr {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.scale.to_bits().hash(state);
+        self.node.hash(state);
+    }
+}
+
+impl Expr {
+    pub(crate) const ZERO: Self = Self { scale: 0.0, node: Graph::ONE };
+    pub(crate) const ONE: Self = Self { scale: 1.0, node: Graph::ONE };
+
+    pub(crate) fn number(value: f64) -> Self {
+        // One zero, so that equal expressions are equal nodes.
+        Self { scale: if value == 0.0 { 0.0 } else { value }, node: Graph::ONE }
+    }
+
+    pub(crate) fn as_number(self) -> Option<f64> {
+        (self.node == Graph::ONE).then_some(self.scale)
+    }
+
+    pub(crate) fn is_zero(self) -> bool {
+        self.scale == 0.0
+    }
+
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        let scale = self.scale * factor;
+        if scale == 0.0 { Self::ZERO } else { Self { scale, node: self.node } }
+    }
+
+    pub(crate) fn negated(self) -> Self {
+        self.scaled(-1.0)
+    }
+}
+
+impl From<Id> for Expr {
+    fn from(node: Id) -> Self {
+        Self { scale: 1.0, node }
+    }
+}
+
+impl Node {
+    pub(crate) fn operands(&self) -> Vec<Id> {
+        match self {
+            Self::One
+            | Self::Coordinate(_)
+            | Self::Velocity(_)
+            | Self::Time
+            | Self::Parameter(_)
+            | Self::Count(_)
+            | Self::Weight(_) => Vec::new(),
+            Self::Sum(terms) => terms.iter().map(|term| term.node).collect(),
+            Self::Product(factors) => factors.iter().map(|(factor, _)| *factor).collect(),
+            Self::Reciprocal(of) | Self::Reduce(_, of) => vec![*of],
+            Self::Unary(_, of) | Self::Call(_, _, of) => vec![of.node],
+            Self::Binary(_, a, b) => vec![a.node, b.node],
+            Self::Choose { left, right, then, otherwise, .. } => {
+                vec![left.node, right.node, then.node, otherwise.node]
+            }
+        }
+    }
+}
+
+impl Graph {
+    pub(crate) const ONE: Id = Id(0);
+
+    pub(crate) fn new() -> Self {
+        let mut graph = Self {
+            nodes: Vec::new(),
+            free: Vec::new(),
+            known: HashMap::new(),
+            origins: HashMap::new(),
+            derivatives: HashMap::new(),
+        };
+        graph.intern(Node::One);
+        graph
+    }
+
+    pub(crate) fn node(&self, id: Id) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+
+    pub(crate) fn free(&self, id: Id) -> u64 {
+        self.free[id.0 as usize]
+    }
+
+    /// The id of a node that the constructors have brought to its normal form.
+    pub(crate) fn intern(&mut self, node: Node) -> Id {
+        if let Some(id) = self.known.get(&node) {
+            return *id;
+        }
+        let operands = node.operands().into_iter().fold(0, |free, id| free | self.free(id));
+        let free = match &node {
+            Node::Coordinate(c) | Node::Velocity(c) => c.index.free(),
+            Node::Parameter(p) => p.indices.iter().fold(0, |free, index| free | index.free()),
+            Node::Count(index) => index.free(),
+            Node::Reduce(binder, _) => (operands & !(1 << binder.level)) | binder.free(),
+            _ => operands,
+        };
+        let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.nodes.push(node.clone());
+        self.free.push(free);
+        self.known.insert(node, id);
+        id
+    }
+
+    /// The nodes that the roots depend on, in id order.
+    pub(crate) fn reachable(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
+        let mut seen = vec![false; self.nodes.len()];
+        for root in roots {
+            seen[root.0 as usize] = true;
+        }
+        for position in (0..seen.len()).rev() {
+            if seen[position] {
+                for operand in self.nodes[position].operands() {
+                    seen[operand.0 as usize] = true;
+                }
+            }
+        }
+        (0..seen.len()).filter(|position| seen[*position]).map(|position| Id(position as u32)).collect()
+    }
+
+    /// Whether any node below `root` (itself included) has the property.
+    pub(crate) fn depends(&self, root: Id, property: impl Fn(&Node) -> bool) -> bool {
+        self.reachable([root]).into_iter().any(|id| property(self.node(id)))
+    }
+
+    /// Rebuilds `root` with some nodes replaced and the ranges of its sums mapped, everything else
+    /// through the constructors.
+    pub(crate) fn rebuild(
+        &mut self,
+        root: Id,
+        mut replace: impl FnMut(&mut Self, Id) -> Option<Expr>,
+        range: impl Fn(&Binder) -> Binder,
+    ) -> Expr {
+        let mut new: HashMap<Id, Expr> = HashMap::new();
+        for id in self.reachable([root]) {
+            let value = match replace(self, id) {
+                Some(value) => value,
+                None => self.rebuilt(id, &new, &range),
+            };
+            new.insert(id, value);
+        }
+        new[&root]
+    }
+
+    fn rebuilt(&mut self, id: Id, new: &HashMap<Id, Expr>, range: &impl Fn(&Binder) -> Binder) -> Expr {
+        let of = |old: &Expr| new[&old.node].scaled(old.scale);
+        match self.node(id).clone() {
+            Node::Sum(terms) => {
+                let terms: Vec<Expr> = terms.iter().map(of).collect();
+                self.sum(&terms)
+            }
+            Node::Product(factors) => {
+                let powers: Vec<Expr> =
+                    factors.iter().map(|(factor, exponent)| self.power(new[factor], *exponent)).collect();
+                self.product(&powers)
+            }
+            Node::Reciprocal(operand) => self.reciprocal(new[&operand]),
+            Node::Unary(function, operand) => self.unary(function, of(&operand)),
+            Node::Binary(function, a, b) => self.binary(function, of(&a), of(&b)),
+            Node::Call(function, order, operand) => self.call(function, order, of(&operand)),
+            Node::Choose { left, relation, right, then, otherwise } => {
+                self.choose(of(&left), relation, of(&right), of(&then), of(&otherwise))
+            }
+            Node::Reduce(binder, body) => self.reduce(range(&binder), new[&body]),
+            _ => id.into(),
+        }
+    }
+
+    /// The body of a sum with its levels from `from` on moved by `by`.
+    pub(super) fn shift(&mut self, root: Id, from: u32, by: u32) -> Expr {
+        let mut made = Vec::new();
+        let replace = |graph: &mut Self, id: Id| {
+            let moved = |c: &Coordinate| Coordinate { block: c.block, index: c.index.shift(from, by) };
+            let node = match graph.node(id) {
+                Node::Coordinate(c) => Node::Coordinate(moved(c)),
+                Node::Velocity(c) => Node::Velocity(moved(c)),
+                Node::Parameter(p) => Node::Parameter(Parameter {
+                    field: p.field,
+                    indices: p.indices.iter().map(|index| index.shift(from, by)).collect(),
+                }),
+                Node::Count(index) => Node::Count(index.shift(from, by)),
+                _ => return None,
+            };
+            let new = graph.intern(node);
+            if new != id {
+                made.push((new, id));
+            }
+            Some(new.into())
+        };
+        let shifted = self.rebuild(root, replace, |binder| binder.shift(from, by));
+        self.origins.extend(made);
+        shifted
+    }
+}

@@ -1,0 +1,19 @@
+//! The symbolic core: an expression graph, its simplifier and its derivatives.
+//!
+//! Pure: no tokens, no spans, no errors. Formulas enter through the constructors of [`Graph`] and
+//! leave as statements of a [`program`](crate::program); everything in between is arithmetic on ids.
+
+mod derivative;
+mod graph;
+mod index;
+mod print;
+mod rules;
+mod simplify;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use derivative::{Contribution, SecondContribution};
+pub(crate) use graph::{Binary, Coordinate, Expr, Graph, Id, Node, Parameter, Relation, Unary, Weight};
+pub(crate) use index::{Atom, Binder, Index, Size};
+pub(crate) use print::{Names, print_binders, print_coordinate, print_expr};
+pub(crate) use rules::{binary_by_name, unary_by_name, unary_names};

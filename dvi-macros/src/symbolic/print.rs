@@ -1,0 +1,216 @@
+//! Formulas as text, for documentation and reports.
+
+use super::graph::{Coordinate, Expr, Graph, Id, Node, Relation, Weight};
+use super::index::{Atom, Binder, Index};
+
+/// The names that ids of the model stand for.
+pub(crate) trait Names {
+    /// The name, and whether it takes an index.
+    fn coordinate(&self, block: u32) -> (String, bool);
+    fn parameter(&self, field: u32) -> &str;
+    fn size(&self, size: u32) -> &str;
+    fn function(&self, function: u32) -> String;
+}
+
+/// How tightly the text of an expression holds together.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Strength {
+    Sum,
+    Product,
+    Atom,
+}
+
+fn bound(level: u32) -> String {
+    match "ijkl".chars().nth(level as usize) {
+        Some(letter) => letter.to_string(),
+        None => format!("i{level}"),
+    }
+}
+
+fn print_index(index: &Index, names: &dyn Names) -> String {
+    let mut text = String::new();
+    for (atom, coefficient) in &index.terms {
+        let name = match atom {
+            Atom::Bound(level) => bound(*level),
+            Atom::Size(size) => names.size(size.0).to_string(),
+            Atom::Remainder(value, modulus) => {
+                format!("({}) % {}", print_index(value, names), print_index(modulus, names))
+            }
+        };
+        let sign = match (*coefficient < 0, text.is_empty()) {
+            (true, true) => "-",
+            (true, false) => " - ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        text += sign;
+        if coefficient.abs() != 1 {
+            text += &format!("{}·", coefficient.abs());
+        }
+        text += &name;
+    }
+    match (index.constant, text.is_empty()) {
+        (constant, true) => constant.to_string(),
+        (0, false) => text,
+        (constant, false) if constant < 0 => format!("{text} - {}", -constant),
+        (constant, false) => format!("{text} + {constant}"),
+    }
+}
+
+pub(crate) fn print_binders(loops: &[Binder], names: &dyn Names) -> String {
+    let one = |binder: &Binder| {
+        let (lower, upper) = (print_index(&binder.lower, names), print_index(&binder.upper, names));
+        let except = binder
+            .except
+            .as_ref()
+            .map_or_else(String::new, |except| format!(" without {}", print_index(except, names)));
+        format!("{} in {lower}..{upper}{except}", bound(binder.level))
+    };
+    loops.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+pub(crate) fn print_coordinate(coordinate: &Coordinate, names: &dyn Names) -> String {
+    match names.coordinate(coordinate.block) {
+        (name, true) => format!("{name}[{}]", print_index(&coordinate.index, names)),
+        (name, false) => name,
+    }
+}
+
+pub(crate) fn print_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> String {
+    Printer { graph, names }.expr(expr, Strength::Sum)
+}
+
+struct Printer<'a> {
+    graph: &'a Graph,
+    names: &'a dyn Names,
+}
+
+impl Printer<'_> {
+    fn expr(&self, expr: Expr, around: Strength) -> String {
+        let (text, strength) = self.signed(expr);
+        let negative = text.starts_with('-') && around > Strength::Sum;
+        if strength < around || negative { format!("({text})") } else { text }
+    }
+
+    fn signed(&self, expr: Expr) -> (String, Strength) {
+        if let Some(value) = expr.as_number() {
+            return (number(value), Strength::Atom);
+        }
+        if expr.scale == 1.0 {
+            return self.node(expr.node);
+        }
+        if expr.scale == -1.0 {
+            return (format!("-{}", self.expr(expr.node.into(), Strength::Product)), Strength::Product);
+        }
+        let body = self.expr(expr.node.into(), Strength::Product);
+        (format!("{}·{body}", number(expr.scale)), Strength::Product)
+    }
+
+    fn node(&self, id: Id) -> (String, Strength) {
+        let call = |name: &str, arguments: &[Expr]| {
+            let arguments: Vec<String> = arguments.iter().map(|a| self.expr(*a, Strength::Sum)).collect();
+            (format!("{name}({})", arguments.join(", ")), Strength::Atom)
+        };
+        match self.graph.node(id) {
+            Node::One => ("1".into(), Strength::Atom),
+            Node::Coordinate(c) => (print_coordinate(c, self.names), Strength::Atom),
+            Node::Velocity(c) => (format!("d({})", print_coordinate(c, self.names)), Strength::Atom),
+            Node::Time => ("t".into(), Strength::Atom),
+            Node::Parameter(p) => {
+                let indices: String =
+                    p.indices.iter().map(|index| format!("[{}]", print_index(index, self.names))).collect();
+                (format!("{}{indices}", self.names.parameter(p.field)), Strength::Atom)
+            }
+            Node::Count(index) => (format!("({})", print_index(index, self.names)), Strength::Atom),
+            Node::Weight(weight) => (weight_name(*weight).into(), Strength::Atom),
+            Node::Sum(terms) => (self.sum(terms), Strength::Sum),
+            Node::Product(factors) => (self.quotient(factors), Strength::Product),
+            Node::Reciprocal(_) => (self.quotient(&[(id, 1)]), Strength::Product),
+            Node::Unary(function, u) => call(function.name(), &[*u]),
+            Node::Binary(function, a, b) => call(function.name(), &[*a, *b]),
+            Node::Call(function, order, u) => {
+                call(&format!("{}{}", self.names.function(*function), "'".repeat(*order as usize)), &[*u])
+            }
+            Node::Choose { left, relation, right, then, otherwise } => {
+                let sign = match relation {
+                    Relation::Less => "<",
+                    Relation::LessOrEqual => "<=",
+                    Relation::Greater => ">",
+                    Relation::GreaterOrEqual => ">=",
+                };
+                let [left, right, then, otherwise] =
+                    [left, right, then, otherwise].map(|part| self.expr(*part, Strength::Sum));
+                (format!("(if {left} {sign} {right} {{ {then} }} else {{ {otherwise} }})"), Strength::Atom)
+            }
+            Node::Reduce(binder, body) => {
+                let range = print_binders(std::slice::from_ref(binder), self.names);
+                (format!("Σ({range}) {}", self.expr((*body).into(), Strength::Product)), Strength::Product)
+            }
+        }
+    }
+
+    fn sum(&self, terms: &[Expr]) -> String {
+        // A positive term first reads best, and the constant last.
+        let mut order: Vec<&Expr> = terms.iter().collect();
+        order.sort_by_key(|term| (term.scale < 0.0, term.node == Graph::ONE));
+        let mut text = String::new();
+        for term in order {
+            if text.is_empty() {
+                text = self.expr(*term, Strength::Sum);
+            } else {
+                let sign = if term.scale < 0.0 { "-" } else { "+" };
+                text +=
+                    &format!(" {sign} {}", self.expr(term.scaled(term.scale.signum()), Strength::Product));
+            }
+        }
+        text
+    }
+
+    fn quotient(&self, factors: &[(Id, u32)]) -> String {
+        let power = |id: Id, exponent: u32| {
+            let base = self.expr(id.into(), Strength::Atom);
+            if exponent == 1 { base } else { format!("{base}^{exponent}") }
+        };
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for (factor, exponent) in factors {
+            match self.graph.node(*factor) {
+                Node::Reciprocal(of) => below.push(power(*of, *exponent)),
+                _ => above.push(power(*factor, *exponent)),
+            }
+        }
+        let above = if above.is_empty() { "1".into() } else { above.join("·") };
+        match below.as_slice() {
+            [] => above,
+            [single] => format!("{above}/{single}"),
+            several => format!("{above}/({})", several.join("·")),
+        }
+    }
+}
+
+fn weight_name(weight: Weight) -> &'static str {
+    match weight {
+        Weight::Qq => "w.qq",
+        Weight::Qv => "w.qv",
+        Weight::Vq => "w.vq",
+        Weight::Vv => "w.vv",
+        Weight::A => "a",
+        Weight::B => "b",
+    }
+}
+
+/// A literal, or the multiple of π that it is.
+fn number(value: f64) -> String {
+    const PI_PARTS: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 3.0, 6.0];
+    for part in PI_PARTS {
+        let multiple = value * part / std::f64::consts::PI;
+        if multiple.round() == multiple && multiple != 0.0 && multiple.abs() < 10.0 && value.abs() > 0.1 {
+            return if part == 1.0 { format!("{multiple}π") } else { format!("({multiple}π/{part})") };
+        }
+        let inverse = 1.0 / (value.abs() * std::f64::consts::PI * part);
+        if (inverse - 1.0).abs() < 4.0 * f64::EPSILON {
+            let sign = if value < 0.0 { "-" } else { "" };
+            return if part == 1.0 { format!("{sign}(1/π)") } else { format!("{sign}(1/{part}π)") };
+        }
+    }
+    if value == value.round() && value.abs() < 1e15 { format!("{value}") } else { format!("{value:?}") }
+}

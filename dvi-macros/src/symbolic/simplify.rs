@@ -1,0 +1,278 @@
+//! Simplification at construction: the only way to make a node is through these rules.
+//!
+//! Floating-point policy. The identities hold exactly for finite operands, or cost at most one
+//! rounding of a literal factor: 0·x = 0, x − x = 0, like terms are collected, literal factors are
+//! multiplied together, odd and even functions take their sign outside. Factors of a product are
+//! associative and commutative here (the order of evaluation is chosen by the compiler); sums keep the
+//! grouping in which they were written. Nothing is distributed over a sum, x/x is not cancelled, and
+//! no multiplication is fused with an addition. Each rule goes one way, and the right side never costs
+//! more than the left.
+
+use super::graph::{Binary, Expr, Graph, Id, Node, Relation, Unary};
+use super::index::{Binder, Index};
+use super::rules;
+
+impl Graph {
+    /// a + b + …: constants and like terms collect; the sign, and a factor common to all terms, go out.
+    pub(crate) fn sum(&mut self, terms: &[Expr]) -> Expr {
+        let mut collected: Vec<Expr> = Vec::with_capacity(terms.len());
+        for term in terms.iter().filter(|term| !term.is_zero()) {
+            match collected.iter_mut().find(|known| known.node == term.node) {
+                Some(known) => known.scale += term.scale,
+                None => collected.push(*term),
+            }
+        }
+        collected.retain(|term| term.scale != 0.0);
+        collected.sort_by_key(|term| term.node);
+        match collected.as_slice() {
+            [] => Expr::ZERO,
+            [single] => *single,
+            _ => {
+                let factor = common_factor(&collected);
+                for term in &mut collected {
+                    term.scale /= factor;
+                }
+                Expr { scale: factor, node: self.intern(Node::Sum(collected)) }
+            }
+        }
+    }
+
+    pub(crate) fn add(&mut self, a: Expr, b: Expr) -> Expr {
+        self.sum(&[a, b])
+    }
+
+    pub(crate) fn subtract(&mut self, a: Expr, b: Expr) -> Expr {
+        self.sum(&[a, b.negated()])
+    }
+
+    /// a · b · …: factors merge into powers, literal factors multiply.
+    pub(crate) fn product(&mut self, factors: &[Expr]) -> Expr {
+        let mut scale = 1.0;
+        let mut collected: Vec<(Id, u32)> = Vec::new();
+        let mut insert =
+            |factor: Id, exponent: u32| match collected.iter_mut().find(|(known, _)| *known == factor) {
+                Some((_, known)) => *known += exponent,
+                None => collected.push((factor, exponent)),
+            };
+        for factor in factors {
+            scale *= factor.scale;
+            match self.node(factor.node) {
+                Node::One => {}
+                Node::Product(inner) => inner.iter().for_each(|(id, exponent)| insert(*id, *exponent)),
+                _ => insert(factor.node, 1),
+            }
+        }
+        if scale == 0.0 {
+            return Expr::ZERO;
+        }
+        collected.sort_unstable();
+        let node = match collected.as_slice() {
+            [] => Self::ONE,
+            [(single, 1)] => *single,
+            _ => self.intern(Node::Product(collected)),
+        };
+        Expr { scale, node }
+    }
+
+    pub(crate) fn multiply(&mut self, a: Expr, b: Expr) -> Expr {
+        self.product(&[a, b])
+    }
+
+    /// 1/(c·x) = (1/c)·(1/x) and 1/(1/x) = x.
+    pub(crate) fn reciprocal(&mut self, of: Expr) -> Expr {
+        let scale = 1.0 / of.scale;
+        match self.node(of.node) {
+            Node::One => Expr::number(scale),
+            Node::Reciprocal(inner) => Expr { scale, node: *inner },
+            _ => Expr { scale, node: self.intern(Node::Reciprocal(of.node)) },
+        }
+    }
+
+    pub(crate) fn divide(&mut self, a: Expr, b: Expr) -> Expr {
+        if let (Some(a), Some(b)) = (a.as_number(), b.as_number()) {
+            return Expr::number(a / b);
+        }
+        let reciprocal = self.reciprocal(b);
+        self.multiply(a, reciprocal)
+    }
+
+    pub(crate) fn power(&mut self, base: Expr, exponent: u32) -> Expr {
+        let scale = base.scale.powi(i32::try_from(exponent).unwrap_or(i32::MAX));
+        let node = match self.node(base.node) {
+            Node::One => return Expr::number(scale),
+            _ if exponent == 0 => return Expr::ONE,
+            _ if exponent == 1 => base.node,
+            Node::Product(inner) => {
+                let powers = inner.iter().map(|(id, known)| (*id, known * exponent)).collect();
+                self.intern(Node::Product(powers))
+            }
+            _ => self.intern(Node::Product(vec![(base.node, exponent)])),
+        };
+        Expr { scale, node }
+    }
+
+    /// x⁻ⁿ = 1/xⁿ.
+    pub(crate) fn powi(&mut self, base: Expr, exponent: i32) -> Expr {
+        let power = self.power(base, exponent.unsigned_abs());
+        if exponent < 0 { self.reciprocal(power) } else { power }
+    }
+
+    /// f(−x) = ±f(x) for odd and even f; a literal argument gives a literal.
+    pub(crate) fn unary(&mut self, function: Unary, of: Expr) -> Expr {
+        if let Some(value) = of.as_number() {
+            return Expr::number(rules::evaluate_unary(function, value));
+        }
+        let sign = if of.scale < 0.0 { rules::parity(function) } else { None };
+        match sign {
+            Some(sign) => {
+                let node = self.intern(Node::Unary(function, of.negated()));
+                Expr::from(node).scaled(sign)
+            }
+            None => self.intern(Node::Unary(function, of)).into(),
+        }
+    }
+
+    /// An integer power is a product, a half-integer power a product and a square root.
+    pub(crate) fn binary(&mut self, function: Binary, a: Expr, b: Expr) -> Expr {
+        if let (Some(a), Some(b)) = (a.as_number(), b.as_number()) {
+            return Expr::number(rules::evaluate_binary(function, a, b));
+        }
+        match (function, b.as_number()) {
+            (Binary::Powf, Some(exponent)) if exponent.abs() <= 64.0 && (2.0 * exponent).fract() == 0.0 => {
+                // Both casts are exact: small integers.
+                let whole = self.power(a, exponent.abs().trunc() as u32);
+                let magnitude = if exponent.fract() == 0.0 {
+                    whole
+                } else {
+                    let root = self.unary(Unary::Sqrt, a);
+                    self.multiply(whole, root)
+                };
+                if exponent < 0.0 { self.reciprocal(magnitude) } else { magnitude }
+            }
+            _ => self.intern(Node::Binary(function, a, b)).into(),
+        }
+    }
+
+    pub(crate) fn call(&mut self, function: u32, order: u32, of: Expr) -> Expr {
+        self.intern(Node::Call(function, order, of)).into()
+    }
+
+    /// Both branches alike: no choice.
+    pub(crate) fn choose(
+        &mut self,
+        left: Expr,
+        relation: Relation,
+        right: Expr,
+        then: Expr,
+        otherwise: Expr,
+    ) -> Expr {
+        if then == otherwise {
+            return then;
+        }
+        self.intern(Node::Choose { left, relation, right, then, otherwise }).into()
+    }
+
+    /// Σ c·f = c·Σ f for a literal c.
+    pub(crate) fn reduce(&mut self, binder: Binder, body: Expr) -> Expr {
+        if body.is_zero() || binder.is_empty() {
+            return Expr::ZERO;
+        }
+        Expr { scale: body.scale, node: self.intern(Node::Reduce(binder, body.node)) }
+    }
+
+    /// An index as a number.
+    pub(crate) fn count(&mut self, index: Index) -> Expr {
+        match index.as_literal() {
+            Some(value) => Expr::number(value as f64),
+            None => self.intern(Node::Count(index)).into(),
+        }
+    }
+
+    /// A sum that a derivative produced: its common factors go out, and a constant joins a quotient
+    /// where that makes the quotient's numerator no longer: 1 − 2x²/(x² + y²) = (y² − x²)/(x² + y²).
+    pub(super) fn factored_sum(&mut self, terms: &[Expr]) -> Expr {
+        let total = self.sum(terms);
+        let Node::Sum(terms) = self.node(total.node).clone() else { return total };
+        let shared = self.shared_factors(&terms);
+        if !shared.is_empty() {
+            let rest: Vec<Expr> = terms.iter().map(|term| self.without(*term, &shared)).collect();
+            let rest = self.factored_sum(&rest);
+            let shared: Vec<Expr> =
+                shared.iter().map(|(id, exponent)| self.power((*id).into(), *exponent)).collect();
+            let shared = self.product(&shared);
+            return self.multiply(rest, shared).scaled(total.scale);
+        }
+        match terms.as_slice() {
+            [constant, quotient] if constant.node == Self::ONE => {
+                match self.over_denominator(*constant, *quotient) {
+                    Some(joined) => joined.scaled(total.scale),
+                    None => total,
+                }
+            }
+            _ => total,
+        }
+    }
+
+    fn factors(&self, node: Id) -> Vec<(Id, u32)> {
+        match self.node(node) {
+            Node::One => Vec::new(),
+            Node::Product(factors) => factors.clone(),
+            _ => vec![(node, 1)],
+        }
+    }
+
+    fn shared_factors(&self, terms: &[Expr]) -> Vec<(Id, u32)> {
+        let mut shared = terms.first().map_or_else(Vec::new, |first| self.factors(first.node));
+        for term in terms.iter().skip(1) {
+            let factors = self.factors(term.node);
+            shared.retain_mut(|(id, exponent)| match factors.iter().find(|(other, _)| other == id) {
+                Some((_, other)) => {
+                    *exponent = (*exponent).min(*other);
+                    true
+                }
+                None => false,
+            });
+        }
+        shared
+    }
+
+    /// `term` divided by factors that it is known to have.
+    fn without(&mut self, term: Expr, divisor: &[(Id, u32)]) -> Expr {
+        let kept: Vec<Expr> = self
+            .factors(term.node)
+            .into_iter()
+            .filter_map(|(id, exponent)| {
+                let taken = divisor.iter().find(|(other, _)| *other == id).map_or(0, |(_, taken)| *taken);
+                (exponent > taken).then(|| self.power(id.into(), exponent - taken))
+            })
+            .collect();
+        self.product(&kept).scaled(term.scale)
+    }
+
+    /// constant + k·m/D over D, if m is one of the terms of D.
+    fn over_denominator(&mut self, constant: Expr, quotient: Expr) -> Option<Expr> {
+        for (factor, _) in self.factors(quotient.node) {
+            let Node::Reciprocal(denominator) = *self.node(factor) else { continue };
+            let Node::Sum(parts) = self.node(denominator).clone() else { continue };
+            let numerator = self.without(quotient, &[(factor, 1)]);
+            if parts.iter().any(|part| part.node == numerator.node) {
+                let mut terms: Vec<Expr> = parts.iter().map(|part| part.scaled(constant.scale)).collect();
+                terms.push(numerator);
+                let joined = self.sum(&terms);
+                return Some(self.multiply(joined, factor.into()));
+            }
+        }
+        None
+    }
+}
+
+/// The sign of the first term that is not the constant, times the magnitude where all terms share it
+/// or where it is a power of two, which divides exactly.
+fn common_factor(terms: &[Expr]) -> f64 {
+    let leading = terms.iter().find(|term| term.node != Graph::ONE).map_or(1.0, |term| term.scale);
+    let magnitude = leading.abs();
+    let shared = terms.iter().all(|term| term.scale.abs() == magnitude);
+    let power_of_two = magnitude.is_normal() && magnitude.to_bits() & ((1 << 52) - 1) == 0;
+    let magnitude = if (shared && magnitude.is_finite()) || power_of_two { magnitude } else { 1.0 };
+    magnitude.copysign(leading)
+}

@@ -1,0 +1,188 @@
+//! Failures are values, and the last good state is kept.
+
+use dvi_core::prelude::*;
+use dvi_core::{IndexError, LengthError};
+use dvi_tests::configurations::quasi_periodic;
+use dvi_tests::systems::*;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// Two equal vortices at distance `d`.
+fn pair(d: f64) -> (PointVortices<2>, PointVorticesState<2>) {
+    (PointVortices { gamma: [1.0, 1.0] }, PointVorticesState { x: [-d / 2.0, d / 2.0], y: [0.0, 0.0] })
+}
+
+#[test]
+fn a_step_of_zero_or_not_finite_is_refused() {
+    let (system, start) = quasi_periodic();
+    for h in [0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let error = Integrator::new(&system, Sigma::midpoint(), h, start).err();
+        assert!(
+            matches!(error, Some(StartError::Step { h: found }) if found.to_bits() == h.to_bits()),
+            "{error:?}"
+        );
+    }
+}
+
+#[test]
+fn a_start_that_is_not_finite_is_refused() {
+    let (system, mut start) = quasi_periodic();
+    start.y[1] = f64::NAN;
+    let error = Integrator::new(&system, Sigma::midpoint(), 0.1, start).err();
+    assert!(matches!(error, Some(StartError::NotFinite { coordinate: 5, value }) if value.is_nan()));
+    start.y[1] = f64::INFINITY;
+    let error = Integrator::new(&system, RungeKutta::classical(), 0.1, start).err();
+    assert_eq!(error, Some(StartError::NotFinite { coordinate: 5, value: f64::INFINITY }));
+    let error = Integrator::new_at(&system, Sigma::midpoint(), f64::INFINITY, 0.1, quasi_periodic().1).err();
+    assert_eq!(error, Some(StartError::Parameter { name: "t", value: f64::INFINITY, range: "finite" }));
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let (system, start) = quasi_periodic();
+    for sigma in [-0.1, 1.1, f64::NAN] {
+        let error = Integrator::new(&system, Sigma::new(sigma), 0.1, start).err();
+        assert!(matches!(error, Some(StartError::Parameter { name: "sigma", .. })), "{error:?}");
+    }
+    for (tolerance, max_iterations, name) in
+        [(-1.0, 10, "tolerance"), (f64::NAN, 10, "tolerance"), (1e-10, 0, "max_iterations")]
+    {
+        let stopping = Stopping { tolerance, max_iterations };
+        for error in [
+            Integrator::new(&system, Sigma { stopping, ..Sigma::midpoint() }, 0.1, start).err(),
+            Integrator::new(&system, Gauss::<2> { stopping }, 0.1, start).err(),
+        ] {
+            assert!(matches!(error, Some(StartError::Parameter { name: found, .. }) if found == name));
+        }
+    }
+}
+
+#[test]
+fn a_state_of_the_wrong_length_is_refused() {
+    let system = ManyVortices { gamma: vec![1.0; 3] };
+    for (x, y, array, found) in [(2, 3, "x", 2), (3, 4, "y", 4)] {
+        let start = ManyVorticesState { x: vec![0.5; x], y: vec![0.5; y] };
+        let error = Integrator::new(&system, Sigma::midpoint(), 0.1, start).err();
+        assert_eq!(error, Some(StartError::Length(LengthError { array, expected: 3, found })));
+    }
+}
+
+#[test]
+fn index_errors_of_a_system_end_in_the_start_error() {
+    let inner = IndexError { array: "gamma", index: -1, len: 3 };
+    assert_eq!(StartError::from(inner), StartError::Index(inner));
+}
+
+#[test]
+fn a_collision_is_reported_by_every_method() {
+    let system = PointVortices { gamma: [1.0; 3] };
+    let start = PointVorticesState { x: [0.5, 0.5, -1.0], y: [0.25, 0.25, 0.0] };
+    let not_finite = |failure| matches!(failure, StepFailure::NotFinite { value, .. } if !value.is_finite());
+    for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
+        let run = Integrator::new(&system, Sigma { solver, ..Sigma::midpoint() }, 0.1, start);
+        let Ok(mut run) = run else { panic!("the run begins: {run:?}") };
+        let error = run.advance();
+        let expected = matches!(error, Err(StepError { step: 0, failure, .. }) if not_finite(failure));
+        assert!(expected, "{solver:?}: {error:?}");
+        assert_eq!(run.state(), start);
+    }
+    for sigma in [0.0, 0.3, 1.0] {
+        let error = Integrator::new(&system, Sigma::new(sigma), 0.1, start).err();
+        assert!(matches!(error, Some(StartError::Starter(failure)) if not_finite(failure)), "{error:?}");
+    }
+    let Ok(mut run) = Integrator::new(&system, RungeKutta::classical(), 0.1, start) else { panic!() };
+    assert!(matches!(run.advance(), Err(StepError { failure, .. }) if not_finite(failure)));
+    let Ok(mut run) = Integrator::new(&system, Gauss::<2>::new(), 0.1, start) else { panic!() };
+    assert!(matches!(run.advance(), Err(StepError { failure, .. }) if not_finite(failure)));
+}
+
+#[test]
+fn a_form_that_is_singular_at_an_end_is_refused_there() {
+    let (system, start) = (SphereForm { gamma: 1.0 }, SphereFormState { phi: 0.4, z: 0.3 });
+    for (sigma, column) in [(0.0, 1), (1.0, 0)] {
+        let error = Integrator::new(&system, Sigma::new(sigma), 0.1, start).err();
+        let expected = StartError::Starter(StepFailure::Singular { column, pivot: 0.0 });
+        assert_eq!(error, Some(expected), "sigma = {sigma}");
+    }
+    assert!(Integrator::new(&system, Sigma::midpoint(), 0.1, start).is_ok());
+}
+
+#[test]
+fn a_pair_cannot_be_stepped_beyond_its_limit() -> Outcome {
+    let d = 0.5;
+    let limit = core::f64::consts::PI * d * d;
+    for solver in [Solver::Automatic, Solver::Newton] {
+        let method = Sigma { solver, ..Sigma::midpoint() };
+        let (system, start) = pair(d);
+        let mut run = Integrator::new(&system, method, 0.9 * limit, start)?;
+        for _ in 0..100 {
+            run.advance()?;
+        }
+        let mut run = Integrator::new(&system, method, 1.1 * limit, start)?;
+        let error = run.advance();
+        let Err(StepError {
+            step: 0,
+            time: 0.0,
+            failure: StepFailure::NotConverged { iterations, correction, tolerance },
+        }) = error
+        else {
+            panic!("{solver:?}: {error:?}")
+        };
+        assert!(iterations > 0 && correction > tolerance && tolerance > 0.0, "{error:?}");
+        assert_eq!(run.state(), start);
+    }
+    Ok(())
+}
+
+#[test]
+fn the_quasi_periodic_case_cannot_be_stepped_at_one() -> Outcome {
+    let (system, start) = quasi_periodic();
+    for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
+        let mut run = Integrator::new(&system, Sigma { solver, ..Sigma::midpoint() }, 1.0, start)?;
+        let failure = run.by_ref().take(1000).find_map(Result::err);
+        assert!(
+            matches!(failure, Some(StepError { failure: StepFailure::NotConverged { .. }, .. })),
+            "{solver:?}: {failure:?}"
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn after_a_failure_the_run_ends_and_keeps_its_last_good_state() -> Outcome {
+    let system = PointVortices { gamma: [1.0; 4] };
+    let (_, start) = quasi_periodic();
+    let method =
+        Sigma { stopping: Stopping { max_iterations: 3, ..Stopping::default() }, ..Sigma::midpoint() };
+    // Loose enough for a while: three iterations do not suffice for steps that are too long.
+    let mut run = Integrator::new_at(&system, method, 5.0, 0.45, start)?;
+    let mut last = start;
+    let mut completed = 0;
+    let error = loop {
+        match run.next() {
+            Some(Ok(state)) => (last, completed) = (state, completed + 1),
+            Some(Err(error)) => break error,
+            None => panic!("ended without an error"),
+        }
+        assert!(completed < 100_000, "never failed");
+    };
+    assert_eq!(error.step, completed);
+    assert_eq!(error.time, 5.0 + completed as f64 * 0.45);
+    assert_eq!((run.state(), run.steps()), (last, completed));
+    assert!(run.next().is_none() && run.next().is_none());
+    assert_eq!(run.state(), last);
+    assert!(error.to_string().starts_with(&format!("step {completed} from t = ")), "{error}");
+    Ok(())
+}
+
+#[test]
+fn leaving_the_domain_of_a_formula_is_a_failure_and_not_a_number() -> Outcome {
+    // Predators and prey that start where σ = ¼ soon fails: the scheme is not zero-stable there.
+    let system = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    let start = LotkaVolterraState { x: 1.3_f64, y: 1.6 };
+    let mut run = Integrator::new(&system, Sigma::new(0.25), 0.1, start)?;
+    let failure = run.by_ref().take(1000).find_map(Result::err);
+    assert!(failure.is_some());
+    assert!(run.q().iter().all(|q| q.is_finite()), "{:?}", run.state());
+    Ok(())
+}

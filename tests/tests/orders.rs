@@ -1,0 +1,121 @@
+//! Orders of convergence, by regression.
+
+use dvi_core::prelude::*;
+use dvi_tests::configurations::{chaotic, leapfrogging};
+use dvi_tests::systems::{Oscillator, OscillatorState, PointVortices, PointVorticesState};
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// The largest distance of a run from `reference` at `time`.
+fn error<M: dvi_core::Method<PointVortices<4>, f64>>(
+    system: &PointVortices<4>,
+    start: PointVorticesState<4>,
+    method: M,
+    (time, steps): (f64, u64),
+    reference: &[f64],
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
+    while run.steps() < steps {
+        run.advance()?;
+    }
+    Ok(run.q().iter().zip(reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
+}
+
+/// The state at `time`, by Gauss collocation of order six with steps far below those under test.
+fn reference(
+    system: &PointVortices<4>,
+    start: PointVorticesState<4>,
+    time: f64,
+) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+    let steps = 4096;
+    let mut run = Integrator::new(system, Gauss::<3>::new(), time / steps as f64, start)?;
+    while run.steps() < steps {
+        run.advance()?;
+    }
+    Ok(run.q().to_vec())
+}
+
+fn observed<M: dvi_core::Method<PointVortices<4>, f64> + Copy>(
+    (system, start): (PointVortices<4>, PointVorticesState<4>),
+    method: M,
+    time: f64,
+    steps: [u64; 4],
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let reference = reference(&system, start, time)?;
+    let mut errors = Vec::new();
+    for steps in steps {
+        errors.push((time / steps as f64, error(&system, start, method, (time, steps), &reference)?));
+    }
+    convergence_order(&errors).ok_or_else(|| "no slope".into())
+}
+
+#[test]
+fn every_sigma_is_of_second_order_on_vortices() -> Outcome {
+    for sigma in [0.0, 0.25, (3.0 - 3.0_f64.sqrt()) / 6.0, 0.5, 0.75, 1.0] {
+        for (name, configuration) in [("chaotic", chaotic()), ("leapfrogging", leapfrogging())] {
+            let order = observed(configuration, Sigma::new(sigma), 2.0, [256, 512, 1024, 2048])?;
+            assert!((order - 2.0).abs() < 0.02, "sigma = {sigma}, {name}: {order}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn baselines_have_their_orders_on_vortices() -> Outcome {
+    let coarse = [32, 48, 64, 96];
+    for (order, expected, name) in [
+        (observed(chaotic(), RungeKutta::midpoint(), 2.0, [512, 768, 1024, 1536])?, 2.0, "midpoint"),
+        (observed(chaotic(), RungeKutta::heun(), 2.0, [512, 768, 1024, 1536])?, 2.0, "Heun"),
+        (observed(chaotic(), RungeKutta::classical(), 2.0, [128, 192, 256, 384])?, 4.0, "classical"),
+        (observed(chaotic(), Gauss::<1>::new(), 2.0, coarse)?, 2.0, "Gauss 1"),
+        (observed(chaotic(), Gauss::<2>::new(), 2.0, coarse)?, 4.0, "Gauss 2"),
+        (observed(chaotic(), Gauss::<3>::new(), 2.0, [12, 16, 24, 32])?, 6.0, "Gauss 3"),
+    ] {
+        assert!((order - expected).abs() < 0.05, "{name}: {order}");
+    }
+    Ok(())
+}
+
+/// The error of z' = iωz after one unit of time, from two exact points.
+fn oscillator_error(sigma: f64, steps: u64) -> Result<f64, Box<dyn core::error::Error>> {
+    let system = Oscillator { omega: 1.0 };
+    let exact = |t: f64| OscillatorState { x: t.cos(), y: t.sin() };
+    // The sign with which time runs follows from Γ y' = ∂H/∂x.
+    let h = 1.0 / steps as f64;
+    let mut run = Integrator::from_two_points(&system, Sigma::new(sigma), h, exact(0.0), exact(h))?;
+    while run.steps() < steps {
+        run.advance()?;
+    }
+    let (found, exact) = (run.state(), exact(1.0));
+    Ok((found.x - exact.x).hypot(found.y - exact.y))
+}
+
+#[test]
+fn one_sigma_is_of_fourth_order_on_linear_systems() -> Outcome {
+    let special = (3.0 - 3.0_f64.sqrt()) / 6.0;
+    for (sigma, expected, steps) in [
+        (special, 4.0, [16, 24, 32, 48]),
+        (1.0 - special, 4.0, [16, 24, 32, 48]),
+        (0.25, 2.0, [128, 192, 256, 384]),
+    ] {
+        let mut errors = Vec::new();
+        for steps in steps {
+            errors.push((1.0 / steps as f64, oscillator_error(sigma, steps)?));
+        }
+        let order = convergence_order(&errors).ok_or("no slope")?;
+        assert!((order - expected).abs() < 0.02, "sigma = {sigma}: {order}");
+    }
+    Ok(())
+}
+
+#[test]
+fn regression_finds_slopes_and_refuses_what_has_none() {
+    let power = |h: f64| (h, 3.0 * h.powf(2.5));
+    let order = convergence_order(&[power(0.1), power(0.2), power(0.7)]);
+    assert!(order.is_some_and(|order| (order - 2.5).abs() < 1e-13));
+    assert_eq!(convergence_order(&[]), None);
+    assert_eq!(convergence_order(&[(0.1, 1.0)]), None);
+    assert_eq!(convergence_order(&[(0.1, 1.0), (0.1, 2.0)]), None);
+    assert_eq!(convergence_order(&[(0.1, 0.0), (0.2, 1.0)]), None);
+    assert_eq!(convergence_order(&[(0.1, f64::NAN), (0.2, 1.0)]), None);
+}

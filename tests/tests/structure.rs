@@ -1,0 +1,323 @@
+//! What the schemes preserve, and how far they are stable.
+
+use dvi_core::diagnostics::{AlternatingComponent, DiscreteHessian};
+use dvi_core::prelude::*;
+use dvi_core::{DegenerateLagrangian, Method};
+use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
+use dvi_tests::oracle::discrete_lagrangian;
+use dvi_tests::systems::*;
+use num_dual::HyperDual64;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+const SIGMAS: [f64; 6] = [0.0, 0.25, 0.211_324_865_405_187_1, 0.5, 0.75, 1.0];
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn sigma_midpoint_with_consistent_start_is_the_implicit_midpoint_rule() -> Outcome {
+    let (system, start) = quasi_periodic();
+    let mut variational = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
+    let mut gauss = Integrator::new(&system, Gauss::<1>::new(), 0.1, start)?;
+    for _ in 0..1000 {
+        variational.advance()?;
+        gauss.advance()?;
+        let distance = apart(variational.q(), gauss.q());
+        assert!(distance < 1e-11, "step {}: {distance:e}", gauss.steps());
+    }
+    assert_eq!(variational.parasitic_amplitude(), 0.0);
+    Ok(())
+}
+
+/// The largest deviation of each momentum from its first value.
+fn drift<M: Method<PointVortices<4>, f64>>(
+    mut run: Integrator<'_, PointVortices<4>, M>,
+    steps: u64,
+) -> Result<[f64; 3], StepError> {
+    let value =
+        |run: &Integrator<'_, PointVortices<4>, M>| [0, 1, 2].map(|i| run.momentum(i).unwrap_or(f64::NAN));
+    let (first, mut largest) = (value(&run), [0.0_f64; 3]);
+    for _ in 0..steps {
+        run.advance()?;
+        let now = value(&run);
+        largest = core::array::from_fn(|i| largest[i].max((now[i] - first[i]).abs()));
+    }
+    Ok(largest)
+}
+
+#[test]
+fn the_centre_of_vorticity_stays() -> Outcome {
+    for (system, start) in [quasi_periodic(), chaotic(), leapfrogging()] {
+        for sigma in SIGMAS {
+            let [x, y, _] = drift(Integrator::new(&system, Sigma::new(sigma), 0.02, start)?, 500)?;
+            assert!(x < 1e-12 && y < 1e-12, "sigma = {sigma}: {x:e} {y:e}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_angular_impulse_stays_with_the_midpoint_rule_only() -> Outcome {
+    let (system, start) = quasi_periodic();
+    let [.., angular] = drift(Integrator::new(&system, Sigma::midpoint(), 0.1, start)?, 1000)?;
+    assert!(angular < 1e-12, "{angular:e}");
+    let [.., angular] = drift(Integrator::new(&system, Gauss::<3>::new(), 0.1, start)?, 1000)?;
+    assert!(angular < 1e-12, "{angular:e}");
+    let [.., angular] = drift(Integrator::new(&system, Sigma::new(0.25), 0.02, start)?, 100)?;
+    assert!(angular > 1e-8, "{angular:e}");
+    let [.., angular] = drift(Integrator::new(&system, RungeKutta::classical(), 0.1, start)?, 1000)?;
+    assert!(angular > 1e-8, "{angular:e}");
+    Ok(())
+}
+
+#[test]
+fn discrete_momenta_stay_for_every_sigma() -> Outcome {
+    for (system, start) in [quasi_periodic(), leapfrogging()] {
+        for sigma in SIGMAS {
+            let mut run = Integrator::new(&system, Sigma::new(sigma), 0.02, start)?;
+            let momenta = |run: &Integrator<'_, _, Sigma>| -> Result<[f64; 3], StepFailure> {
+                let mut values = [f64::NAN; 3];
+                for (i, value) in values.iter_mut().enumerate() {
+                    *value = run.discrete_momentum(i)?.unwrap_or(f64::NAN);
+                }
+                Ok(values)
+            };
+            let first = momenta(&run)?;
+            for step in 0..500 {
+                run.advance()?;
+                let drift = apart(&momenta(&run)?, &first);
+                assert!(drift < 1e-12, "sigma = {sigma}, step {step}: {drift:e}");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn an_undeclared_momentum_is_none() -> Outcome {
+    let (system, start) = quasi_periodic();
+    let run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
+    assert_eq!(run.momentum(3), None);
+    assert_eq!(run.discrete_momentum(3)?, None);
+    let names: Vec<_> = run.momenta().map(|(name, _)| name).collect();
+    assert_eq!(names, ["impulse_x", "impulse_y", "angular"]);
+    Ok(())
+}
+
+#[test]
+fn second_derivatives_of_the_discrete_lagrangian_agree_with_hyper_dual_numbers() {
+    let (q0, q1) = ([1.3, 1.6], [1.35, 1.52]);
+    let system = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    let (sigma, h) = (0.3, 0.1);
+    let mut hessian = DiscreteHessian::new(&system);
+    hessian.evaluate(&system, sigma, 0.0, h, &q0, &q1);
+    for (matrix, first, second) in [(&hessian.d11, 0, 0), (&hessian.d12, 0, 2), (&hessian.d22, 2, 2)] {
+        for i in 0..2 {
+            for j in 0..2 {
+                let entry = |k: usize, value: f64| {
+                    let unit = |on: bool| if on { 1.0 } else { 0.0 };
+                    HyperDual64::new(value, unit(k == first + i), unit(k == second + j), 0.0)
+                };
+                let a: Vec<_> = q0.iter().enumerate().map(|(k, &q)| entry(k, q)).collect();
+                let b: Vec<_> = q1.iter().enumerate().map(|(k, &q)| entry(2 + k, q)).collect();
+                let expected = discrete_lagrangian(&system, sigma, 0.0, h, &a, &b).eps1eps2;
+                let found = matrix[2 * i + j];
+                assert!(
+                    (found - expected).abs() < 1e-14,
+                    "({first}, {second}) ({i}, {j}): {found} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// Three consecutive points of a run, after some steps.
+fn three_points<S: DegenerateLagrangian>(
+    run: &mut Integrator<'_, S, Sigma>,
+    steps: u64,
+) -> Result<[Vec<f64>; 3], StepError> {
+    while run.steps() < steps {
+        run.advance()?;
+    }
+    let first = run.q().to_vec();
+    run.advance()?;
+    let second = run.q().to_vec();
+    run.advance()?;
+    Ok([first, second, run.q().to_vec()])
+}
+
+#[test]
+fn the_tangent_maps_preserve_their_two_forms() -> Outcome {
+    let h = 0.02;
+    let vortices = chaotic();
+    let curved = (Curved { kappa: 0.2 }, CurvedState { x: 0.6, y: -0.4 });
+    for sigma in SIGMAS {
+        let [vortex_points, curved_points] = [
+            three_points(&mut Integrator::new(&vortices.0, Sigma::new(sigma), h, vortices.1)?, 10)?,
+            three_points(&mut Integrator::new(&curved.0, Sigma::new(sigma), h, curved.1)?, 10)?,
+        ];
+        for (defect, name) in [
+            (defects(&vortices.0, sigma, h, &vortex_points)?, "vortices"),
+            (defects(&curved.0, sigma, h, &curved_points)?, "curved"),
+        ] {
+            let [discrete, canonical] = defect;
+            assert!(discrete < 1e-12, "{name}, sigma = {sigma}: {discrete:e}");
+            assert!(canonical < 1e-12, "{name}, sigma = {sigma}: {canonical:e}");
+        }
+    }
+    Ok(())
+}
+
+fn defects<S: DegenerateLagrangian>(
+    system: &S,
+    sigma: f64,
+    h: f64,
+    [q0, q1, q2]: &[Vec<f64>; 3],
+) -> Result<[f64; 2], StepFailure> {
+    let mut two_point = TwoPointTangentMap::new(system);
+    two_point.evaluate(system, sigma, 0.0, h, [q0, q1, q2])?;
+    let mut canonical = TangentMap::new(system);
+    canonical.evaluate(system, sigma, 0.0, h, q0, q1)?;
+    Ok([two_point.two_form_defect(system), canonical.symplectic_defect(system)])
+}
+
+#[test]
+fn the_tangent_map_agrees_with_differences_of_steps() -> Outcome {
+    let (system, start) = quasi_periodic();
+    let (h, epsilon) = (0.1, 1e-6);
+    for sigma in [0.0, 0.25, 0.5, 1.0] {
+        let mut run = Integrator::new(&system, Sigma::new(sigma), h, start)?;
+        let [q0, q1, q2] = three_points(&mut run, 5)?;
+        let mut map = TwoPointTangentMap::new(&system);
+        map.evaluate(&system, sigma, 0.0, h, [&q0, &q1, &q2])?;
+        let state = |q: &[f64]| PointVorticesState {
+            x: core::array::from_fn(|j| q[j]),
+            y: core::array::from_fn(|j| q[4 + j]),
+        };
+        let mut images = Vec::new();
+        for direction in 0..16 {
+            let third = |sign: f64| -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+                let mut points = [q0.clone(), q1.clone()];
+                points[direction / 8][direction % 8] += sign * epsilon;
+                let [a, b] = points;
+                let mut run =
+                    Integrator::from_two_points(&system, Sigma::new(sigma), h, state(&a), state(&b))?;
+                run.advance()?;
+                run.advance()?;
+                Ok(run.q().to_vec())
+            };
+            let (plus, minus) = (third(1.0)?, third(-1.0)?);
+            let difference: Vec<_> =
+                plus.iter().zip(&minus).map(|(a, b)| (a - b) / (2.0 * epsilon)).collect();
+            let mut dq: [_; 2] = core::array::from_fn(|_| dvi_core::Space::vector(dvi_core::Fixed::<2, 4>));
+            dq[direction / 8][direction % 8] = 1.0;
+            let [dq0, dq1] = &mut dq;
+            map.apply(dq0, dq1);
+            assert!(apart(dq1, &difference) < 1e-7, "sigma = {sigma}, direction {direction}");
+            images.push([dq0.to_vec(), difference]);
+        }
+        // The two-form again, with columns that owe nothing to second derivatives of the system.
+        let [mut before, mut after] = [DiscreteHessian::new(&system), DiscreteHessian::new(&system)];
+        before.evaluate(&system, sigma, 0.0, h, &q0, &q1);
+        after.evaluate(&system, sigma, h, h, &q1, &q2);
+        let form =
+            |u: &[f64], d: &[f64], w: &[f64]| -> f64 { (0..64).map(|k| u[k / 8] * d[k] * w[k % 8]).sum() };
+        for (a, u) in images.iter().enumerate() {
+            for (b, w) in images.iter().enumerate() {
+                let pulled_back = form(&u[0], &after.d12, &w[1]) - form(&w[0], &after.d12, &u[1]);
+                let original = match (a < 8, b < 8) {
+                    (true, false) => before.d12[8 * a + b - 8],
+                    (false, true) => -before.d12[8 * b + a - 8],
+                    _ => 0.0,
+                };
+                assert!((pulled_back - original).abs() < 1e-6, "sigma = {sigma}, ({a}, {b})");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_symmetric_step_is_undone_by_the_reverse_step() -> Outcome {
+    let (system, start) = chaotic();
+    let mut forth = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
+    for _ in 0..50 {
+        forth.advance()?;
+    }
+    let mut back = Integrator::new(&system, Sigma::midpoint(), -0.1, forth.state())?;
+    for _ in 0..50 {
+        back.advance()?;
+    }
+    let first = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
+    assert!(apart(back.q(), first.q()) < 1e-11);
+    Ok(())
+}
+
+/// Whether a run on the oscillator stays bounded for many steps.
+fn is_stable(sigma: f64, omega_h: f64) -> Result<bool, Box<dyn core::error::Error>> {
+    let system = Oscillator { omega: 1.0 };
+    let (first, second) =
+        (OscillatorState { x: 1.0, y: 0.0 }, OscillatorState { x: omega_h.cos(), y: omega_h.sin() });
+    // Newton solves linear equations in one step at any h, where the fixed point would diverge.
+    let method = Sigma { solver: Solver::Newton, ..Sigma::new(sigma) };
+    let mut run = Integrator::from_two_points(&system, method, omega_h, first, second)?;
+    let mut largest: f64 = 0.0;
+    for _ in 0..4000 {
+        run.advance()?;
+        largest = run.q().iter().fold(largest, |m, q| m.max(q.abs()));
+    }
+    Ok(largest < 1e3)
+}
+
+#[test]
+fn the_linear_stability_limit_is_where_the_theory_puts_it() -> Outcome {
+    for sigma in [0.0, 0.25, 0.4, 0.7, 1.0] {
+        let limit = 1.0 / f64::abs(1.0 - 2.0 * sigma);
+        assert!(is_stable(sigma, limit * 0.999)?, "sigma = {sigma}");
+        assert!(!is_stable(sigma, limit * 1.001)?, "sigma = {sigma}");
+    }
+    assert!(is_stable(0.5, 1000.0)?);
+    Ok(())
+}
+
+#[test]
+fn an_alternating_component_is_measured_and_a_smooth_one_is_not() -> Outcome {
+    let (system, start) = quasi_periodic();
+    // With σ = ½ a start off the constraint alternates with constant amplitude.
+    let method = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::midpoint() };
+    for (method, alternates) in [(method, true), (Sigma::midpoint(), false)] {
+        let mut run = Integrator::new(&system, method, 0.02, start)?;
+        let first = run.parasitic_amplitude();
+        let mut filter = AlternatingComponent::new(&system);
+        let mut amplitudes = Vec::new();
+        for _ in 0..200 {
+            amplitudes.extend(filter.amplitude(run.q()));
+            run.advance()?;
+        }
+        assert_eq!(amplitudes.len(), 196);
+        assert!((run.parasitic_amplitude() - first).abs() <= 1e-18);
+        assert_eq!(first > 0.0, alternates);
+        // Γ = 1: p = α + c, and an alternating part a of q has |c| = |a|, up to the smooth remainder.
+        let smooth = 1e-6;
+        for amplitude in amplitudes {
+            assert!(amplitude < first + smooth);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_filter_passes_alternating_sequences_and_stops_cubics() {
+    let system = Oscillator { omega: 1.0 };
+    let mut filter = AlternatingComponent::new(&system);
+    let cubic = |k: f64| 0.5 + k - 0.25 * k * k + 0.125 * k * k * k;
+    for k in 0..12 {
+        let (x, sign) = (f64::from(k), if k % 2 == 0 { 1.0 } else { -1.0 });
+        let filtered = filter.push(&[cubic(x) + 0.75 * sign, cubic(x)]).map(<[f64]>::to_vec);
+        // The window is centred two steps back, where the sign is the same.
+        let expected = (k >= 4).then(|| vec![0.75 * sign, 0.0]);
+        assert_eq!(filtered, expected);
+    }
+}
