@@ -1,4 +1,46 @@
-//! Variational integrators generated at compile time.
+//! Variational integrators for degenerate Lagrangians, generated at compile time.
+//!
+//! A degenerate Lagrangian is affine in the velocities, L(q, v, t) = α(q, t)·v − H(q, t). Its
+//! Euler–Lagrange equations are of first order, Ω q' = ∇H with Ω = (Dα)ᵀ − Dα. Declare α and H on the
+//! struct of the parameters, choose a [method](Method), and iterate:
+//!
+//! ```
+//! use dvi_core::prelude::*;
+//!
+//! /// Predators y and prey x.
+//! #[degenerate_lagrangian(
+//!     coordinates(x, y),
+//!     one_form    = y.ln() / x * d(x),
+//!     hamiltonian = x + y - x.ln() - rate * y.ln(),
+//! )]
+//! pub struct LotkaVolterra { rate: f64 }
+//!
+//! let system = LotkaVolterra { rate: 2.0 };
+//! let start = LotkaVolterraState { x: 1.0, y: 1.0 };
+//! let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;
+//! for state in run.by_ref().take(1000) {
+//!     let state = state?;
+//!     assert!(state.x > 0.0 && state.y > 0.0);
+//! }
+//! assert!((run.energy() - 2.0).abs() < 1e-8);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | to find | look at |
+//! |---|---|
+//! | what the attribute understands | [`degenerate_lagrangian`] |
+//! | the run: stepping, state, energy, momenta, errors | [`Integrator`] |
+//! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
+//! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
+//! | sections, exponents, preserved forms, orders | [`diagnostics`] |
+//! | what the macro implements, to be implemented by hand if need be | [`Lagrangian`], [`DegenerateLagrangian`] |
+//!
+//! # Features
+//! - `macros` (default): the attribute.
+//! - `std` (default): elementary functions from the platform; implies `alloc`.
+//! - `alloc`: systems whose size is known at run time only.
+//! - `libm`: elementary functions without `std`.
+
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -101,7 +101,7 @@ impl<T: Real> Sigma<T> {
 }
 
 /// One step: where it starts, how long it is, and which member of the family takes it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 struct Step<'a, S, T> {
     system: &'a S,
     method: &'a Sigma<T>,

@@ -54,6 +54,7 @@ pub fn run(
             return Ended::NotStarted;
         }
         bar.reset_elapsed();
+        bar.set_length(0);
         bar.set_message("");
         let job = Job::new(folder.to_owned(), length, bar.clone(), stop);
         let result = (experiment.run)(&job);
@@ -77,9 +78,10 @@ pub fn run(
 }
 
 fn bar(experiment: &Experiment) -> ProgressBar {
-    let bar = ProgressBar::new(0).with_prefix(experiment.name).with_message("waiting");
+    // Without any length it would look complete.
+    let bar = ProgressBar::new(1).with_prefix(experiment.name).with_message("waiting");
     // The template is a constant: if it were wrong, the plain default would still do.
-    ProgressStyle::with_template("{prefix:<16} {bar:40.cyan/blue} {percent:>3} %  {msg}")
+    ProgressStyle::with_template("{prefix:<20} {bar:40.cyan/blue} {percent:>3} %  {msg}")
         .map(|style| bar.set_style(style.progress_chars("━╸─")))
         .unwrap_or_default();
     bar.tick();

@@ -3,8 +3,12 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use anyhow::Result;
 use dvi_core::StepError;
 use indicatif::ProgressBar;
+
+use crate::figure::Figure;
+use crate::output::Table;
 
 /// Full length as in the papers, or seconds instead of minutes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,19 +20,11 @@ pub enum Length {
 /// The surroundings of one experiment.
 #[derive(Debug)]
 pub struct Job<'a> {
-    pub folder: PathBuf,
+    folder: PathBuf,
     length: Length,
     bar: ProgressBar,
     stop: &'a AtomicBool,
     cut: AtomicBool,
-}
-
-/// How a series ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ending {
-    Complete,
-    Interrupted,
-    Failed(StepError),
 }
 
 /// Steps between two looks at the clock and at the interrupt flag.
@@ -52,7 +48,7 @@ impl<'a> Job<'a> {
         self.choose(Some(value), None)
     }
 
-    /// Announces steps that the progress bar counts.
+    /// Announces steps for the progress bar to count; best all of an experiment at its beginning.
     pub fn expect(&self, steps: u64) {
         self.bar.inc_length(steps);
     }
@@ -62,33 +58,43 @@ impl<'a> Job<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Counts `steps` more; false if the user interrupts, and the series should end.
-    pub fn proceed(&self, steps: u64) -> bool {
+    /// Counts `steps` more of those that were expected.
+    pub fn proceed(&self, steps: u64) {
         self.bar.inc(steps);
-        let stop = self.is_stopping();
-        if stop {
-            self.cut.store(true, Ordering::Relaxed);
-        }
-        !stop
     }
 
-    /// Calls `step` `count` times, unless it fails or the user interrupts.
-    pub fn repeat(&self, count: u64, mut step: impl FnMut() -> Result<(), StepError>) -> Ending {
+    /// Notes that a series ends before its time because the user wants to stop.
+    pub fn cut_short(&self) {
+        self.cut.store(true, Ordering::Relaxed);
+    }
+
+    /// Calls `step` `count` times; fewer, if the user interrupts.
+    ///
+    /// # Errors
+    /// That of the first step that fails, which is the last one taken.
+    pub fn repeat(
+        &self,
+        count: u64,
+        mut step: impl FnMut() -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
         let mut done = 0;
-        while done < count {
+        while done < count && !self.is_stopping() {
             let chunk = CHUNK.min(count - done);
-            for _ in 0..chunk {
-                if let Err(error) = step() {
-                    self.bar.inc(count - done);
-                    return Ending::Failed(error);
-                }
-            }
+            (0..chunk).try_for_each(|_| step())?;
+            self.proceed(chunk);
             done += chunk;
-            if !self.proceed(chunk) {
-                return Ending::Interrupted;
-            }
         }
-        Ending::Complete
+        if done < count {
+            self.cut_short();
+        }
+        Ok(())
+    }
+
+    /// Writes the figure (SVG and PNG) and its data (CSV); the figure of an interrupted run says so.
+    pub fn publish(&self, name: &str, figure: Figure, data: Table) -> Result<()> {
+        let figure = if self.was_interrupted() { figure.interrupted() } else { figure };
+        figure.save(&self.folder, name)?;
+        data.save(&self.folder, name)
     }
 
     /// Whether a series of this experiment was cut short by the user.
@@ -106,14 +112,18 @@ mod tests {
         let stop = AtomicBool::new(false);
         let job = Job::new(PathBuf::new(), Length::Short, ProgressBar::hidden(), &stop);
         let mut count = 0;
-        assert_eq!(job.repeat(10_000, || Ok(count += 1)), Ending::Complete);
+        let mut step = || {
+            count += 1;
+            Ok(())
+        };
+        assert_eq!(job.repeat(10_000, &mut step), Ok(()));
         assert_eq!((count, job.was_interrupted()), (10_000, false));
-        let ending = job.repeat(1_000_000, || {
+        let result = job.repeat(1_000_000, || {
             count += 1;
             stop.store(count > 20_000, Ordering::Relaxed);
             Ok(())
         });
-        assert_eq!(ending, Ending::Interrupted);
+        assert_eq!(result, Ok(()));
         assert!(job.was_interrupted() && (20_000..20_000 + 2 * CHUNK).contains(&count), "{count}");
     }
 }

@@ -1,6 +1,36 @@
 //! The systems of the gallery and the initial data of the papers.
 
-pub use crate::by_hand::*;
+use dvi_core::prelude::*;
+
+/// Point vortices in the plane (Rowley & Marsden 2002, eq. 4, with each pair counted once).
+#[degenerate_lagrangian(
+    coordinates(x[N], y[N]),
+    one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
+        * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
+    momenta(
+        impulse_x = sum(0..N, |j| gamma[j] * x[j]),
+        impulse_y = sum(0..N, |j| gamma[j] * y[j]),
+        angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))),
+    ),
+)]
+#[derive(Clone, Debug)]
+pub struct PointVortices<const N: usize> {
+    /// The circulations Γ.
+    pub gamma: [f64; N],
+}
+
+/// z' = iωz with z = x + iy: the test equation of stability.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = (x * d(y) - y * d(x)) / 2.0,
+    hamiltonian = omega / 2.0 * (x * x + y * y),
+)]
+#[derive(Clone, Debug)]
+pub struct Rotation {
+    /// The frequency ω.
+    pub omega: f64,
+}
 
 /// Four vortices.
 pub type FourVortices = PointVortices<4>;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 
 /// Writes the file under a provisional name and renames it when it is complete, so that whatever
 /// happens in between, nothing incomplete ever bears the final name.
@@ -37,12 +37,13 @@ pub fn prepare_folder(folder: &Path) -> Result<()> {
 /// A table with named columns.
 #[derive(Debug)]
 pub struct Table {
+    columns: usize,
     writer: csv::Writer<Vec<u8>>,
 }
 
 impl Table {
     pub fn new(columns: &[&str]) -> Result<Self> {
-        let mut table = Self { writer: csv::Writer::from_writer(Vec::new()) };
+        let mut table = Self { columns: columns.len(), writer: csv::Writer::from_writer(Vec::new()) };
         table.row(columns)?;
         Ok(table)
     }
@@ -52,7 +53,9 @@ impl Table {
         I: IntoIterator<Item: ToString>,
     {
         let cells: Vec<String> = cells.into_iter().map(|cell| cell.to_string()).collect();
-        self.writer.write_record(&cells).context("a row of a table has the wrong number of cells")
+        // The writer itself notices only after it has written part of the row.
+        ensure!(cells.len() == self.columns, "a row of {} cells in a table of {}", cells.len(), self.columns);
+        self.writer.write_record(&cells).context("a table could not be written")
     }
 
     /// Writes `name.csv` into the folder.

@@ -20,7 +20,9 @@ pub fn markdown(results: &Results<'_>, length: Length) -> String {
         let Experiment { name, title, .. } = experiment;
         let _ = writeln!(text, "## {name}: {title}\n");
         match ended {
-            Ended::Failed(error) => drop(writeln!(text, "**Failed**: {error:#}\n")),
+            Ended::Failed(error) => {
+                let _ = writeln!(text, "**Failed**: {error:#}\n");
+            }
             Ended::NotStarted => text += "**Interrupted** before it started.\n\n",
             Ended::Complete(outcome) => section(&mut text, name, outcome, false),
             Ended::Interrupted(outcome) => {
@@ -36,9 +38,14 @@ fn section(text: &mut String, name: &str, outcome: &Outcome, interrupted: bool) 
     let _ = writeln!(text, "![]({name}.png)\n");
     *text += "| The paper says | Measured (required) | Verdict |\n|---|---|---|\n";
     for claim in &outcome.claims {
-        let measured: Vec<String> = claim.checks().map(|check| cell(&check.to_string())).collect();
         let says = cell(&claim.says);
-        let verdict = if interrupted { "interrupted".into() } else { cell(&claim.verdict().to_string()) };
+        if interrupted {
+            // Numbers of incomplete series would only mislead.
+            let _ = writeln!(text, "| {says} ({}) | | interrupted |", claim.place);
+            continue;
+        }
+        let measured: Vec<String> = claim.checks().map(|check| cell(&check.to_string())).collect();
+        let verdict = cell(&claim.verdict().to_string());
         let _ = writeln!(text, "| {says} ({}) | {} | {verdict} |", claim.place, measured.join("<br>"));
     }
     *text += "\n";
@@ -60,15 +67,20 @@ pub fn plain(results: &Results<'_>) -> String {
     let mut text = String::new();
     for (experiment, ended) in results {
         let _ = writeln!(text, "{}: {}", experiment.name, experiment.title);
-        match ended {
-            Ended::Failed(error) => drop(writeln!(text, "  failed: {error:#}")),
-            Ended::NotStarted => text += "  interrupted before it started\n",
-            Ended::Complete(outcome) => {
-                outcome.claims.iter().for_each(|claim| entry(&mut text, claim, false))
+        let (outcome, interrupted) = match ended {
+            Ended::Complete(outcome) => (outcome, false),
+            Ended::Interrupted(outcome) => (outcome, true),
+            Ended::NotStarted => {
+                text += "  interrupted before it started\n\n";
+                continue;
             }
-            Ended::Interrupted(outcome) => {
-                outcome.claims.iter().for_each(|claim| entry(&mut text, claim, true))
+            Ended::Failed(error) => {
+                let _ = writeln!(text, "  failed: {error:#}\n");
+                continue;
             }
+        };
+        for claim in &outcome.claims {
+            entry(&mut text, claim, interrupted);
         }
         text.push('\n');
     }
@@ -76,8 +88,11 @@ pub fn plain(results: &Results<'_>) -> String {
 }
 
 fn entry(text: &mut String, claim: &Claim, interrupted: bool) {
+    if interrupted {
+        let _ = writeln!(text, "  … {} ({}): interrupted", claim.says, claim.place);
+        return;
+    }
     let (mark, verdict) = match claim.verdict() {
-        _ if interrupted => ("…", "interrupted".into()),
         Verdict::Reproduced => ("✓", String::new()),
         verdict @ Verdict::Differs(_) => ("≠", verdict.to_string()),
         verdict @ Verdict::NotReproduced => ("✗", verdict.to_string()),

@@ -20,10 +20,11 @@ use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use syn::{Ident, Path};
 
-use crate::instructions::{Instruction, Instructions, Register, Signed, select};
+use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::model::{Model, Shape};
 use crate::program::{Output, Place, Statement};
 use crate::schedule::{Step, schedule};
+use crate::select::select;
 use crate::symbolic::{Atom, Binder, Coordinate, Graph, Index, Node, Parameter, Relation, Weight};
 
 /// Operations of the innermost body of one loop nest.

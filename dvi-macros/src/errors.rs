@@ -33,14 +33,23 @@ impl Errors {
         self.found.is_empty()
     }
 
+    /// The first error as an expression; it is not reported elsewhere.
+    pub(crate) fn take_first(&mut self) -> TokenStream {
+        match self.found.is_empty() {
+            true => TokenStream::new(),
+            false => self.found.remove(0).into_compile_error(),
+        }
+    }
+
     pub(crate) fn into_tokens(self) -> TokenStream {
         self.found.into_iter().map(|error| error.into_compile_error()).collect()
     }
 }
 
-/// "; did you mean `x`?" for the nearest of the declared names, if one is near.
+/// The nearest of the declared names, if one is near: a few letters apart, and not all of them.
 pub(crate) fn nearest<'a>(name: &str, declared: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = 1 + name.chars().count() / 4;
+    let length = name.chars().count();
+    let allowed = (1 + length / 4).min(length.saturating_sub(1));
     declared
         .into_iter()
         .map(|candidate| (edit_distance(name, candidate), candidate))

@@ -1,8 +1,8 @@
 //! The whole story of one attribute: parse, resolve, lower, differentiate, emit.
 
 use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
-use syn::{Expr as Syntax, ItemStruct};
+use quote::quote;
+use syn::{Expr as Syntax, Item, ItemStruct};
 
 use crate::emit::Emitter;
 use crate::errors::Errors;
@@ -12,17 +12,16 @@ use crate::model::Model;
 use crate::program::{Formulas, Programs};
 use crate::structure::{self, Structure};
 use crate::symbolic::{Expr, Graph, Node};
-use crate::syntax::{Attribute, parse_attribute};
+use crate::syntax::{Attribute, depth, parse_attribute};
+
+mod stand_in;
+
+use stand_in::stand_in;
 
 pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
-    let item = match syn::parse2::<ItemStruct>(item.clone()) {
+    let item = match read_item(item) {
         Ok(item) => item,
-        Err(_) => {
-            let message =
-                "`#[degenerate_lagrangian]` stands on a struct whose fields are the parameters of the system";
-            let error = syn::Error::new_spanned(&item, message).into_compile_error();
-            return quote!(#error #item);
-        }
+        Err(refused) => return refused,
     };
     let mut errors = Errors::default();
     let mut attribute = parse_attribute(attribute, &mut errors);
@@ -33,7 +32,7 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         Some(formulas) => {
             let form_entries = graph.hessian(formulas.one_form);
             let structure = structure::analyse(&mut graph, &model, &form_entries);
-            structure.check(&model, &mut errors);
+            structure.check(&model, attribute.symplectic_part(), &mut errors);
             let programs = Programs::new(&mut graph, &formulas, &form_entries, structure.canonical);
             (Some((formulas, programs)), structure)
         }
@@ -46,6 +45,34 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         }
         _ => stand_in(&emitter, errors),
     }
+}
+
+/// The struct, or what to emit in place of a system: the item as it is, with an error.
+fn read_item(item: TokenStream) -> Result<ItemStruct, TokenStream> {
+    let advice =
+        "`#[degenerate_lagrangian]` stands on a struct whose fields are the parameters of the system";
+    let parsed = depth::check(&item).and_then(|()| syn::parse2::<Item>(item.clone()));
+    let mut errors = Errors::default();
+    let replaced = match parsed {
+        Ok(Item::Struct(item)) => return Ok(item),
+        Ok(Item::Enum(other)) => {
+            errors.push(other.enum_token, advice);
+            stand_in::without_struct(&other.vis, &other.ident, &other.generics, errors)
+        }
+        Ok(Item::Union(other)) => {
+            errors.push(other.union_token, advice);
+            stand_in::without_struct(&other.vis, &other.ident, &other.generics, errors)
+        }
+        Ok(other) => {
+            errors.push(other, advice);
+            errors.into_tokens()
+        }
+        Err(error) => {
+            errors.push_syn(error);
+            errors.into_tokens()
+        }
+    };
+    Err(quote!(#item #replaced))
 }
 
 /// α·v, H and the momenta as expressions; reports everything that is missing or wrong.
@@ -169,57 +196,5 @@ fn implemented(
         #item
         #state
         #implementation
-    }
-}
-
-/// With errors: the struct as written, and implementations that type-check, so that the mistakes in
-/// the attribute are the only ones reported.
-fn stand_in(emitter: &Emitter<'_>, errors: Errors) -> TokenStream {
-    let (model, krate) = (emitter.model, emitter.krate());
-    let (item, name) = (&model.item, &model.item.ident);
-    let (impl_generics, type_generics, where_clause) = item.generics.split_for_impl();
-    let state = implement::state(emitter);
-    let (space, type_in_trait, state_item) = (&state.space, &state.type_in_trait, &state.item);
-    let allow = implement::allow();
-    let errors = errors.into_tokens();
-    let never = quote!({ ::core::unreachable!() });
-    let item = item.to_token_stream();
-    quote! {
-        #errors
-        #item
-        #state_item
-        const _: () = {
-            #[automatically_derived]
-            #allow
-            impl #impl_generics #krate::Lagrangian for #name #type_generics #where_clause {
-                type Space = #space;
-                type State<__T: #krate::Scalar> = #type_in_trait;
-                const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[]);
-                fn space(&self) -> Self::Space #never
-                fn block_len(&self, _: usize) -> usize #never
-                fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
-                fn lagrangian<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
-                fn gradient<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T], _: &mut [__T]) #never
-                fn linearize<__T: #krate::Scalar>(
-                    &self, _: &[__T], _: &[__T], _: __T, _: #krate::Weights<__T>, _: &mut [__T], _: &mut [__T], _: &mut [__T],
-                ) #never
-                fn momentum<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T) -> __T #never
-                fn momentum_gradient<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T, _: &mut [__T]) #never
-            }
-            #[automatically_derived]
-            #allow
-            impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
-                const LINEAR: bool = false;
-                const MATCHING: bool = false;
-                const CANONICAL: bool = false;
-                fn hamiltonian<__T: #krate::Scalar>(&self, _: &[__T], _: __T) -> __T #never
-                fn hamiltonian_gradient<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                fn one_form<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                fn flow_source<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                fn one_form_jacobian<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
-                fn partner_entries<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
-                fn partner(&self, _: usize) -> usize #never
-            }
-        };
     }
 }

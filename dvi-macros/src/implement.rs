@@ -214,7 +214,7 @@ impl Implementation<'_> {
 
                 #[inline]
                 fn hamiltonian<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T) -> __T { #hamiltonian }
-                #[inline]
+                #[inline(always)]
                 fn hamiltonian_gradient<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
                     #hamiltonian_gradient
                 }
@@ -263,7 +263,8 @@ pub(crate) fn allow() -> TokenStream {
     quote! {
         #[allow(
             clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction,
-            unused_variables, unused_mut, unused_parens, unused_braces, non_snake_case, unreachable_code
+            unused_variables, unused_mut, unused_parens, unused_braces, unreachable_code,
+            non_snake_case, non_upper_case_globals
         )]
     }
 }

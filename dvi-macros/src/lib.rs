@@ -2,26 +2,55 @@
 //!
 //! A formula goes one way: [`syntax`] reads the attribute, [`model`] resolves its names, [`lower`] turns
 //! expressions into a graph (the last stage that can fail), [`symbolic`] simplifies and differentiates,
-//! [`program`] says what each generated function computes, [`instructions`] and [`schedule`] choose
+//! [`program`] says what each generated function computes, [`select`] and [`schedule`] choose
 //! shared products and loops, [`emit`] and [`implement`] write Rust. [`expand`] tells that story on one
 //! screen.
 
 mod emit;
 mod errors;
 mod expand;
+#[cfg(test)]
+mod fuzz_tests;
 mod implement;
 mod instructions;
 mod lower;
 mod model;
 mod program;
 mod schedule;
+mod select;
 mod structure;
 mod symbolic;
 mod syntax;
+#[cfg(test)]
+mod tests;
 
 use proc_macro::TokenStream;
 
 /// Declares a degenerate system, L(q, v, t) = α(q, t)·v − H(q, t), on the struct of its parameters.
+///
+/// | argument | meaning |
+/// |---|---|
+/// | `coordinates(x, y[N])` | single coordinates and arrays; a size is a literal, a const generic, a `usize` field or `field.len()` |
+/// | `one_form = …` | α, linear in `d(x)`; or its components `[a, b]`, with `\|i\| …` for an array |
+/// | `hamiltonian = …` | H |
+/// | `lagrangian = …` | instead of these two: L, affine in the velocities `dot(x)` |
+/// | `momenta(name = …)` | conserved quantities to watch |
+/// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
+/// | `crate = ::path` | where `dvi_core` is, if it was renamed |
+///
+/// Formulas are Rust expressions over the coordinates, the fields of the struct by name, `PI` and other
+/// constants, and the time `t` (a coordinate or field of that name takes precedence): operators, methods
+/// of `f64`, `let` blocks, `if … else`, `as f64`. Index sums are `sum(0..n, |j| …)`,
+/// `sum_pairs(0..n, |j, k| …)` over j < k and `sum_ordered_pairs` over j ≠ k. Indices are sums,
+/// differences and literal multiples of bound indices, sizes and integers; `%` is the Euclidean
+/// remainder.
+///
+/// For a struct `System` the attribute implements `dvi_core::Lagrangian` and
+/// `dvi_core::DegenerateLagrangian`, defines `SystemState` with the coordinates as fields, and continues
+/// the documentation of the struct with its formulas.
+///
+/// # Errors
+/// Each mistake is one error on the token at fault. Ω that is singular for certain is a mistake.
 #[proc_macro_attribute]
 pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand::degenerate_lagrangian(attribute.into(), item.into()).into()

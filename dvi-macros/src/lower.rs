@@ -19,6 +19,8 @@ mod names;
 mod sums;
 mod unsupported;
 
+pub(crate) use calls::RESERVED;
+
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Role {
@@ -73,11 +75,19 @@ struct IndexNames(HashSet<String>);
 impl<'ast> Visit<'ast> for IndexNames {
     fn visit_expr_closure(&mut self, closure: &'ast syn::ExprClosure) {
         for input in &closure.inputs {
-            if let Pat::Ident(pattern) = input {
-                self.0.insert(pattern.ident.to_string());
-            }
+            self.0.extend(bound_name(input));
         }
         syn::visit::visit_expr_closure(self, closure);
+    }
+}
+
+/// The name in `name`, `name: type` and `_`.
+fn bound_name(pattern: &Pat) -> Option<String> {
+    match pattern {
+        Pat::Ident(name) if name.by_ref.is_none() && name.subpat.is_none() => Some(name.ident.to_string()),
+        Pat::Type(typed) => bound_name(&typed.pat),
+        Pat::Wild(_) => Some("_".to_string()),
+        _ => None,
     }
 }
 
@@ -106,22 +116,15 @@ impl<'a> Lowering<'a> {
 
     /// A list of components, one for each block: Σ_b Σ_i αᵇᵢ·d(xᵇᵢ).
     pub(crate) fn components(&mut self, list: &syn::ExprArray) -> Option<Expr> {
-        let expected = self.model.blocks.len();
-        if list.elems.len() != expected {
-            let names = listed(
-                self.model
-                    .blocks
-                    .iter()
-                    .map(|b| b.name.to_string())
-                    .collect::<Vec<_>>()
-                    .iter()
-                    .map(String::as_str),
-            );
-            let message = format!(
-                "the one-form has {} components, but there are {expected} coordinates: write one for each of {names}",
-                list.elems.len()
-            );
-            self.errors.push(list, message);
+        let (expected, found) = (self.model.blocks.len(), list.elems.len());
+        if found != expected {
+            if !self.model.lost_coordinates {
+                let names: Vec<String> = self.model.blocks.iter().map(|b| b.name.to_string()).collect();
+                let names = listed(names.iter().map(String::as_str));
+                let message =
+                    format!("expected {expected} components, one for each of {names}; here are {found}");
+                self.errors.push(list, message);
+            }
             return None;
         }
         let terms: Vec<Option<Expr>> = list
@@ -185,6 +188,10 @@ impl<'a> Lowering<'a> {
         self.depth += 1;
         let value = self.expr_inside(syntax);
         self.depth -= 1;
+        if value.is_some_and(|value| !value.scale.is_finite()) {
+            self.errors.push(syntax, "the value of this is not a finite number");
+            return None;
+        }
         value
     }
 
@@ -197,7 +204,7 @@ impl<'a> Lowering<'a> {
                 Some(self.expr(&unary.expr)?.negated())
             }
             Syntax::Binary(binary) => self.binary(binary),
-            Syntax::Path(path) => self.path(&path.path),
+            Syntax::Path(path) if path.qself.is_none() => self.path(&path.path),
             Syntax::Field(field) => self.field(field),
             Syntax::Index(_) => self.indexed(syntax),
             Syntax::MethodCall(call) => self.method(call),
@@ -213,11 +220,19 @@ impl<'a> Lowering<'a> {
     }
 
     fn literal(&mut self, literal: &Lit) -> Option<Expr> {
-        let value = match literal {
-            Lit::Float(value) => value.base10_parse::<f64>().ok(),
-            Lit::Int(value) => value.base10_parse::<u64>().ok().map(|value| value as f64),
-            _ => None,
+        let (digits, suffix) = match literal {
+            Lit::Float(value) => (value.base10_digits(), value.suffix()),
+            Lit::Int(value) => (value.base10_digits(), value.suffix()),
+            _ => {
+                self.errors.push(literal, "expected a number");
+                return None;
+            }
         };
+        if !matches!(suffix, "" | "f64" | "f32") {
+            self.errors.push(literal, format!("formulas are real: write this number without `{suffix}`"));
+            return None;
+        }
+        let value = digits.parse::<f64>().ok();
         if value.is_none() {
             self.errors.push(literal, "expected a number");
         }
@@ -226,7 +241,6 @@ impl<'a> Lowering<'a> {
 
     fn binary(&mut self, syntax: &syn::ExprBinary) -> Option<Expr> {
         let (left, right) = (self.expr(&syntax.left), self.expr(&syntax.right));
-        let whole = Syntax::Binary(syntax.clone());
         match syntax.op {
             BinOp::Add(_) | BinOp::Sub(_) => {
                 let (left, right) = (left?, right?);
@@ -236,7 +250,7 @@ impl<'a> Lowering<'a> {
             }
             BinOp::Mul(_) => {
                 let value = self.graph.multiply(left?, right?);
-                self.affine(&whole, value)
+                self.affine(syntax, value)
             }
             BinOp::Div(_) => {
                 let (left, right) = (left?, right?);
@@ -245,10 +259,10 @@ impl<'a> Lowering<'a> {
                     return None;
                 }
                 let value = self.graph.divide(left, right);
-                self.affine(&whole, value)
+                self.affine(syntax, value)
             }
             _ => {
-                self.unsupported(&whole);
+                self.unsupported(&Syntax::Binary(syntax.clone()));
                 None
             }
         }
@@ -309,15 +323,11 @@ impl<'a> Lowering<'a> {
                 None
             }
         };
-        let pattern = match &local.pat {
-            Pat::Type(typed) => &*typed.pat,
-            other => other,
-        };
-        match pattern {
-            Pat::Ident(name) if name.by_ref.is_none() && name.subpat.is_none() => {
-                self.scope.push((name.ident.to_string(), Binding::Value(value)));
+        match bound_name(&local.pat) {
+            Some(name) => self.scope.push((name, Binding::Value(value))),
+            None => {
+                self.errors.push(&local.pat, "write `let name = value;`: a formula binds one name at a time");
             }
-            other => self.errors.push(other, "write `let name = value;`: a formula binds one name at a time"),
         }
     }
 
@@ -358,8 +368,9 @@ impl<'a> Lowering<'a> {
                     }
                 };
                 let (left, right) = (self.expr(&binary.left), self.expr(&binary.right));
-                let value = self.graph.choose(left?, relation, right?, then?, otherwise?);
-                self.affine(condition, value)
+                let (left, right) = (left?, right?);
+                self.check_at_rest(condition, &[left, right])?;
+                Some(self.graph.choose(left, relation, right, then?, otherwise?))
             }
             _ => {
                 self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
@@ -384,28 +395,32 @@ impl<'a> Lowering<'a> {
         self.graph.intern(Node::Parameter(Parameter { field, indices })).into()
     }
 
-    /// The declared name nearest to an unknown one, as the end of a sentence.
-    fn suggestion(&self, name: &str) -> String {
+    /// Reports an unknown name once; where declarations were lost, it may be one of them.
+    fn unknown_name(&mut self, at: impl quote::ToTokens, name: &str, what: &str) {
+        if self.model.lost_coordinates {
+            return;
+        }
         let mut declared: Vec<String> =
             self.model.blocks.iter().map(|block| block.name.to_string()).collect();
+        let coordinates = declared.len();
         declared.extend(self.model.parameters.iter().map(|parameter| parameter.text.clone()));
         declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));
         declared.extend(self.scope.iter().map(|(name, _)| name.clone()));
         declared.extend(names::CONSTANTS.iter().map(|(name, _)| (*name).to_string()));
-        match nearest(name, declared.iter().map(String::as_str)) {
-            Some(near) => format!("; did you mean `{near}`?"),
-            None => {
-                let coordinates: Vec<&str> =
-                    declared.iter().take(self.model.blocks.len()).map(String::as_str).collect();
-                format!(
-                    "; a formula may use the coordinates {}, the fields of the struct, constants such as `PI`, and `t`",
-                    listed(coordinates)
-                )
+        let hint = match nearest(name, declared.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if name.chars().all(|letter| letter.is_uppercase() || letter == '_') => {
+                format!("a constant of your own is written with its path: `self::{name}` or `Self::{name}`")
             }
-        }
+            None => format!(
+                "a formula may use the coordinates {}, the fields of the struct, constants such as `PI`, and `t`",
+                listed(declared.iter().take(coordinates).map(String::as_str))
+            ),
+        };
+        self.errors.push_once(&format!("name {name}"), at, format!("{what} `{name}`; {hint}"));
     }
 
-    fn shape_of(&self, field: u32) -> Shape {
-        self.model.parameters[field as usize].shape
+    fn shape_of(&self, field: u32) -> &Shape {
+        &self.model.parameters[field as usize].shape
     }
 }

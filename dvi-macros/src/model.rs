@@ -3,11 +3,14 @@
 //! The symbolic core knows blocks, parameters, sizes and functions by number; the tables here say what
 //! they are.
 
-use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
-use syn::{Expr, ExprLit, Fields, GenericParam, Ident, ItemStruct, Lit, Path, Type};
+use proc_macro2::{Span, TokenStream};
+use quote::{ToTokens, quote, quote_spanned};
+use syn::{
+    Expr, ExprLit, Fields, GenericArgument, GenericParam, Ident, ItemStruct, Lit, Path, PathArguments, Type,
+};
 
 use crate::errors::Errors;
+use crate::lower::RESERVED;
 use crate::symbolic::{Index, Names, Size};
 use crate::syntax::{Attribute, Declaration, Function};
 
@@ -39,12 +42,12 @@ pub(crate) struct ParameterName {
 }
 
 /// What the type of a field says, as far as it is written out.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     Number,
     Count,
-    /// An array, slice or vector, with its length if that is a literal.
-    Array(Option<i64>),
+    /// An array, slice or vector: its length if that is a literal, and the shape of its entries.
+    Array(Option<i64>, Box<Shape>),
     Unknown,
     /// Certainly not a number.
     Other,
@@ -58,25 +61,42 @@ pub(crate) struct Model {
     pub(crate) parameters: Vec<ParameterName>,
     pub(crate) functions: Vec<Function>,
     pub(crate) crate_path: Path,
+    /// Whether coordinates or their sizes are unknown, so that names and ranges cannot be checked.
+    pub(crate) lost_coordinates: bool,
+    /// Whether functions are unknown.
+    pub(crate) lost_functions: bool,
 }
+
+/// The largest dimension that a literal size may give: such a state lives on the stack.
+const LARGEST: i64 = 1 << 20;
 
 impl Model {
     pub(crate) fn new(attribute: &mut Attribute, item: ItemStruct, errors: &mut Errors) -> Self {
         let crate_path = attribute.crate_path.take().unwrap_or_else(|| syn::parse_quote!(::dvi_core));
         let parameters = fields(&item, errors);
-        let functions = std::mem::take(&mut attribute.functions);
-        let mut model =
-            Self { item, blocks: Vec::new(), sizes: Vec::new(), parameters, functions, crate_path };
+        let mut model = Self {
+            item,
+            blocks: Vec::new(),
+            sizes: Vec::new(),
+            parameters,
+            functions: std::mem::take(&mut attribute.functions),
+            crate_path,
+            lost_coordinates: attribute.lost_coordinates,
+            lost_functions: attribute.lost_functions,
+        };
         for declaration in &attribute.coordinates {
             model.declare(declaration, errors);
         }
-        for function in &model.functions {
-            if function.derivatives.len() < 3 {
-                let message =
-                    "a function needs itself and its first two derivatives: write `f = [f, df, d2f]`";
-                errors.push(&function.name, message);
+        for Function { name, .. } in &model.functions {
+            if RESERVED.iter().any(|reserved| name == reserved) {
+                errors.push(
+                    name,
+                    format!("`{name}` has a meaning of its own in formulas; give this function another name"),
+                );
             }
         }
+        unique(model.functions.iter().map(|function| &function.name), "function", errors);
+        unique(attribute.momenta.iter().map(|momentum| &momentum.name), "momentum", errors);
         model
     }
 
@@ -84,6 +104,7 @@ impl Model {
         let Declaration { name, size } = declaration;
         if self.blocks.iter().any(|block| block.name == *name) {
             errors.push(name, format!("coordinate `{name}` is declared twice"));
+            self.lost_coordinates = true;
             return;
         }
         if self.parameters.iter().any(|parameter| *name == parameter.text) {
@@ -93,31 +114,47 @@ impl Model {
             );
         }
         let array = size.as_ref().map(|size| {
-            let index = self.size(size).unwrap_or_else(|| {
-                errors.push(
-                    size,
-                    "expected a size: a literal, a const generic, a field of type `usize`, or `field.len()`",
-                );
+            let index = self.declared_size(name, size).unwrap_or_else(|message| {
+                errors.push(size, message);
+                self.lost_coordinates = true;
                 Index::literal(1)
             });
-            if index.as_literal().is_some_and(|size| size < 1) {
-                errors.push(size, format!("`{name}` would have no coordinates"));
-            }
             (index, size.to_token_stream().to_string().replace(' ', ""))
         });
         self.blocks.push(Block { name: name.clone(), array });
     }
 
+    /// The size of an array of coordinates, or what is wrong with it.
+    fn declared_size(&mut self, name: &Ident, size: &Expr) -> Result<Index, String> {
+        let index = self.size(size).ok_or(
+            "expected a size: a literal, a const generic, a field of type `usize`, or `field.len()`",
+        )?;
+        let so_far = self.dimension().as_literal().unwrap_or(0);
+        match index.as_literal() {
+            Some(..1) => Err(format!("`{name}` would have no coordinates")),
+            Some(size) if size > LARGEST - so_far => Err(format!(
+                "a state of this size does not fit on the stack (at most {LARGEST} coordinates); take the size \
+                 from a field: `{name}[field.len()]`"
+            )),
+            _ => Ok(index),
+        }
+    }
+
     /// A literal, a const generic, a field of type `usize`, or `field.len()`.
     pub(crate) fn size(&mut self, expr: &Expr) -> Option<Index> {
         match expr {
-            Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => value.base10_parse().ok().map(Index::literal),
+            Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => {
+                // Beyond all integers is beyond all sizes.
+                Some(Index::literal(value.base10_digits().parse().unwrap_or(i64::MAX)))
+            }
             Expr::Paren(inner) => self.size(&inner.expr),
             Expr::Path(path) => self.named_size(&path.path.get_ident()?.to_string()),
             Expr::MethodCall(call) if call.method == "len" && call.args.is_empty() => {
                 let field = field_name(&call.receiver)?;
-                let known =
-                    self.parameters.iter().find(|p| p.text == field && matches!(p.shape, Shape::Array(_)))?;
+                let known = self
+                    .parameters
+                    .iter()
+                    .find(|p| p.text == field && matches!(p.shape, Shape::Array(..)))?;
                 let tokens = known.tokens.clone();
                 Some(self.intern_size(format!("{field}.len()"), quote!(#tokens.len()), false))
             }
@@ -128,7 +165,11 @@ impl Model {
 
     fn named_size(&mut self, name: &str) -> Option<Index> {
         let generic = self.item.generics.params.iter().find_map(|parameter| match parameter {
-            GenericParam::Const(constant) if constant.ident == name => Some(constant.ident.clone()),
+            GenericParam::Const(constant)
+                if constant.ident == name && shape(&constant.ty) == Shape::Count =>
+            {
+                Some(constant.ident.clone())
+            }
             _ => None,
         });
         if let Some(ident) = generic {
@@ -215,7 +256,8 @@ fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
                 let name = field.ident.as_ref()?;
                 Some(ParameterName {
                     text: name.to_string(),
-                    tokens: quote!(self.#name),
+                    // What is wrong with the type of a field is reported on the field.
+                    tokens: quote_spanned!(Span::call_site().located_at(name.span())=> self.#name),
                     shape: shape(&field.ty),
                 })
             })
@@ -232,26 +274,54 @@ fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
 
 fn shape(ty: &Type) -> Shape {
     match ty {
-        Type::Array(array) => match &array.len {
-            Expr::Lit(ExprLit { lit: Lit::Int(length), .. }) => Shape::Array(length.base10_parse().ok()),
-            _ => Shape::Array(None),
-        },
-        Type::Slice(_) => Shape::Array(None),
+        Type::Array(array) => {
+            let length = match &array.len {
+                Expr::Lit(ExprLit { lit: Lit::Int(length), .. }) => length.base10_parse().ok(),
+                _ => None,
+            };
+            Shape::Array(length, Box::new(shape(&array.elem)))
+        }
+        Type::Slice(slice) => Shape::Array(None, Box::new(shape(&slice.elem))),
         Type::Reference(reference) => shape(&reference.elem),
         Type::Paren(inner) => shape(&inner.elem),
         Type::Group(inner) => shape(&inner.elem),
         Type::Tuple(_) | Type::Never(_) => Shape::Other,
         Type::Path(path) => {
-            match path.path.segments.last().map(|segment| segment.ident.to_string()).as_deref() {
-                Some("f64" | "f32" | "i8" | "i16" | "i32" | "i64" | "u8" | "u16" | "u32" | "u64") => {
+            let Some(last) = path.path.segments.last() else { return Shape::Unknown };
+            match last.ident.to_string().as_str() {
+                "f64" | "f32" | "i8" | "i16" | "i32" | "i64" | "isize" | "u8" | "u16" | "u32" | "u64" => {
                     Shape::Number
                 }
-                Some("usize") => Shape::Count,
-                Some("Vec" | "VecDeque" | "SmallVec" | "ArrayVec") => Shape::Array(None),
-                Some("String" | "str" | "bool" | "char") => Shape::Other,
+                "usize" => Shape::Count,
+                "Vec" | "VecDeque" | "SmallVec" | "ArrayVec" => {
+                    Shape::Array(None, Box::new(entry(&last.arguments)))
+                }
+                "String" | "str" | "bool" | "char" | "Option" | "Result" | "PhantomData" | "HashMap"
+                | "BTreeMap" => Shape::Other,
                 _ => Shape::Unknown,
             }
         }
         _ => Shape::Unknown,
+    }
+}
+
+/// The entries of `Vec<f64>`.
+fn entry(arguments: &PathArguments) -> Shape {
+    match arguments {
+        PathArguments::AngleBracketed(list) => match list.args.first() {
+            Some(GenericArgument::Type(ty)) => shape(ty),
+            _ => Shape::Unknown,
+        },
+        _ => Shape::Unknown,
+    }
+}
+
+fn unique<'a>(names: impl Iterator<Item = &'a Ident>, what: &str, errors: &mut Errors) {
+    let mut known: Vec<&Ident> = Vec::new();
+    for name in names {
+        if known.contains(&name) {
+            errors.push(name, format!("{what} `{name}` is declared twice"));
+        }
+        known.push(name);
     }
 }

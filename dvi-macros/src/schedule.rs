@@ -64,10 +64,9 @@ pub(crate) fn schedule(code: &Instructions, statements: &[Statement], values: &[
 impl<'a> Scheduler<'a> {
     fn scope(&self, open: u64, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Step> {
         let needed: Vec<Register> = self
-            .code
-            .reachable(duties.iter().map(Duty::register))
+            .unknown(outside, duties)
             .into_iter()
-            .filter(|register| !outside[register.0 as usize] && self.code.free(*register) & !open == 0)
+            .filter(|register| self.code.free(*register) & !open == 0)
             .collect();
         let stages = self.stages(&needed);
         let mut defined = outside.to_vec();
@@ -97,6 +96,22 @@ impl<'a> Scheduler<'a> {
             _ => None,
         }));
         steps
+    }
+
+    /// The registers below the duties, down to those that are known outside: the body of a sum that is
+    /// known is of no use here, even if it stands in a loop with the same index.
+    fn unknown(&self, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Register> {
+        let mut wanted = vec![false; self.code.len()];
+        duties.iter().for_each(|duty| wanted[duty.register().0 as usize] = true);
+        for position in (0..wanted.len()).rev() {
+            wanted[position] &= !outside[position];
+            if wanted[position] {
+                let operands = self.code.get(Register(position as u32)).operands();
+                operands.into_iter().for_each(|operand| wanted[operand.0 as usize] = true);
+            }
+        }
+        let registers = (0..wanted.len()).filter(|position| wanted[*position]);
+        registers.map(|position| Register(position as u32)).collect()
     }
 
     /// How many loops of this scope must have run before a register of it is known.

@@ -1,5 +1,7 @@
 //! What the compiler can decide about Ω and Dα before any number is known.
 
+use syn::Expr as Syntax;
+
 use crate::errors::Errors;
 use crate::model::Model;
 use crate::program::dalpha;
@@ -100,8 +102,8 @@ fn covers(model: &Model, row: usize, column: usize, entry: &FormEntry) -> bool {
 }
 
 impl Structure {
-    /// Reports what makes Ω singular for certain.
-    pub(crate) fn check(&self, model: &Model, errors: &mut Errors) {
+    /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
+    pub(crate) fn check(&self, model: &Model, at: Option<&Syntax>, errors: &mut Errors) {
         let odd = model.dimension().as_literal().filter(|dimension| dimension % 2 != 0);
         if let (Some(dimension), Some(last)) = (odd, model.blocks.last()) {
             let message = format!(
@@ -109,6 +111,14 @@ impl Structure {
                  add the conjugate coordinate or remove one"
             );
             errors.push(&last.name, message);
+            return;
+        }
+        if self.untouched.len() == model.blocks.len()
+            && let Some(at) = at
+        {
+            let message = "Ω = -dα is zero here, so nothing determines the motion; the one-form needs a term such as \
+                           `p * d(q)` that is not the differential of a function";
+            errors.push(at, message);
             return;
         }
         for block in &self.untouched {

@@ -3,13 +3,16 @@
 //! Arguments are cut at the top-level commas first and parsed one by one, so that a mistake in one of
 //! them leaves the others readable.
 
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
-use syn::{Expr, Ident, Path, Token};
+use syn::{Expr, Path, Token};
 
 use crate::errors::{Errors, listed, nearest};
+
+pub(crate) mod depth;
 
 /// `x`, or `x[n]`.
 #[derive(Debug)]
@@ -42,28 +45,62 @@ pub(crate) struct Attribute {
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
     pub(crate) crate_path: Option<Path>,
+    /// Whether a coordinate was declared that could not be read.
+    pub(crate) lost_coordinates: bool,
+    /// Whether a function was declared that could not be read.
+    pub(crate) lost_functions: bool,
 }
 
-const ARGUMENTS: [&str; 7] =
-    ["coordinates", "one_form", "hamiltonian", "lagrangian", "momenta", "functions", "crate"];
+/// The arguments, and how they are written.
+#[rustfmt::skip]
+const ARGUMENTS: [(&str, &str); 7] = [
+    ("coordinates", "coordinates(x, y[n])"),
+    ("one_form",    "one_form = … * d(x) + …"),
+    ("hamiltonian", "hamiltonian = …"),
+    ("lagrangian",  "lagrangian = …"),
+    ("momenta",     "momenta(p = …)"),
+    ("functions",   "functions(f = [f, df, d2f])"),
+    ("crate",       "crate = ::path"),
+];
 
 impl Parse for Declaration {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let name = input.parse()?;
+        let name = match input.call(Ident::parse_any) {
+            Ok(name) if syn::parse2::<Ident>(name.clone().into_token_stream()).is_ok() => name,
+            Ok(keyword) => {
+                let message =
+                    format!("`{keyword}` is a keyword of Rust: write `r#{keyword}`, or another name");
+                return Err(syn::Error::new(keyword.span(), message));
+            }
+            Err(error) => return Err(syn::Error::new(error.span(), "expected the name of a coordinate")),
+        };
         let size = if input.peek(syn::token::Bracket) {
             let content;
-            syn::bracketed!(content in input);
+            let bracket = syn::bracketed!(content in input);
+            if content.is_empty() {
+                let message = format!("`{name}[]` has no size: write `{name}[n]`");
+                return Err(syn::Error::new(bracket.span.join(), message));
+            }
             Some(content.parse()?)
         } else {
             None
         };
+        if !input.is_empty() {
+            return Err(input.error("a coordinate is declared as `x` or `x[n]`, and followed by `,`"));
+        }
         Ok(Self { name, size })
     }
 }
 
 impl Parse for Momentum {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let name = input.parse()?;
+        let name: Ident = input.parse()?;
+        if !input.peek(Token![=]) {
+            return Err(syn::Error::new(
+                name.span(),
+                format!("this momentum has no formula: write `{name} = …`"),
+            ));
+        }
         input.parse::<Token![=]>()?;
         Ok(Self { name, formula: input.parse()? })
     }
@@ -71,11 +108,25 @@ impl Parse for Momentum {
 
 impl Parse for Function {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let name = input.parse()?;
+        let name: Ident = input.parse()?;
+        let advice = format!(
+            "a function is declared by its path and those of its first two derivatives: write `{name} = [f, df, d2f]`"
+        );
+        let at_fault = |at: Span| syn::Error::new(at, &advice);
+        if !input.peek(Token![=]) {
+            return Err(at_fault(name.span()));
+        }
         input.parse::<Token![=]>()?;
+        if !input.peek(syn::token::Bracket) {
+            return Err(at_fault(input.span()));
+        }
         let content;
-        syn::bracketed!(content in input);
-        let derivatives = Punctuated::<Path, Token![,]>::parse_terminated(&content)?;
+        let bracket = syn::bracketed!(content in input);
+        let derivatives = Punctuated::<Path, Token![,]>::parse_terminated(&content)
+            .map_err(|error| at_fault(error.span()))?;
+        if derivatives.len() != 3 {
+            return Err(at_fault(bracket.span.join()));
+        }
         Ok(Self { name, derivatives: derivatives.into_iter().collect() })
     }
 }
@@ -89,63 +140,94 @@ struct Argument {
 enum Value {
     Assigned(TokenStream),
     List(TokenStream),
+    Neither,
 }
 
 impl Parse for Argument {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let name = Ident::parse_any(input)?;
+        let name = input.call(Ident::parse_any).map_err(|error| {
+            let names = listed(ARGUMENTS.map(|(name, _)| name));
+            syn::Error::new(error.span(), format!("expected an argument; the arguments are {names}"))
+        })?;
         let value = if input.peek(syn::token::Paren) {
             let content;
             syn::parenthesized!(content in input);
-            Value::List(content.parse()?)
-        } else {
+            let value = Value::List(content.parse()?);
+            if !input.is_empty() {
+                return Err(input.error("expected `,`"));
+            }
+            value
+        } else if input.peek(Token![=]) && !input.peek(Token![==]) {
             input.parse::<Token![=]>()?;
             Value::Assigned(input.parse()?)
+        } else {
+            input.parse::<TokenStream>()?;
+            Value::Neither
         };
-        if input.is_empty() { Ok(Self { name, value }) } else { Err(input.error("expected `,`")) }
+        Ok(Self { name, value })
     }
 }
 
 pub(crate) fn parse_attribute(tokens: TokenStream, errors: &mut Errors) -> Attribute {
     let mut attribute = Attribute::default();
+    if let Err(error) = depth::check(&tokens) {
+        errors.push_syn(error);
+        attribute.lost_coordinates = true;
+        return attribute;
+    }
     let mut given: Vec<String> = Vec::new();
     for piece in split_at_commas(tokens) {
-        match syn::parse2::<Argument>(piece) {
+        match read::<Argument>(piece) {
+            Ok(Argument { name, .. }) if given.contains(&name.to_string()) => {
+                errors.push(&name, format!("`{name}` is given twice"));
+            }
             Ok(argument) => {
-                let name = argument.name.to_string();
-                if given.contains(&name) {
-                    errors.push(&argument.name, format!("`{name}` is given twice"));
-                }
-                given.push(name);
+                given.push(argument.name.to_string());
                 attribute.accept(argument, errors);
             }
             Err(error) => errors.push_syn(error),
         }
     }
+    attribute.lost_coordinates |= attribute.coordinates.is_empty();
     attribute
 }
 
 impl Attribute {
+    /// The formula that Ω comes from.
+    pub(crate) fn symplectic_part(&self) -> Option<&Expr> {
+        self.one_form.as_ref().or(self.lagrangian.as_ref())
+    }
+
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
         let Argument { name, value } = argument;
         let keyword = name.to_string();
         match (keyword.as_str(), value) {
-            ("coordinates", Value::List(tokens)) => self.coordinates = list(tokens, errors),
-            ("momenta", Value::List(tokens)) => self.momenta = list(tokens, errors),
-            ("functions", Value::List(tokens)) => self.functions = list(tokens, errors),
+            ("coordinates", Value::List(tokens)) => {
+                self.coordinates = list(tokens, errors, &mut self.lost_coordinates);
+            }
+            ("momenta", Value::List(tokens)) => self.momenta = list(tokens, errors, &mut false),
+            ("functions", Value::List(tokens)) => {
+                self.functions = list(tokens, errors, &mut self.lost_functions);
+            }
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),
-            ("crate", Value::Assigned(tokens)) => self.crate_path = value_of(&name, tokens, errors),
-            ("coordinates" | "momenta" | "functions", Value::Assigned(_)) => {
-                errors.push(&name, format!("`{keyword}` takes a list: write `{keyword}(...)`"));
-            }
-            ("one_form" | "hamiltonian" | "lagrangian" | "crate", Value::List(_)) => {
-                errors.push(&name, format!("`{keyword}` takes a value: write `{keyword} = ...`"));
+            ("crate", Value::Assigned(tokens)) => match read(tokens) {
+                Ok(path) => self.crate_path = Some(path),
+                Err(error) => errors.push_syn(syn::Error::new(
+                    error.span(),
+                    "`crate` takes the path of this library: write `crate = ::dvi_core`",
+                )),
+            },
+            (known, _) if ARGUMENTS.iter().any(|(name, _)| *name == known) => {
+                let form = ARGUMENTS.iter().find(|(name, _)| *name == known).map_or("", |(_, form)| form);
+                self.lost_functions |= known == "functions";
+                errors.push(&name, format!("`{known}` is written `{form}`"));
             }
             _ => {
-                let hint = nearest(&keyword, ARGUMENTS).map_or_else(
-                    || format!("the arguments are {}", listed(ARGUMENTS)),
+                let names = ARGUMENTS.map(|(name, _)| name);
+                let hint = nearest(&keyword, names).map_or_else(
+                    || format!("the arguments are {}", listed(names)),
                     |near| format!("did you mean `{near}`?"),
                 );
                 errors.push(&name, format!("unknown argument `{keyword}`; {hint}"));
@@ -154,17 +236,44 @@ impl Attribute {
     }
 }
 
-fn list<T: Parse>(tokens: TokenStream, errors: &mut Errors) -> Vec<T> {
-    let parsed = split_at_commas(tokens).into_iter().map(|piece| syn::parse2::<T>(piece));
-    parsed.filter_map(|item| item.map_err(|error| errors.push_syn(error)).ok()).collect()
+fn list<T: Parse>(tokens: TokenStream, errors: &mut Errors, lost: &mut bool) -> Vec<T> {
+    let mut items = Vec::new();
+    for piece in split_at_commas(tokens) {
+        match read(piece) {
+            Ok(item) => items.push(item),
+            Err(error) => {
+                *lost = true;
+                errors.push_syn(error);
+            }
+        }
+    }
+    items
 }
 
-fn value_of<T: Parse>(name: &Ident, tokens: TokenStream, errors: &mut Errors) -> Option<T> {
+fn value_of(name: &Ident, tokens: TokenStream, errors: &mut Errors) -> Option<Expr> {
     if tokens.is_empty() {
         errors.push(name, format!("`{name} =` has no value"));
         return None;
     }
-    T::parse.parse2(tokens).map_err(|error| errors.push_syn(error)).ok()
+    read(tokens).map_err(|error| errors.push_syn(error)).ok()
+}
+
+/// Parses all of the tokens. What is missing at their end is reported on the last of them; a parser
+/// left to itself would report it on the whole attribute.
+fn read<T: Parse>(tokens: TokenStream) -> syn::Result<T> {
+    let last = tokens.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
+    let mut group = Group::new(Delimiter::Parenthesis, tokens);
+    group.set_span(last);
+    let all = |input: ParseStream<'_>| {
+        let content;
+        syn::parenthesized!(content in input);
+        let value = content.parse::<T>().map_err(|error| {
+            let ended = error.to_string().starts_with("unexpected end of input");
+            if ended { syn::Error::new(error.span(), "something is missing after this") } else { error }
+        })?;
+        if content.is_empty() { Ok(value) } else { Err(content.error("expected an operator or `,`")) }
+    };
+    all.parse2(TokenTree::Group(group).into())
 }
 
 /// Commas inside of brackets are inside of token trees and do not count; nor do those between the
@@ -173,15 +282,19 @@ fn split_at_commas(tokens: TokenStream) -> Vec<TokenStream> {
     let mut pieces = Vec::new();
     let mut piece = TokenStream::new();
     let mut in_bars = false;
+    // Behind a value, a bar is an operator.
+    let mut behind_value = false;
     for token in tokens {
         match &token {
-            TokenTree::Punct(punct) if punct.as_char() == '|' => in_bars = !in_bars,
+            TokenTree::Punct(punct) if punct.as_char() == '|' => in_bars = !in_bars && !behind_value,
             TokenTree::Punct(punct) if punct.as_char() == ',' && !in_bars => {
                 pieces.push(std::mem::take(&mut piece));
+                behind_value = false;
                 continue;
             }
             _ => {}
         }
+        behind_value = !in_bars && !matches!(&token, TokenTree::Punct(_));
         piece.extend([token]);
     }
     if !piece.is_empty() {

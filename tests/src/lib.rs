@@ -1,6 +1,7 @@
 //! Systems shared by the tests.
 
 pub mod systems;
+pub mod zoo;
 
 /// The vortex configurations of the literature.
 pub mod configurations {

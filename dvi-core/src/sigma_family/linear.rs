@@ -31,7 +31,9 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
     }
 }
 
-/// σ = 0: −(Dα)ᵀΔ = c0 − h∇H(q0), c1 = −DαΔ.
+/// σ = 0: Δ = K⁻¹c0 + s with s = −hK⁻¹∇H(q0), c1 = −DαΔ.
+///
+/// Only s has to wait for the gradient; K⁻¹c was left by the step before.
 #[inline(always)]
 fn explicit_left<S: DegenerateLagrangian, T: Real>(
     step: &Step<'_, S, T>,
@@ -40,18 +42,29 @@ fn explicit_left<S: DegenerateLagrangian, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let SigmaMemory { defect, inverse, product, work, .. } = memory;
-    scratch!(rhs = step.system, work.trial);
-    scratch!(delta = step.system, work.increment);
-    step.system.hamiltonian_gradient(q, step.t, rhs);
+    scratch!(gradient = step.system, work.gradient);
+    scratch!(increment = step.system, work.increment);
+    scratch!(next = step.system, work.next);
+    scratch!(node = step.system, work.point);
+    for (node, &q) in node.iter_mut().zip(q.iter()) {
+        // One coordinate at a time: a vector load across two vectors just stored waits for the cache.
+        *node = core::hint::black_box(q);
+    }
+    step.system.hamiltonian_gradient(node, step.t, gradient);
     statistics.gradients += 1;
-    for (rhs, &c) in rhs.iter_mut().zip(defect.iter()) {
-        *rhs = c - step.h * *rhs;
+    inverse.solve(step.system, gradient, increment);
+    for i in 0..q.len() {
+        next[i] = (q[i] + work.shift[i]) + increment[i];
     }
-    inverse.solve(step.system, rhs, delta);
-    advance(step, q, delta, &mut work.next)?;
+    norm::finite(next)?;
+    q.copy_from_slice(next);
+    for (increment, &shift) in increment.iter_mut().zip(work.shift.iter()) {
+        *increment += shift;
+    }
     if let Some(product) = product {
-        product.apply(step.system, delta, defect);
+        product.apply(step.system, increment, defect);
     }
+    memory.shift_by_defect(step.system);
     Ok(())
 }
 
@@ -115,7 +128,7 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     if !memory.defect_vanishes {
-        memory.shift_by_defect(step.system, step.method, step.h);
+        memory.shift_by_defect(step.system);
     }
     if memory.newton_steps > 0 || step.method.solver == Solver::Newton {
         by_newton(step, memory, q, statistics)?;

@@ -12,6 +12,21 @@ use crate::solver::Solver;
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Lagrangian, Matrix, Real, Space, Vector};
 
+/// `scratch!(name = system, field)`: a vector to work in, on the stack if that is where vectors of the
+/// system live, so that it can stay in registers, and else the given field.
+macro_rules! scratch {
+    ($name:ident = $system:expr, $field:expr) => {
+        let mut on_stack;
+        let $name: &mut [T] = if <S::Space as $crate::Space>::ON_STACK {
+            on_stack = $crate::Space::vector($system.space());
+            &mut on_stack
+        } else {
+            &mut $field
+        };
+    };
+}
+pub(super) use scratch;
+
 /// The defect of a run of the σ-family, its guesses and its work space.
 #[derive(Debug)]
 pub struct SigmaMemory<S: Lagrangian, T: Real> {
@@ -24,6 +39,8 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
     pub(super) history: History<S, T>,
     /// The matrix of the fixed point: constant if α is affine, and else frozen for one step.
     pub(super) inverse: Form<S, T>,
+    /// −1/((1−σ)h), the scale of `inverse` if α is affine and σ ≠ 1.
+    scale: T,
     /// K' = σ(Dα)ᵀ − (1−σ)Dα; kept if α is affine and c is not just reversed.
     pub(super) product: Option<Product<S, T>>,
     /// Storage for the Newton matrix.
@@ -116,8 +133,8 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             memory.defect[i] = work.momentum[i] - left * h * work.gradient[i] - memory.one_form[i];
         }
         crate::norm::finite(&memory.defect).map_err(StartError::Starter)?;
-        if S::LINEAR && !method.is_end() {
-            memory.shift_by_defect(system, method, h);
+        if S::LINEAR && sigma != T::lift(1.0) {
+            memory.shift_by_defect(system);
             let work = &mut memory.work;
             for i in 0..q0.len() {
                 work.increment[i] -= work.shift[i];
@@ -151,6 +168,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             one_form,
             history: History::new(system, None),
             inverse,
+            scale: fixed_point_scale(method, h),
             product,
             newton,
             newton_steps: 0,
@@ -160,17 +178,17 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
 
     /// Sets `work.shift` to K⁻¹c0.
     #[inline(always)]
-    pub(super) fn shift_by_defect(&mut self, system: &S, method: &Sigma<T>, h: T) {
-        let scale = fixed_point_scale(method, h);
-        let work = &mut self.work;
-        for (trial, &c) in work.trial.iter_mut().zip(self.defect.iter()) {
-            *trial = c * scale;
+    pub(super) fn shift_by_defect(&mut self, system: &S) {
+        let Self { defect, inverse, scale, work, .. } = self;
+        scratch!(scaled = system, work.trial);
+        for (scaled, &c) in scaled.iter_mut().zip(defect.iter()) {
+            *scaled = c * *scale;
         }
-        self.inverse.solve(system, &work.trial, &mut work.shift);
+        inverse.solve(system, scaled, &mut work.shift);
     }
 }
 
-/// Affine and implicit: K times −1/((1−σ)h), whose inverse maps ∇H to s. Else K.
+/// Affine and σ ≠ 1: K times −1/((1−σ)h), whose inverse maps ∇H to s. Else K.
 /// Nonlinear and σ = 0: (Dα)ᵀ.
 pub(super) fn fixed_point_matrix<S: DegenerateLagrangian, T: Real>(
     method: &Sigma<T>,
@@ -178,7 +196,7 @@ pub(super) fn fixed_point_matrix<S: DegenerateLagrangian, T: Real>(
 ) -> Combination<T> {
     let sigma = method.sigma;
     let left = T::lift(1.0) - sigma;
-    if S::LINEAR && !method.is_end() {
+    if S::LINEAR && sigma != T::lift(1.0) {
         let scale = fixed_point_scale(method, h);
         Combination { a: sigma * scale, b: -left * scale }
     } else if !S::LINEAR && sigma == T::lift(0.0) {
@@ -191,18 +209,3 @@ pub(super) fn fixed_point_matrix<S: DegenerateLagrangian, T: Real>(
 fn fixed_point_scale<T: Real>(method: &Sigma<T>, h: T) -> T {
     T::lift(-1.0) / ((T::lift(1.0) - method.sigma) * h)
 }
-
-/// `scratch!(name = system, field)`: a vector to work in, on the stack if that is where vectors of the
-/// system live, so that it can stay in registers, and else the given field.
-macro_rules! scratch {
-    ($name:ident = $system:expr, $field:expr) => {
-        let mut on_stack;
-        let $name: &mut [T] = if <S::Space as $crate::Space>::ON_STACK {
-            on_stack = $crate::Space::vector($system.space());
-            &mut on_stack
-        } else {
-            &mut $field
-        };
-    };
-}
-pub(super) use scratch;

@@ -7,12 +7,15 @@ use std::collections::HashMap;
 
 use anyhow::Result;
 
-use super::sections::{self, CAVEAT, Crossings, Scheme, compare, energy_panel, lyapunov_exponent};
+use super::sections::{
+    self, CAVEAT, Crossings, LABELS, LYAPUNOV_STEPS, Scheme, compare, cost, crossings, energy_panel,
+    lyapunov_exponent,
+};
 use crate::claim::{Bound, Claim};
-use crate::figure::{Axis, Corner, Figure, Panel, scientific};
+use crate::figure::{Anchor, Axis, Corner, Figure, INK, Panel, scientific};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
-use crate::models;
+use crate::models::{self, Case};
 
 pub const EXPERIMENT: Experiment =
     Experiment { name: "fig5-chaotic", title: "Poincaré sections of a chaotic motion", run };
@@ -26,15 +29,20 @@ const RUNS: [(Scheme, f64); 6] = [
     (Scheme::Rk4, 1.0),
 ];
 
+/// Displacements grow less than this in 2000 units of time on tori, and to 1e10 on chaotic orbits.
+const REGULAR: f64 = 1e5;
+
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e6, 1e5);
+    let exact = [(Scheme::Gauss6, 0.4)];
+    job.expect(cost(&RUNS, end) + cost(&exact, 1e6) + LYAPUNOV_STEPS);
     let case = models::chaotic();
     let all = compare(job, &case, &RUNS, end)?;
-    let exact = compare(job, &case, &[(Scheme::Gauss6, 0.4)], 1e6)?;
+    let all = all.into_iter().map(|run| to_the_end(job, &case, run)).collect::<Result<Vec<_>>>()?;
+    let exact = compare(job, &case, &exact, 1e6)?;
     let region = Region::around(&exact[0].places());
     let exponent = lyapunov_exponent(job, &case)?;
-    figure(&all, &region, end).save(&job.folder, EXPERIMENT.name)?;
-    sections::table(&all)?.save(&job.folder, EXPERIMENT.name)?;
+    job.publish(EXPERIMENT.name, figure(job, &all, &region, end), sections::table(&all)?)?;
     let mut notes = sections::notes(&all);
     notes.push(
         "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes regular, differ \
@@ -42,6 +50,22 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
             .to_owned(),
     );
     Ok(Outcome { claims: claims(job, &all, &region, exponent), notes })
+}
+
+/// A run that has become regular may never meet the section again; with the equal vortices in another
+/// order it may.
+fn to_the_end(job: &Job<'_>, case: &Case, mut run: Crossings) -> Result<Crossings> {
+    for labels in LABELS {
+        if run.last() > 0.9 * run.end || job.is_stopping() {
+            break;
+        }
+        job.expect(cost(&[(run.scheme, run.h)], run.end));
+        let other = crossings(job, case, run.scheme, run.h, run.end, labels)?;
+        if other.last() > run.last() {
+            run = other;
+        }
+    }
+    Ok(run)
 }
 
 fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f64>) -> Vec<Claim> {
@@ -67,7 +91,7 @@ fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f6
             .check(share(vi_large), outside(vi_large), Bound::AtMost(2e-3)),
         Claim::new("Fig. 5", "for h = 1 RK4 deviates completely and becomes quasi-periodic")
             .check(error(rk_large), job.only_full(rk_large.largest_error), Bound::Within(0.1, 0.2))
-            .check(growth(rk_large), job.only_full(rk_large.growth), Bound::AtMost(1e5))
+            .check(growth(rk_large), job.only_full(rk_large.growth), Bound::AtMost(REGULAR))
             .check(growth(vi_large), vi_large.growth, Bound::AtLeast(1e8)),
         Claim::new(
             "section 5",
@@ -83,9 +107,9 @@ fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f6
     ]
 }
 
-fn figure(all: &[Crossings], region: &Region, end: f64) -> Figure {
+fn figure(job: &Job<'_>, all: &[Crossings], region: &Region, end: f64) -> Figure {
     let (schemes_vi, schemes_rk) = all.split_at(3);
-    let row = |runs: &[Crossings]| runs.iter().map(|run| panel(run, region)).collect();
+    let row = |runs: &[Crossings]| runs.iter().map(|run| panel(job, run, region)).collect();
     Figure::new(
         "Chaotic motion: sections of the variational scheme stay crisp at five times the step",
         "Poincaré sections *R*₂ = 0, d*R*₂/d*t* > 0 of four equal vortices; stray crossings lie outside of the exact region",
@@ -97,15 +121,17 @@ fn figure(all: &[Crossings], region: &Region, end: f64) -> Figure {
     .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"))
 }
 
-fn panel(run: &Crossings, region: &Region) -> Panel {
+fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
     let axis = |name| Axis::linear(name).within(-2.6, 2.6);
+    let panel = run.panel(axis("*R*₁"), axis("*P*₁"), 0.7);
+    if job.was_interrupted() {
+        return panel;
+    }
     let stray = format!("{:.1} % stray", 100.0 * region.share_outside(run));
-    let panel = run.panel(axis("*R*₁"), axis("*P*₁"), 0.7).caption(Corner::TopRight, stray);
-    match run.points.last() {
-        Some(&[last, ..]) if last < 0.9 * run.end => {
-            panel.caption(Corner::TopLeft, format!("none after *t* = {}", scientific(last)))
-        }
-        _ => panel,
+    let panel = panel.caption(Corner::TopRight, stray);
+    match run.relabelling() {
+        Some(text) => panel.note([0.0, -2.53], Anchor::Middle, INK, text),
+        None => panel,
     }
 }
 

@@ -34,12 +34,12 @@ struct Series {
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(2e5, 2e4);
+    job.expect(2 * (end / 2.0) as u64 + (SHOWN / 0.5) as u64);
     let start = Start::RungeKutta(RungeKutta::midpoint());
     let ve2 = series(job, Sigma { start, ..Sigma::leapfrog() }, 2.0, end)?;
     let rk2 = series(job, RungeKutta::midpoint(), 2.0, end)?;
     let exact = series(job, Gauss::<3>::new(), 0.5, SHOWN)?;
-    figure(&ve2, &rk2, &exact).save(&job.folder, EXPERIMENT.name)?;
-    table(&ve2)?.save(&job.folder, EXPERIMENT.name)?;
+    job.publish(EXPERIMENT.name, figure(&ve2, &rk2, &exact), table(&ve2)?)?;
     let last = rk2.overtakings.last().copied().unwrap_or(0.0);
     let note = format!(
         "RK2 at h = 2: the last overtaking is at t = {last}. The mirror symmetry breaks by rounding, so this \
@@ -60,14 +60,13 @@ fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f6
         asymmetry: 0.0,
     };
     let steps = (end / h) as u64;
-    job.expect(steps);
     let mut lead = 0.0;
     series.note(0.0, run.q(), &mut lead);
     job.repeat(steps, || {
         run.advance()?;
         series.note(run.time(), run.q(), &mut lead);
         Ok(())
-    });
+    })?;
     series.extent = run.q().iter().fold(0.0, |extent, q| q.abs().max(extent));
     Ok(series)
 }

@@ -8,7 +8,7 @@ use dvi_core::prelude::*;
 use crate::claim::{Bound, Claim};
 use crate::figure::{AMBER, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, PURPLE, Panel, VERMILLION};
 use crate::gallery::{Experiment, Outcome};
-use crate::job::{Ending, Job};
+use crate::job::Job;
 use crate::models::{self, Case, FourVortices};
 use crate::output::Table;
 
@@ -33,6 +33,7 @@ struct Drifts {
 }
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
+    job.expect(7 * STEPS);
     let case = models::quasi_periodic();
     let rk = Start::RungeKutta(RungeKutta::midpoint());
     let quarter = Sigma { start: rk, ..Sigma::new(0.25) };
@@ -45,8 +46,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
         baseline(job, &case, "RK4", RungeKutta::classical())?,
         baseline(job, &case, "Gauss, order 4", Gauss::<2>::new())?,
     ];
-    figure(&all).save(&job.folder, EXPERIMENT.name)?;
-    table(&all)?.save(&job.folder, EXPERIMENT.name)?;
+    job.publish(EXPERIMENT.name, figure(&all), table(&all)?)?;
     Ok(Outcome { claims: claims(&all), notes: vec![] })
 }
 
@@ -56,25 +56,23 @@ fn baseline(
     scheme: &'static str,
     method: impl Method<FourVortices, f64>,
 ) -> Result<Drifts> {
-    let mut run = Integrator::new(vortices, method, H, start.clone())?;
+    let mut run = Integrator::new(vortices, method, H, *start)?;
     let initial: Vec<f64> = run.momenta().map(|(_, value)| value).collect();
     let mut momenta = [0.0f64; 3];
-    job.expect(STEPS);
-    let ending = job.repeat(STEPS, || {
+    job.repeat(STEPS, || {
         run.advance()?;
         for ((_, value), (drift, initial)) in run.momenta().zip(momenta.iter_mut().zip(&initial)) {
             *drift = drift.max((value - initial).abs());
         }
         Ok(())
-    });
-    complete(ending)?;
+    })?;
     Ok(Drifts { scheme, momenta, discrete: None, two_form: None })
 }
 
 fn variational(job: &Job<'_>, case: &Case, scheme: &'static str, method: Sigma) -> Result<Drifts> {
     let Case { vortices, start } = case;
     let drifts = baseline(job, case, scheme, method)?;
-    let mut run = Integrator::new(vortices, method, H, start.clone())?;
+    let mut run = Integrator::new(vortices, method, H, *start)?;
     let initial = run.discrete_momentum(ANGULAR)?.unwrap_or(f64::NAN);
     let mut map = TwoPointTangentMap::new(vortices);
     let (mut discrete, mut two_form) = (0.0f64, 0.0f64);
@@ -94,10 +92,6 @@ fn variational(job: &Job<'_>, case: &Case, scheme: &'static str, method: Sigma) 
     Ok(Drifts { discrete: Some(discrete), two_form: Some(two_form), ..drifts })
 }
 
-fn complete(ending: Ending) -> Result<()> {
-    if let Ending::Failed(error) = ending { Err(error.into()) } else { Ok(()) }
-}
-
 fn claims(all: &[Drifts]) -> Vec<Claim> {
     let [vi2, _, _, ve2, ..] = all else { return Vec::new() };
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
@@ -111,7 +105,6 @@ fn claims(all: &[Drifts]) -> Vec<Claim> {
         Claim::new("section 6", "the schemes preserve momentum: the linear impulse")
             .check("largest drift of ΣΓx and ΣΓy, all schemes", linear, Bound::AtMost(1e-12)),
         Claim::new("section 6", "the schemes preserve momentum: the angular impulse")
-            .check("drift of ΣΓ|z|², VI2", angular(vi2), Bound::AtMost(1e-11))
             .check("drift of ΣΓ|z|², VE2", angular(ve2), Bound::AtMost(1e-11))
             .instead("VI2 preserves ΣΓ|z|²; every σ preserves the discrete momentum J_d, which is another quantity")
             .check("drift of ΣΓ|z|², VI2", angular(vi2), Bound::AtMost(1e-11))
@@ -119,13 +112,20 @@ fn claims(all: &[Drifts]) -> Vec<Claim> {
     ]
 }
 
-/// What the figure shows of each scheme: name, colour, value.
-const QUANTITIES: [(&str, Colour, fn(&Drifts) -> Option<f64>); 5] = [
-    ("ΣΓ*x*", BLUE, |drifts| Some(drifts.momenta[0])),
-    ("ΣΓ*y*", GREEN, |drifts| Some(drifts.momenta[1])),
-    ("ΣΓ|*z*|²", VERMILLION, |drifts| Some(drifts.momenta[2])),
-    ("discrete momentum", PURPLE, |drifts| drifts.discrete),
-    ("discrete two-form (17)", AMBER, |drifts| drifts.two_form),
+/// What the figure and the table show of each scheme.
+struct Quantity {
+    name: &'static str,
+    colour: Colour,
+    value: fn(&Drifts) -> Option<f64>,
+}
+
+#[rustfmt::skip]
+const QUANTITIES: [Quantity; 5] = [
+    Quantity { name: "ΣΓ*x*",                  colour: BLUE,       value: |drifts| Some(drifts.momenta[0]) },
+    Quantity { name: "ΣΓ*y*",                  colour: GREEN,      value: |drifts| Some(drifts.momenta[1]) },
+    Quantity { name: "ΣΓ|*z*|²",               colour: VERMILLION, value: |drifts| Some(drifts.momenta[2]) },
+    Quantity { name: "discrete momentum",      colour: PURPLE,     value: |drifts| drifts.discrete },
+    Quantity { name: "discrete two-form (17)", colour: AMBER,      value: |drifts| drifts.two_form },
 ];
 
 fn figure(all: &[Drifts]) -> Figure {
@@ -134,7 +134,7 @@ fn figure(all: &[Drifts]) -> Figure {
     let names = all.iter().rev().map(|drifts| drifts.scheme.to_owned()).collect();
     let drift = Axis::logarithmic("largest deviation from the initial value").within(0.5 * SMALLEST, 10.0);
     let empty = Panel::new("Conserved quantities over 1000 steps", drift, Axis::names("", names));
-    let panel = QUANTITIES.iter().enumerate().fold(empty, |panel, (i, (name, colour, value))| {
+    let panel = QUANTITIES.iter().enumerate().fold(empty, |panel, (i, Quantity { name, colour, value })| {
         let lift = 0.3 - 0.15 * i as f64;
         let points =
             all.iter().rev().enumerate().filter_map(|(row, drifts)| {
@@ -153,8 +153,8 @@ fn figure(all: &[Drifts]) -> Figure {
 fn table(all: &[Drifts]) -> Result<Table> {
     let mut table = Table::new(&["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"])?;
     for drifts in all {
-        let numbers =
-            QUANTITIES.map(|(.., value)| value(drifts).map_or(String::new(), |drift| drift.to_string()));
+        let numbers = QUANTITIES
+            .map(|Quantity { value, .. }| value(drifts).map_or(String::new(), |drift| drift.to_string()));
         table.row([drifts.scheme.to_owned()].into_iter().chain(numbers))?;
     }
     Ok(table)

@@ -46,6 +46,8 @@ struct Row {
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = |coarsest: f64| (0..6).map(move |k| coarsest / f64::from(1 << k));
+    let count = |time: f64, coarsest| steps(coarsest).map(|h| (time / h) as u64).sum::<u64>();
+    job.expect(4000 + SIGMAS.len() as u64 * (count(10.0, 0.2) + count(Vortices::END, 0.05)));
     let problem = Vortices::new(job)?;
     let row = |sigma: f64| {
         let linear = steps(0.2).map(|h| Ok((h, linear_error(job, sigma, h)?))).collect::<Result<_>>()?;
@@ -53,8 +55,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
         Ok(Row { sigma, linear: Convergence::of(linear), vortices: Convergence::of(vortices) })
     };
     let rows = SIGMAS.into_iter().map(row).collect::<Result<Vec<_>>>()?;
-    figure(&rows).save(&job.folder, EXPERIMENT.name)?;
-    table(&rows)?.save(&job.folder, EXPERIMENT.name)?;
+    job.publish(EXPERIMENT.name, figure(&rows), table(&rows)?)?;
     let orders = |row: &Row| {
         let Row { sigma, linear, vortices } = row;
         format!("σ = {sigma:.4}: order {:.3} linear, {:.3} vortices.", linear.order, vortices.order)
@@ -76,8 +77,7 @@ fn linear_error(job: &Job<'_>, sigma: f64, h: f64) -> Result<f64> {
     let exact = |t: f64| RotationState { x: t.cos(), y: t.sin() };
     let mut run = Integrator::from_two_points(&rotation, Sigma::new(sigma), h, exact(0.0), exact(h))?;
     let steps = (10.0 / h).round() as u64;
-    job.expect(steps);
-    job.repeat(steps, || run.advance());
+    job.repeat(steps, || run.advance())?;
     let (end, state) = (exact(run.time()), run.state());
     Ok((state.x - end.x).hypot(state.y - end.y))
 }
@@ -93,9 +93,8 @@ impl Vortices {
 
     fn new(job: &Job<'_>) -> Result<Self> {
         let case = models::chaotic();
-        let mut exact = Integrator::new(&case.vortices, Gauss::<3>::new(), 1e-3, case.start.clone())?;
-        job.expect(4000);
-        job.repeat(4000, || exact.advance());
+        let mut exact = Integrator::new(&case.vortices, Gauss::<3>::new(), 1e-3, case.start)?;
+        job.repeat(4000, || exact.advance())?;
         let end = exact.q().to_vec();
         Ok(Self { case, end })
     }
@@ -103,12 +102,11 @@ impl Vortices {
     /// The largest error of a coordinate at the end.
     fn error(&self, job: &Job<'_>, sigma: f64, h: f64) -> Result<f64> {
         let Case { vortices, start } = &self.case;
-        let mut exact = Integrator::new(vortices, Gauss::<3>::new(), h / 4.0, start.clone())?;
+        let mut exact = Integrator::new(vortices, Gauss::<3>::new(), h / 4.0, *start)?;
         let second = exact.nth(3).context("a run does not end by itself")??;
-        let mut run = Integrator::from_two_points(vortices, Sigma::new(sigma), h, start.clone(), second)?;
+        let mut run = Integrator::from_two_points(vortices, Sigma::new(sigma), h, *start, second)?;
         let steps = (Self::END / h).round() as u64;
-        job.expect(steps);
-        job.repeat(steps, || run.advance());
+        job.repeat(steps, || run.advance())?;
         Ok(run.q().iter().zip(&self.end).fold(0.0, |largest, (q, exact)| (q - exact).abs().max(largest)))
     }
 }
@@ -158,7 +156,7 @@ fn figure(rows: &[Row]) -> Figure {
     let over_sigma = Panel::new("Order over σ", Axis::linear("σ").within(-0.05, 1.05), order)
         .discs(orders(|row| row.linear.order), SLATE, Fill::Solid)
         .labelled("linear")
-        .discs(orders(|row| row.vortices.order), VERMILLION, Fill::Hollow)
+        .dots(orders(|row| row.vortices.order), 2.2, VERMILLION)
         .labelled("four vortices")
         .note([SPECIAL, 4.15], Anchor::Middle, SLATE, "(3 − √3)/6")
         .note([MIRRORED, 4.15], Anchor::Middle, SLATE, "(3 + √3)/6")

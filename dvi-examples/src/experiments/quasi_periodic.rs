@@ -5,7 +5,9 @@
 
 use anyhow::Result;
 
-use super::sections::{self, CAVEAT, Crossings, Scheme, compare, energy_panel, lyapunov_exponent};
+use super::sections::{
+    self, CAVEAT, Crossings, LYAPUNOV_STEPS, Scheme, compare, cost, energy_panel, lyapunov_exponent,
+};
 use crate::claim::{Bound, Claim};
 use crate::figure::{Anchor, Axis, Corner, Figure, Panel, SLATE, Stroke, scientific};
 use crate::gallery::{Experiment, Outcome};
@@ -26,13 +28,14 @@ const RUNS: [(Scheme, f64); 6] = [
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e5, 5e4);
+    let exact = [(Scheme::Gauss6, 0.2)];
+    job.expect(cost(&RUNS, end) + cost(&exact, 1e5) + LYAPUNOV_STEPS);
     let case = models::quasi_periodic();
     let all = compare(job, &case, &RUNS, end)?;
-    let exact = compare(job, &case, &[(Scheme::Gauss6, 0.2)], 1e5)?;
+    let exact = compare(job, &case, &exact, 1e5)?;
     let curve = Curve::through(&exact[0].places());
     let exponent = lyapunov_exponent(job, &case)?;
-    figure(&all, &curve, end).save(&job.folder, EXPERIMENT.name)?;
-    sections::table(&all)?.save(&job.folder, EXPERIMENT.name)?;
+    job.publish(EXPERIMENT.name, figure(&all, &curve, end), sections::table(&all)?)?;
     Ok(Outcome { claims: claims(job, &all, &curve, exponent), notes: sections::notes(&all) })
 }
 

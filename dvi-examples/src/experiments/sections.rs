@@ -40,6 +40,7 @@ pub struct Crossings {
     pub h: f64,
     /// The time at which the run ends.
     pub end: f64,
+    pub labels: Labels,
     /// [t, R₁, P₁] of each crossing.
     pub points: Vec<[f64; 3]>,
     /// H − H(0).
@@ -54,9 +55,14 @@ pub struct Crossings {
     pub failure: Option<StepError>,
 }
 
+/// The order in which the vortices are numbered. They are equal, so any order is as good; up to symmetry
+/// there are these three.
+pub type Labels = [usize; 4];
+pub const LABELS: [Labels; 3] = [[0, 1, 2, 3], [0, 2, 1, 3], [0, 1, 3, 2]];
+
 /// R₁, P₁ and R₂ of a state in flat form.
-fn coordinates(q: &[f64]) -> [f64; 3] {
-    let (x, y) = q.split_at(4);
+fn coordinates(q: &[f64], labels: Labels) -> [f64; 3] {
+    let (x, y) = (labels.map(|j| q[j]), labels.map(|j| q[j + 4]));
     let (ux, uy) = (x[0] - x[2], y[0] - y[2]);
     let (wx, wy) = (x[1] - x[3], y[1] - y[3]);
     let q1 = [0.5 * (ux + wy), 0.5 * (uy - wx)];
@@ -67,30 +73,53 @@ fn coordinates(q: &[f64]) -> [f64; 3] {
     [q2[0] * cos + q2[1] * sin, q2[1] * cos - q2[0] * sin, q1[1] * cos - q1[0] * sin]
 }
 
+/// The number of steps of runs up to time `end`.
+pub fn cost(runs: &[(Scheme, f64)], end: f64) -> u64 {
+    runs.iter().map(|(_, h)| (end / h) as u64).sum()
+}
+
 /// The sections of the same motion by several schemes and steps, up to time `end`.
 pub fn compare(job: &Job<'_>, case: &Case, runs: &[(Scheme, f64)], end: f64) -> Result<Vec<Crossings>> {
-    runs.iter().for_each(|(_, h)| job.expect((end / h) as u64));
-    let one = |&(scheme, h): &(Scheme, f64)| match scheme {
-        Scheme::Vi2 => collect(job, case, Sigma::midpoint(), (scheme, h), end),
-        Scheme::Rk4 => collect(job, case, RungeKutta::classical(), (scheme, h), end),
-        Scheme::Gauss6 => collect(job, case, Gauss::<3>::new(), (scheme, h), end),
-    };
+    let one = |&(scheme, h): &(Scheme, f64)| crossings(job, case, scheme, h, end, LABELS[0]);
     runs.par_iter().map(one).collect()
 }
 
-fn collect<M>(
+/// The section of one run with the vortices in the given order.
+pub fn crossings(
     job: &Job<'_>,
-    Case { vortices, start }: &Case,
-    method: M,
-    (scheme, h): (Scheme, f64),
+    case: &Case,
+    scheme: Scheme,
+    h: f64,
     end: f64,
-) -> Result<Crossings>
+    labels: Labels,
+) -> Result<Crossings> {
+    let blank = Crossings {
+        scheme,
+        h,
+        end,
+        labels,
+        points: Vec::new(),
+        error: Envelope::new(end, 300),
+        largest_error: 0.0,
+        last_error: 0.0,
+        growth: f64::NAN,
+        failure: None,
+    };
+    match scheme {
+        Scheme::Vi2 => collect(job, case, Sigma::midpoint(), blank),
+        Scheme::Rk4 => collect(job, case, RungeKutta::classical(), blank),
+        Scheme::Gauss6 => collect(job, case, Gauss::<3>::new(), blank),
+    }
+}
+
+fn collect<M>(job: &Job<'_>, case: &Case, method: M, mut result: Crossings) -> Result<Crossings>
 where
     M: Method<FourVortices, f64> + Copy,
 {
-    let mut run = Integrator::new(vortices, method, h, start.clone())?;
+    let Case { vortices, start } = case;
+    let (h, end, labels) = (result.h, result.end, result.labels);
+    let mut run = Integrator::new(vortices, method, h, *start)?;
     let initial = run.energy();
-    let (mut error, mut largest_error, mut last_error) = (Envelope::new(end, 300), 0.0f64, 0.0);
     let steps = (end / h) as u64;
     let (steps_left, flip) = (Cell::new(steps), Cell::new(1.0));
     let section = Section::new(&mut run, Direction::Rising, |q| {
@@ -99,35 +128,38 @@ where
             return flip.replace(-flip.get());
         }
         // Every point of the run passes through here, so the energy is watched here as well.
-        last_error = vortices.hamiltonian(q, 0.0) - initial;
-        largest_error = largest_error.max(last_error.abs());
-        error.push((steps - steps_left.get()) as f64 * h, last_error);
+        result.last_error = vortices.hamiltonian(q, 0.0) - initial;
+        result.largest_error = result.largest_error.max(result.last_error.abs());
+        result.error.push((steps - steps_left.get()) as f64 * h, result.last_error);
         steps_left.set(steps_left.get() - 1);
-        coordinates(q)[2]
+        coordinates(q, labels)[2]
     });
-    let (mut points, mut failure, mut counted) = (Vec::new(), None, 0);
+    let mut counted = 0;
     for crossing in section {
         let Crossing { time, state: FourPoints { x, y } } = match crossing {
             Ok(crossing) => crossing,
             Err(error) => {
-                failure = Some(error);
+                result.failure = Some(error);
                 break;
             }
         };
         if steps_left.get() == 0 || job.is_stopping() {
             break;
         }
-        let [r1, p1, _] = coordinates(&[x, y].concat());
-        points.push([time, r1, p1]);
+        let [r1, p1, _] = coordinates(&[x, y].concat(), labels);
+        result.points.push([time, r1, p1]);
         // The search for the crossing has used the counter too.
         let done = (time / h) as u64;
         steps_left.set(steps.saturating_sub(done));
         job.proceed(done - counted);
         counted = done;
     }
-    job.proceed(steps - counted);
-    let growth = growth(vortices, method, h, &run.state()).unwrap_or(f64::NAN);
-    Ok(Crossings { scheme, h, end, points, error, largest_error, last_error, growth, failure })
+    if steps_left.get() > 0 && result.failure.is_none() {
+        job.cut_short();
+    }
+    job.proceed(steps.saturating_sub(counted));
+    result.growth = growth(vortices, method, h, &run.state()).unwrap_or(f64::NAN);
+    Ok(result)
 }
 
 /// By what factor a small displacement grows in 2000 units of time: exponential growth reaches the size
@@ -137,12 +169,10 @@ where
     M: Method<FourVortices, f64> + Copy,
 {
     const DISPLACEMENT: f64 = 1e-10;
-    let mut displaced = start.clone();
+    let mut displaced = *start;
     displaced.x[0] += DISPLACEMENT;
-    let mut pair = [
-        Integrator::new(vortices, method, h, start.clone())?,
-        Integrator::new(vortices, method, h, displaced)?,
-    ];
+    let mut pair =
+        [Integrator::new(vortices, method, h, *start)?, Integrator::new(vortices, method, h, displaced)?];
     for run in &mut pair {
         while run.time() < 2000.0 {
             run.advance()?;
@@ -152,13 +182,14 @@ where
     Ok(distances.fold(0.0, f64::max) / DISPLACEMENT)
 }
 
+/// What [`lyapunov_exponent`] takes.
+pub const LYAPUNOV_STEPS: u64 = 100_000;
+
 /// The largest Lyapunov exponent by the tangent map of VI2 (h = 0.2, t = 2·10⁴).
 pub fn lyapunov_exponent(job: &Job<'_>, Case { vortices, start }: &Case) -> Result<Option<f64>> {
-    let (h, steps) = (0.2, 100_000);
-    let mut run = Integrator::new(vortices, Sigma::midpoint(), h, start.clone())?;
+    let mut run = Integrator::new(vortices, Sigma::midpoint(), 0.2, *start)?;
     let mut exponent = LyapunovExponent::new(&run);
-    job.expect(steps);
-    job.repeat(steps, || exponent.advance(&mut run));
+    job.repeat(LYAPUNOV_STEPS, || exponent.advance(&mut run))?;
     Ok(exponent.exponent())
 }
 
@@ -175,6 +206,17 @@ impl Scheme {
 impl Crossings {
     pub fn name(&self) -> String {
         format!("{} at h = {}", self.scheme.name(), self.h)
+    }
+
+    /// The time of the last crossing; 0 if there is none.
+    pub fn last(&self) -> f64 {
+        self.points.last().map_or(0.0, |&[t, ..]| t)
+    }
+
+    /// Says so if the vortices are not in their given order.
+    pub fn relabelling(&self) -> Option<String> {
+        let [a, b, c, d] = self.labels.map(|j| j + 1);
+        (self.labels != LABELS[0]).then(|| format!("vortices in the order {a}, {b}, {c}, {d}"))
     }
 
     /// (R₁, P₁) of each crossing.
@@ -207,11 +249,12 @@ pub fn energy_panel(all: &[Crossings], end: f64) -> Panel {
     panel.legend_at(Corner::Beside)
 }
 
-/// The section coordinates, and the runs that ended early.
+/// The section coordinates, and the runs that were relabelled or ended early.
 pub fn notes(all: &[Crossings]) -> Vec<String> {
+    let relabelled = all.iter().filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?)));
     let ends =
         all.iter().filter_map(|run| run.failure.map(|error| format!("{} ended early: {error}.", run.name())));
-    [CAVEAT.replace('*', "")].into_iter().chain(ends).collect()
+    [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
 }
 
 /// The sections as a table.
@@ -240,8 +283,10 @@ mod tests {
                 _ => sin * q[i - 4] + cos * q[i] - 5.0,
             })
             .collect();
-        for (a, b) in coordinates(&q).into_iter().zip(coordinates(&moved)) {
-            assert!((a - b).abs() < 1e-14, "{a} {b}");
+        for labels in LABELS {
+            for (a, b) in coordinates(&q, labels).into_iter().zip(coordinates(&moved, labels)) {
+                assert!((a - b).abs() < 1e-14, "{a} {b}");
+            }
         }
     }
 }

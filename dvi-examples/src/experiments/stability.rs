@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::claim::{Bound, Claim};
 use crate::figure::{Anchor, Axis, BLUE, Corner, Figure, Fill, Panel, SLATE, Stroke, VERMILLION};
 use crate::gallery::{Experiment, Outcome};
-use crate::job::{Ending, Job};
+use crate::job::Job;
 use crate::models::{Rotation, RotationState};
 use crate::output::Table;
 
@@ -27,6 +27,8 @@ const LARGE: f64 = 1e8;
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
+    // A bisection takes some 32 runs.
+    job.expect(steps * (3 + 32 * SIGMAS.len() as u64));
     let measured: Vec<[f64; 2]> =
         SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
     let [once, twice] = [steps, 2 * steps].map(|steps| largest_amplitude(job, 0.5, 1e3, steps));
@@ -45,8 +47,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
             Bound::AtMost(1.001),
         ),
     ];
-    figure(&measured).save(&job.folder, EXPERIMENT.name)?;
-    table(&measured)?.save(&job.folder, EXPERIMENT.name)?;
+    job.publish(EXPERIMENT.name, figure(&measured), table(&measured)?)?;
     Ok(Outcome { claims, notes: vec![] })
 }
 
@@ -70,16 +71,15 @@ fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Resul
     let [first, second] = [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
     let mut run = Integrator::from_two_points(&rotation, Sigma::new(sigma), 1.0, first, second)?;
     let mut largest = 0.0f64;
-    job.expect(steps);
-    let ending = job.repeat(steps, || {
+    job.repeat(steps, || {
         // Once it is large enough to be called unstable, there is no need to go on to infinity.
         if largest < LARGE {
             run.advance()?;
             largest = run.q().iter().fold(largest, |largest, q| q.abs().max(largest));
         }
         Ok(())
-    });
-    if let Ending::Failed(error) = ending { Err(error.into()) } else { Ok(largest) }
+    })?;
+    Ok(largest)
 }
 
 fn figure(measured: &[[f64; 2]]) -> Figure {

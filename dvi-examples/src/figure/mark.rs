@@ -93,7 +93,11 @@ impl Mark {
                     svg.stroke(&polyline(&run), stroke.pen());
                 }
             }
-            Mark::Band(edges, colour) => svg.fill(&outline(edges, frame), *colour, 0.3),
+            Mark::Band(edges, colour) => {
+                let shown = |edge: &&[f64; 3]| visible(&[edge[0], edge[1]]) && visible(&[edge[0], edge[2]]);
+                let edges: Vec<_> = edges.iter().filter(shown).copied().collect();
+                svg.fill(&outline(&edges, frame), *colour, 0.3);
+            }
             Mark::Dots(points, radius, colour) => {
                 let path = dots(points.iter().filter(|point| visible(point)), frame);
                 svg.dots(&path, Pen { opacity: 0.8, ..Pen::new(*colour, 2.0 * radius) });

@@ -65,6 +65,12 @@ impl Figure {
         self
     }
 
+    /// Marks the figure as one of a run that was cut short.
+    pub fn interrupted(mut self) -> Self {
+        self.title += " — interrupted";
+        self
+    }
+
     pub fn svg(&self) -> String {
         let height = HEADER + self.rows.iter().map(|(height, _)| height).sum::<f64>() + FOOTER;
         let mut svg = Svg::new(WIDTH, height, &self.title);
@@ -166,7 +172,7 @@ mod tests {
     fn a_figure_without_data_is_still_a_figure() {
         let empty = Panel::new("Empty", Axis::linear("*x*"), Axis::logarithmic("*y*"))
             .line(vec![[f64::NAN, 1.0]], Stroke::solid(BLUE))
-            .band(vec![], BLUE)
+            .band(vec![[1.0, -1.0, f64::INFINITY]], BLUE)
             .dots(vec![], 1.0, PURPLE);
         let svg = Figure::new("", "").row(300.0, vec![empty]).svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");

@@ -10,7 +10,6 @@ use super::svg::{Anchor, Label, Pen, Svg, number};
 pub enum Corner {
     TopLeft,
     TopRight,
-    BottomLeft,
     BottomRight,
     /// To the right of the panel, from the top, for legends that would cover data.
     Beside,
@@ -227,7 +226,6 @@ fn hold(corner: Corner, [left, top, width, height]: [f64; 4], indent: f64, below
     let (first, last) = (top + 16.0, top + height - 14.0 - below);
     match corner {
         Corner::TopLeft => ([left + indent, first], Anchor::Start),
-        Corner::BottomLeft => ([left + indent, last], Anchor::Start),
         Corner::TopRight => ([left + width - indent, first], Anchor::End),
         Corner::BottomRight => ([left + width - indent, last], Anchor::End),
         Corner::Beside => ([left + width + indent, first], Anchor::Start),

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::{GenericParam, Ident};
 
-use crate::emit::Emitter;
+use crate::emit::{Emitter, local};
 use crate::symbolic::{Atom, Index};
 
 pub(crate) struct State {
@@ -60,10 +60,12 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let summary = format!("A state of [`{}`]: its coordinates by name.", model.item.ident);
     let copy = (0..fields.len()).all(|block| on_stack(emitter, block)).then(|| quote!(::core::marker::Copy,));
     let (write, read) = transfers(emitter, &fields);
+    let blocks = (0..fields.len()).map(block_name);
     let allow = super::allow();
     let conversions = conversions(&name, &declarations, &constants, &fields, &types);
     let item = quote! {
         #[doc = #summary]
+        #[allow(non_snake_case, non_upper_case_globals)]
         #[derive(#copy ::core::clone::Clone, ::core::fmt::Debug, ::core::cmp::PartialEq)]
         #visibility struct #name<#(#declarations,)* __T = f64> {
             #(#[doc = #docs] pub #fields: #types,)*
@@ -83,7 +85,7 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
             fn read(__len: impl ::core::ops::Fn(usize) -> usize, __flat: &[__T]) -> Self {
                 let mut __at = 0usize;
                 #read
-                Self { #(#fields),* }
+                Self { #(#fields: #blocks),* }
             }
         }
         #conversions
@@ -102,14 +104,17 @@ fn conversions(
     if fields.is_empty() {
         return TokenStream::new();
     }
+    let blocks: Vec<Ident> = (0..fields.len()).map(block_name).collect();
     quote! {
         #[automatically_derived]
+        #[allow(non_upper_case_globals)]
         impl<#(#declarations,)* __T> ::core::convert::From<(#(#types,)*)> for #name<#(#constants,)* __T> {
-            fn from((#(#fields,)*): (#(#types,)*)) -> Self {
-                Self { #(#fields),* }
+            fn from((#(#blocks,)*): (#(#types,)*)) -> Self {
+                Self { #(#fields: #blocks),* }
             }
         }
         #[automatically_derived]
+        #[allow(non_upper_case_globals)]
         impl<#(#declarations,)* __T> ::core::convert::From<#name<#(#constants,)* __T>> for (#(#types,)*) {
             fn from(__state: #name<#(#constants,)* __T>) -> Self {
                 (#(__state.#fields,)*)
@@ -153,21 +158,27 @@ fn field_type(emitter: &Emitter<'_>, block: usize) -> TokenStream {
     }
 }
 
+/// A local name: that of the coordinate may be the name of a constant, which is no place to bind to.
+fn block_name(block: usize) -> Ident {
+    local(format_args!("block{block}"))
+}
+
 fn transfers(emitter: &Emitter<'_>, fields: &[&Ident]) -> (TokenStream, TokenStream) {
     let krate = emitter.krate();
     let (mut write, mut read) = (TokenStream::new(), TokenStream::new());
     for (block, field) in fields.iter().enumerate() {
+        let name = block_name(block);
         let text = field.to_string();
         if emitter.model.blocks[block].array.is_none() {
             write.extend(quote!(__flat[__at] = self.#field; __at += 1usize;));
-            read.extend(quote!(let #field = __flat[__at]; __at += 1usize;));
+            read.extend(quote!(let #name = __flat[__at]; __at += 1usize;));
             continue;
         }
         write.extend(quote! {
             #krate::__private::write_block(#text, &self.#field[..], __len(#block), &mut __at, __flat)?;
         });
         let reader = if on_stack(emitter, block) { quote!(read_array) } else { quote!(read_vec) };
-        read.extend(quote!(let #field = #krate::__private::#reader(__len(#block), &mut __at, __flat);));
+        read.extend(quote!(let #name = #krate::__private::#reader(__len(#block), &mut __at, __flat);));
     }
     (write, read)
 }

@@ -2,21 +2,34 @@
 
 use std::collections::HashMap;
 
+use quote::ToTokens;
 use syn::Expr as Syntax;
 
 use super::{Lowering, Role};
 use crate::symbolic::{Expr, Graph, Id, Node};
 
-/// The degree of a node in the velocities: 0, 1, or 2 for everything beyond.
-fn velocity_degree(graph: &Graph, node: Id, known: &mut HashMap<Id, u8>) -> u8 {
-    if let Some(degree) = known.get(&node) {
-        return *degree;
+/// The degree of a node in the velocities: 0, 1, or 2 for everything beyond. Operands come before
+/// the nodes that use them.
+fn velocity_degree(graph: &Graph, root: Id, known: &mut HashMap<Id, u8>) -> u8 {
+    let mut open = vec![root];
+    while let Some(&node) = open.last() {
+        let unknown = |id: &Id| !known.contains_key(id);
+        let waiting: Vec<Id> = graph.node(node).operands().into_iter().filter(unknown).collect();
+        if waiting.is_empty() || known.contains_key(&node) {
+            let degree = degree_above(graph, node, known);
+            known.insert(node, degree);
+            open.pop();
+        } else {
+            open.extend(waiting);
+        }
     }
-    let degrees: Vec<u8> =
-        graph.node(node).operands().into_iter().map(|id| velocity_degree(graph, id, known)).collect();
+    known[&root]
+}
+
+fn degree_above(graph: &Graph, node: Id, known: &HashMap<Id, u8>) -> u8 {
+    let degrees: Vec<u8> = graph.node(node).operands().iter().map(|id| known[id]).collect();
     let largest = degrees.iter().copied().max().unwrap_or(0);
-    let nonlinear = if largest > 0 { 2 } else { 0 };
-    let degree = match graph.node(node) {
+    match graph.node(node) {
         Node::Velocity(_) => 1,
         Node::Sum(_) | Node::Reduce(..) => largest,
         Node::Product(factors) => {
@@ -26,10 +39,9 @@ fn velocity_degree(graph: &Graph, node: Id, known: &mut HashMap<Id, u8>) -> u8 {
         }
         // Left, right, then, otherwise.
         Node::Choose { .. } if degrees[0] == 0 && degrees[1] == 0 => largest,
-        _ => nonlinear,
-    };
-    known.insert(node, degree);
-    degree
+        _ if largest > 0 => 2,
+        _ => 0,
+    }
 }
 
 impl Lowering<'_> {
@@ -38,7 +50,7 @@ impl Lowering<'_> {
     }
 
     /// Passes `value` on if it is affine in the velocities.
-    pub(super) fn affine(&mut self, syntax: &Syntax, value: Expr) -> Option<Expr> {
+    pub(super) fn affine(&mut self, syntax: &impl ToTokens, value: Expr) -> Option<Expr> {
         if self.degree(value) < 2 {
             return Some(value);
         }
@@ -50,6 +62,17 @@ impl Lowering<'_> {
             }
         };
         self.errors.push(syntax, message);
+        None
+    }
+
+    /// The two sides of a condition do not depend on velocities.
+    pub(super) fn check_at_rest(&mut self, condition: &Syntax, sides: &[Expr]) -> Option<()> {
+        if sides.iter().all(|side| self.degree(*side) == 0) {
+            return Some(());
+        }
+        let message = "this condition depends on a velocity, so L is not affine in the velocities; \
+                       a condition compares coordinates, parameters and `t`";
+        self.errors.push(condition, message);
         None
     }
 

@@ -10,9 +10,20 @@ use crate::symbolic::{Binary, Expr, Node, binary_by_name, unary_by_name, unary_n
 const ARITHMETIC: [(&str, usize); 5] =
     [("powi", 1), ("recip", 0), ("mul_add", 2), ("to_radians", 0), ("to_degrees", 0)];
 
+/// Names that a function of the user's own cannot have.
+pub(crate) const RESERVED: [&str; 5] = ["sum", "sum_pairs", "sum_ordered_pairs", "d", "dot"];
+
 impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Expr> {
         let name = call.method.to_string();
+        if let Some(turbofish) = &call.turbofish {
+            self.errors.push(turbofish, format!("`{name}` takes no types: formulas are real"));
+            return None;
+        }
+        if self.model.functions.iter().any(|function| function.name == name) {
+            self.errors.push(&call.method, format!("a function of your own is called as `{name}(…)`"));
+            return None;
+        }
         let Some(arity) = arity(&name) else {
             self.unknown_function(&call.method, &name);
             for argument in &call.args {
@@ -21,22 +32,21 @@ impl Lowering<'_> {
             return None;
         };
         if call.args.len() != arity {
-            let message = format!("`{name}` takes {}, here are {}", arguments(arity), call.args.len());
+            let message = format!("`{name}` takes {}; here are {}", arguments(arity), call.args.len());
             self.errors.push(&call.method, message);
             return None;
         }
         let receiver = self.expr(&call.receiver);
-        let whole = Syntax::MethodCall(call.clone());
         if name == "powi" {
             let exponent = self.integer(&call.args[0]);
             let (receiver, exponent) = (receiver?, exponent?);
             let value = self.graph.powi(receiver, exponent);
-            return self.affine(&whole, value);
+            return self.affine(call, value);
         }
         let arguments: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
         let arguments: Vec<Expr> = arguments.into_iter().collect::<Option<_>>()?;
         let value = self.apply(&name, receiver?, &arguments);
-        self.affine(&whole, value)
+        self.affine(call, value)
     }
 
     fn apply(&mut self, name: &str, x: Expr, arguments: &[Expr]) -> Expr {
@@ -72,12 +82,15 @@ impl Lowering<'_> {
 
     pub(super) fn call(&mut self, call: &ExprCall) -> Option<Expr> {
         let Syntax::Path(path) = &*call.func else {
-            self.unsupported(&call.func);
+            self.errors.push(&call.func, "a function is called by its name, as in `x.sin()` or `f(x)`");
             return None;
         };
         let Some(name) = path.path.get_ident().map(ToString::to_string) else {
             return self.path_call(call, &path.path);
         };
+        if self.model.functions.iter().any(|function| function.name == name) {
+            return self.own_function(&name, call);
+        }
         match name.as_str() {
             "sum" | "sum_pairs" | "sum_ordered_pairs" => self.sum(&name, call),
             "d" | "dot" => self.velocity(&name, call),
@@ -114,24 +127,28 @@ impl Lowering<'_> {
         };
         if call.args.len() != 1 {
             self.errors
-                .push(&call.func, format!("`{name}` takes one argument, here are {}", call.args.len()));
+                .push(&call.func, format!("`{name}` takes one argument; here are {}", call.args.len()));
             return None;
         }
         let argument = self.expr(&call.args[0])?;
         let value = self.graph.call(function as u32, 0, argument);
-        self.affine(&Syntax::Call(call.clone()), value)
+        self.affine(call, value)
     }
 
     fn unknown_function(&mut self, at: &impl quote::ToTokens, name: &str) {
+        if self.model.lost_functions {
+            return;
+        }
         let own: Vec<String> =
             self.model.functions.iter().map(|function| function.name.to_string()).collect();
         let mut known: Vec<&str> = unary_names().collect();
         known.extend(ARITHMETIC.iter().map(|(name, _)| *name));
-        known.extend(["sum", "sum_pairs", "sum_ordered_pairs", "d", "dot"]);
+        known.extend(RESERVED);
         known.extend(own.iter().map(String::as_str));
         let near = nearest(name, known.iter().copied())
             .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        self.errors.push(at, format!("unknown function `{name}`{near}\nthe functions are {}", listed(known)));
+        let message = format!("unknown function `{name}`{near}\nthe functions are {}", listed(known));
+        self.errors.push_once(&format!("function {name}"), at, message);
     }
 
     /// `d(x)` in a one-form, `dot(x)` in a Lagrangian.
@@ -140,8 +157,14 @@ impl Lowering<'_> {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
             role => {
-                let message =
-                    format!("{} is a function of the coordinates: no velocity may stand in it", role.name());
+                let advice = match role {
+                    Role::Component => {
+                        "write the one-form as a sum of `… * d(x)`, or its components without `d`"
+                    }
+                    Role::Hamiltonian => "what is linear in velocities belongs to `one_form`",
+                    _ => "no velocity may stand in it",
+                };
+                let message = format!("{} is a function of the coordinates: {advice}", role.name());
                 self.errors.push(call, message);
                 return None;
             }
@@ -152,10 +175,8 @@ impl Lowering<'_> {
             return None;
         }
         if call.args.len() != 1 {
-            self.errors.push(
-                &call.func,
-                format!("`{name}` takes one coordinate, here are {} arguments", call.args.len()),
-            );
+            self.errors
+                .push(&call.func, format!("`{name}` takes one coordinate; here are {}", call.args.len()));
             return None;
         }
         let coordinate = self.expr(&call.args[0])?;
@@ -188,7 +209,7 @@ fn arity(name: &str) -> Option<usize> {
 
 fn arguments(arity: usize) -> String {
     match arity {
-        0 => "no argument".into(),
+        0 => "no arguments".into(),
         1 => "one argument".into(),
         many => format!("{many} arguments"),
     }

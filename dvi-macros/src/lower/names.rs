@@ -64,8 +64,7 @@ impl Lowering<'_> {
         if self.index_names.contains(&name) {
             self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
         } else {
-            let suggestion = self.suggestion(&name);
-            self.errors.push(path, format!("unknown name `{name}`{suggestion}"));
+            self.unknown_name(path, &name, "unknown name");
         }
         None
     }
@@ -73,12 +72,16 @@ impl Lowering<'_> {
     fn scalar_parameter(&mut self, at: &impl quote::ToTokens, field: u32) -> Option<Expr> {
         let name = &self.model.parameters[field as usize].text;
         match self.shape_of(field) {
-            Shape::Array(_) => {
+            Shape::Array(..) => {
                 self.errors.push(at, format!("`{name}` is an array of parameters: write `{name}[i]`"));
                 None
             }
             Shape::Other => {
-                self.errors.push(at, format!("the field `{name}` is not a number"));
+                self.errors.push_once(
+                    &format!("field {name}"),
+                    at,
+                    format!("the field `{name}` is not a number"),
+                );
                 None
             }
             _ => Some(self.parameter_node(field, Vec::new())),
@@ -92,8 +95,7 @@ impl Lowering<'_> {
                 match self.parameter(name) {
                     Some(parameter) => self.scalar_parameter(field, parameter),
                     None => {
-                        let suggestion = self.suggestion(&name.to_string());
-                        self.errors.push(name, format!("the struct has no field `{name}`{suggestion}"));
+                        self.unknown_name(name, &name.to_string(), "the struct has no field");
                         None
                     }
                 }
@@ -133,22 +135,45 @@ impl Lowering<'_> {
             return self.indexed_coordinate(syntax, block, &indices, lowered);
         }
         let Some(field) = self.parameter(&name) else {
-            let suggestion = self.suggestion(&name.to_string());
-            self.errors.push(&name, format!("unknown name `{name}`{suggestion}"));
+            self.unknown_name(&name, &name.to_string(), "unknown name");
             return None;
         };
         let lowered: Vec<Index> = lowered.into_iter().collect::<Option<_>>()?;
-        match self.shape_of(field) {
-            Shape::Array(Some(length)) => {
-                self.check_range(indices[0], &lowered[0], length, &name.to_string())?;
-            }
-            Shape::Array(None) | Shape::Unknown => {}
-            _ => {
-                self.errors.push(syntax, format!("`{name}` is a single number: it takes no index"));
-                return None;
-            }
+        let name = name.to_string();
+        let mut shape = self.shape_of(field).clone();
+        if shape == Shape::Number || shape == Shape::Count {
+            self.errors.push(syntax, format!("`{name}` is a single number: it takes no index"));
+            return None;
         }
-        Some(self.parameter_node(field, lowered))
+        for (syntax, index) in indices.iter().zip(&lowered) {
+            shape = match shape {
+                Shape::Array(length, entry) => {
+                    self.check_range(syntax, index, length, &name)?;
+                    *entry
+                }
+                Shape::Unknown => Shape::Unknown,
+                _ => {
+                    self.errors.push(syntax, format!("this is one index too many for `{name}`"));
+                    return None;
+                }
+            };
+        }
+        match shape {
+            Shape::Array(..) => {
+                let message = format!("the entries of `{name}` are arrays: write one index more");
+                self.errors.push(syntax, message);
+                None
+            }
+            Shape::Other => {
+                self.errors.push_once(
+                    &format!("field {name}"),
+                    syntax,
+                    format!("the entries of `{name}` are not numbers"),
+                );
+                None
+            }
+            _ => Some(self.parameter_node(field, lowered)),
+        }
     }
 
     fn indexed_coordinate(
@@ -169,24 +194,29 @@ impl Lowering<'_> {
             }
             return None;
         };
-        if let Some(size) = self.model.block_size(block).as_literal() {
-            self.check_range(indices[0], index, size, &name)?;
-        }
+        let size = self.model.block_size(block).as_literal();
+        self.check_range(indices[0], index, size.filter(|_| !self.model.lost_coordinates), &name)?;
         let coordinate = Coordinate { block: block as u32, index: index.clone() };
         Some(self.graph.intern(Node::Coordinate(coordinate)).into())
     }
 
-    /// Reports an index that is known to leave 0..length.
-    fn check_range(&mut self, at: &Syntax, index: &Index, length: i64, name: &str) -> Option<()> {
+    /// Reports an index that is known to leave 0..length, or to be negative.
+    fn check_range(&mut self, at: &Syntax, index: &Index, length: Option<i64>, name: &str) -> Option<()> {
         let Some((least, largest)) = self.extent(index) else { return Some(()) };
+        let length = length.unwrap_or(i64::MAX);
         let outside = if least < 0 { least } else { largest };
         if (0..length).contains(&outside) {
             return Some(());
         }
-        self.errors.push(
-            at,
-            format!("index {outside} is out of range: `{name}` has {length} entries, 0 to {}", length - 1),
-        );
+        let reached = match index.as_literal() {
+            Some(_) => format!("index {outside} is out of range"),
+            None => format!("this index reaches {outside}"),
+        };
+        let range = match length {
+            i64::MAX => format!("the first entry of `{name}` is number 0"),
+            _ => format!("the entries of `{name}` are numbered 0 to {}", length - 1),
+        };
+        self.errors.push(at, format!("{reached}: {range}"));
         None
     }
 }

@@ -1,9 +1,13 @@
 //! Index sums and index arithmetic.
 
-use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, Pat, RangeLimits, UnOp};
+use quote::ToTokens;
+use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
-use super::{Binding, DEEPEST_SUM, Lowering};
+use super::{Binding, DEEPEST_SUM, Lowering, bound_name};
 use crate::symbolic::{Atom, Binder, Expr, Index};
+
+/// Beyond all sizes, and far from where sums of indices overflow.
+const LARGEST: u64 = 1 << 48;
 
 impl Lowering<'_> {
     /// `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k, `sum_ordered_pairs` over j ≠ k.
@@ -68,27 +72,29 @@ impl Lowering<'_> {
         &mut self,
         closure: &ExprClosure,
     ) -> Option<[String; COUNT]> {
-        let names: Vec<String> = closure
-            .inputs
-            .iter()
-            .filter_map(|input| match input {
-                Pat::Ident(pattern) => Some(pattern.ident.to_string()),
-                Pat::Wild(_) => Some("_".to_string()),
-                _ => None,
-            })
-            .collect();
-        let count = names.len();
-        match <[String; COUNT]>::try_from(names) {
-            Ok(names) if closure.inputs.len() == COUNT => Some(names),
-            _ => {
-                let expected = if COUNT == 1 { "one index: `|j| …`" } else { "two indices: `|j, k| …`" };
-                self.errors.push(
-                    closure,
-                    format!("this sum binds {expected}, here are {}", count.max(closure.inputs.len())),
-                );
-                None
+        let mut names = Vec::new();
+        for input in &closure.inputs {
+            match bound_name(input) {
+                Some(name) => names.push(name),
+                None => {
+                    self.errors.push(input, "an index is a name: write `|j| …`");
+                    return None;
+                }
             }
         }
+        let found = names.len();
+        let names = <[String; COUNT]>::try_from(names).ok();
+        if names.is_none() {
+            let expected = if COUNT == 1 { "one index: `|j| …`" } else { "two indices: `|j, k| …`" };
+            let inputs = &closure.inputs;
+            let message = format!("expected {expected}; here are {found}");
+            if inputs.is_empty() {
+                self.errors.push(closure, message);
+            } else {
+                self.errors.push(inputs, message);
+            }
+        }
+        names
     }
 
     fn range(&mut self, syntax: &Syntax) -> Option<(Index, Index)> {
@@ -106,10 +112,17 @@ impl Lowering<'_> {
         };
         let upper = self.index(end);
         let (lower, upper) = (lower?, upper?);
-        match range.limits {
-            RangeLimits::HalfOpen(_) => Some((lower, upper)),
-            RangeLimits::Closed(_) => Some((lower, upper.plus(&Index::literal(1), 1))),
+        let upper = match range.limits {
+            RangeLimits::HalfOpen(_) => upper,
+            RangeLimits::Closed(_) => upper.plus(&Index::literal(1), 1),
+        };
+        if let (Some(least), Some(beyond)) = (lower.as_literal(), upper.as_literal())
+            && least >= beyond
+        {
+            self.errors.push(syntax, "this range is empty");
+            return None;
         }
+        Some((lower, upper))
     }
 
     /// Whether an expression is index arithmetic: it names a bound index or a size.
@@ -131,12 +144,22 @@ impl Lowering<'_> {
 
     /// Sums, differences and literal multiples of indices, sizes and literals; and remainders.
     pub(super) fn index(&mut self, syntax: &Syntax) -> Option<Index> {
+        let index = self.index_inside(syntax)?;
+        let numbers = index.terms.iter().map(|(_, coefficient)| *coefficient);
+        if numbers.chain([index.constant]).any(|number| number.unsigned_abs() > LARGEST) {
+            self.errors.push(syntax, "this index is too large");
+            return None;
+        }
+        Some(index)
+    }
+
+    fn index_inside(&mut self, syntax: &Syntax) -> Option<Index> {
         match syntax {
             Syntax::Lit(literal) => match &literal.lit {
-                Lit::Int(value) => match value.base10_parse() {
-                    Ok(value) => return Some(Index::literal(value)),
-                    Err(error) => self.errors.push_syn(error),
-                },
+                // What is too large is reported as such.
+                Lit::Int(value) => {
+                    return Some(Index::literal(value.base10_digits().parse().unwrap_or(i64::MAX)));
+                }
                 _ => self.errors.push(syntax, "an index is an integer"),
             },
             Syntax::Paren(inner) => return self.index(&inner.expr),
@@ -156,7 +179,8 @@ impl Lowering<'_> {
                     self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
                 } else {
                     let suggestion = self.index_suggestion(&name);
-                    self.errors.push(path, format!("`{name}` is not an index{suggestion}"));
+                    self.errors
+                        .push(path, format!("`{}` is not an index{suggestion}", path.to_token_stream()));
                 }
             }
             Syntax::MethodCall(_) | Syntax::Field(_) => match self.model.size(syntax) {
@@ -207,8 +231,10 @@ impl Lowering<'_> {
             .map(|(name, _)| name.as_str())
             .chain(self.model.sizes.iter().map(|size| size.text.as_str()))
             .collect();
-        crate::errors::nearest(name, known)
-            .map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
+        crate::errors::nearest(name, known).map_or_else(
+            || "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
+            |near| format!("; did you mean `{near}`?"),
+        )
     }
 
     pub(super) fn literal_index(&mut self, syntax: &Syntax) -> Option<i64> {

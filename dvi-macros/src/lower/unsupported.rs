@@ -13,9 +13,11 @@ impl Lowering<'_> {
 
 fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
     match syntax {
-        Syntax::Array(_) => ("a list", "; a list of components stands in `one_form = […]` only"),
+        Syntax::Array(_) | Syntax::Repeat(_) => {
+            ("a list", "; a list of components stands in `one_form = […]` only")
+        }
         Syntax::Assign(_) => ("an assignment", "; name a value with `let`"),
-        Syntax::Async(_) | Syntax::Await(_) => ("asynchronous code", ""),
+        Syntax::Async(_) | Syntax::Await(_) => ("asynchronous code", "; all values are numbers"),
         Syntax::Break(_) | Syntax::Continue(_) | Syntax::Return(_) => {
             ("a jump", "; its value is its last expression")
         }
@@ -27,21 +29,27 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
         Syntax::Reference(_) => ("a reference", "; all values are numbers"),
         Syntax::Struct(_) => ("a struct", "; all values are numbers"),
         Syntax::Tuple(_) => ("a tuple", "; all values are numbers"),
-        Syntax::Try(_) => ("`?`", ""),
-        Syntax::Unsafe(_) => ("unsafe code", ""),
-        Syntax::Field(_) => ("a field of a field", "; parameters are `name` or `name[i]`"),
+        Syntax::Try(_) => ("`?`", "; all values are numbers"),
+        Syntax::Unsafe(_) => ("unsafe code", "; all values are numbers"),
+        Syntax::Field(_) => ("fields of values", "; parameters are written `name`, `name[i]` or `self.name`"),
+        Syntax::Path(_) => ("a qualified path", "; a constant is written `NAME` or `Type::NAME`"),
+        Syntax::Let(_) => ("a pattern", "; a condition compares with `<`, `<=`, `>` or `>=`"),
         Syntax::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
             ("a dereference", "; all values are numbers")
         }
-        Syntax::Unary(_) => ("`!` outside of a condition", ""),
+        Syntax::Unary(_) => ("`!` outside of a condition", "; write `if !(a < b) { … } else { … }`"),
         Syntax::Binary(binary) => match binary.op {
-            BinOp::Rem(_) => ("`%` outside of an index", ""),
+            BinOp::Rem(_) => ("`%` outside of an index", "; in an index it is written `x[(j + 1) % n]`"),
             BinOp::BitXor(_) => ("`^`", "; a power is written `x.powi(2)` or `x.powf(0.5)`"),
             BinOp::Eq(_) | BinOp::Ne(_) | BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) => {
                 ("a comparison outside of a condition", "; write `if a < b { … } else { … }`")
             }
-            BinOp::And(_) | BinOp::Or(_) => ("logic outside of a condition", ""),
-            BinOp::BitAnd(_) | BinOp::BitOr(_) | BinOp::Shl(_) | BinOp::Shr(_) => ("bit operations", ""),
+            BinOp::And(_) | BinOp::Or(_) => {
+                ("logic outside of a condition", "; write `if a < b && c < d { … } else { … }`")
+            }
+            BinOp::BitAnd(_) | BinOp::BitOr(_) | BinOp::Shl(_) | BinOp::Shr(_) => {
+                ("bit operations", "; all values are real numbers")
+            }
             _ => ("an assignment", "; name a value with `let`"),
         },
         _ => ("this kind of expression", "; it is made of operators, methods of `f64`, `let`, `if` and sums"),

@@ -6,12 +6,12 @@ use core::f64::consts::{LN_2, LOG2_E, LOG10_E};
 
 use super::graph::{Binary, Expr, Graph, Unary};
 
-type UnaryRow = (&'static str, Unary, fn(f64) -> f64, Option<f64>);
-type BinaryRow = (&'static str, Binary, fn(f64, f64) -> f64);
+pub(super) type UnaryRow = (&'static str, Unary, fn(f64) -> f64, Option<f64>);
+pub(super) type BinaryRow = (&'static str, Binary, fn(f64, f64) -> f64);
 
 /// Name, value, and sign under reflection (odd −1, even 1).
 #[rustfmt::skip]
-const UNARY: &[UnaryRow] = &[
+pub(super) const UNARY: &[UnaryRow] = &[
     ("sqrt",   Unary::Sqrt,   f64::sqrt,   None),
     ("cbrt",   Unary::Cbrt,   f64::cbrt,   Some(-1.0)),
     ("exp",    Unary::Exp,    f64::exp,    None),
@@ -38,7 +38,7 @@ const UNARY: &[UnaryRow] = &[
 ];
 
 #[rustfmt::skip]
-const BINARY: &[BinaryRow] = &[
+pub(super) const BINARY: &[BinaryRow] = &[
     ("atan2", Binary::Atan2, f64::atan2),
     ("hypot", Binary::Hypot, f64::hypot),
     ("powf",  Binary::Powf,  f64::powf),

@@ -1,0 +1,134 @@
+//! The gallery as a person starts it: arguments, files, exit codes, interruption.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{BufRead as _, BufReader};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+fn gallery(arguments: &[&str], out: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dvi-examples"));
+    command.args(arguments).arg("--out").arg(out);
+    command
+}
+
+fn run(arguments: &[&str], out: &Path) -> Output {
+    gallery(arguments, out).output().expect("the program starts")
+}
+
+fn names(folder: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("readable").file_name());
+    entries.map(|name| name.to_string_lossy().into_owned()).collect()
+}
+
+fn listed() -> Vec<String> {
+    let list =
+        Command::new(env!("CARGO_BIN_EXE_dvi-examples")).arg("--list").output().expect("starts").stdout;
+    let list = String::from_utf8(list).expect("UTF-8");
+    list.lines().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
+}
+
+#[test]
+fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = run(&["--short"], folder.path());
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{printed}{}", String::from_utf8_lossy(&output.stderr));
+    let experiments = listed();
+    assert!(experiments.len() >= 8, "{experiments:?}");
+    let files = |name: &String| ["svg", "png", "csv"].map(|extension| format!("{name}.{extension}"));
+    let expected: BTreeSet<String> =
+        experiments.iter().flat_map(files).chain(["summary.md".into()]).collect();
+    assert_eq!(names(folder.path()), expected);
+    for name in &experiments {
+        let read = |extension| fs::read(folder.path().join(format!("{name}.{extension}"))).expect("readable");
+        let svg = String::from_utf8(read("svg")).expect("UTF-8");
+        let document = roxmltree::Document::parse(&svg).expect("well-formed");
+        assert_eq!(document.root_element().tag_name().name(), "svg", "{name}");
+        assert!(!svg.contains("NaN") && svg.len() < 2_000_000, "{name}: {} bytes", svg.len());
+        assert!(read("png").starts_with(b"\x89PNG") && read("png").ends_with(b"IEND\xaeB`\x82"), "{name}");
+        assert!(read("csv").iter().filter(|&&byte| byte == b'\n').count() > 3, "{name}");
+    }
+    let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
+    assert!(experiments.iter().all(|name| summary.contains(&format!("## {name}:"))), "{summary}");
+    assert!(!summary.contains("not reproduced") && !summary.contains("**Failed**"), "{summary}");
+    assert!(printed.contains("reproduced"), "{printed}");
+}
+
+#[test]
+fn results_are_the_same_for_every_number_of_threads() {
+    let [one, two] = [1, 2].map(|threads| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let arguments = ["--short", "--only", "fig2-energy", "stability", "--threads", &threads.to_string()];
+        assert_eq!(run(&arguments, folder.path()).status.code(), Some(0));
+        names(folder.path())
+            .into_iter()
+            .map(|name| fs::read(folder.path().join(name)).expect("readable"))
+            .collect()
+    });
+    let (one, two): (Vec<Vec<u8>>, Vec<Vec<u8>>) = (one, two);
+    assert_eq!(one.len(), 7);
+    assert!(one == two);
+}
+
+#[test]
+fn only_runs_what_is_asked_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let below = folder.path().join("new/folder");
+    assert_eq!(run(&["--short", "--only", "momenta"], &below).status.code(), Some(0));
+    let expected = ["momenta.csv", "momenta.png", "momenta.svg", "summary.md"];
+    assert_eq!(names(&below).into_iter().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn bad_arguments_are_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let refused = |arguments: &[&str], hint: &str| {
+        let output = run(arguments, &folder.path().join("out"));
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(hint), "{message}");
+    };
+    refused(&["--only", "fig2-energi"], "fig2-energy");
+    refused(&["--only"], "--only <NAME>");
+    refused(&["--threads", "0"], "1..=1024");
+    refused(&["--treads", "2"], "--threads");
+    refused(&["results"], "unexpected argument");
+    assert!(names(folder.path()).is_empty());
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_an_error_and_not_a_panic() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("file");
+    fs::write(&file, []).expect("written");
+    let output = run(&["--short", "--only", "momenta"], &file.join("below"));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.starts_with("error: cannot create the folder"), "{message}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_complete_files_and_a_summary_that_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = gallery(&["--only", "fig5-chaotic", "parasitic", "--threads", "1"], folder.path());
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("starts");
+    // The line is printed when the handler is installed and before the first step.
+    let mut line = String::new();
+    let mut messages = BufReader::new(child.stderr.take().expect("piped"));
+    messages.read_line(&mut line).expect("readable");
+    assert!(line.starts_with("experiments: 2"), "{line}");
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill starts");
+    assert!(kill.success());
+    assert_eq!(child.wait().expect("ends").code(), Some(130));
+    let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
+    assert!(summary.contains("**Interrupted**") && summary.contains("0 claims"), "{summary}");
+    for name in names(folder.path()) {
+        assert!(!name.ends_with(".partial"), "{name}");
+        if name.ends_with(".svg") {
+            let svg = fs::read_to_string(folder.path().join(&name)).expect("readable");
+            assert!(roxmltree::Document::parse(&svg).is_ok(), "{name}");
+        }
+    }
+}

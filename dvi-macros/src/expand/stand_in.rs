@@ -1,0 +1,124 @@
+//! What is emitted in place of a system with mistakes in it.
+//!
+//! The struct as written, and implementations that type-check, so that the mistakes in the attribute
+//! are the only ones that the compiler reports.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+use syn::{GenericParam, Generics, Path, Visibility};
+
+use crate::emit::Emitter;
+use crate::errors::Errors;
+use crate::implement::{self, State};
+
+/// A type that takes the place of a system.
+struct StandIn<'a> {
+    name: &'a Ident,
+    generics: &'a Generics,
+    krate: &'a Path,
+    space: TokenStream,
+    state: TokenStream,
+}
+
+/// With errors in the attribute.
+pub(super) fn stand_in(emitter: &Emitter<'_>, mut errors: Errors) -> TokenStream {
+    let (model, krate) = (emitter.model, emitter.krate());
+    let item = &model.item;
+    let (space, state, state_item) = if model.lost_coordinates {
+        lost_state(krate, &item.vis, &item.ident, &item.generics, &mut errors)
+    } else {
+        let State { space, type_in_trait, item, .. } = implement::state(emitter);
+        (space, type_in_trait, item)
+    };
+    let implementations =
+        StandIn { name: &item.ident, generics: &item.generics, krate, space, state }.implementations();
+    let errors = errors.into_tokens();
+    quote!(#errors #item #state_item #implementations)
+}
+
+/// With the attribute on a type that is no struct.
+pub(super) fn without_struct(
+    visibility: &Visibility,
+    name: &Ident,
+    generics: &Generics,
+    mut errors: Errors,
+) -> TokenStream {
+    let krate: Path = syn::parse_quote!(::dvi_core);
+    let (space, state, state_item) = lost_state(&krate, visibility, name, generics, &mut errors);
+    let implementations = StandIn { name, generics, krate: &krate, space, state }.implementations();
+    let errors = errors.into_tokens();
+    quote!(#errors #state_item #implementations)
+}
+
+impl StandIn<'_> {
+    fn implementations(&self) -> TokenStream {
+        let Self { name, krate, space, state, .. } = self;
+        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
+        let allow = implement::allow();
+        let never = quote!({ ::core::unreachable!() });
+        quote! {
+            const _: () = {
+                #[automatically_derived]
+                #allow
+                impl #impl_generics #krate::Lagrangian for #name #type_generics #where_clause {
+                    type Space = #space;
+                    type State<__T: #krate::Scalar> = #state;
+                    const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[]);
+                    fn space(&self) -> Self::Space #never
+                    fn block_len(&self, _: usize) -> usize #never
+                    fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
+                    fn lagrangian<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
+                    fn gradient<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T], _: &mut [__T]) #never
+                    fn linearize<__T: #krate::Scalar>(
+                        &self, _: &[__T], _: &[__T], _: __T, _: #krate::Weights<__T>, _: &mut [__T], _: &mut [__T], _: &mut [__T],
+                    ) #never
+                    fn momentum<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T) -> __T #never
+                    fn momentum_gradient<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T, _: &mut [__T]) #never
+                }
+                #[automatically_derived]
+                #allow
+                impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
+                    const LINEAR: bool = false;
+                    const MATCHING: bool = false;
+                    const CANONICAL: bool = false;
+                    fn hamiltonian<__T: #krate::Scalar>(&self, _: &[__T], _: __T) -> __T #never
+                    fn hamiltonian_gradient<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
+                    fn one_form<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
+                    fn flow_source<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
+                    fn one_form_jacobian<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
+                    fn partner_entries<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
+                    fn partner(&self, _: usize) -> usize #never
+                }
+            };
+        }
+    }
+}
+
+/// A state whose coordinates are not known: a type that the compiler takes for anything.
+///
+/// The length of an array that is an error makes an error of its type, and an error of all that is
+/// derived from it, which the compiler does not report again:
+/// ```text
+/// type VorticesState<const N: usize, __T = f64> = <[__T; compile_error!("…")] as IntoIterator>::Item;
+/// ```
+fn lost_state(
+    krate: &Path,
+    visibility: &Visibility,
+    system: &Ident,
+    generics: &Generics,
+    errors: &mut Errors,
+) -> (TokenStream, TokenStream, TokenStream) {
+    let name = format_ident!("{system}State");
+    let constants = generics.params.iter().filter_map(|parameter| match parameter {
+        GenericParam::Const(constant) => Some((&constant.ident, &constant.ty)),
+        _ => None,
+    });
+    let (constants, types): (Vec<_>, Vec<_>) = constants.unzip();
+    let error = errors.take_first();
+    let item = quote! {
+        #[doc(hidden)]
+        #visibility type #name<#(const #constants: #types,)* __T = f64> =
+            <[__T; { #error }] as ::core::iter::IntoIterator>::Item;
+    };
+    (quote!(#krate::Fixed<1usize, 1usize>), quote!(#name<#(#constants,)* __T>), item)
+}

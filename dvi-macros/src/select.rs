@@ -1,0 +1,362 @@
+//! Statements to instructions: n-ary products become multiplications that share what they can.
+//!
+//! A product of the graph is a multiset of factors. The pair of factors that occurs in the most
+//! products is multiplied once, again and again, until no pair occurs twice (Breuer 1969); on a tie the
+//! pair that is known furthest outside of the loops comes first, so that invariant factors meet before
+//! the loop. Powers need no rule of their own: x⁴ is (x·x)·(x·x). A reciprocal that is left with a
+//! single use becomes the divisor of a quotient. Factors in front of a sum move into it where the
+//! product inside is computed anyway, as it is when a sum and a scatter share their loop.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use crate::instructions::{Instruction, Instructions, Register, Signed};
+use crate::program::Statement;
+use crate::symbolic::{Binder, Expr, Graph, Id, Node};
+
+/// Above this exponent a power is a call of `powi`.
+const LARGEST_EXPANDED: u32 = 32;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+enum Factor {
+    Literal(u64),
+    Node(Id),
+    Power(Id, u32),
+    Pair(u32),
+}
+
+/// |scale|·node.
+type Key = (u64, Id);
+
+struct Builder<'a> {
+    graph: &'a Graph,
+    /// Each product as a multiset of factors.
+    products: BTreeMap<Key, Vec<Factor>>,
+    /// Products of a sum that are sums of this product.
+    absorbed: HashMap<Key, (Binder, Key)>,
+    pairs: Vec<(Factor, Factor)>,
+    /// Reciprocals with a single use.
+    divisors: HashSet<Id>,
+    out: Instructions,
+    values: HashMap<Id, Register>,
+}
+
+/// The instructions and, for each statement, its value.
+pub(crate) fn select(graph: &Graph, statements: &[Statement]) -> (Instructions, Vec<Signed>) {
+    let mut builder = Builder {
+        graph,
+        products: BTreeMap::new(),
+        absorbed: HashMap::new(),
+        pairs: Vec::new(),
+        divisors: HashSet::new(),
+        out: Instructions::default(),
+        values: HashMap::new(),
+    };
+    builder.gather(statements);
+    builder.share_pairs();
+    builder.find_divisors();
+    let values = statements.iter().map(|statement| builder.signed(statement.value)).collect();
+    (builder.out, values)
+}
+
+impl Builder<'_> {
+    /// All products among the values and the operands of the nodes below them.
+    fn gather(&mut self, statements: &[Statement]) {
+        let mut sums = Vec::new();
+        let mut terms = HashSet::new();
+        for statement in statements {
+            self.note_term(statement.value, &mut terms);
+        }
+        for id in self.graph.reachable(statements.iter().map(|statement| statement.value.node)) {
+            match self.graph.node(id) {
+                Node::Sum(parts) => parts.iter().for_each(|part| self.note_term(*part, &mut terms)),
+                Node::Reciprocal(of) => self.note((*of).into()),
+                Node::Reduce(binder, of) => sums.push((id, binder, *of)),
+                Node::Unary(_, of) | Node::Call(_, _, of) => self.note(*of),
+                Node::Binary(_, a, b) => [*a, *b].into_iter().for_each(|part| self.note(part)),
+                Node::Choose { left, right, then, otherwise, .. } => {
+                    [*left, *right, *then, *otherwise].into_iter().for_each(|part| self.note(part));
+                }
+                _ => {}
+            }
+        }
+        for (sum, binder, body) in sums {
+            if !self.absorb(sum, binder, body) || terms.contains(&sum) {
+                self.note(body.into());
+            }
+        }
+    }
+
+    fn note_term(&mut self, term: Expr, terms: &mut HashSet<Id>) {
+        self.note(term);
+        if term.scale.abs() == 1.0 {
+            terms.insert(term.node);
+        }
+    }
+
+    /// Moves the factors in front of a sum into it, wherever the product inside is known already.
+    /// Whether that happened to all products with the sum.
+    fn absorb(&mut self, sum: Id, binder: &Binder, body: Id) -> bool {
+        let inner = self.expand((1.0_f64.to_bits(), body));
+        let outer: Vec<Key> = self
+            .products
+            .iter()
+            .filter(|(_, factors)| factors.contains(&Factor::Node(sum)))
+            .map(|(key, _)| *key)
+            .collect();
+        let mut all = !outer.is_empty();
+        for key in outer {
+            let mut merged = self.products[&key].clone();
+            remove(&mut merged, Factor::Node(sum));
+            // A factor on an open index of the same level would be captured.
+            if merged.iter().any(|factor| self.free(*factor) & (1 << binder.level) != 0) {
+                all = false;
+                continue;
+            }
+            merged.extend_from_slice(&inner);
+            merged.sort_unstable();
+            match self.products.iter().find(|(_, factors)| **factors == merged).map(|(known, _)| *known) {
+                Some(known) => {
+                    self.products.remove(&key);
+                    self.absorbed.insert(key, (binder.clone(), known));
+                }
+                None => all = false,
+            }
+        }
+        all
+    }
+
+    fn note(&mut self, expr: Expr) {
+        if let Some(key) = self.product_key(expr) {
+            let factors = self.expand(key);
+            self.products.entry(key).or_insert(factors);
+        }
+    }
+
+    /// The factors of |scale|·node, in order.
+    fn expand(&self, key: Key) -> Vec<Factor> {
+        let mut factors = Vec::new();
+        if f64::from_bits(key.0) != 1.0 {
+            factors.push(Factor::Literal(key.0));
+        }
+        let mut add = |id: Id, exponent: u32| match exponent {
+            0..=LARGEST_EXPANDED => factors.extend(std::iter::repeat_n(Factor::Node(id), exponent as usize)),
+            _ => factors.push(Factor::Power(id, exponent)),
+        };
+        match self.graph.node(key.1) {
+            Node::Product(powers) => powers.iter().for_each(|(id, exponent)| add(*id, *exponent)),
+            _ => add(key.1, 1),
+        }
+        factors.sort_unstable();
+        factors
+    }
+
+    /// The key of the product that an expression is, if it is one.
+    fn product_key(&self, expr: Expr) -> Option<Key> {
+        let magnitude = expr.scale.abs();
+        let product = matches!(self.graph.node(expr.node), Node::Product(_) | Node::Reciprocal(_));
+        (expr.node != Graph::ONE && (magnitude != 1.0 || product)).then(|| (magnitude.to_bits(), expr.node))
+    }
+
+    fn find_divisors(&mut self) {
+        let mut uses: HashMap<Id, usize> = HashMap::new();
+        let pairs = self.pairs.iter().flat_map(|(a, b)| [*a, *b]);
+        for factor in self.products.values().flatten().copied().chain(pairs) {
+            if let Factor::Node(id) = factor {
+                *uses.entry(id).or_default() += 1;
+            }
+        }
+        let reciprocal = |id: &Id| matches!(self.graph.node(*id), Node::Reciprocal(_));
+        self.divisors =
+            uses.into_iter().filter(|(_, uses)| *uses == 1).map(|(id, _)| id).filter(reciprocal).collect();
+    }
+
+    fn share_pairs(&mut self) {
+        let mut counts: BTreeMap<(Factor, Factor), i64> = BTreeMap::new();
+        let mut products: Vec<Vec<Factor>> = self.products.values().cloned().collect();
+        for factors in &products {
+            count_pairs(factors, 1, &mut counts);
+        }
+        loop {
+            let rank = |(a, b): (Factor, Factor)| {
+                // A division should come last: its result is waited for longest.
+                let divides = [a, b].iter().any(|factor| self.is_reciprocal(*factor));
+                (divides, self.depth(a).max(self.depth(b)), a, b)
+            };
+            let best = counts.iter().max_by_key(|(pair, count)| (**count, std::cmp::Reverse(rank(**pair))));
+            let Some((pair, 2..)) = best.map(|(pair, count)| (*pair, *count)) else { break };
+            let fresh = Factor::Pair(self.pairs.len() as u32);
+            self.pairs.push(pair);
+            for factors in &mut products {
+                let times = occurrences(factors, pair);
+                if times > 0 {
+                    count_pairs(factors, -1, &mut counts);
+                    for _ in 0..times {
+                        remove(factors, pair.0);
+                        remove(factors, pair.1);
+                        factors.push(fresh);
+                    }
+                    count_pairs(factors, 1, &mut counts);
+                }
+            }
+        }
+        for (product, factors) in self.products.values_mut().zip(products) {
+            *product = factors;
+        }
+    }
+
+    fn is_reciprocal(&self, factor: Factor) -> bool {
+        match factor {
+            Factor::Node(id) => matches!(self.graph.node(id), Node::Reciprocal(_)),
+            _ => false,
+        }
+    }
+
+    fn free(&self, factor: Factor) -> u64 {
+        match factor {
+            Factor::Literal(_) => 0,
+            Factor::Node(id) | Factor::Power(id, _) => self.graph.free(id),
+            Factor::Pair(pair) => {
+                let (a, b) = self.pairs[pair as usize];
+                self.free(a) | self.free(b)
+            }
+        }
+    }
+
+    fn depth(&self, factor: Factor) -> u32 {
+        64 - self.free(factor).leading_zeros()
+    }
+
+    fn signed(&mut self, expr: Expr) -> Signed {
+        let negative = expr.scale < 0.0;
+        let register = if expr.node == Graph::ONE {
+            self.literal(expr.scale.abs())
+        } else if let Some(key) = self.product_key(expr) {
+            self.product(key)
+        } else {
+            self.value(expr.node)
+        };
+        Signed { negative, register }
+    }
+
+    fn literal(&mut self, value: f64) -> Register {
+        self.out.push(Instruction::Literal(value.to_bits()), 0)
+    }
+
+    fn product(&mut self, key: Key) -> Register {
+        if let Some((binder, body)) = self.absorbed.get(&key).cloned() {
+            let body = self.product(body);
+            return self.out.push(Instruction::Reduce(binder, body), 0);
+        }
+        let mut factors = self.products.get(&key).cloned().unwrap_or_default();
+        factors.sort_by_key(|factor| (self.depth(*factor), *factor));
+        self.multiplied(&factors)
+    }
+
+    /// The product of factors from left to right; a reciprocal that nothing else uses divides it.
+    fn multiplied(&mut self, factors: &[Factor]) -> Register {
+        let divisor = factors.iter().position(|factor| match factor {
+            Factor::Node(id) => self.divisors.contains(id),
+            _ => false,
+        });
+        let mut product: Option<Register> = None;
+        for (position, factor) in factors.iter().enumerate() {
+            if divisor != Some(position) {
+                let factor = self.factor(*factor);
+                product = Some(match product {
+                    Some(product) => self.out.push(Instruction::Multiply(product, factor), 0),
+                    None => factor,
+                });
+            }
+        }
+        let numerator = product.unwrap_or_else(|| self.literal(1.0));
+        match divisor.map(|position| factors[position]) {
+            Some(Factor::Node(id)) => match self.graph.node(id) {
+                Node::Reciprocal(of) => {
+                    let divisor = self.value(*of);
+                    self.out.push(Instruction::Divide(numerator, divisor), 0)
+                }
+                _ => numerator,
+            },
+            _ => numerator,
+        }
+    }
+
+    fn factor(&mut self, factor: Factor) -> Register {
+        match factor {
+            Factor::Literal(bits) => self.literal(f64::from_bits(bits)),
+            Factor::Node(id) => self.value(id),
+            Factor::Power(id, exponent) => {
+                let base = self.value(id);
+                self.out.push(Instruction::Power(base, exponent), 0)
+            }
+            Factor::Pair(pair) => {
+                let (a, b) = self.pairs[pair as usize];
+                self.multiplied(&[a, b])
+            }
+        }
+    }
+
+    fn value(&mut self, id: Id) -> Register {
+        if let Some(known) = self.values.get(&id) {
+            return *known;
+        }
+        let graph = self.graph;
+        let instruction = match graph.node(id) {
+            Node::Product(_) => return self.product((1.0_f64.to_bits(), id)),
+            Node::Reciprocal(of) => {
+                let (one, of) = (self.literal(1.0), self.value(*of));
+                Instruction::Divide(one, of)
+            }
+            Node::Sum(terms) => Instruction::Sum(terms.iter().map(|term| self.signed(*term)).collect()),
+            Node::Unary(function, of) => Instruction::Unary(*function, self.signed(*of)),
+            Node::Binary(function, a, b) => Instruction::Binary(*function, self.signed(*a), self.signed(*b)),
+            Node::Call(function, order, of) => Instruction::Call(*function, *order, self.signed(*of)),
+            Node::Choose { left, relation, right, then, otherwise } => {
+                let [left, right, then, otherwise] =
+                    [left, right, then, otherwise].map(|part| self.signed(*part));
+                Instruction::Choose(left, *relation, right, then, otherwise)
+            }
+            Node::Reduce(binder, body) => {
+                Instruction::Reduce(binder.clone(), self.signed((*body).into()).register)
+            }
+            Node::One => Instruction::Literal(1.0_f64.to_bits()),
+            _ => Instruction::Leaf(id),
+        };
+        let leaf_free = if matches!(instruction, Instruction::Leaf(_)) { graph.free(id) } else { 0 };
+        let register = self.out.push(instruction, leaf_free);
+        self.values.insert(id, register);
+        register
+    }
+}
+
+fn multiplicity(factors: &[Factor], factor: Factor) -> usize {
+    factors.iter().filter(|known| **known == factor).count()
+}
+
+fn occurrences(factors: &[Factor], (a, b): (Factor, Factor)) -> usize {
+    if a == b { multiplicity(factors, a) / 2 } else { multiplicity(factors, a).min(multiplicity(factors, b)) }
+}
+
+fn remove(factors: &mut Vec<Factor>, factor: Factor) {
+    if let Some(position) = factors.iter().position(|known| *known == factor) {
+        factors.remove(position);
+    }
+}
+
+fn count_pairs(factors: &[Factor], sign: i64, counts: &mut BTreeMap<(Factor, Factor), i64>) {
+    let mut distinct = factors.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    for (position, a) in distinct.iter().enumerate() {
+        for b in &distinct[position..] {
+            let times = occurrences(factors, (*a, *b)) as i64;
+            if times > 0 {
+                let count = counts.entry((*a, *b)).or_default();
+                *count += sign * times;
+                if *count == 0 {
+                    counts.remove(&(*a, *b));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! An interpreter of the graph on one point.
+
+use std::collections::HashMap;
+
+use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
+use crate::symbolic::{Atom, Binder, Coordinate, Expr, Graph, Id, Index, Node, Relation, Weight};
+
+/// What the names of a formula stand for. Every array has the one size that there is.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub(super) coordinates: Vec<Vec<f64>>,
+    pub(super) velocities: Vec<Vec<f64>>,
+    pub(super) parameters: Vec<f64>,
+    pub(super) time: f64,
+}
+
+/// The values of the bound indices, by level.
+pub(super) type Bindings = Vec<(u32, i64)>;
+
+impl Point {
+    pub(super) fn size(&self) -> i64 {
+        self.coordinates[0].len() as i64
+    }
+
+    pub(super) fn index(&self, index: &Index, bindings: &Bindings) -> i64 {
+        let of = |atom: &Atom| match atom {
+            Atom::Bound(level) => bindings
+                .iter()
+                .rev()
+                .find_map(|(known, value)| (known == level).then_some(*value))
+                .expect("an index outside of its loop"),
+            Atom::Size(_) => self.size(),
+            Atom::Remainder(value, modulus) => {
+                self.index(value, bindings).rem_euclid(self.index(modulus, bindings))
+            }
+        };
+        index.terms.iter().fold(index.constant, |sum, (atom, factor)| sum + factor * of(atom))
+    }
+
+    pub(super) fn range(&self, binder: &Binder, bindings: &Bindings) -> Vec<i64> {
+        let except = binder.except.as_ref().map(|except| self.index(except, bindings));
+        let range = self.index(&binder.lower, bindings)..self.index(&binder.upper, bindings);
+        range.filter(|value| Some(*value) != except).collect()
+    }
+
+    /// Calls `visit` in every pass of the loops.
+    pub(super) fn passes(&self, loops: &[Binder], bindings: &Bindings, visit: &mut dyn FnMut(&Bindings)) {
+        let Some((binder, inner)) = loops.split_first() else { return visit(bindings) };
+        for value in self.range(binder, bindings) {
+            let mut inside = bindings.clone();
+            inside.push((binder.level, value));
+            self.passes(inner, &inside, visit);
+        }
+    }
+
+    /// The position of a coordinate among all coordinates, or of a velocity among these and the
+    /// velocities behind them.
+    pub(super) fn position(&self, node: &Node, bindings: &Bindings) -> usize {
+        let blocks = self.coordinates.len();
+        let (block, coordinate) = match node {
+            Node::Coordinate(c) => (c.block as usize, c),
+            Node::Velocity(c) => (blocks + c.block as usize, c),
+            other => unreachable!("{other:?} is not a variable"),
+        };
+        block * self.coordinates[0].len() + self.index(&coordinate.index, bindings) as usize
+    }
+
+    fn entry(&self, array: &[Vec<f64>], c: &Coordinate, bindings: &Bindings) -> f64 {
+        array[c.block as usize][self.index(&c.index, bindings) as usize]
+    }
+
+    /// The value of a node without operands.
+    pub(super) fn leaf(&self, node: &Node, bindings: &Bindings) -> f64 {
+        match node {
+            Node::One => 1.0,
+            Node::Coordinate(c) => self.entry(&self.coordinates, c, bindings),
+            Node::Velocity(c) => self.entry(&self.velocities, c, bindings),
+            Node::Time => self.time,
+            Node::Parameter(p) => self.parameters[self.index(&p.indices[0], bindings) as usize],
+            Node::Count(index) => self.index(index, bindings) as f64,
+            Node::Weight(weight) => match weight {
+                Weight::Qq => 0.7,
+                Weight::Qv => -0.3,
+                Weight::Vq => 0.4,
+                Weight::Vv => 1.1,
+                Weight::A => -0.9,
+                Weight::B => 0.6,
+            },
+            other => unreachable!("{other:?} has operands"),
+        }
+    }
+}
+
+pub(super) fn holds(left: f64, relation: Relation, right: f64) -> bool {
+    match relation {
+        Relation::Less => left < right,
+        Relation::LessOrEqual => left <= right,
+        Relation::Greater => left > right,
+        Relation::GreaterOrEqual => left >= right,
+    }
+}
+
+/// The user's own function is the sine.
+pub(super) fn own_function(order: u32, x: f64) -> f64 {
+    match order % 4 {
+        0 => x.sin(),
+        1 => x.cos(),
+        2 => -x.sin(),
+        _ => -x.cos(),
+    }
+}
+
+/// One evaluation; a node is computed once for each value of the indices that it depends on.
+pub(super) struct Evaluation<'a> {
+    graph: &'a Graph,
+    point: &'a Point,
+    known: HashMap<(Id, Bindings), f64>,
+}
+
+impl<'a> Evaluation<'a> {
+    pub(super) fn new(graph: &'a Graph, point: &'a Point) -> Self {
+        Self { graph, point, known: HashMap::new() }
+    }
+
+    pub(super) fn expr(&mut self, expr: Expr, bindings: &Bindings) -> f64 {
+        if expr.is_zero() { 0.0 } else { expr.scale * self.node(expr.node, bindings) }
+    }
+
+    fn node(&mut self, id: Id, bindings: &Bindings) -> f64 {
+        let free = self.graph.free(id);
+        let relevant: Bindings =
+            bindings.iter().filter(|(level, _)| free & (1 << level) != 0).copied().collect();
+        if let Some(value) = self.known.get(&(id, relevant.clone())) {
+            return *value;
+        }
+        let value = self.compute(id, &relevant);
+        self.known.insert((id, relevant), value);
+        value
+    }
+
+    fn compute(&mut self, id: Id, at: &Bindings) -> f64 {
+        match self.graph.node(id).clone() {
+            Node::Sum(terms) => terms.iter().map(|term| self.expr(*term, at)).sum(),
+            Node::Product(factors) => factors
+                .iter()
+                .map(|(factor, exponent)| self.node(*factor, at).powi(*exponent as i32))
+                .product(),
+            Node::Reciprocal(of) => 1.0 / self.node(of, at),
+            Node::Unary(function, of) => evaluate_unary(function, self.expr(of, at)),
+            Node::Binary(function, a, b) => evaluate_binary(function, self.expr(a, at), self.expr(b, at)),
+            Node::Call(_, order, of) => own_function(order, self.expr(of, at)),
+            Node::Choose { left, relation, right, then, otherwise } => {
+                let chosen = holds(self.expr(left, at), relation, self.expr(right, at));
+                self.expr(if chosen { then } else { otherwise }, at)
+            }
+            Node::Reduce(binder, body) => {
+                let point = self.point;
+                let mut sum = 0.0;
+                point.passes(&[binder], at, &mut |inside| sum += self.node(body, inside));
+                sum
+            }
+            leaf => self.point.leaf(&leaf, at),
+        }
+    }
+}

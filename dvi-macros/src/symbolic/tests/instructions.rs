@@ -1,0 +1,190 @@
+//! Instructions and loops, interpreted as the generated code would run them, against the graph.
+
+use std::collections::{HashMap, HashSet};
+
+use proptest::prelude::*;
+
+use super::evaluate::{Bindings, Evaluation, Point, holds, own_function};
+use super::properties::raw_value;
+use super::tree::{point, tree};
+use crate::instructions::{Instruction, Instructions, Register, Signed};
+use crate::program::{Formulas, Place, Programs, Statement};
+use crate::schedule::{Step, schedule};
+use crate::select::select;
+use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
+use crate::symbolic::{Graph, Node};
+
+/// Entries of the outputs by name, each with what was added to it and the sizes of the parts.
+type Written = HashMap<String, (f64, f64)>;
+
+fn add(written: &mut Written, point: &Point, place: &Place, at: &Bindings, value: f64) {
+    let name = match place {
+        Place::Result => "result".to_string(),
+        Place::Entry(output, c) => format!("{output:?} {} {}", c.block, point.index(&c.index, at)),
+        Place::MatrixEntry(r, c) => {
+            let (i, j) = (point.index(&r.index, at), point.index(&c.index, at));
+            format!("matrix {} {i} {} {j}", r.block, c.block)
+        }
+    };
+    let (sum, size) = written.entry(name).or_default();
+    *sum += value;
+    *size += value.abs();
+}
+
+struct Machine<'a> {
+    graph: &'a Graph,
+    code: &'a Instructions,
+    statements: &'a [Statement],
+    point: &'a Point,
+    registers: HashMap<Register, f64>,
+    written: Written,
+}
+
+impl Machine<'_> {
+    /// A register that no step has defined yet is a mistake of the schedule.
+    fn register(&self, register: Register) -> f64 {
+        *self.registers.get(&register).expect("a register is used before it is defined")
+    }
+
+    fn signed(&self, value: Signed) -> f64 {
+        let register = self.register(value.register);
+        if value.negative { -register } else { register }
+    }
+
+    fn run(&mut self, steps: &[Step], at: &Bindings) {
+        for step in steps {
+            match step {
+                Step::Let(register) => {
+                    let value = self.instruction(self.code.get(*register), at);
+                    self.registers.insert(*register, value);
+                }
+                Step::Write(statement, value) => {
+                    let value = self.signed(*value);
+                    add(&mut self.written, self.point, &self.statements[*statement].place, at, value);
+                }
+                Step::Loop { binder, sums, body } => {
+                    let outside = self.registers.clone();
+                    let mut totals = vec![0.0; sums.len()];
+                    for index in self.point.range(binder, at) {
+                        let mut inside = at.clone();
+                        inside.push((binder.level, index));
+                        self.run(body, &inside);
+                        for (total, (_, term)) in totals.iter_mut().zip(sums) {
+                            *total += self.register(*term);
+                        }
+                        self.registers.clone_from(&outside);
+                    }
+                    self.registers.extend(sums.iter().map(|(result, _)| *result).zip(totals));
+                }
+            }
+        }
+    }
+
+    fn instruction(&self, instruction: &Instruction, at: &Bindings) -> f64 {
+        match instruction {
+            Instruction::Leaf(id) => self.point.leaf(self.graph.node(*id), at),
+            Instruction::Literal(bits) => f64::from_bits(*bits),
+            Instruction::Multiply(a, b) => self.register(*a) * self.register(*b),
+            Instruction::Divide(a, b) => self.register(*a) / self.register(*b),
+            Instruction::Sum(terms) => terms.iter().map(|term| self.signed(*term)).sum(),
+            Instruction::Unary(function, of) => evaluate_unary(*function, self.signed(*of)),
+            Instruction::Binary(function, a, b) => {
+                evaluate_binary(*function, self.signed(*a), self.signed(*b))
+            }
+            Instruction::Power(of, exponent) => self.register(*of).powi(*exponent as i32),
+            Instruction::Call(_, order, of) => own_function(*order, self.signed(*of)),
+            Instruction::Choose(left, relation, right, then, otherwise) => {
+                let chosen = holds(self.signed(*left), *relation, self.signed(*right));
+                self.signed(if chosen { *then } else { *otherwise })
+            }
+            Instruction::Reduce(..) => unreachable!("sums are loops"),
+        }
+    }
+}
+
+/// What a scope uses, itself, inside of its loops, and as `results`; nothing may be computed in vain.
+fn used(
+    code: &Instructions,
+    steps: &[Step],
+    results: &[Register],
+) -> Result<HashSet<Register>, TestCaseError> {
+    let mut used: HashSet<Register> = results.iter().copied().collect();
+    for step in steps {
+        match step {
+            Step::Let(register) => used.extend(code.get(*register).operands()),
+            Step::Write(_, value) => _ = used.insert(value.register),
+            Step::Loop { sums, body, .. } => {
+                let terms: Vec<Register> = sums.iter().map(|(_, term)| *term).collect();
+                used.extend(self::used(code, body, &terms)?);
+            }
+        }
+    }
+    for step in steps {
+        match step {
+            Step::Let(register) => prop_assert!(used.contains(register), "{register:?} is of no use"),
+            Step::Loop { sums, .. } => {
+                prop_assert!(sums.iter().all(|(result, _)| used.contains(result)), "a sum is of no use");
+            }
+            Step::Write(..) => {}
+        }
+    }
+    Ok(used)
+}
+
+/// Runs the statements both ways and compares every entry that is written.
+fn check(graph: &Graph, statements: &[Statement], point: &Point) -> Result<(), TestCaseError> {
+    let (code, values) = select(graph, statements);
+    let steps = schedule(&code, statements, &values);
+    used(&code, &steps, &[])?;
+    let mut machine =
+        Machine { graph, code: &code, statements, point, registers: HashMap::new(), written: Written::new() };
+    machine.run(&steps, &Bindings::new());
+    let mut expected = Written::new();
+    for statement in statements {
+        point.passes(&statement.loops, &Bindings::new(), &mut |at| {
+            let value = Evaluation::new(graph, point).expr(statement.value, at);
+            add(&mut expected, point, &statement.place, at, value);
+        });
+    }
+    prop_assert_eq!(machine.written.len(), expected.len());
+    for (place, (value, size)) in &expected {
+        let found = machine.written.get(place).map_or(f64::NAN, |(value, _)| *value);
+        prop_assert!(
+            (found - value).abs() <= 1e-9 * (1.0 + size) || !value.is_finite(),
+            "{place}: {found} instead of {value}"
+        );
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(super::configuration(384))]
+
+    /// The function that the solvers call: L's gradient and weighted second derivative in one pass.
+    #[test]
+    fn loops_compute_what_the_graph_says(tree in tree(6), point in point()) {
+        let size = raw_value(&tree, &point);
+        prop_assume!(size.is_sharp() && size.error < 1e4);
+        let mut graph = Graph::new();
+        let root = tree.lower(&mut graph, 0);
+        let one_form = velocity_sum(&mut graph);
+        let formulas = Formulas { one_form, hamiltonian: root, momenta: vec![root] };
+        let entries = graph.hessian(one_form);
+        let programs = Programs::new(&mut graph, &formulas, &entries, false);
+        for statements in [&programs.hamiltonian, &programs.gradient, &programs.linearize, &programs.momenta[0].1] {
+            check(&graph, statements, &point)?;
+        }
+    }
+}
+
+/// Σ xⱼ² d(yⱼ)
+fn velocity_sum(graph: &mut Graph) -> crate::symbolic::Expr {
+    use crate::symbolic::{Binder, Coordinate, Index, Size};
+    let index = Index::bound(0);
+    let x = graph.intern(Node::Coordinate(Coordinate { block: 0, index: index.clone() }));
+    let dy = graph.intern(Node::Velocity(Coordinate { block: 1, index }));
+    let square = graph.power(x.into(), 2);
+    let body = graph.multiply(square, dy.into());
+    let binder = Binder { level: 0, lower: Index::literal(0), upper: Index::size(Size(0)), except: None };
+    graph.reduce(binder, body)
+}

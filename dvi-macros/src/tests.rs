@@ -1,0 +1,214 @@
+//! What the compiler writes, for a few canonical systems: one generated function each.
+
+use expect_test::{Expect, expect};
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::ImplItemFn;
+use syn::visit::Visit;
+
+use crate::expand::degenerate_lagrangian;
+
+/// All functions of an expansion, those inside of `const _` included.
+#[derive(Default)]
+struct Functions(Vec<ImplItemFn>);
+
+impl<'ast> Visit<'ast> for Functions {
+    fn visit_impl_item_fn(&mut self, function: &'ast ImplItemFn) {
+        self.0.push(function.clone());
+    }
+}
+
+/// Compares the body of a generated function; its signature is that of the trait.
+fn check(attribute: TokenStream, item: TokenStream, name: &str, expected: &Expect) {
+    let file: syn::File = syn::parse2(degenerate_lagrangian(attribute, item)).expect("the expansion parses");
+    let mut functions = Functions::default();
+    functions.visit_file(&file);
+    let found = functions.0.iter().find(|function| function.sig.ident == name).expect("it is generated");
+    let (ident, block) = (&found.sig.ident, &found.block);
+    let file = syn::parse2(quote!(fn #ident() #block)).expect("a function");
+    expected
+        .assert_eq(&prettyplease::unparse(&file).replace("::dvi_core::", "").replace("<__T as Scalar>", "T"));
+}
+
+#[test]
+fn oscillator() {
+    check(
+        quote! {
+            coordinates(x, y),
+            one_form    = (x * d(y) - y * d(x)) / 2.0,
+            hamiltonian = omega / 2.0 * (x * x + y * y),
+        },
+        quote! { struct Oscillator { omega: f64 } },
+        "linearize",
+        &expect![[r#"
+            fn linearize() {
+                let (__q0, __rest) = __q.split_at(1usize);
+                let (__q1, __rest) = __rest.split_at(1usize);
+                let _ = __rest;
+                let (__v0, __rest) = __v.split_at(1usize);
+                let (__v1, __rest) = __rest.split_at(1usize);
+                let _ = __rest;
+                __l_q.fill(T::lift(-0.0));
+                let (__l_q0, __rest) = __l_q.split_at_mut(1usize);
+                let (__l_q1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                __l_v.fill(T::lift(-0.0));
+                let (__l_v0, __rest) = __l_v.split_at_mut(1usize);
+                let (__l_v1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                let __offset0: usize = 0usize;
+                let __offset1: usize = 1usize;
+                let __dimension: usize = 2usize;
+                let __r2 = __q0[0usize];
+                let __r4 = T::lift(
+                    __private::Number::number(self.omega),
+                );
+                let __r5 = T::lift(2f64) * __r4;
+                let __r10 = __q1[0usize];
+                let __r17 = __r4 * __w.qq;
+                let __r19 = T::lift(0.5f64) * __w.qv;
+                let __r21 = T::lift(0.5f64) * __w.vq;
+                __l_q0[0usize]
+                    += (T::lift(0.5f64) * (__v1[0usize] - (__r2 * __r5)));
+                __l_q1[0usize]
+                    -= (T::lift(0.5f64) * (__v0[0usize] + (__r10 * __r5)));
+                __l_v1[0usize] += (T::lift(0.5f64) * __r2);
+                __l_v0[0usize] -= (T::lift(0.5f64) * __r10);
+                __matrix[(__offset0 + 0usize) * __dimension + __offset0 + 0usize] -= __r17;
+                __matrix[(__offset0 + 0usize) * __dimension + __offset1 + 0usize] += __r19;
+                __matrix[(__offset1 + 0usize) * __dimension + __offset0 + 0usize] += __r21;
+                __matrix[(__offset1 + 0usize) * __dimension + __offset1 + 0usize] -= __r17;
+                __matrix[(__offset1 + 0usize) * __dimension + __offset0 + 0usize] -= __r19;
+                __matrix[(__offset0 + 0usize) * __dimension + __offset1 + 0usize] -= __r21;
+            }
+        "#]],
+    );
+}
+
+#[test]
+fn vortices() {
+    check(
+        quote! {
+            coordinates(x[N], y[N]),
+            one_form    = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+            hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
+                              * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
+        },
+        quote! { struct PointVortices<const N: usize> { gamma: [f64; N] } },
+        "hamiltonian_gradient",
+        &expect![[r#"
+            fn hamiltonian_gradient() {
+                let (__q0, __rest) = __q.split_at(N);
+                let (__q1, __rest) = __rest.split_at(N);
+                let _ = __rest;
+                __vector.fill(T::lift(-0.0));
+                let (__vector0, __rest) = __vector.split_at_mut(N);
+                let (__vector1, __rest) = __rest.split_at_mut(N);
+                let _ = __rest;
+                for __i0 in (0usize)..(N) {
+                    let __r0 = __q0[__i0];
+                    let __r6 = T::lift(0.15915494309189535f64)
+                        * T::lift(
+                            __private::Number::number(self.gamma[__i0]),
+                        );
+                    let __r9 = __q1[__i0];
+                    let mut __r16 = T::lift(-0.0);
+                    let mut __r18 = T::lift(-0.0);
+                    for __i1 in (__i0 + 1usize)..(N) {
+                        let __r2 = __r0 - __q0[__i1];
+                        let __r11 = __r9 - __q1[__i1];
+                        let __r14 = (T::lift(
+                            __private::Number::number(self.gamma[__i1]),
+                        ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
+                        let __r15 = __r2 * __r14;
+                        let __r17 = __r11 * __r14;
+                        __vector0[__i1] -= __r15;
+                        __vector1[__i1] -= __r17;
+                        __r16 += __r15;
+                        __r18 += __r17;
+                    }
+                    __vector0[__i0] += __r16;
+                    __vector1[__i0] += __r18;
+                }
+            }
+        "#]],
+    );
+}
+
+/// The gradient of a root of a sum runs through the sum first and scatters afterwards.
+#[test]
+fn function_of_a_sum() {
+    check(
+        quote! {
+            coordinates(x[n], y[n]),
+            one_form    = sum(0..n, |j| y[j] * d(x[j])),
+            hamiltonian = sum(0..n, |j| x[j] * x[j] + y[j] * y[j]).sqrt(),
+        },
+        quote! { struct Norm { n: usize } },
+        "hamiltonian_gradient",
+        &expect![[r#"
+            fn hamiltonian_gradient() {
+                let (__q0, __rest) = __q.split_at(self.n);
+                let (__q1, __rest) = __rest.split_at(self.n);
+                let _ = __rest;
+                __vector.fill(T::lift(-0.0));
+                let (__vector0, __rest) = __vector.split_at_mut(self.n);
+                let (__vector1, __rest) = __rest.split_at_mut(self.n);
+                let _ = __rest;
+                let mut __r6 = T::lift(-0.0);
+                for __i0 in (0usize)..(self.n) {
+                    let __r1 = __q0[__i0];
+                    let __r3 = __q1[__i0];
+                    let __r5 = (__r1 * __r1) + (__r3 * __r3);
+                    __r6 += __r5;
+                }
+                let __r8 = T::lift(1f64)
+                    / (T::sqrt(__r6));
+                for __i0 in (0usize)..(self.n) {
+                    let __r1 = __q0[__i0];
+                    let __r3 = __q1[__i0];
+                    __vector1[__i0] += (__r8 * __r3);
+                    __vector0[__i0] += (__r8 * __r1);
+                }
+            }
+        "#]],
+    );
+}
+
+/// Neighbours and run-time sizes are checked once, before the first step.
+#[test]
+fn check_of_indices() {
+    check(
+        quote! {
+            coordinates(q[k.len()], p[k.len()]),
+            one_form    = sum(0..k.len(), |j| p[j] * d(q[j])),
+            hamiltonian = sum(0..k.len(), |j| mass[j] * p[j] * p[j] - (q[(j + 1) % k.len()] - q[j]).cos()),
+        },
+        quote! { struct Chain<'a> { k: &'a [f64], mass: Vec<f64> } },
+        "check",
+        &expect![[r#"
+            fn check() {
+                for __i0 in (0usize)..(self.k.len()) {
+                    __private::check_index(
+                        "mass",
+                        (0i64 + 1i64 * (__i0 as i64)),
+                        self.mass.len(),
+                    )?;
+                }
+                for __i0 in (0usize)..(self.k.len()) {
+                    __private::check_index(
+                        "q",
+                        (0i64
+                            + 1i64
+                                * __private::remainder(
+                                    (1i64 + 1i64 * (__i0 as i64)),
+                                    (0i64 + 1i64 * (self.k.len() as i64)),
+                                )),
+                        self.k.len(),
+                    )?;
+                }
+                ::core::result::Result::Ok(())
+            }
+        "#]],
+    );
+}

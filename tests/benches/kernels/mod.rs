@@ -1,0 +1,68 @@
+//! The steps that are measured: generated, and beside each the same scheme by hand.
+
+pub(crate) mod by_hand;
+
+use dvi_core::prelude::*;
+use dvi_tests::configurations;
+
+/// The names, pairwise: generated, by hand.
+pub(crate) const KERNELS: [[&str; 2]; 3] = [
+    ["explicit/generated", "explicit/by hand"],
+    ["fixed point/generated", "fixed point/by hand"],
+    ["newton/generated", "newton/by hand"],
+];
+
+const H: f64 = 0.1;
+const GAMMA: [f64; 4] = [1.0; 4];
+
+fn start() -> by_hand::State {
+    let (_, state) = configurations::quasi_periodic();
+    std::array::from_fn(|i| if i < 4 { state.x[i] } else { state.y[i - 4] })
+}
+
+/// Runs a kernel from its start for a number of steps and returns its first coordinate.
+///
+/// Each call begins anew: the explicit scheme does not stay on an orbit for ever.
+pub(crate) fn run(name: &str, steps: u64) -> f64 {
+    let field = by_hand::Field::new(GAMMA);
+    match name {
+        "explicit/generated" => {
+            let start = Start::RungeKutta(RungeKutta::midpoint());
+            generated(Sigma { start, ..Sigma::leapfrog() }, steps)
+        }
+        "fixed point/generated" => generated(implicit(Solver::FixedPoint), steps),
+        "newton/generated" => generated(implicit(Solver::Newton), steps),
+        "explicit/by hand" => {
+            let mut leapfrog = by_hand::Leapfrog::new(field, H, start());
+            (0..steps).for_each(|_| leapfrog.step());
+            leapfrog.z[0]
+        }
+        "fixed point/by hand" => {
+            let mut midpoint = by_hand::Midpoint::new(field, H, start());
+            (0..steps).for_each(|_| midpoint.step_by_fixed_point());
+            midpoint.z[0]
+        }
+        "newton/by hand" => {
+            let mut midpoint = by_hand::Midpoint::new(field, H, start());
+            (0..steps).for_each(|_| midpoint.step_by_newton());
+            midpoint.z[0]
+        }
+        _ => f64::NAN,
+    }
+}
+
+fn implicit(solver: Solver) -> Sigma {
+    Sigma { solver, stopping: Stopping { tolerance: 1e-12, ..Stopping::default() }, ..Sigma::midpoint() }
+}
+
+fn generated(method: Sigma, steps: u64) -> f64 {
+    let (system, state) = configurations::quasi_periodic();
+    let system = std::hint::black_box(system);
+    let Ok(mut run) = Integrator::new(&system, method, H, state) else { return f64::NAN };
+    for _ in 0..steps {
+        if run.advance().is_err() {
+            return f64::NAN;
+        }
+    }
+    run.q()[0]
+}

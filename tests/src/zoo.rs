@@ -1,0 +1,8 @@
+//! One system of each kind that the macro supports, small enough to be differentiated by an oracle.
+
+pub mod functions;
+pub mod gauges;
+pub mod lattices;
+pub mod particles;
+pub mod shapes;
+pub mod sums;

@@ -1,0 +1,91 @@
+//! Every function that a formula may use, the user's own ones, `if`, and time.
+
+use dvi_core::{Scalar, degenerate_lagrangian};
+
+/// Every function of the table and every way to write a power, on 0 < x, y < 1.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = {
+        let s: f64 = x * y;
+        let r = 1.0 + x + 2.0 * y;
+        (s.sin() + r.ln() + s.exp() * y.sqrt()) * d(x) + (s.atan() - r.recip() + x.tanh()) * d(y)
+    },
+    hamiltonian = {
+        let s = x * y;
+        let r = 1.0 + x + 2.0 * y;
+        let roots = r.sqrt() + s.cbrt() - (-r).cbrt();
+        let exponentials = s.exp() + (x - y).exp2() + (-s).exp_m1();
+        let logarithms = r.ln() + s.ln_1p() + r.log2() + (2.0 * s).log10();
+        let circular = (x - y).sin() + (y - 2.0 * x).cos() + s.tan();
+        let inverse = s.asin() + (-s / 2.0).asin() + (x - y).acos() + (x / y).atan();
+        let hyperbolic = (-s).sinh() + (x - y).cosh() + r.tanh();
+        let areas = (x - y).asinh() + r.acosh() + (s - x).atanh();
+        let signs = (x - y).abs() * s + (y - x).signum() * (x + s) + (x - 2.0).abs();
+        let two = r.atan2(x - y) + (y - x).atan2(-r) + x.hypot(-2.0 * y);
+        let powers = r.powi(3) + s.powi(-2) + x.powi(0) + r.powi(1) + (x + y).powi(7);
+        let reals = r.powf(2.0) + s.powf(-1.5) + r.powf(0.5) + s.powf(-1.0) + r.powf(0.3) + s.powf(y) + 2.0_f64.powf(x)
+            + x.powf(r) + r.powf(-2.7);
+        let others = s.recip() + x.mul_add(y, r) + (100.0 * x).to_radians() + y.to_degrees() + f64::sin(r);
+        roots + exponentials + logarithms + circular + inverse + hyperbolic + areas + signs + two + powers
+            + reals + others + 3 as f64 * x
+    },
+)]
+#[derive(Clone, Debug)]
+pub struct EveryFunction {}
+
+/// Branches, in H and in α, on both sides of their seams.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (if x > edge { y * y * y } else { y + x * y }) * d(x) + 3.0 * x * d(y),
+    hamiltonian = {
+        let near = if x < y && y <= edge || !(x >= -edge) { x.powi(3) * y } else { (x + y).sin() };
+        let far = if x * x + y * y > 1.0 { y * y } else if (y > 0.0) { x * y } else { x * x };
+        near - 2.0 * far * x.cos()
+    },
+)]
+#[derive(Clone, Debug)]
+pub struct Branches {
+    /// Where the branches change.
+    pub edge: f64,
+}
+
+/// Explicit time in α and in H.
+#[degenerate_lagrangian(
+    coordinates(x[3], y[3]),
+    one_form    = sum(0..3, |j| (1.0 + depth * (omega * t).cos() * y[j] * y[j]) * x[j] * d(y[j]) + t * t * y[j] * d(x[j])),
+    hamiltonian = sum(0..3, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0 - (x[j] - omega * t).cos() * (j as f64 + 1.0))
+                      + (-t).exp() * x[0] * y[2],
+    momenta(moving = sum(0..3, |j| x[j] - t * y[j] * y[j])),
+)]
+#[derive(Clone, Debug)]
+pub struct Driven {
+    /// Depth of the modulation of α.
+    pub depth: f64,
+    /// Frequency.
+    pub omega: f64,
+}
+
+/// φ(s) = ln cosh s
+pub fn ln_cosh<T: Scalar>(s: T) -> T {
+    s.cosh().ln()
+}
+
+/// φ'(s) = tanh s
+pub fn tanh<T: Scalar>(s: T) -> T {
+    s.tanh()
+}
+
+/// φ''(s) = 1 − tanh² s
+pub fn sech2<T: Scalar>(s: T) -> T {
+    T::lift(1.0) - s.tanh() * s.tanh()
+}
+
+/// A function supplied by the user, in α, in H, and inside of a sum.
+#[degenerate_lagrangian(
+    coordinates(x[2], y[2]),
+    one_form    = sum(0..2, |j| (x[j] + phi(x[j] - 2.0 * y[j])) * d(y[j])),
+    hamiltonian = sum_pairs(0..2, |j, k| phi(x[j] * y[k])) + phi(sum(0..2, |j| x[j] * y[j])).exp(),
+    functions(phi = [ln_cosh, tanh, sech2]),
+)]
+#[derive(Clone, Debug)]
+pub struct OwnFunction {}

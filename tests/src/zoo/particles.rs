@@ -1,0 +1,63 @@
+//! Vortices on the sphere and charged particles without mass.
+
+use dvi_core::degenerate_lagrangian;
+
+/// N point vortices on the unit sphere, in longitude φ and height z; γ is the angle between two.
+#[degenerate_lagrangian(
+    coordinates(phi[N], z[N]),
+    one_form    = -sum(0..N, |j| gamma[j] * z[j] * d(phi[j])),
+    hamiltonian = sum_pairs(0..N, |j, k| {
+                      let flat = ((1.0 - z[j] * z[j]) * (1.0 - z[k] * z[k])).sqrt();
+                      let cos_angle = z[j] * z[k] + flat * (phi[j] - phi[k]).cos();
+                      gamma[j] * gamma[k] * (2.0 - 2.0 * cos_angle).ln()
+                  }) / (4.0 * PI),
+    momenta(
+        moment_z = sum(0..N, |j| gamma[j] * z[j]),
+        moment_x = sum(0..N, |j| gamma[j] * (1.0 - z[j].powi(2)).sqrt() * phi[j].cos()),
+    ),
+)]
+#[derive(Clone, Debug)]
+pub struct SphereVortices<const N: usize> {
+    /// Circulations.
+    pub gamma: [f64; N],
+}
+
+/// A particle without mass in the plane: α is the vector potential of B = b (1 + ε cos x cos y + y²/2),
+/// H the electric potential.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = -b * (y / 2.0 + y.powi(3) / 6.0) * d(x)
+                      + b * (x / 2.0 + ripple * x.sin() * y.cos()) * d(y),
+    hamiltonian = e * (x.cos() * (2.0 * y).cos() - x * y) + (-(x * x + y * y)).exp(),
+)]
+#[derive(Clone, Debug)]
+pub struct PlaneParticle {
+    /// Strength of the magnetic field.
+    pub b: f64,
+    /// Its ripple ε.
+    pub ripple: f64,
+    /// Strength of the electric field.
+    pub e: f64,
+}
+
+/// A guiding centre (x, y, z) with parallel velocity u: α = (A + u b)·dx with a unit vector b that
+/// turns with the radius, so that Ω is dense.
+#[degenerate_lagrangian(
+    coordinates(x, y, z, u),
+    one_form    = {
+        let length = (1.0 + x * x + y * y + shear * z * z).sqrt();
+        let potential = -(1.0 + x * x + y * y).ln() / 2.0;
+        (-y / 2.0 - u * y / length) * d(x)
+            + (x / 2.0 + u * x / length) * d(y)
+            + (potential + u / length) * d(z)
+            + shear * z * x * d(u)
+    },
+    hamiltonian = u * u / 2.0 + mu * (1.0 + x * x + y * y + shear * z * z).sqrt(),
+)]
+#[derive(Clone, Debug)]
+pub struct GuidingCentre {
+    /// Magnetic moment.
+    pub mu: f64,
+    /// How b depends on z.
+    pub shear: f64,
+}

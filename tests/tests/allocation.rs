@@ -1,0 +1,42 @@
+//! No step allocates, whatever the method and the size of the system.
+
+use dvi_core::prelude::*;
+use dvi_tests::configurations;
+use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};
+
+#[global_allocator]
+static ALLOCATOR: dhat::Alloc = dhat::Alloc;
+
+/// Allocations of a hundred steps.
+fn of_steps(mut advance: impl FnMut()) -> u64 {
+    let before = dhat::HeapStats::get().total_blocks;
+    (0..100).for_each(|_| advance());
+    dhat::HeapStats::get().total_blocks - before
+}
+
+macro_rules! assert_none {
+    ($system:expr, $start:expr, $($method:expr),+ $(,)?) => {$(
+        let mut run = Integrator::new(&$system, $method, 0.05, $start.clone()).expect("starts");
+        let blocks = of_steps(|| run.advance().expect("steps"));
+        assert_eq!(blocks, 0, "{}", stringify!($method));
+    )+};
+}
+
+#[test]
+fn steps_do_not_allocate() {
+    let _profiler = dhat::Profiler::builder().testing().build();
+    let counted = of_steps(|| drop(std::hint::black_box(vec![0_u8; 16])));
+    assert_eq!(counted, 100, "the counter counts");
+
+    let newton = |sigma: f64| Sigma { solver: Solver::Newton, ..Sigma::new(sigma) };
+    let (vortices, start) = configurations::leapfrogging();
+    let many = ManyVortices { gamma: vortices.gamma.to_vec() };
+    let many_start = ManyVorticesState { x: start.x.to_vec(), y: start.y.to_vec() };
+    assert_none!(vortices, start, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
+    assert_none!(many, many_start, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
+    assert_none!(many, many_start, RungeKutta::classical(), Gauss::<3>::new());
+
+    let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    let prey_start = LotkaVolterraState { x: 1.0, y: 1.0 };
+    assert_none!(prey, prey_start, Sigma::midpoint(), newton(0.5), RungeKutta::heun(), Gauss::<2>::new());
+}

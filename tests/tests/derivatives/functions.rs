@@ -1,0 +1,87 @@
+//! Functions, branches and time by hand.
+
+use std::f64::consts::PI;
+
+use dvi_tests::zoo::functions::{Branches, Driven, EveryFunction, OwnFunction};
+
+use crate::oracle::{ByHand, Number, Random};
+
+impl ByHand for EveryFunction {
+    fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
+        let (x, y) = (q[0], q[1]);
+        let (s, r) = (x * y, x + y + y + 1.0);
+        vec![s.sin() + r.ln() + s.exp() * y.sqrt(), s.atan() - r.recip() + x.tanh()]
+    }
+    #[rustfmt::skip]
+    fn energy<D: Number>(&self, q: &[D], _t: D) -> D {
+        let (x, y) = (q[0], q[1]);
+        let (s, r, e) = (x * y, x + y + y + 1.0, x - y);
+        let sign = |on: bool| D::from(if on { 1.0 } else { -1.0 });
+        [
+            r.sqrt(), s.cbrt(), r.cbrt(),
+            s.exp(), e.exp2(), (-s).exp() - 1.0,
+            r.ln(), s.ln_1p(), r.log2(), (s * 2.0).log10(),
+            e.sin(), (y - x - x).cos(), s.tan(),
+            s.asin(), -(s / 2.0).asin(), e.acos(), (x / y).atan(),
+            -s.sinh(), e.cosh(), r.tanh(),
+            e.asinh(), r.acosh(), (s - x).atanh(),
+            sign(x > y) * e * s, sign(y > x) * (x + s), -x + 2.0,
+            // Both angles from the arc tangent: above the axis, and left of the origin.
+            D::from(PI / 2.0) - (e / r).atan(), (e / r).atan() + sign(y > x) * PI,
+            (x * x + y * y * 4.0).sqrt(),
+            r * r * r, (s * s).recip(), D::one(), r, (x + y).powi(4) * (x + y).powi(3),
+            r * r, (s * s * s).sqrt().recip(), r.sqrt(), s.recip(), r.powf(0.3), (s.ln() * y).exp(),
+            (x * 2.0_f64.ln()).exp(), (r * x.ln()).exp(), r.powf(-2.7),
+            s.recip(), s + r, x * 100.0 * (PI / 180.0), y * (180.0 / PI), r.sin(), x * 3.0,
+        ].into_iter().sum()
+    }
+    fn point(&self, random: &mut Random) -> Vec<f64> {
+        self.within(random, 0.2, 0.8)
+    }
+}
+
+impl ByHand for Branches {
+    fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
+        let (x, y) = (q[0], q[1]);
+        vec![if x.re() > self.edge { y * y * y } else { y + x * y }, x * 3.0]
+    }
+    fn energy<D: Number>(&self, q: &[D], _t: D) -> D {
+        let (x, y) = (q[0], q[1]);
+        let (u, v) = (x.re(), y.re());
+        let near = if u < -self.edge || (u < v && v <= self.edge) { x * x * x * y } else { (x + y).sin() };
+        let far = match (u * u + v * v > 1.0, v > 0.0) {
+            (true, _) => y * y,
+            (false, true) => x * y,
+            (false, false) => x * x,
+        };
+        near - far * x.cos() * 2.0
+    }
+}
+
+impl ByHand for Driven {
+    fn alpha<D: Number>(&self, q: &[D], t: D) -> Vec<D> {
+        let depth = (t * self.omega).cos() * self.depth;
+        let along_x = (0..3).map(|j| t * t * q[3 + j]);
+        along_x.chain((0..3).map(|j| q[j] + depth * q[3 + j] * q[3 + j] * q[j])).collect()
+    }
+    fn energy<D: Number>(&self, q: &[D], t: D) -> D {
+        let (x, y) = (&q[..3], &q[3..]);
+        let phase = t * self.omega;
+        let body = |j: usize| (x[j] * x[j] + y[j] * y[j]) / 2.0 - (x[j] - phase).cos() * (j + 1) as f64;
+        (0..3).map(body).sum::<D>() + x[0] * y[2] / t.exp()
+    }
+    fn integrals<D: Number>(&self, q: &[D], t: D) -> Vec<D> {
+        vec![(0..3).map(|j| q[j] - t * q[3 + j] * q[3 + j]).sum()]
+    }
+}
+
+impl ByHand for OwnFunction {
+    fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
+        let component = |j: usize| q[j] + (q[j] - q[2 + j] * 2.0).cosh().ln();
+        vec![D::zero(), D::zero(), component(0), component(1)]
+    }
+    /// exp(ln cosh s) = cosh s
+    fn energy<D: Number>(&self, q: &[D], _t: D) -> D {
+        (q[0] * q[3]).cosh().ln() + (q[0] * q[2] + q[1] * q[3]).cosh()
+    }
+}

@@ -1,0 +1,254 @@
+//! The oracle: formulas written by hand, differentiated by `num-dual`, against every generated function.
+//!
+//! Tolerance: one unit in the last place of a coordinate changes a k-th derivative by about ε times the
+//! (k+1)-th, and adding up its terms changes it by about ε times its own size. So a k-th derivative may
+//! be off by [`UNITS`]·ε·(the largest entry of it and of the (k+1)-th derivative; for k = 2, of it and
+//! of the first).
+
+use dvi_core::{DegenerateLagrangian, Space, Weights};
+use num_dual::{Dual64, DualNum, HyperDual64};
+
+pub(crate) const UNITS: f64 = 16.0;
+const POINTS: usize = 25;
+
+/// `f64` and the dual numbers over it.
+pub(crate) trait Number: DualNum<Primitive = f64> + Copy {}
+impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
+
+/// A system and its formulas, written a second time.
+pub(crate) trait ByHand: DegenerateLagrangian {
+    fn alpha<D: Number>(&self, q: &[D], t: D) -> Vec<D>;
+    fn energy<D: Number>(&self, q: &[D], t: D) -> D;
+    fn integrals<D: Number>(&self, _q: &[D], _t: D) -> Vec<D> {
+        Vec::new()
+    }
+    fn action<D: Number>(&self, q: &[D], v: &[D], t: D) -> D {
+        self.alpha(q, t).iter().zip(v).map(|(&a, &v)| a * v).sum::<D>() - self.energy(q, t)
+    }
+    /// A point in the domain of the formulas.
+    fn point(&self, random: &mut Random) -> Vec<f64> {
+        self.within(random, -1.0, 1.0)
+    }
+    fn within(&self, random: &mut Random, low: f64, high: f64) -> Vec<f64> {
+        (0..self.space().dimension()).map(|_| random.between(low, high)).collect()
+    }
+}
+
+/// The sequence of Steele, Lea and Flood (2014), SplitMix64.
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        low + (high - low) * ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Values of f and the derivative of each by each of q, then by t: `derivatives[f][variable]`.
+pub(crate) fn differentiated(q: &[f64], t: f64, f: impl Fn(&[Dual64], Dual64) -> Vec<Dual64>) -> Jacobian {
+    let n = q.len();
+    let columns: Vec<Vec<Dual64>> = (0..=n)
+        .map(|along| {
+            let seed = |i: usize, value: f64| Dual64::new(value, f64::from(u8::from(i == along)));
+            let point: Vec<Dual64> = q.iter().enumerate().map(|(i, &value)| seed(i, value)).collect();
+            f(&point, seed(n, t))
+        })
+        .collect();
+    let values = columns[0].iter().map(|value| value.re).collect();
+    let derivatives =
+        (0..columns[0].len()).map(|row| columns.iter().map(|column| column[row].eps).collect()).collect();
+    Jacobian { values, derivatives }
+}
+
+pub(crate) struct Jacobian {
+    pub(crate) values: Vec<f64>,
+    pub(crate) derivatives: Vec<Vec<f64>>,
+}
+
+/// L with its first derivatives and its second ones, row-major, by (q, v).
+pub(crate) struct Expansion {
+    pub(crate) value: f64,
+    pub(crate) gradient: Vec<f64>,
+    pub(crate) hessian: Vec<f64>,
+}
+
+pub(crate) fn expanded(variables: &[f64], f: impl Fn(&[HyperDual64]) -> HyperDual64) -> Expansion {
+    let n = variables.len();
+    let unit = |on: bool| f64::from(u8::from(on));
+    let mut expansion = Expansion { value: 0.0, gradient: vec![0.0; n], hessian: vec![0.0; n * n] };
+    for i in 0..n {
+        for j in 0..=i {
+            let seed = |k: usize| HyperDual64::new(variables[k], unit(k == i), unit(k == j), 0.0);
+            let value = f(&(0..n).map(seed).collect::<Vec<_>>());
+            expansion.value = value.re;
+            expansion.gradient[i] = value.eps1;
+            expansion.hessian[n * i + j] = value.eps1eps2;
+            expansion.hessian[n * j + i] = value.eps1eps2;
+        }
+    }
+    expansion
+}
+
+pub(crate) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, value| value.abs().max(largest))
+}
+
+/// What is being compared, and at which point.
+pub(crate) struct Place<'a> {
+    pub(crate) system: &'a str,
+    pub(crate) q: &'a [f64],
+    pub(crate) epsilon: f64,
+}
+
+impl Place<'_> {
+    pub(crate) fn compare(&self, what: &str, found: &[f64], expected: &[f64], scale: f64) {
+        assert_eq!(found.len(), expected.len());
+        assert!(scale.is_finite(), "{} {what}: the oracle is not finite at {:?}", self.system, self.q);
+        for (entry, (found, expected)) in found.iter().zip(expected).enumerate() {
+            let units = (found - expected).abs() / (self.epsilon * scale);
+            assert!(
+                *found == *expected || units <= UNITS,
+                "{} {what}[{entry}] = {found:e}, expected {expected:e}, off by {units:.1} units at {:?}",
+                self.system,
+                self.q
+            );
+        }
+    }
+}
+
+/// Compares all of `system` with the oracle on random points.
+pub(crate) fn agrees<S: ByHand>(system: &S) {
+    assert_eq!(system.check(), Ok(()));
+    let mut random = Random::new(20_021_023);
+    for _ in 0..POINTS {
+        let q = system.point(&mut random);
+        let v: Vec<f64> = q.iter().map(|_| random.between(-1.0, 1.0)).collect();
+        let t = random.between(-2.0, 2.0);
+        let place = Place { system: S::REPORT.system, q: &q, epsilon: f64::EPSILON };
+        lagrangian(system, &place, &v, t, &mut random);
+        single_precision(system, &place, &v, t);
+        hamiltonian(system, &place, t);
+        one_form(system, &place, t, &mut random);
+        momenta(system, &place, t);
+    }
+}
+
+/// Value, gradient and all four blocks of the second derivative of L.
+fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Random) {
+    let (q, n) = (place.q, place.q.len());
+    let variables = [q, v].concat();
+    let expected = expanded(&variables, |z| system.action(&z[..n], &z[n..], HyperDual64::from(t)));
+    let [second, first] = [largest(&expected.hessian), largest(&expected.gradient)];
+    let value = system.lagrangian(q, v, t);
+    place.compare("L", &[value], &[expected.value], first.max(expected.value.abs()));
+
+    let (mut l_q, mut l_v) = (vec![f64::NAN; n], vec![f64::NAN; n]);
+    system.gradient(q, v, t, &mut l_q, &mut l_v);
+    place.compare("gradient", &[l_q, l_v].concat(), &expected.gradient, first.max(second));
+
+    let mut weight = || random.between(-1.0, 1.0);
+    let w = Weights { qq: weight(), qv: weight(), vq: weight(), vv: weight() };
+    let before: Vec<f64> = (0..n * n).map(|_| weight()).collect();
+    let (mut l_q, mut l_v, mut matrix) = (vec![f64::NAN; n], vec![f64::NAN; n], before.clone());
+    system.linearize(q, v, t, w, &mut l_q, &mut l_v, &mut matrix);
+    place.compare("gradient of linearize", &[l_q, l_v].concat(), &expected.gradient, first.max(second));
+    let block = |i: usize, j: usize| expected.hessian[2 * n * i + j];
+    let sum = |at: usize| {
+        let (i, j) = (at / n, at % n);
+        let blocks = w.qq * block(i, j) + w.qv * block(i, n + j) + w.vq * block(n + i, j);
+        before[at] + blocks + w.vv * block(n + i, n + j)
+    };
+    let sum: Vec<f64> = (0..n * n).map(sum).collect();
+    place.compare("linearize", &matrix, &sum, second.max(first).max(1.0));
+
+    // The generated formula itself on dual numbers: the graph before differentiation against after.
+    let itself = expanded(&variables, |z| system.lagrangian(&z[..n], &z[n..], HyperDual64::from(t)));
+    place.compare("L on dual numbers, first", &itself.gradient, &expected.gradient, first.max(second));
+    place.compare("L on dual numbers, second", &itself.hessian, &expected.hessian, second.max(first));
+}
+
+/// The same at f32. Coordinates are rounded first, so that both sides see the same point.
+fn single_precision<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
+    let n = place.q.len();
+    let single = |values: &[f64]| values.iter().map(|&value| value as f32).collect::<Vec<f32>>();
+    let double = |values: &[f32]| values.iter().map(|&value| f64::from(value)).collect::<Vec<f64>>();
+    let (q, v, t) = (single(place.q), single(v), t as f32);
+    let place = Place { q: &double(&q), epsilon: f64::from(f32::EPSILON), ..*place };
+    let variables = [double(&q), double(&v)].concat();
+    let expected = expanded(&variables, |z| system.action(&z[..n], &z[n..], HyperDual64::from(f64::from(t))));
+    let scale = largest(&expected.hessian).max(largest(&expected.gradient));
+    let (mut l_q, mut l_v, mut matrix) = (vec![0.0; n], vec![0.0; n], vec![0.0; n * n]);
+    let w = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
+    system.linearize(&q, &v, t, w, &mut l_q, &mut l_v, &mut matrix);
+    place.compare("gradient in f32", &double(&[l_q, l_v].concat()), &expected.gradient, scale);
+    let block: Vec<f64> = (0..n * n).map(|at| expected.hessian[2 * n * (at / n) + at % n]).collect();
+    place.compare("linearize in f32", &double(&matrix), &block, scale);
+}
+
+/// H, its gradient, and the right side of the flow.
+fn hamiltonian<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
+    let (q, n) = (place.q, place.q.len());
+    let energy = differentiated(q, t, |q, t| vec![system.energy(q, t)]);
+    let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
+    let gradient = &energy.derivatives[0][..n];
+    let second = expanded(q, |q| system.energy(q, HyperDual64::from(t))).hessian;
+    let scale = largest(gradient).max(energy.values[0].abs());
+    place.compare("H", &[system.hamiltonian(q, t)], &energy.values, scale);
+    let mut out = vec![f64::NAN; n];
+    system.hamiltonian_gradient(q, t, &mut out);
+    let scale = largest(gradient).max(largest(&second));
+    place.compare("∇H", &out, gradient, scale);
+    let rates: Vec<f64> = alpha.derivatives.iter().map(|row| row[n]).collect();
+    let source: Vec<f64> = gradient.iter().zip(&rates).map(|(h, a)| h + a).collect();
+    out.fill(f64::NAN);
+    system.flow_source(q, t, &mut out);
+    place.compare("∇H + ∂α/∂t", &out, &source, scale.max(largest(&alpha.derivatives.concat())));
+}
+
+/// α, a Dα + b (Dα)ᵀ, and its entries at the partners.
+fn one_form<S: ByHand>(system: &S, place: &Place<'_>, t: f64, random: &mut Random) {
+    let (q, n) = (place.q, place.q.len());
+    let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
+    let scale = largest(&alpha.derivatives.concat()).max(largest(&alpha.values)).max(1.0);
+    let mut out = vec![f64::NAN; n];
+    system.one_form(q, t, &mut out);
+    place.compare("α", &out, &alpha.values, scale);
+
+    let (a, b) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+    let before: Vec<f64> = (0..n * n).map(|_| random.between(-1.0, 1.0)).collect();
+    let combined = |i: usize, j: usize| a * alpha.derivatives[i][j] + b * alpha.derivatives[j][i];
+    let expected: Vec<f64> = (0..n * n).map(|at| before[at] + combined(at / n, at % n)).collect();
+    let mut matrix = before;
+    system.one_form_jacobian(q, t, a, b, &mut matrix);
+    place.compare("a Dα + b (Dα)ᵀ", &matrix, &expected, scale);
+
+    out.fill(f64::NAN);
+    system.partner_entries(q, t, a, b, &mut out);
+    let at_partner: Vec<f64> =
+        (0..n).map(|i| if S::CANONICAL { combined(i, system.partner(i)) } else { 0.0 }).collect();
+    place.compare("partner entries", &out, &at_partner, scale);
+}
+
+/// The declared momenta and their gradients.
+fn momenta<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
+    let (q, n) = (place.q, place.q.len());
+    if S::REPORT.momenta.is_empty() {
+        return;
+    }
+    let expected = differentiated(q, t, |q, t| system.integrals(q, t));
+    assert_eq!(expected.values.len(), S::REPORT.momenta.len());
+    for (index, (value, derivatives)) in expected.values.iter().zip(&expected.derivatives).enumerate() {
+        let scale = largest(derivatives).max(value.abs());
+        place.compare("momentum", &[system.momentum(index, q, t)], &[*value], scale);
+        let mut out = vec![f64::NAN; n];
+        system.momentum_gradient(index, q, t, &mut out);
+        let second = expanded(q, |q| system.integrals(q, HyperDual64::from(t))[index]).hessian;
+        place.compare("momentum gradient", &out, &derivatives[..n], largest(&second).max(scale));
+    }
+}
