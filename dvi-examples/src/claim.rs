@@ -6,6 +6,9 @@
 
 use std::fmt;
 
+/// The place of claims that no paper makes; they are counted apart.
+pub const BEYOND: &str = "beyond the paper";
+
 /// What a number must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
@@ -89,6 +92,20 @@ impl Claim {
             Some((_, checks)) if !all(checks, measured) => Verdict::Undecided,
             Some((text, checks)) if all(checks, Check::passes) => Verdict::Differs(text.clone()),
             _ => Verdict::NotReproduced,
+        }
+    }
+
+    /// Whether a paper says it.
+    pub fn is_printed(&self) -> bool {
+        self.place != BEYOND
+    }
+
+    /// The verdict in words: only what is printed can be reproduced.
+    pub fn judgement(&self) -> String {
+        match self.verdict() {
+            Verdict::Reproduced if !self.is_printed() => "holds".into(),
+            Verdict::NotReproduced if !self.is_printed() => "does not hold".into(),
+            verdict => verdict.to_string(),
         }
     }
 

@@ -36,7 +36,7 @@ pub fn markdown(results: &Results<'_>, length: Length) -> String {
 
 fn section(text: &mut String, name: &str, outcome: &Outcome, interrupted: bool) {
     let _ = writeln!(text, "![]({name}.png)\n");
-    *text += "| The paper says | Measured (required) | Verdict |\n|---|---|---|\n";
+    *text += "| Claim | Measured (required) | Verdict |\n|---|---|---|\n";
     for claim in &outcome.claims {
         let says = cell(&claim.says);
         if interrupted {
@@ -45,7 +45,7 @@ fn section(text: &mut String, name: &str, outcome: &Outcome, interrupted: bool) 
             continue;
         }
         let measured: Vec<String> = claim.checks().map(|check| cell(&check.to_string())).collect();
-        let verdict = cell(&claim.verdict().to_string());
+        let verdict = cell(&claim.judgement());
         let _ = writeln!(text, "| {says} ({}) | {} | {verdict} |", claim.place, measured.join("<br>"));
     }
     *text += "\n";
@@ -92,51 +92,53 @@ fn entry(text: &mut String, claim: &Claim, interrupted: bool) {
         let _ = writeln!(text, "  … {} ({}): interrupted", claim.says, claim.place);
         return;
     }
-    let (mark, verdict) = match claim.verdict() {
-        Verdict::Reproduced => ("✓", String::new()),
-        verdict @ Verdict::Differs(_) => ("≠", verdict.to_string()),
-        verdict @ Verdict::NotReproduced => ("✗", verdict.to_string()),
-        verdict @ Verdict::Undecided => ("?", verdict.to_string()),
+    let mark = match claim.verdict() {
+        Verdict::Reproduced => "✓",
+        Verdict::Differs(_) => "≠",
+        Verdict::NotReproduced => "✗",
+        Verdict::Undecided => "?",
     };
     let _ = writeln!(text, "  {mark} {} ({})", claim.says, claim.place);
     for check in claim.checks() {
         let _ = writeln!(text, "      {check}");
     }
-    if !verdict.is_empty() {
-        let _ = writeln!(text, "      → {verdict}");
-    }
+    let _ = writeln!(text, "      → {}", claim.judgement());
 }
 
+/// Claims of the paper and claims beyond it, counted apart.
 fn tally(results: &Results<'_>) -> String {
     let complete = results.iter().filter_map(|(_, ended)| match ended {
         Ended::Complete(outcome) => Some(&outcome.claims),
         _ => None,
     });
-    let verdicts: Vec<Verdict> = complete.flatten().map(Claim::verdict).collect();
-    let count = |wanted: fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| wanted(verdict)).count();
+    let (printed, beyond): (Vec<&Claim>, Vec<&Claim>) =
+        complete.flatten().partition(|claim| claim.is_printed());
+    let count = |claims: &[&Claim], wanted: fn(&Verdict) -> bool| {
+        claims.iter().filter(|claim| wanted(&claim.verdict())).count()
+    };
     let parts = [
-        (count(|v| *v == Verdict::Reproduced), "reproduced"),
-        (count(|v| matches!(v, Verdict::Differs(_))), "differ from what is printed"),
-        (count(|v| *v == Verdict::NotReproduced), "not reproduced"),
-        (count(|v| *v == Verdict::Undecided), "undecided"),
+        (count(&printed, |v| *v == Verdict::Reproduced), "reproduced"),
+        (count(&printed, |v| matches!(v, Verdict::Differs(_))), "differ from what is printed"),
+        (count(&printed, |v| *v == Verdict::NotReproduced), "not reproduced"),
+        (count(&printed, |v| *v == Verdict::Undecided), "undecided"),
     ];
     let shown = parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
     let shown: Vec<String> = shown.collect();
-    format!(
-        "{} claims: {}",
-        verdicts.len(),
-        if shown.is_empty() { "none decided".into() } else { shown.join(", ") }
-    )
+    let shown = if shown.is_empty() { "none decided".into() } else { shown.join(", ") };
+    let holds = count(&beyond, |v| *v == Verdict::Reproduced);
+    let beyond = beyond.len();
+    format!("{} claims of the paper: {shown}; {beyond} beyond it: {holds} hold", printed.len())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claim::Bound;
+    use crate::claim::{BEYOND, Bound};
 
     fn outcome() -> Outcome {
         let claim = |value| Claim::new("p. 1", "|x| is small").check("|x|", value, Bound::AtMost(1.0));
-        Outcome { claims: vec![claim(0.5), claim(2.0)], notes: vec!["A note.".into()] }
+        let beyond = Claim::new(BEYOND, "|x| is positive").check("|x|", 0.5, Bound::AtLeast(0.0));
+        Outcome { claims: vec![claim(0.5), claim(2.0), beyond], notes: vec!["A note.".into()] }
     }
 
     fn experiment() -> Experiment {
@@ -148,7 +150,10 @@ mod tests {
         let (experiment, ended) = (experiment(), Ended::Complete(outcome()));
         let results = [(&experiment, &ended)];
         let page = markdown(&results, Length::Short);
-        assert!(page.contains("2 claims: 1 reproduced, 1 not reproduced."), "{page}");
+        assert!(
+            page.contains("2 claims of the paper: 1 reproduced, 1 not reproduced; 1 beyond it: 1 hold."),
+            "{page}"
+        );
         assert!(
             page.contains("| \\|x\\| is small (p. 1) | \\|x\\| = 0.5 (at most 1) | reproduced |"),
             "{page}"
@@ -162,6 +167,6 @@ mod tests {
         let (experiment, ended) = (experiment(), Ended::Interrupted(outcome()));
         let page = markdown(&[(&experiment, &ended)], Length::Full);
         assert!(page.contains("| interrupted |") && !page.contains("| reproduced |"), "{page}");
-        assert!(page.contains("0 claims: none decided"), "{page}");
+        assert!(page.contains("0 claims of the paper: none decided"), "{page}");
     }
 }

@@ -3,6 +3,8 @@
 //! `cargo bench -p dvi-tests --bench instructions`. The program runs itself under
 //! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up.
 
+#![allow(clippy::print_stdout)]
+
 mod kernels;
 
 use std::process::{Command, ExitCode};

@@ -45,3 +45,8 @@ pub mod oracle {
         step * system.lagrangian(&point, &velocity, T::lift(t + sigma * h))
     }
 }
+
+/// The README's example runs.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;

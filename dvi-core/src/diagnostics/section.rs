@@ -97,6 +97,31 @@ where
         }
     }
 
+    /// The run, four steps ahead of the interval that is searched.
+    pub fn run(&self) -> &Integrator<'a, S, M, T> {
+        self.run
+    }
+
+    /// Takes one step at most and returns the crossing that it brought to light, if there is one. For
+    /// runs that may never cross again, where the iterator would not end.
+    ///
+    /// # Errors
+    /// [`StepError`] of the run.
+    #[allow(clippy::type_complexity)]
+    pub fn advance(&mut self) -> Result<Option<Crossing<S::State<T>, T>>, StepError> {
+        if self.filled < WINDOW || self.interval > CENTRE {
+            self.step()?;
+            // The first window is searched from its beginning.
+            self.interval = self.interval.min(CENTRE);
+            if self.filled < WINDOW {
+                return Ok(None);
+            }
+        }
+        let interval = self.interval;
+        self.interval += 1;
+        Ok(self.crosses(interval).then(|| self.locate(interval)))
+    }
+
     fn push(&mut self) {
         let place = (self.oldest + self.filled) % WINDOW;
         if self.filled == WINDOW {
@@ -196,20 +221,13 @@ where
 
     fn next(&mut self) -> Option<Self::Item> {
         while !self.failed {
-            let due = self.filled < WINDOW || self.interval > CENTRE;
-            if due {
-                if let Err(error) = self.step() {
+            match self.advance() {
+                Ok(Some(crossing)) => return Some(Ok(crossing)),
+                Ok(None) => {}
+                Err(error) => {
                     self.failed = true;
                     return Some(Err(error));
                 }
-                // The first window is searched from its beginning.
-                self.interval = self.interval.min(CENTRE);
-                continue;
-            }
-            let interval = self.interval;
-            self.interval += 1;
-            if self.crosses(interval) {
-                return Some(Ok(self.locate(interval)));
             }
         }
         None

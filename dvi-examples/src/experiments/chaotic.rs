@@ -46,7 +46,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     let mut notes = sections::notes(&all);
     notes.push(
         "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes regular, differ \
-         between machines; the quantities above do not."
+         between machines, and so do the last digits above."
             .to_owned(),
     );
     Ok(Outcome { claims: claims(job, &all, &region, exponent), notes })
@@ -127,8 +127,12 @@ fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
     if job.was_interrupted() {
         return panel;
     }
-    let stray = format!("{:.1} % stray", 100.0 * region.share_outside(run));
-    let panel = panel.caption(Corner::TopRight, stray);
+    let caption = if run.growth < REGULAR {
+        "regular at the end".to_owned()
+    } else {
+        format!("{:.1} % stray", 100.0 * region.share_outside(run))
+    };
+    let panel = panel.caption(Corner::TopRight, caption);
     match run.relabelling() {
         Some(text) => panel.note([0.0, -2.53], Anchor::Middle, INK, text),
         None => panel,

@@ -4,8 +4,6 @@
 //! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
 //! coordinates that Pullin & Saffman used, and the paper with them, may be others.
 
-use std::cell::Cell;
-
 use anyhow::Result;
 use dvi_core::Method;
 use dvi_core::prelude::*;
@@ -121,43 +119,32 @@ where
     let mut run = Integrator::new(vortices, method, h, *start)?;
     let initial = run.energy();
     let steps = (end / h) as u64;
-    let (steps_left, flip) = (Cell::new(steps), Cell::new(1.0));
-    let section = Section::new(&mut run, Direction::Rising, |q| {
-        if steps_left.get() == 0 || job.is_stopping() {
-            // A run need not cross again: a made-up crossing hands the control back.
-            return flip.replace(-flip.get());
-        }
-        // Every point of the run passes through here, so the energy is watched here as well.
-        result.last_error = vortices.hamiltonian(q, 0.0) - initial;
-        result.largest_error = result.largest_error.max(result.last_error.abs());
-        result.error.push((steps - steps_left.get()) as f64 * h, result.last_error);
-        steps_left.set(steps_left.get() - 1);
-        coordinates(q, labels)[2]
-    });
-    let mut counted = 0;
-    for crossing in section {
-        let Crossing { time, state: FourPoints { x, y } } = match crossing {
-            Ok(crossing) => crossing,
+    let mut section = Section::new(&mut run, Direction::Rising, |q| coordinates(q, labels)[2]);
+    let mut done = 0;
+    while done < steps && !job.is_stopping() {
+        match section.advance() {
+            Ok(Some(Crossing { time, state: FourPoints { x, y } })) => {
+                let [r1, p1, _] = coordinates(&[x, y].concat(), labels);
+                result.points.push([time, r1, p1]);
+            }
+            Ok(None) => {}
             Err(error) => {
                 result.failure = Some(error);
                 break;
             }
-        };
-        if steps_left.get() == 0 || job.is_stopping() {
-            break;
         }
-        let [r1, p1, _] = coordinates(&[x, y].concat(), labels);
-        result.points.push([time, r1, p1]);
-        // The search for the crossing has used the counter too.
-        let done = (time / h) as u64;
-        steps_left.set(steps.saturating_sub(done));
-        job.proceed(done - counted);
-        counted = done;
+        if section.run().steps() > done {
+            done = section.run().steps();
+            result.last_error = section.run().energy() - initial;
+            result.largest_error = result.largest_error.max(result.last_error.abs());
+            result.error.push(section.run().time(), result.last_error);
+            job.proceed(1);
+        }
     }
-    if steps_left.get() > 0 && result.failure.is_none() {
+    if done < steps && result.failure.is_none() {
         job.cut_short();
     }
-    job.proceed(steps.saturating_sub(counted));
+    job.proceed(steps - done);
     result.growth = growth(vortices, method, h, &run.state()).unwrap_or(f64::NAN);
     Ok(result)
 }
