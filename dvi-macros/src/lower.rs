@@ -7,13 +7,14 @@
 use std::collections::{HashMap, HashSet};
 
 use syn::visit::Visit;
-use syn::{BinOp, Expr as Syntax, ExprBlock, ExprIf, Ident, Lit, Pat, Stmt, UnOp};
+use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
 
 use crate::errors::{Errors, listed, nearest};
 use crate::model::{Model, Shape};
-use crate::symbolic::{Binder, Expr, Graph, Id, Index, Node, Parameter, Relation};
+use crate::symbolic::{Binder, Expr, Graph, Id, Index, Node, Parameter};
 
 mod affine;
+mod blocks;
 mod calls;
 mod names;
 mod sums;
@@ -64,10 +65,10 @@ pub(crate) struct Lowering<'a> {
     depth: u32,
     /// Names that some closure of the formula binds, to recognise an index outside of its sum.
     index_names: HashSet<String>,
-    degrees: HashMap<Id, u8>,
+    measures: HashMap<Id, affine::Measure>,
 }
 
-const DEEPEST: u32 = 500;
+const DEEPEST: u32 = 400;
 const DEEPEST_SUM: u32 = 24;
 
 struct IndexNames(HashSet<String>);
@@ -102,7 +103,7 @@ impl<'a> Lowering<'a> {
             level: 0,
             depth: 0,
             index_names: HashSet::new(),
-            degrees: HashMap::new(),
+            measures: HashMap::new(),
         }
     }
 
@@ -178,21 +179,23 @@ impl<'a> Lowering<'a> {
 
     fn expr(&mut self, syntax: &Syntax) -> Option<Expr> {
         if self.depth >= DEEPEST {
-            self.errors.push_once(
-                "depth",
-                syntax,
-                "this formula is nested too deeply; give its parts names with `let`",
-            );
-            return None;
+            return self.too_deep(syntax);
         }
         self.depth += 1;
         let value = self.expr_inside(syntax);
         self.depth -= 1;
-        if value.is_some_and(|value| !value.scale.is_finite()) {
+        let value = value?;
+        if !value.scale.is_finite() {
             self.errors.push(syntax, "the value of this is not a finite number");
             return None;
         }
-        value
+        if self.nesting(value) > DEEPEST { self.too_deep(syntax) } else { Some(value) }
+    }
+
+    fn too_deep(&mut self, syntax: &Syntax) -> Option<Expr> {
+        let message = "this formula is nested too deeply; give names to parts of about equal size with `let`";
+        self.errors.push_once("depth", syntax, message);
+        None
     }
 
     fn expr_inside(&mut self, syntax: &Syntax) -> Option<Expr> {
@@ -210,7 +213,7 @@ impl<'a> Lowering<'a> {
             Syntax::MethodCall(call) => self.method(call),
             Syntax::Call(call) => self.call(call),
             Syntax::Cast(cast) => self.cast(cast),
-            Syntax::Block(block) => self.block(block),
+            Syntax::Block(block) => self.statements(&block.block),
             Syntax::If(choice) => self.choice(choice),
             other => {
                 self.unsupported(other);
@@ -280,103 +283,6 @@ impl<'a> Lowering<'a> {
             return Some(self.graph.count(index));
         }
         self.expr(&cast.expr)
-    }
-
-    fn block(&mut self, block: &ExprBlock) -> Option<Expr> {
-        self.statements(&block.block)
-    }
-
-    /// `{ let a = …; let b = …; value }`
-    fn statements(&mut self, block: &syn::Block) -> Option<Expr> {
-        let outside = self.scope.len();
-        let mut value = None;
-        let mut ended = false;
-        for (position, statement) in block.stmts.iter().enumerate() {
-            match statement {
-                Stmt::Local(local) => self.binding(local),
-                Stmt::Expr(expr, None) if position + 1 == block.stmts.len() => {
-                    ended = true;
-                    value = self.expr(expr);
-                }
-                other => {
-                    ended = true;
-                    self.errors.push_once(
-                        "statement",
-                        other,
-                        "a block of a formula holds `let` bindings and ends with its value",
-                    );
-                }
-            }
-        }
-        if !ended {
-            self.errors.push(block, "this block has no value: end it with an expression, without `;`");
-        }
-        self.scope.truncate(outside);
-        value
-    }
-
-    fn binding(&mut self, local: &syn::Local) {
-        let value = match &local.init {
-            Some(init) if init.diverge.is_none() => self.expr(&init.expr),
-            _ => {
-                self.errors.push(local, "write `let name = value;`");
-                None
-            }
-        };
-        match bound_name(&local.pat) {
-            Some(name) => self.scope.push((name, Binding::Value(value))),
-            None => {
-                self.errors.push(&local.pat, "write `let name = value;`: a formula binds one name at a time");
-            }
-        }
-    }
-
-    /// `if a < b { value } else { value }`
-    fn choice(&mut self, choice: &ExprIf) -> Option<Expr> {
-        let then = self.statements(&choice.then_branch);
-        let Some((_, otherwise)) = &choice.else_branch else {
-            self.errors.push(choice, "an `if` of a formula needs its `else` branch");
-            return None;
-        };
-        let otherwise = self.expr(otherwise);
-        self.condition(&choice.cond, then, otherwise)
-    }
-
-    fn condition(&mut self, condition: &Syntax, then: Option<Expr>, otherwise: Option<Expr>) -> Option<Expr> {
-        match condition {
-            Syntax::Paren(inner) => self.condition(&inner.expr, then, otherwise),
-            Syntax::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => {
-                self.condition(&unary.expr, otherwise, then)
-            }
-            Syntax::Binary(binary) => {
-                let relation = match binary.op {
-                    BinOp::Lt(_) => Relation::Less,
-                    BinOp::Le(_) => Relation::LessOrEqual,
-                    BinOp::Gt(_) => Relation::Greater,
-                    BinOp::Ge(_) => Relation::GreaterOrEqual,
-                    BinOp::And(_) => {
-                        let inner = self.condition(&binary.right, then, otherwise);
-                        return self.condition(&binary.left, inner, otherwise);
-                    }
-                    BinOp::Or(_) => {
-                        let inner = self.condition(&binary.right, then, otherwise);
-                        return self.condition(&binary.left, then, inner);
-                    }
-                    _ => {
-                        self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
-                        return None;
-                    }
-                };
-                let (left, right) = (self.expr(&binary.left), self.expr(&binary.right));
-                let (left, right) = (left?, right?);
-                self.check_at_rest(condition, &[left, right])?;
-                Some(self.graph.choose(left, relation, right, then?, otherwise?))
-            }
-            _ => {
-                self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
-                None
-            }
-        }
     }
 
     fn binding_of(&self, name: &str) -> Option<&Binding> {

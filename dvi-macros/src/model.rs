@@ -163,7 +163,8 @@ impl Model {
         }
     }
 
-    fn named_size(&mut self, name: &str) -> Option<Index> {
+    /// A const generic or a field of type `usize`.
+    pub(crate) fn named_size(&mut self, name: &str) -> Option<Index> {
         let generic = self.item.generics.params.iter().find_map(|parameter| match parameter {
             GenericParam::Const(constant)
                 if constant.ident == name && shape(&constant.ty) == Shape::Count =>

@@ -8,16 +8,33 @@ use syn::Expr as Syntax;
 use super::{Lowering, Role};
 use crate::symbolic::{Expr, Graph, Id, Node};
 
-/// The degree of a node in the velocities: 0, 1, or 2 for everything beyond. Operands come before
-/// the nodes that use them.
-fn velocity_degree(graph: &Graph, root: Id, known: &mut HashMap<Id, u8>) -> u8 {
+/// Far beyond what floating point can tell from 0 or ∞, and far from overflow.
+pub(super) const LARGEST_EXPONENT: u32 = 4096;
+
+/// Derivatives of functions of functions of functions grow with the depth; no formula on paper is
+/// nearly as deep.
+const DEEPEST_FUNCTION: u32 = 32;
+
+/// What is measured of each node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Measure {
+    /// The degree in the velocities: 0, 1, or 2 for everything beyond.
+    degree: u8,
+    /// How deep functions nest.
+    functions: u32,
+    /// How deep anything nests.
+    depth: u32,
+}
+
+/// Operands come before the nodes that use them.
+fn measure(graph: &Graph, root: Id, known: &mut HashMap<Id, Measure>) -> Measure {
     let mut open = vec![root];
     while let Some(&node) = open.last() {
         let unknown = |id: &Id| !known.contains_key(id);
         let waiting: Vec<Id> = graph.node(node).operands().into_iter().filter(unknown).collect();
         if waiting.is_empty() || known.contains_key(&node) {
-            let degree = degree_above(graph, node, known);
-            known.insert(node, degree);
+            let measured = measure_above(graph, node, known);
+            known.insert(node, measured);
             open.pop();
         } else {
             open.extend(waiting);
@@ -26,31 +43,60 @@ fn velocity_degree(graph: &Graph, root: Id, known: &mut HashMap<Id, u8>) -> u8 {
     known[&root]
 }
 
-fn degree_above(graph: &Graph, node: Id, known: &HashMap<Id, u8>) -> u8 {
-    let degrees: Vec<u8> = graph.node(node).operands().iter().map(|id| known[id]).collect();
-    let largest = degrees.iter().copied().max().unwrap_or(0);
-    match graph.node(node) {
+fn measure_above(graph: &Graph, node: Id, known: &HashMap<Id, Measure>) -> Measure {
+    let operands: Vec<Measure> = graph.node(node).operands().iter().map(|id| known[id]).collect();
+    let largest = operands.iter().map(|operand| operand.degree).max().unwrap_or(0);
+    let deepest = operands.iter().map(|operand| operand.functions).max().unwrap_or(0);
+    let degree = match graph.node(node) {
         Node::Velocity(_) => 1,
         Node::Sum(_) | Node::Reduce(..) => largest,
         Node::Product(factors) => {
-            let sum: u32 =
-                factors.iter().zip(&degrees).map(|((_, e), d)| e.saturating_mul(u32::from(*d))).sum();
+            let degrees = factors.iter().zip(&operands);
+            let sum: u32 = degrees.map(|((_, e), of)| e.saturating_mul(u32::from(of.degree))).sum();
             u8::try_from(sum.min(2)).unwrap_or(2)
         }
         // Left, right, then, otherwise.
-        Node::Choose { .. } if degrees[0] == 0 && degrees[1] == 0 => largest,
+        Node::Choose { .. } if operands[0].degree == 0 && operands[1].degree == 0 => largest,
         _ if largest > 0 => 2,
         _ => 0,
-    }
+    };
+    let function = matches!(
+        graph.node(node),
+        Node::Unary(..) | Node::Binary(..) | Node::Call(..) | Node::Reciprocal(_) | Node::Choose { .. }
+    );
+    let depth = 1 + operands.iter().map(|operand| operand.depth).max().unwrap_or(0);
+    Measure { degree, functions: deepest + u32::from(function), depth }
 }
 
 impl Lowering<'_> {
-    fn degree(&mut self, value: Expr) -> u8 {
-        velocity_degree(self.graph, value.node, &mut self.degrees)
+    fn measured(&mut self, value: Expr) -> Measure {
+        measure(self.graph, value.node, &mut self.measures)
     }
 
-    /// Passes `value` on if it is affine in the velocities.
+    fn degree(&mut self, value: Expr) -> u8 {
+        self.measured(value).degree
+    }
+
+    /// How deep an expression nests, the values of its names included.
+    pub(super) fn nesting(&mut self, value: Expr) -> u32 {
+        self.measured(value).depth
+    }
+
+    /// Passes `value` on if it is affine in the velocities, and of a reasonable size.
     pub(super) fn affine(&mut self, syntax: &impl ToTokens, value: Expr) -> Option<Expr> {
+        if let Node::Product(factors) = self.graph.node(value.node)
+            && factors.iter().any(|(_, exponent)| *exponent > LARGEST_EXPONENT)
+        {
+            let message = format!("this power is too large: exponents go up to {LARGEST_EXPONENT}");
+            self.errors.push(syntax, message);
+            return None;
+        }
+        if self.measured(value).functions > DEEPEST_FUNCTION {
+            let message =
+                format!("functions nest deeper here than can be differentiated ({DEEPEST_FUNCTION})");
+            self.errors.push(syntax, message);
+            return None;
+        }
         if self.degree(value) < 2 {
             return Some(value);
         }

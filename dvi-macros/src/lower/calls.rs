@@ -1,7 +1,9 @@
 //! Functions: methods of numbers, velocities, and the user's own.
 
-use syn::{Expr as Syntax, ExprCall, ExprMethodCall};
+use syn::token::Dot;
+use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
+use super::affine::LARGEST_EXPONENT;
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest};
 use crate::symbolic::{Binary, Expr, Node, binary_by_name, unary_by_name, unary_names};
@@ -70,7 +72,7 @@ impl Lowering<'_> {
     /// A literal exponent.
     fn integer(&mut self, syntax: &Syntax) -> Option<i32> {
         let value = self.literal_index(syntax).and_then(|value| i32::try_from(value).ok());
-        if value.is_none_or(|value| value.unsigned_abs() > 4096) {
+        if value.is_none_or(|value| value.unsigned_abs() > LARGEST_EXPONENT) {
             self.errors.push(
                 syntax,
                 "`powi` takes a literal integer exponent of moderate size; `powf` takes any expression",
@@ -100,12 +102,18 @@ impl Lowering<'_> {
 
     /// `f64::sin(x)` is `x.sin()`.
     fn path_call(&mut self, call: &ExprCall, path: &syn::Path) -> Option<Expr> {
-        let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+        let segments: Vec<&Ident> = path.segments.iter().map(|segment| &segment.ident).collect();
         match (segments.as_slice(), call.args.first()) {
-            ([float, method], Some(receiver)) if float == "f64" || float == "f32" => {
-                let method = syn::Ident::new(method, path.segments[1].ident.span());
-                let rest = call.args.iter().skip(1);
-                self.method(&syn::parse_quote!((#receiver).#method(#(#rest),*)))
+            ([float, method], Some(receiver)) if *float == "f64" || *float == "f32" => {
+                self.method(&ExprMethodCall {
+                    attrs: Vec::new(),
+                    receiver: Box::new(receiver.clone()),
+                    dot_token: Dot::default(),
+                    method: (*method).clone(),
+                    turbofish: None,
+                    paren_token: call.paren_token,
+                    args: call.args.iter().skip(1).cloned().collect(),
+                })
             }
             _ => {
                 let message = "a function of a formula is declared as `functions(f = [path, derivative, second_derivative])` \

@@ -52,7 +52,7 @@ impl Lowering<'_> {
         if let Some(field) = self.parameter(ident) {
             return self.scalar_parameter(path, field);
         }
-        if let Some(size) = self.model.size(&Syntax::Path(syn::parse_quote!(#path))) {
+        if let Some(size) = self.model.named_size(&name) {
             return Some(self.graph.count(size));
         }
         if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {

@@ -1,5 +1,7 @@
 //! Formulas as text, for documentation and reports.
 
+use std::collections::HashMap;
+
 use super::graph::{Coordinate, Expr, Graph, Id, Node, Relation, Weight};
 use super::index::{Atom, Binder, Index};
 
@@ -76,8 +78,27 @@ pub(crate) fn print_coordinate(coordinate: &Coordinate, names: &dyn Names) -> St
     }
 }
 
+/// Beyond this many nodes nobody reads a formula.
+const LONGEST: u64 = 1000;
+
+/// The text of an expression, unless it is too long: shared parts are written out each time.
 pub(crate) fn print_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> String {
+    let nodes = written_out(graph, expr.node);
+    if nodes > LONGEST {
+        return format!("… ({nodes} operations)");
+    }
     Printer { graph, names }.expr(expr, Strength::Sum)
+}
+
+/// The number of nodes of an expression as a tree.
+fn written_out(graph: &Graph, root: Id) -> u64 {
+    let mut sizes: HashMap<Id, u64> = HashMap::new();
+    for id in graph.reachable([root]) {
+        let operands = graph.node(id).operands();
+        let size = operands.iter().fold(1_u64, |size, operand| size.saturating_add(sizes[operand]));
+        sizes.insert(id, size);
+    }
+    sizes[&root]
 }
 
 struct Printer<'a> {

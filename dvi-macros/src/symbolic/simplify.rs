@@ -51,7 +51,7 @@ impl Graph {
         let mut collected: Vec<(Id, u32)> = Vec::new();
         let mut insert =
             |factor: Id, exponent: u32| match collected.iter_mut().find(|(known, _)| *known == factor) {
-                Some((_, known)) => *known += exponent,
+                Some((_, known)) => *known = known.saturating_add(exponent),
                 None => collected.push((factor, exponent)),
             };
         for factor in factors {
@@ -103,7 +103,7 @@ impl Graph {
             _ if exponent == 0 => return Expr::ONE,
             _ if exponent == 1 => base.node,
             Node::Product(inner) => {
-                let powers = inner.iter().map(|(id, known)| (*id, known * exponent)).collect();
+                let powers = inner.iter().map(|(id, known)| (*id, known.saturating_mul(exponent))).collect();
                 self.intern(Node::Product(powers))
             }
             _ => self.intern(Node::Product(vec![(base.node, exponent)])),

@@ -1,12 +1,15 @@
 //! How deep the parts of a formula may nest.
 //!
 //! Parsers call themselves: for brackets in brackets, and for what nests without brackets, such as
-//! `- - - x` or `a = b = c`. This bounds the depth of the calls before the first of them, so that no
+//! `- - - x` or `a = b = c`; and a long chain of operators is a deep tree. This bounds the depth of the calls before the first of them, so that no
 //! input exhausts the compiler's stack.
 
 use proc_macro2::{TokenStream, TokenTree};
 
 const DEEPEST: usize = 200;
+
+/// Tokens between two separators.
+const LONGEST: usize = 4096;
 
 /// Words behind which an expression, a pattern or a type goes on.
 #[rustfmt::skip]
@@ -24,6 +27,7 @@ pub(crate) fn check(tokens: &TokenStream) -> syn::Result<()> {
 fn check_inside(tokens: &TokenStream, room: usize) -> syn::Result<()> {
     // What nests up to the next separator, and types in types, which separators do not end.
     let (mut here, mut angles) = (0, 0);
+    let mut length = 0;
     let mut behind_operator = true;
     for token in tokens.clone() {
         match &token {
@@ -32,7 +36,7 @@ fn check_inside(tokens: &TokenStream, room: usize) -> syn::Result<()> {
                 None => return Err(too_deep(&token)),
             },
             TokenTree::Punct(punct) => match punct.as_char() {
-                ',' | ';' => here = 0,
+                ',' | ';' => (here, length) = (0, 0),
                 '<' => angles += 1,
                 '=' | '|' => here += 1,
                 _ => here += usize::from(behind_operator),
@@ -41,7 +45,8 @@ fn check_inside(tokens: &TokenStream, room: usize) -> syn::Result<()> {
             TokenTree::Literal(_) => {}
         }
         behind_operator = matches!(token, TokenTree::Punct(_));
-        if here + angles > room {
+        length += 1;
+        if here + angles > room || length > LONGEST {
             return Err(too_deep(&token));
         }
     }
@@ -49,5 +54,5 @@ fn check_inside(tokens: &TokenStream, room: usize) -> syn::Result<()> {
 }
 
 fn too_deep(token: &TokenTree) -> syn::Error {
-    syn::Error::new(token.span(), "this is nested too deeply; give its parts names with `let`")
+    syn::Error::new(token.span(), "this is nested too deeply, or too long; give its parts names with `let`")
 }

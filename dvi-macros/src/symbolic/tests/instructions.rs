@@ -6,13 +6,14 @@ use proptest::prelude::*;
 
 use super::evaluate::{Bindings, Evaluation, Point, holds, own_function};
 use super::properties::raw_value;
-use super::tree::{point, tree};
+use super::streams::NONLINEAR;
+use super::tree::{Tree, point, tree};
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::program::{Formulas, Place, Programs, Statement};
 use crate::schedule::{Step, schedule};
 use crate::select::select;
 use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
-use crate::symbolic::{Graph, Node};
+use crate::symbolic::{Binder, Coordinate, Expr, Graph, Index, Node, Size};
 
 /// Entries of the outputs by name, each with what was added to it and the sizes of the parts.
 type Written = HashMap<String, (f64, f64)>;
@@ -160,26 +161,33 @@ fn check(graph: &Graph, statements: &[Statement], point: &Point) -> Result<(), T
 proptest! {
     #![proptest_config(super::configuration(384))]
 
-    /// The function that the solvers call: L's gradient and weighted second derivative in one pass.
     #[test]
     fn loops_compute_what_the_graph_says(tree in tree(6), point in point()) {
-        let size = raw_value(&tree, &point);
-        prop_assume!(size.is_sharp() && size.error < 1e4);
-        let mut graph = Graph::new();
-        let root = tree.lower(&mut graph, 0);
-        let one_form = velocity_sum(&mut graph);
-        let formulas = Formulas { one_form, hamiltonian: root, momenta: vec![root] };
-        let entries = graph.hessian(one_form);
-        let programs = Programs::new(&mut graph, &formulas, &entries, false);
-        for statements in [&programs.hamiltonian, &programs.gradient, &programs.linearize, &programs.momenta[0].1] {
-            check(&graph, statements, &point)?;
-        }
+        check_programs(&tree, &point)?;
+    }
+
+    #[test]
+    fn loops_compute_nonlinear_functions_of_sums(case in 0..NONLINEAR.len(), point in point()) {
+        check_programs(&NONLINEAR[case](), &point)?;
     }
 }
 
-/// Σ xⱼ² d(yⱼ)
-fn velocity_sum(graph: &mut Graph) -> crate::symbolic::Expr {
-    use crate::symbolic::{Binder, Coordinate, Index, Size};
+/// The functions of a system with this Hamiltonian and α = Σ xⱼ² d(yⱼ), one by one.
+fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
+    let size = raw_value(tree, point);
+    prop_assume!(size.is_sharp() && size.error < 1e4);
+    let mut graph = Graph::new();
+    let hamiltonian = tree.lower(&mut graph, 0);
+    let one_form = one_form(&mut graph);
+    let formulas = Formulas { one_form, hamiltonian, momenta: Vec::new() };
+    let entries = graph.hessian(one_form);
+    let programs = Programs::new(&mut graph, &formulas, &entries, false);
+    let values = [&programs.lagrangian, &programs.hamiltonian, &programs.hamiltonian_gradient];
+    let forms = [&programs.gradient, &programs.linearize, &programs.flow_source, &programs.one_form_jacobian];
+    values.into_iter().chain(forms).try_for_each(|statements| check(&graph, statements, point))
+}
+
+fn one_form(graph: &mut Graph) -> Expr {
     let index = Index::bound(0);
     let x = graph.intern(Node::Coordinate(Coordinate { block: 0, index: index.clone() }));
     let dy = graph.intern(Node::Velocity(Coordinate { block: 1, index }));

@@ -6,9 +6,11 @@ use crate::symbolic::{Coordinate, Expr, Graph, Id, Index, Node};
 
 use super::evaluate::{Evaluation, Point};
 
+type Interval = (f64, f64);
+
 /// Intervals on which each function is smooth; every row of the table needs one.
 #[rustfmt::skip]
-const DOMAINS: &[(&str, &[(f64, f64)])] = &[
+const DOMAINS: &[(&str, &[Interval])] = &[
     ("sqrt",   &[(0.3, 4.0)]),
     ("cbrt",   &[(0.3, 4.0), (-4.0, -0.3)]),
     ("exp",    &[(-2.0, 2.0)]),
@@ -34,9 +36,9 @@ const DOMAINS: &[(&str, &[(f64, f64)])] = &[
     ("signum", &[(0.1, 3.0), (-3.0, -0.1)]),
 ];
 
-/// Squares of the plane, by the ranges of a and b.
+/// Rectangles of the plane, by the ranges of a and b.
 #[rustfmt::skip]
-const PLANE: &[(&str, &[[(f64, f64); 2]])] = &[
+const PLANE: &[(&str, &[[Interval; 2]])] = &[
     ("atan2", &[[(0.2, 2.0), (-2.0, 2.0)], [(-2.0, -0.2), (-2.0, 2.0)], [(-2.0, 2.0), (0.2, 2.0)]]),
     ("hypot", &[[(0.3, 2.0), (-2.0, 2.0)], [(-2.0, 2.0), (-2.0, -0.3)]]),
     ("powf",  &[[(0.4, 3.0), (-2.5, 2.5)]]),
@@ -44,7 +46,7 @@ const PLANE: &[(&str, &[[(f64, f64); 2]])] = &[
 
 const STEPS: i32 = 7;
 
-fn samples((low, high): (f64, f64)) -> impl Iterator<Item = f64> {
+fn samples((low, high): Interval) -> impl Iterator<Item = f64> {
     (0..=STEPS).map(move |step| low + (high - low) * f64::from(step) / f64::from(STEPS))
 }
 

@@ -7,7 +7,7 @@ use super::evaluate::{Bindings, Evaluation, Point};
 use super::field::{Bounded, Dual, Field};
 use super::properties::{agree, raw_value, variables};
 use super::tree::{Place, Range, Tree, point, tree};
-use crate::symbolic::{Graph, Unary};
+use crate::symbolic::{Expr, Graph, Unary};
 
 type HyperDual = Dual<Dual<Bounded>>;
 
@@ -22,7 +22,7 @@ fn raw_second(tree: &Tree, point: &Point, i: usize, j: usize) -> HyperDual {
 }
 
 /// What a list of contributions adds up to.
-fn gradient(graph: &mut Graph, root: crate::symbolic::Expr, point: &Point) -> Vec<f64> {
+fn gradient(graph: &mut Graph, root: Expr, point: &Point) -> Vec<f64> {
     let contributions = graph.gradient(root, &[]);
     let mut out = vec![0.0; variables(point).len()];
     for contribution in contributions {
@@ -34,7 +34,7 @@ fn gradient(graph: &mut Graph, root: crate::symbolic::Expr, point: &Point) -> Ve
     out
 }
 
-fn hessian(graph: &mut Graph, root: crate::symbolic::Expr, point: &Point) -> Vec<f64> {
+fn hessian(graph: &mut Graph, root: Expr, point: &Point) -> Vec<f64> {
     let contributions = graph.hessian(root);
     let n = variables(point).len();
     let mut out = vec![0.0; n * n];
@@ -102,11 +102,16 @@ fn squares() -> Box<Tree> {
     sum(Range::Whole, Tree::Powi(x(0), 2))
 }
 
-const NONLINEAR: [fn() -> Tree; 8] = [
+pub(super) const NONLINEAR: [fn() -> Tree; 9] = [
     // √Σ xⱼ²
     || Tree::Unary(Unary::Sqrt, squares()),
     // Σ xⱼ² · Σ yⱼ xⱼ
     || Tree::Multiply(squares(), sum(Range::Whole, Tree::Multiply(y(0, 0), x(0)))),
+    // Σ xⱼ · Σ xⱼ yⱼ
+    || {
+        let product = Tree::Multiply(x(0), y(0, 0));
+        Tree::Multiply(sum(Range::Whole, *x(0)), sum(Range::Whole, product))
+    },
     // sin(Σ xⱼ²)/Σ xⱼ²
     || Tree::Divide(Box::new(Tree::Unary(Unary::Sin, squares())), squares()),
     // Σⱼ ln Σₖ exp(xⱼ yₖ)

@@ -1,0 +1,102 @@
+//! Blocks with `let`, and choices.
+
+use syn::{BinOp, Expr as Syntax, ExprIf, Stmt, UnOp};
+
+use super::{Binding, Lowering, bound_name};
+use crate::symbolic::{Expr, Relation};
+
+impl Lowering<'_> {
+    /// `{ let a = …; let b = …; value }`
+    pub(super) fn statements(&mut self, block: &syn::Block) -> Option<Expr> {
+        let outside = self.scope.len();
+        let mut value = None;
+        let mut ended = false;
+        for (position, statement) in block.stmts.iter().enumerate() {
+            match statement {
+                Stmt::Local(local) => self.binding(local),
+                Stmt::Expr(expr, None) if position + 1 == block.stmts.len() => {
+                    ended = true;
+                    value = self.expr(expr);
+                }
+                other => {
+                    ended = true;
+                    self.errors.push_once(
+                        "statement",
+                        other,
+                        "a block of a formula holds `let` bindings and ends with its value",
+                    );
+                }
+            }
+        }
+        if !ended {
+            self.errors.push(block, "this block has no value: end it with an expression, without `;`");
+        }
+        self.scope.truncate(outside);
+        value
+    }
+
+    fn binding(&mut self, local: &syn::Local) {
+        let value = match &local.init {
+            Some(init) if init.diverge.is_none() => self.expr(&init.expr),
+            _ => {
+                self.errors.push(local, "write `let name = value;`");
+                None
+            }
+        };
+        match bound_name(&local.pat) {
+            Some(name) => self.scope.push((name, Binding::Value(value))),
+            None => {
+                self.errors.push(&local.pat, "write `let name = value;`: a formula binds one name at a time");
+            }
+        }
+    }
+
+    /// `if a < b { value } else { value }`
+    pub(super) fn choice(&mut self, choice: &ExprIf) -> Option<Expr> {
+        let then = self.statements(&choice.then_branch);
+        let Some((_, otherwise)) = &choice.else_branch else {
+            self.errors.push(choice, "an `if` of a formula needs its `else` branch");
+            return None;
+        };
+        let otherwise = self.expr(otherwise);
+        self.condition(&choice.cond, then, otherwise)
+    }
+
+    fn condition(&mut self, condition: &Syntax, then: Option<Expr>, otherwise: Option<Expr>) -> Option<Expr> {
+        match condition {
+            Syntax::Paren(inner) => self.condition(&inner.expr, then, otherwise),
+            Syntax::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => {
+                self.condition(&unary.expr, otherwise, then)
+            }
+            Syntax::Binary(binary) => {
+                let relation = match binary.op {
+                    BinOp::Lt(_) => Relation::Less,
+                    BinOp::Le(_) => Relation::LessOrEqual,
+                    BinOp::Gt(_) => Relation::Greater,
+                    BinOp::Ge(_) => Relation::GreaterOrEqual,
+                    BinOp::And(_) => {
+                        let inner = self.condition(&binary.right, then, otherwise);
+                        return self.condition(&binary.left, inner, otherwise);
+                    }
+                    BinOp::Or(_) => {
+                        let inner = self.condition(&binary.right, then, otherwise);
+                        return self.condition(&binary.left, then, inner);
+                    }
+                    _ => {
+                        self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
+                        return None;
+                    }
+                };
+                let (left, right) = (self.expr(&binary.left), self.expr(&binary.right));
+                let (left, right) = (left?, right?);
+                self.check_at_rest(condition, &[left, right])?;
+                let value = self.graph.choose(left, relation, right, then?, otherwise?);
+                self.affine(condition, value)
+            }
+            _ => {
+                self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
+                None
+            }
+        }
+    }
+}
