@@ -1,9 +1,9 @@
 //! The attribute macros of `dvi-core`: a small compiler from Lagrangians to integrators.
 //!
-//! A formula goes one way: [`syntax`] reads the attribute, [`model`] resolves its names, [`lower`] turns
-//! expressions into a graph (the last stage that can fail), [`symbolic`] simplifies and differentiates,
-//! [`program`] says what each generated function computes, [`select`] and [`schedule`] choose
-//! shared products and loops, [`emit`] and [`implement`] write Rust. [`expand`] tells that story on one
+//! A formula goes one way: `syntax` reads the attribute, `model` resolves its names, `lower` turns
+//! expressions into a graph (the last stage that can fail), `symbolic` simplifies and differentiates,
+//! `program` says what each generated function computes, `select` and `schedule` choose
+//! shared products and loops, `emit` and `implement` write Rust. `expand` tells that story on one
 //! screen.
 
 mod emit;

@@ -17,6 +17,8 @@ pub(crate) struct Structure {
     pub(crate) partners: Vec<usize>,
     /// Blocks that Ω does not involve.
     untouched: Vec<usize>,
+    /// Whether the places of Ω that are not zero leave room for an inverse.
+    invertible: bool,
 }
 
 /// An entry of Ω = (Dα)ᵀ − Dα above its diagonal.
@@ -40,7 +42,37 @@ pub(crate) fn analyse(graph: &mut Graph, model: &Model, entries: &[SecondContrib
     let canonical = partners.is_some();
     let matching = canonical && !diagonal;
     let partners = partners.unwrap_or_else(|| (0..model.blocks.len()).collect());
-    Structure { linear, matching, canonical, partners, untouched }
+    let invertible = has_matching(model, &omega);
+    Structure { linear, matching, canonical, partners, untouched, invertible }
+}
+
+/// Whether each row of Ω can have a column of its own, by augmenting paths. Among arrays this is not
+/// decided: true.
+fn has_matching(model: &Model, omega: &[FormEntry]) -> bool {
+    fn assign(row: usize, columns: &[Vec<usize>], seen: &mut [bool], row_of: &mut [Option<usize>]) -> bool {
+        columns[row].iter().any(|&column| {
+            if std::mem::replace(&mut seen[column], true) {
+                return false;
+            }
+            let free = row_of[column].is_none_or(|other| assign(other, columns, seen, row_of));
+            if free {
+                row_of[column] = Some(row);
+            }
+            free
+        })
+    }
+    let dimension = model.blocks.len();
+    if model.blocks.iter().any(|block| block.array.is_some()) {
+        return true;
+    }
+    let mut columns = vec![Vec::new(); dimension];
+    for entry in omega {
+        let (row, column) = (entry.row.block as usize, entry.column.block as usize);
+        columns[row].push(column);
+        columns[column].push(row);
+    }
+    let mut row_of = vec![None; dimension];
+    (0..dimension).all(|row| assign(row, &columns, &mut vec![false; dimension], &mut row_of))
 }
 
 /// Ω entry by entry: what (i, j) and (j, i) of Dα contribute, cancelled where they are the same formula.
@@ -120,6 +152,14 @@ impl Structure {
                            `p * d(q)` that is not the differential of a function";
             errors.push(at, message);
             return;
+        }
+        if self.untouched.is_empty()
+            && !self.invertible
+            && let Some(at) = at
+        {
+            let message = "Ω = -dα is singular for all parameters: its nonzero entries leave a coordinate without a \
+                           partner; the one-form needs more terms such as `p * d(q)`";
+            errors.push(at, message);
         }
         for block in &self.untouched {
             let name = &model.blocks[*block].name;

@@ -122,4 +122,18 @@ mod coordinates_that_nothing_mentions {
     }
 }
 
+mod all_that_couples_couples_to_one {
+    use super::*;
+    #[degenerate_lagrangian(
+        coordinates(x, y, u, w),
+        one_form = x * d(y) + x * x * d(u) + x * d(w),
+        hamiltonian = x * y + u * w,
+    )]
+    pub struct System;
+    pub fn run() {
+        let state = SystemState { x: 1.0, y: 0.0, u: 0.0, w: 0.0 };
+        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
+    }
+}
+
 fn main() {}
