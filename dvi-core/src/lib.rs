@@ -16,7 +16,7 @@
 //! pub struct LotkaVolterra { rate: f64 }
 //!
 //! let system = LotkaVolterra { rate: 2.0 };
-//! let start = LotkaVolterraState { x: 1.0, y: 1.0 };
+//! let start: LotkaVolterraState = LotkaVolterraState { x: 1.0, y: 1.0 };
 //! let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;
 //! for state in run.by_ref().take(1000) {
 //!     let state = state?;
