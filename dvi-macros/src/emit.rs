@@ -27,16 +27,6 @@ use crate::schedule::{Step, schedule};
 use crate::select::select;
 use crate::symbolic::{Atom, Binder, Coordinate, Graph, Index, Node, Parameter, Relation, Weight};
 
-/// Operations of the innermost body of one loop nest.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Operations {
-    pub(crate) loops: Vec<Binder>,
-    pub(crate) additions: usize,
-    pub(crate) multiplications: usize,
-    pub(crate) divisions: usize,
-    pub(crate) calls: usize,
-}
-
 pub(crate) struct Emitter<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) model: &'a Model,
@@ -85,16 +75,6 @@ impl Emitter<'_> {
         });
         let inlined = inlined.collect();
         Function { emitter: self, code: &code, statements, inlined }.steps(&steps)
-    }
-
-    /// Operation counts of the same body, loop nest by loop nest.
-    pub(crate) fn operations(&self, statements: &[Statement]) -> Vec<Operations> {
-        let (code, values) = select(self.graph, statements);
-        let steps = schedule(&code, statements, &values);
-        let mut counted = vec![Operations::default()];
-        count_operations(&code, &steps, &[], &mut counted);
-        counted.retain(|o| o.additions + o.multiplications + o.divisions + o.calls > 0);
-        counted
     }
 
     /// An index as an expression of type `usize`; negative intermediate values do not occur.
@@ -209,44 +189,6 @@ fn count_uses(
     used.iter().for_each(|register| uses[register.0 as usize] += 1);
     used.retain(|register| !defined.contains(register));
     used
-}
-
-fn count_operations(code: &Instructions, steps: &[Step], loops: &[Binder], counted: &mut Vec<Operations>) {
-    let mut here = Operations { loops: loops.to_vec(), ..Operations::default() };
-    for step in steps {
-        match step {
-            Step::Let(register) => match code.get(*register) {
-                Instruction::Sum(terms) => here.additions += terms.len() - 1,
-                Instruction::Multiply(..) => here.multiplications += 1,
-                Instruction::Divide(..) => here.divisions += 1,
-                Instruction::Unary(..)
-                | Instruction::Binary(..)
-                | Instruction::Power(..)
-                | Instruction::Call(..) => {
-                    here.calls += 1;
-                }
-                _ => {}
-            },
-            Step::Loop { binder, sums, body } => {
-                let inside: Vec<Binder> = loops.iter().chain([binder]).cloned().collect();
-                count_operations(code, body, &inside, counted);
-                if let Some(inner) = counted.iter_mut().find(|operations| operations.loops == inside) {
-                    inner.additions += sums.len();
-                }
-            }
-            // A scatter adds; a returned value does not.
-            Step::Write(..) => here.additions += usize::from(!loops.is_empty()),
-        }
-    }
-    match counted.iter_mut().find(|operations| operations.loops == here.loops) {
-        Some(known) => {
-            known.additions += here.additions;
-            known.multiplications += here.multiplications;
-            known.divisions += here.divisions;
-            known.calls += here.calls;
-        }
-        None => counted.push(here),
-    }
 }
 
 impl Function<'_> {

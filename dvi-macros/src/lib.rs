@@ -15,6 +15,7 @@ mod implement;
 mod instructions;
 mod lower;
 mod model;
+mod operations;
 mod program;
 mod schedule;
 mod select;

@@ -3,7 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::{Emitter, Operations};
+use crate::emit::Emitter;
+use crate::operations::Operations;
 use crate::program::{Formulas, Place, Programs, Statement, variable};
 use crate::structure::Structure;
 use crate::symbolic::{Expr, print_binders, print_coordinate, print_expr};
