@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::error::{StartError, StepError, StepFailure};
-use crate::method::{Method, TwoPoint};
+use crate::method::{Clock, Method, TwoPoint};
 use crate::norm::reported;
 use crate::sigma_family::{Sigma, SigmaMemory};
 use crate::statistics::Statistics;
@@ -20,8 +20,8 @@ pub struct Integrator<'a, S: Lagrangian, M: Method<S, T>, T: Real = f64> {
     method: M,
     memory: M::Memory,
     q: Vector<S, T>,
-    h: T,
-    start_time: T,
+    /// At the start of the run.
+    clock: Clock<T>,
     failed: bool,
     statistics: Statistics,
 }
@@ -49,7 +49,15 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     }
 
     fn assemble(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>, t: T, h: T) -> Self {
-        Self { system, method, memory, q, h, start_time: t, failed: false, statistics: Statistics::default() }
+        Self {
+            system,
+            method,
+            memory,
+            q,
+            clock: Clock::new(t, h),
+            failed: false,
+            statistics: Statistics::default(),
+        }
     }
 
     /// Takes one step. Nothing is allocated.
@@ -58,20 +66,26 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// [`StepError`]; the run stays at the last good state, and the step can be tried again.
     #[inline]
     pub fn advance(&mut self) -> Result<(), StepError> {
-        let t = self.time();
-        match self.method.step(self.system, &mut self.memory, &mut self.q, t, self.h, &mut self.statistics) {
-            Ok(()) => {
-                self.statistics.steps += 1;
-                Ok(())
-            }
-            Err(failure) => Err(self.error(t, failure)),
-        }
+        self.advance_by(1)
+    }
+
+    /// Takes `count` steps, as so many calls of [`advance`](Self::advance) would, bit by bit, but faster
+    /// where a method can keep its state in registers.
+    ///
+    /// # Errors
+    /// [`StepError`] of the first step that fails; the run stays at the last good state.
+    #[inline]
+    pub fn advance_by(&mut self, count: u64) -> Result<(), StepError> {
+        let clock = self.clock.after(self.statistics.steps);
+        self.method
+            .steps(self.system, &mut self.memory, &mut self.q, clock, count, &mut self.statistics)
+            .map_err(|failure| self.error(failure))
     }
 
     #[cold]
-    fn error(&mut self, t: T, failure: StepFailure) -> StepError {
+    fn error(&mut self, failure: StepFailure) -> StepError {
         self.failed = true;
-        StepError { step: self.statistics.steps, time: reported(t), failure }
+        StepError { step: self.statistics.steps, time: reported(self.time()), failure }
     }
 
     /// The current state.
@@ -92,8 +106,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// The current time, t₀ + steps · h, which does not accumulate rounding errors.
     #[inline]
     pub fn time(&self) -> T {
-        // Signed integers convert in one instruction; no run takes 2⁶³ steps.
-        self.start_time + T::lift(self.statistics.steps as i64 as f64) * self.h
+        self.clock.after(self.statistics.steps).time()
     }
 
     /// The number of completed steps.
@@ -103,7 +116,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
 
     /// The step h.
     pub fn step_size(&self) -> T {
-        self.h
+        self.clock.step_size()
     }
 
     /// The system.
@@ -202,6 +215,16 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, 
         }
         Some(self.advance().map(|()| self.state()))
     }
+
+    /// Skips `n` states without building them and yields the next. Unlike elsewhere, a failure on the way is
+    /// not skipped but yielded.
+    #[inline]
+    fn nth(&mut self, n: usize) -> Option<Self::Item> {
+        if self.failed {
+            return None;
+        }
+        Some(self.advance_by(n as u64 + 1).map(|()| self.state()))
+    }
 }
 
 impl<S: Lagrangian, M: Method<S, T>, T: Real> core::iter::FusedIterator for Integrator<'_, S, M, T> {}
@@ -212,7 +235,7 @@ impl<S: Lagrangian, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integr
             .field("system", &S::REPORT.system)
             .field("method", &self.method)
             .field("time", &self.time())
-            .field("step_size", &self.h)
+            .field("step_size", &self.step_size())
             .field("state", &self.state())
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()

@@ -76,7 +76,7 @@ pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, State, Weights};
-pub use method::{Method, PreservedForm, Scheme, TwoPoint};
+pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};

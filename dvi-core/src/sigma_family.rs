@@ -8,6 +8,7 @@
 //!
 //! r(Δ) = c0 + α(q0) − α(q_σ) + (1−σ)G = 0        c1 = α(q_σ) + σG − α(q1)
 
+mod leapfrog;
 mod linear;
 mod memory;
 mod newton;
@@ -15,7 +16,7 @@ mod nonlinear;
 mod start;
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, PreservedForm, Scheme, TwoPoint};
+use crate::method::{Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
 use crate::solver::{Solver, Stopping};
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Real, Vector};
@@ -167,6 +168,26 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
             linear::step(&step, memory, q, statistics)
         } else {
             nonlinear::step(&step, memory, q, statistics)
+        }
+    }
+
+    #[inline]
+    fn steps(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        if S::LINEAR && self.sigma == T::lift(0.0) {
+            let (taken, result) = leapfrog::steps(system, memory, q, clock, count);
+            statistics.steps += taken;
+            statistics.gradients += taken;
+            result
+        } else {
+            one_by_one(self, system, memory, q, clock, count, statistics)
         }
     }
 }

@@ -6,10 +6,12 @@
 //! At σ = 0 and σ = 1 no gradient of the unknown point occurs: explicit. At σ = ½, K' = −K and c1 = −c0;
 //! with c0 = 0 the scheme is the implicit midpoint rule.
 
+use super::leapfrog;
 use super::memory::scratch;
 use super::newton::{self, Guess};
 use super::{SigmaMemory, Step};
 use crate::error::StepFailure;
+use crate::method::Clock;
 use crate::norm;
 use crate::solver::{Convergence, Solver, Verdict};
 use crate::statistics::Statistics;
@@ -23,49 +25,14 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     if step.method.sigma == T::lift(0.0) {
-        explicit_left(step, memory, q, statistics)
+        let (taken, result) = leapfrog::steps(step.system, memory, q, Clock::new(step.t, step.h), 1);
+        statistics.gradients += taken;
+        result
     } else if step.method.sigma == T::lift(1.0) {
         explicit_right(step, memory, q, statistics)
     } else {
         implicit(step, memory, q, statistics)
     }
-}
-
-/// σ = 0: Δ = K⁻¹c0 + s with s = −hK⁻¹∇H(q0), c1 = −DαΔ.
-///
-/// Only s has to wait for the gradient; K⁻¹c was left by the step before.
-#[inline(always)]
-fn explicit_left<S: DegenerateLagrangian, T: Real>(
-    step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
-    q: &mut Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, inverse, product, work, .. } = memory;
-    scratch!(gradient = step.system, work.gradient);
-    scratch!(increment = step.system, work.increment);
-    scratch!(next = step.system, work.next);
-    scratch!(node = step.system, work.point);
-    for (node, &q) in node.iter_mut().zip(q.iter()) {
-        // One coordinate at a time: a vector load across two vectors just stored waits for the cache.
-        *node = core::hint::black_box(q);
-    }
-    step.system.hamiltonian_gradient(node, step.t, gradient);
-    statistics.gradients += 1;
-    inverse.solve(step.system, gradient, increment);
-    for i in 0..q.len() {
-        next[i] = (q[i] + work.shift[i]) + increment[i];
-    }
-    norm::finite(next)?;
-    q.copy_from_slice(next);
-    for (increment, &shift) in increment.iter_mut().zip(work.shift.iter()) {
-        *increment += shift;
-    }
-    if let Some(product) = product {
-        product.apply(step.system, increment, defect);
-    }
-    memory.shift_by_defect(step.system);
-    Ok(())
 }
 
 /// σ = 1: DαΔ = c0, c1 = (Dα)ᵀΔ − h∇H(q1).
@@ -98,7 +65,7 @@ fn explicit_right<S: DegenerateLagrangian, T: Real>(
 }
 
 #[inline(always)]
-fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
+pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
     for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(increment) {
         *sum = q + delta;
     }

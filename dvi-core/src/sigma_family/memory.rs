@@ -5,6 +5,7 @@
 //! nonlinear α it extrapolates Δ.
 
 use super::Sigma;
+use super::leapfrog::Ahead;
 use crate::error::StartError;
 use crate::form::{Combination, Form, Product};
 use crate::history::History;
@@ -40,9 +41,11 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
     /// The matrix of the fixed point: constant if α is affine, and else frozen for one step.
     pub(super) inverse: Form<S, T>,
     /// −1/((1−σ)h), the scale of `inverse` if α is affine and σ ≠ 1.
-    scale: T,
+    pub(super) scale: T,
     /// K' = σ(Dα)ᵀ − (1−σ)Dα; kept if α is affine and c is not just reversed.
     pub(super) product: Option<Product<S, T>>,
+    /// Kept if α is affine and σ = 0.
+    pub(super) ahead: Option<Ahead<S, T>>,
     /// Storage for the Newton matrix.
     pub(super) newton: Option<Matrix<S, T>>,
     /// How many steps Newton takes before the fixed point is tried again.
@@ -55,6 +58,8 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
 pub(super) struct Work<S: Lagrangian, T: Real> {
     /// K⁻¹c0, or p0.
     pub(super) shift: Vector<S, T>,
+    /// q0 + K⁻¹c0, which outlives the step, if α is affine and σ = 0.
+    pub(super) ahead: Vector<S, T>,
     /// The smooth part of the increment.
     pub(super) increment: Vector<S, T>,
     pub(super) trial: Vector<S, T>,
@@ -72,6 +77,7 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
         let vector = || system.space().vector();
         Self {
             shift: vector(),
+            ahead: vector(),
             increment: vector(),
             trial: vector(),
             point: vector(),
@@ -138,6 +144,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             let work = &mut memory.work;
             for i in 0..q0.len() {
                 work.increment[i] -= work.shift[i];
+                work.ahead[i] = q0[i] + work.shift[i];
             }
         }
         memory.history = History::new(system, Some(memory.work.increment.clone()));
@@ -159,6 +166,11 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         }
         let product = (S::LINEAR && !method.is_midpoint())
             .then(|| Product::new(system, q, t, Combination { a: -left, b: sigma }));
+        let scale = fixed_point_scale(method, h);
+        let ahead = product
+            .as_ref()
+            .filter(|_| sigma == T::lift(0.0))
+            .map(|product| Ahead::new(system, product, &inverse, scale));
         let newton = (!explicit && method.solver != Solver::FixedPoint).then(|| space.matrix());
         let mut one_form = space.vector();
         system.one_form(q, t, &mut one_form);
@@ -168,8 +180,9 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             one_form,
             history: History::new(system, None),
             inverse,
-            scale: fixed_point_scale(method, h),
+            scale,
             product,
+            ahead,
             newton,
             newton_steps: 0,
             work,

@@ -4,10 +4,13 @@ pub(crate) mod by_hand;
 
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
+use dvi_tests::systems::PointVortices;
+use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 3] = [
+pub(crate) const KERNELS: [[&str; 2]; 4] = [
     ["explicit/generated", "explicit/by hand"],
+    ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["fixed point/generated", "fixed point/by hand"],
     ["newton/generated", "newton/by hand"],
 ];
@@ -26,15 +29,23 @@ fn start() -> by_hand::State {
 pub(crate) fn run(name: &str, steps: u64) -> f64 {
     let field = by_hand::Field::new(GAMMA);
     match name {
-        "explicit/generated" => {
-            let start = Start::RungeKutta(RungeKutta::midpoint());
-            generated(Sigma { start, ..Sigma::leapfrog() }, steps)
-        }
-        "fixed point/generated" => generated(implicit(Solver::FixedPoint), steps),
-        "newton/generated" => generated(implicit(Solver::Newton), steps),
+        "explicit/generated" => generated(explicit(), |run| run.advance_by(steps)),
+        "explicit, each state read/generated" => generated(explicit(), |run| {
+            (0..steps).try_for_each(|_| run.advance().map(|()| drop(black_box(run.q()))))
+        }),
+        "fixed point/generated" => generated(implicit(Solver::FixedPoint), |run| run.advance_by(steps)),
+        "newton/generated" => generated(implicit(Solver::Newton), |run| run.advance_by(steps)),
         "explicit/by hand" => {
             let mut leapfrog = by_hand::Leapfrog::new(field, H, start());
             (0..steps).for_each(|_| leapfrog.step());
+            leapfrog.z[0]
+        }
+        "explicit, each state read/by hand" => {
+            let mut leapfrog = by_hand::Leapfrog::new(field, H, start());
+            (0..steps).for_each(|_| {
+                leapfrog.step();
+                black_box(&leapfrog.z);
+            });
             leapfrog.z[0]
         }
         "fixed point/by hand" => {
@@ -55,14 +66,19 @@ fn implicit(solver: Solver) -> Sigma {
     Sigma { solver, stopping: Stopping { tolerance: 1e-12, ..Stopping::default() }, ..Sigma::midpoint() }
 }
 
-fn generated(method: Sigma, steps: u64) -> f64 {
+fn explicit() -> Sigma {
+    Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() }
+}
+
+type Run<'a> = Integrator<'a, PointVortices<4>, Sigma>;
+
+#[inline(always)]
+fn generated(method: Sigma, take: impl FnOnce(&mut Run<'_>) -> Result<(), StepError>) -> f64 {
     let (system, state) = configurations::quasi_periodic();
-    let system = std::hint::black_box(system);
+    let system = black_box(system);
     let Ok(mut run) = Integrator::new(&system, method, H, state) else { return f64::NAN };
-    for _ in 0..steps {
-        if run.advance().is_err() {
-            return f64::NAN;
-        }
+    match take(&mut run) {
+        Ok(()) => run.q()[0],
+        Err(_) => f64::NAN,
     }
-    run.q()[0]
 }

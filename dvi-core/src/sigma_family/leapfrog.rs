@@ -1,0 +1,149 @@
+//! σ = 0 with affine α: explicit, one ∇H a step.
+//!
+//! q1 = (q0 + K⁻¹c0) + s   with K = −(Dα)ᵀ, s = −hK⁻¹∇H(q0),   and c1 = −DαΔ,  Δ = q1 − q0.
+//!
+//! Only s has to wait for the gradient: the point ahead, q0 + K⁻¹c0, was left by the step before. In a
+//! symmetric gauge, ½(x dy − y dx), it is the point before: q2 = q0 + 2s, the leapfrog scheme as it is usually
+//! written (Rowley & Marsden 2002, eq. 13). Over many steps the points are local arrays, which the compiler can
+//! keep in registers, and c, which no step needs, is computed at the end.
+
+use super::SigmaMemory;
+use super::linear::add;
+use super::memory::{Work, scratch};
+use crate::error::StepFailure;
+use crate::form::{Form, Product};
+use crate::method::Clock;
+use crate::norm;
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
+
+/// How the point ahead, q1 + K⁻¹c1, follows from q0 and q1.
+#[derive(Debug)]
+pub(super) enum Ahead<S: Lagrangian, T: Real> {
+    /// It is q0.
+    Reversal,
+    /// K⁻¹c1 is a multiple of Δ in each coordinate.
+    Diagonal(Vector<S, T>),
+    /// By a product and a solve, with storage for Δ and c1.
+    General([Vector<S, T>; 2]),
+}
+
+impl<S: DegenerateLagrangian, T: Real> Ahead<S, T> {
+    /// For c1 = `product` Δ and K⁻¹c = `scale` `inverse` c.
+    pub(super) fn new(system: &S, product: &Product<S, T>, inverse: &Form<S, T>, scale: T) -> Self {
+        let [mut delta, mut c]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
+        if !S::MATCHING {
+            return Self::General([delta, c]);
+        }
+        delta.fill(scale);
+        product.apply(system, &delta, &mut c);
+        let mut factors = delta;
+        inverse.solve(system, &c, &mut factors);
+        let reversal = factors.iter().all(|&factor| factor == T::lift(-1.0));
+        if reversal { Self::Reversal } else { Self::Diagonal(factors) }
+    }
+}
+
+/// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
+/// good point.
+#[inline(always)]
+pub(super) fn steps<S: DegenerateLagrangian, T: Real>(
+    system: &S,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    clock: Clock<T>,
+    count: u64,
+) -> (u64, Result<(), StepFailure>) {
+    let SigmaMemory { defect, inverse, product, ahead, scale, work, .. } = memory;
+    // A run with σ = 0 and affine α has both.
+    let (Some(product), Some(ahead)) = (product, ahead) else { return (0, Ok(())) };
+    let run = Run { system, inverse, product, work, defect, q, clock, count };
+    match ahead {
+        Ahead::Reversal => run.steps(|q0, _, ahead| ahead.copy_from_slice(q0)),
+        Ahead::Diagonal(factors) => run.steps(|q0, q1, ahead| {
+            for i in 0..q0.len() {
+                ahead[i] = q1[i] + factors[i] * (q1[i] - q0[i]);
+            }
+        }),
+        Ahead::General([delta, c]) => run.steps(|q0, q1, ahead| {
+            for i in 0..q0.len() {
+                delta[i] = q1[i] - q0[i];
+            }
+            product.apply(system, delta, c);
+            c.iter_mut().for_each(|c| *c *= *scale);
+            inverse.solve(system, c, ahead);
+            for i in 0..q0.len() {
+                ahead[i] += q1[i];
+            }
+        }),
+    }
+}
+
+/// After how many steps the points are examined. A coordinate that is not finite stays so from then on; the
+/// steps since the last examination are then taken once more, one by one, to find the last good point.
+const BLOCK: u64 = 64;
+
+/// What the loop over the steps works on.
+struct Run<'a, S: Lagrangian, T: Real> {
+    system: &'a S,
+    inverse: &'a Form<S, T>,
+    product: &'a Product<S, T>,
+    work: &'a mut Work<S, T>,
+    defect: &'a mut Vector<S, T>,
+    q: &'a mut Vector<S, T>,
+    clock: Clock<T>,
+    count: u64,
+}
+
+impl<S: DegenerateLagrangian, T: Real> Run<'_, S, T> {
+    /// With the rule that sets the point ahead, its last argument, from q0 and q1.
+    #[inline(always)]
+    fn steps(self, mut look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
+        let Self { system, inverse, product, work, defect, q, clock, count } = self;
+        scratch!(q0 = system, work.point);
+        scratch!(q1 = system, work.next);
+        scratch!(q2 = system, work.trial);
+        scratch!(ahead = system, work.velocity);
+        scratch!(gradient = system, work.gradient);
+        scratch!(s = system, work.increment);
+        q1.copy_from_slice(q);
+        ahead.copy_from_slice(&work.ahead);
+        let (mut taken, mut block) = (0, BLOCK);
+        while taken < count {
+            let steps = block.min(count - taken);
+            for step in taken..taken + steps {
+                system.hamiltonian_gradient(q1, clock.after(step).time(), gradient);
+                inverse.solve(system, gradient, s);
+                add(ahead, s, q2);
+                q0.copy_from_slice(q1);
+                q1.copy_from_slice(q2);
+                look_ahead(q0, q1, ahead);
+            }
+            // Copies: what is examined must live in memory.
+            scratch!(examined = system, work.momentum);
+            examined.copy_from_slice(q1);
+            let mut verdict = norm::finite(examined);
+            if steps > 1 {
+                examined.copy_from_slice(q0);
+                verdict = verdict.and(norm::finite(examined));
+            }
+            match verdict {
+                Ok(()) => {
+                    taken += steps;
+                    q.copy_from_slice(q1);
+                    work.ahead.copy_from_slice(ahead);
+                    for i in 0..s.len() {
+                        s[i] = q1[i] - q0[i];
+                    }
+                    product.apply(system, s, defect);
+                }
+                Err(failure) if steps == 1 => return (taken, Err(failure)),
+                Err(_) => {
+                    q1.copy_from_slice(q);
+                    ahead.copy_from_slice(&work.ahead);
+                    block = 1;
+                }
+            }
+        }
+        (taken, Ok(()))
+    }
+}
