@@ -90,7 +90,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
 
     /// The current state.
     pub fn state(&self) -> S::State<T> {
-        S::State::read(|block| self.system.block_len(block), &self.q)
+        S::State::read(|block| self.system.block_len(block), &self.q, &[])
     }
 
     /// The current coordinates, flat, in the order of declaration.
@@ -143,13 +143,13 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
     pub fn momentum(&self, index: usize) -> Option<T> {
         let declared = index < S::REPORT.momenta.len();
-        declared.then(|| self.system.momentum(index, &self.q, self.time()))
+        declared.then(|| self.system.momentum(index, &self.q, &[], self.time()))
     }
 
     /// The names and values of all declared momenta.
     pub fn momenta(&self) -> impl Iterator<Item = (&'static str, T)> + '_ {
         let names = S::REPORT.momenta.iter().enumerate();
-        names.map(|(index, &name)| (name, self.system.momentum(index, &self.q, self.time())))
+        names.map(|(index, &name)| (name, self.system.momentum(index, &self.q, &[], self.time())))
     }
 }
 
@@ -254,7 +254,7 @@ fn validate<S: Lagrangian, T: Real>(system: &S, t: T, h: T) -> Result<(), StartE
 
 fn flatten<S: Lagrangian, T: Real>(system: &S, state: &S::State<T>) -> Result<Vector<S, T>, StartError> {
     let mut q = system.space().vector();
-    state.write(|block| system.block_len(block), &mut q)?;
+    state.write(|block| system.block_len(block), &mut q, &mut [])?;
     match q.iter().position(|q| !q.is_finite()) {
         Some(coordinate) => Err(StartError::NotFinite { coordinate, value: reported(q[coordinate]) }),
         None => Ok(q),

@@ -4,9 +4,12 @@
 //! its second derivatives, which is all that a discrete Lagrangian of the quadrature family needs
 //! (its D1, D2, D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to
 //! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
+//! [`RegularLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the
+//! energy, the force, and the structure of that matrix.
 //!
 //! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
-//! order of the declared coordinates; the integrators of this crate pass no others.
+//! order of the declared coordinates, unless a function says that one may be empty; the integrators of
+//! this crate pass no others.
 
 use core::fmt::Debug;
 
@@ -14,17 +17,18 @@ use crate::error::{IndexError, LengthError};
 use crate::report::Report;
 use crate::{Scalar, Space};
 
-/// A state with named coordinates, as users see it.
+/// A state with named coordinates, as users see it: (q, v) for a regular system, q for a degenerate one.
 ///
-/// `block_len` gives the size of each coordinate block, as [`Lagrangian::block_len`] does.
+/// `block_len` gives the size of each coordinate block, as [`Lagrangian::block_len`] does. States of
+/// degenerate systems have no velocities: they leave `v` alone, and it may be empty.
 pub trait State<T: Scalar>: Sized {
-    /// Writes the coordinates into `flat`, in the order of declaration.
+    /// Writes the coordinates into `q` and the velocities into `v`, both in the order of declaration.
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
-    fn write(&self, block_len: impl Fn(usize) -> usize, flat: &mut [T]) -> Result<(), LengthError>;
-    /// Reads the coordinates from `flat`, in the order of declaration.
-    fn read(block_len: impl Fn(usize) -> usize, flat: &[T]) -> Self;
+    fn write(&self, block_len: impl Fn(usize) -> usize, q: &mut [T], v: &mut [T]) -> Result<(), LengthError>;
+    /// Reads the coordinates from `q` and the velocities from `v`, both in the order of declaration.
+    fn read(block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) -> Self;
 }
 
 /// The weights of the four blocks of the second derivative of L(q, v, t).
@@ -48,6 +52,8 @@ pub trait Lagrangian {
     type State<T: Scalar>: State<T> + Clone + Debug;
     /// What the compiler saw: formulas, structure, operation counts, sparsity.
     const REPORT: Report;
+    /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
+    const REGULAR: bool;
 
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
@@ -77,10 +83,9 @@ pub trait Lagrangian {
         matrix: &mut [T],
     );
 
-    /// The value of declared momentum `index` (see [`Report::momenta`]).
-    fn momentum<T: Scalar>(&self, index: usize, q: &[T], t: T) -> T;
-    /// Sets `out` to the gradient of declared momentum `index`.
-    fn momentum_gradient<T: Scalar>(&self, index: usize, q: &[T], t: T, out: &mut [T]);
+    /// The value J(q, v, t) of declared momentum `index` (see [`Report::momenta`]). Momenta of degenerate
+    /// systems do not depend on v, which may be empty there.
+    fn momentum<T: Scalar>(&self, index: usize, q: &[T], v: &[T], t: T) -> T;
 }
 
 /// A system with L(q, v, t) = α(q, t)·v − H(q, t).
@@ -113,4 +118,25 @@ pub trait DegenerateLagrangian: Lagrangian {
     /// Where [`CANONICAL`](Self::CANONICAL) holds: the partner of coordinate `i`, of any index below the
     /// dimension. Elsewhere `i` itself.
     fn partner(&self, i: usize) -> usize;
+    /// Sets `out` to the gradient ∂J/∂q of declared momentum `index`.
+    fn momentum_gradient<T: Scalar>(&self, index: usize, q: &[T], t: T, out: &mut [T]);
+}
+
+/// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform
+/// (q, v) ↦ (q, p = ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2).
+pub trait RegularLagrangian: Lagrangian {
+    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no
+    /// term is linear in v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
+    /// Störmer and Verlet (Marsden & West 2001, section 2.6).
+    const SEPARABLE: bool;
+    /// Whether M has entries on its diagonal only, so that it is solved by divisions.
+    const DIAGONAL_MASS: bool;
+    /// Whether L is a polynomial of degree at most two in v, so that p = ∂L/∂v is affine in v.
+    const QUADRATIC: bool;
+
+    /// The energy E = v·∂L/∂v − L.
+    fn energy<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
+    /// Sets `out` to ∂L/∂q alone. Where [`SEPARABLE`](Self::SEPARABLE) holds, this is −∇V(q, t): `v` is
+    /// not read, and may be empty.
+    fn force<T: Scalar>(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
 }

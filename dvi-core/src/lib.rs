@@ -28,15 +28,15 @@
 //!
 //! | to find | look at |
 //! |---|---|
-//! | what the attribute understands | [`degenerate_lagrangian`] |
+//! | what the attributes understand | [`degenerate_lagrangian`], [`lagrangian`](macro@lagrangian) |
 //! | the run: stepping, state, energy, momenta, errors | [`Integrator`] |
 //! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
 //! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
 //! | sections, exponents, preserved forms, orders | [`diagnostics`] |
-//! | what the macro implements, to be implemented by hand if need be | [`Lagrangian`], [`DegenerateLagrangian`] |
+//! | what the macros implement, to be implemented by hand if need be | [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`] |
 //!
 //! # Features
-//! - `macros` (default): the attribute.
+//! - `macros` (default): the attributes.
 //! - `std` (default): elementary functions from the platform; implies `alloc`.
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
@@ -71,11 +71,11 @@ mod statistics;
 mod vector_field;
 
 #[cfg(feature = "macros")]
-pub use dvi_macros::degenerate_lagrangian;
+pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
-pub use lagrangian::{DegenerateLagrangian, Lagrangian, State, Weights};
+pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
 pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};

@@ -5,8 +5,8 @@ pub use crate::diagnostics::{
     convergence_order,
 };
 pub use crate::{
-    DegenerateLagrangian, Gauss, Integrator, Lagrangian, RungeKutta, Scheme, Sigma, Solver, Start,
-    StartError, StepError, StepFailure, Stopping,
+    DegenerateLagrangian, Gauss, Integrator, Lagrangian, RegularLagrangian, RungeKutta, Scheme, Sigma,
+    Solver, Start, StartError, StepError, StepFailure, Stopping,
 };
 #[cfg(feature = "macros")]
-pub use dvi_macros::degenerate_lagrangian;
+pub use dvi_macros::{degenerate_lagrangian, lagrangian};

@@ -4,7 +4,7 @@
 //! expressions into a graph (the last stage that can fail), `symbolic` simplifies and differentiates,
 //! `program` says what each generated function computes, `select` and `schedule` choose
 //! shared products and loops, `emit` and `implement` write Rust. `expand` tells that story on one
-//! screen.
+//! screen for each attribute.
 
 mod emit;
 mod errors;
@@ -55,4 +55,28 @@ use proc_macro::TokenStream;
 #[proc_macro_attribute]
 pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand::degenerate_lagrangian(attribute.into(), item.into()).into()
+}
+
+/// Declares a regular system, L(q, v, t) with a regular mass matrix ∂²L/∂v∂v, on the struct of its
+/// parameters.
+///
+/// | argument | meaning |
+/// |---|---|
+/// | `coordinates(x, y[N])` | single coordinates and arrays, as in [`macro@degenerate_lagrangian`] |
+/// | `lagrangian = …` | L, with the velocities `dot(x)` |
+/// | `momenta(name = …)` | conserved quantities to watch; velocities may stand in them |
+/// | `functions(f = [f, df, d2f])` | functions of your own, as in [`macro@degenerate_lagrangian`] |
+/// | `crate = ::path` | where `dvi_core` is, if it was renamed |
+///
+/// Formulas are those of [`macro@degenerate_lagrangian`], without restriction on the velocities.
+///
+/// For a struct `System` the attribute implements `dvi_core::Lagrangian` and
+/// `dvi_core::RegularLagrangian`, defines `SystemState` with the coordinates `x` and then the velocities
+/// `dot_x` as fields, and continues the documentation of the struct with its formulas.
+///
+/// # Errors
+/// Each mistake is one error on the token at fault. A mass matrix that is singular for certain is a mistake.
+#[proc_macro_attribute]
+pub fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
+    expand::lagrangian(attribute.into(), item.into()).into()
 }

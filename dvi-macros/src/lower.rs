@@ -13,7 +13,7 @@ use crate::errors::{Errors, listed, nearest};
 use crate::model::{Model, Shape};
 use crate::symbolic::{Binder, Expr, Graph, Id, Index, Node, Parameter};
 
-mod affine;
+mod admit;
 mod blocks;
 mod calls;
 mod names;
@@ -65,7 +65,7 @@ pub(crate) struct Lowering<'a> {
     depth: u32,
     /// Names that some closure of the formula binds, to recognise an index outside of its sum.
     index_names: HashSet<String>,
-    measures: HashMap<Id, affine::Measure>,
+    measures: HashMap<Id, admit::Measure>,
 }
 
 const DEEPEST: u32 = 400;
@@ -253,7 +253,7 @@ impl<'a> Lowering<'a> {
             }
             BinOp::Mul(_) => {
                 let value = self.graph.multiply(left?, right?);
-                self.affine(syntax, value)
+                self.admitted(syntax, value)
             }
             BinOp::Div(_) => {
                 let (left, right) = (left?, right?);
@@ -262,7 +262,7 @@ impl<'a> Lowering<'a> {
                     return None;
                 }
                 let value = self.graph.divide(left, right);
-                self.affine(syntax, value)
+                self.admitted(syntax, value)
             }
             _ => {
                 self.unsupported(&Syntax::Binary(syntax.clone()));

@@ -4,7 +4,7 @@
 //! they are.
 
 use proc_macro2::{Span, TokenStream};
-use quote::{ToTokens, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{
     Expr, ExprLit, Fields, GenericArgument, GenericParam, Ident, ItemStruct, Lit, Path, PathArguments, Type,
 };
@@ -12,7 +12,7 @@ use syn::{
 use crate::errors::Errors;
 use crate::lower::RESERVED;
 use crate::symbolic::{Index, Names, Size};
-use crate::syntax::{Attribute, Declaration, Function};
+use crate::syntax::{Attribute, Declaration, Function, Kind};
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -55,11 +55,14 @@ pub(crate) enum Shape {
 
 #[derive(Debug)]
 pub(crate) struct Model {
+    pub(crate) kind: Kind,
     pub(crate) item: ItemStruct,
     pub(crate) blocks: Vec<Block>,
     pub(crate) sizes: Vec<SizeName>,
     pub(crate) parameters: Vec<ParameterName>,
     pub(crate) functions: Vec<Function>,
+    /// The names of the momenta.
+    pub(crate) momenta: Vec<String>,
     pub(crate) crate_path: Path,
     /// Whether coordinates or their sizes are unknown, so that names and ranges cannot be checked.
     pub(crate) lost_coordinates: bool,
@@ -75,11 +78,13 @@ impl Model {
         let crate_path = attribute.crate_path.take().unwrap_or_else(|| syn::parse_quote!(::dvi_core));
         let parameters = fields(&item, errors);
         let mut model = Self {
+            kind: attribute.kind,
             item,
             blocks: Vec::new(),
             sizes: Vec::new(),
             parameters,
             functions: std::mem::take(&mut attribute.functions),
+            momenta: attribute.momenta.iter().map(|momentum| momentum.name.to_string()).collect(),
             crate_path,
             lost_coordinates: attribute.lost_coordinates,
             lost_functions: attribute.lost_functions,
@@ -107,6 +112,14 @@ impl Model {
             self.lost_coordinates = true;
             return;
         }
+        if let Some((velocity, of)) = self.clash_of_velocities(name) {
+            let message = format!(
+                "coordinate `{velocity}` has the name of the velocity of `{of}` in a state; rename one of them"
+            );
+            errors.push(velocity, message);
+            self.lost_coordinates = true;
+            return;
+        }
         if self.parameters.iter().any(|parameter| *name == parameter.text) {
             errors.push(
                 name,
@@ -122,6 +135,17 @@ impl Model {
             (index, size.to_token_stream().to_string().replace(' ', ""))
         });
         self.blocks.push(Block { name: name.clone(), array });
+    }
+
+    /// Whether states carry velocities beside the coordinates.
+    pub(crate) fn has_velocities(&self) -> bool {
+        self.kind == Kind::Regular
+    }
+
+    /// A coordinate called as the velocity of another one, and that one; one of them is `name`.
+    fn clash_of_velocities<'a>(&'a self, name: &'a Ident) -> Option<(&'a Ident, &'a Ident)> {
+        let pairs = self.blocks.iter().flat_map(|block| [(&block.name, name), (name, &block.name)]);
+        pairs.filter(|_| self.has_velocities()).find(|(a, b)| **a == velocity_name(b))
     }
 
     /// The size of an array of coordinates, or what is wrong with it.
@@ -223,6 +247,12 @@ impl Names for Model {
         let block = &self.blocks[block as usize];
         (block.name.to_string(), block.array.is_some())
     }
+    fn velocity(&self) -> &'static str {
+        match self.kind {
+            Kind::Degenerate => "d",
+            Kind::Regular => "dot",
+        }
+    }
     fn parameter(&self, field: u32) -> &str {
         &self.parameters[field as usize].text
     }
@@ -232,6 +262,11 @@ impl Names for Model {
     fn function(&self, function: u32) -> String {
         self.functions[function as usize].name.to_string()
     }
+}
+
+/// The field of a state that holds the velocity of a coordinate.
+pub(crate) fn velocity_name(coordinate: &Ident) -> Ident {
+    format_ident!("dot_{coordinate}")
 }
 
 /// `name` in `name` and in `self.name`.

@@ -1,54 +1,17 @@
-//! What the compiler can decide about Ω and Dα before any number is known.
+//! What the compiler can decide about a system before any number is known: the structure of Ω for a
+//! degenerate system, of the mass matrix for a regular one.
 
-use syn::Expr as Syntax;
-
-use crate::errors::Errors;
 use crate::model::Model;
-use crate::program::dalpha;
-use crate::symbolic::{Binder, Coordinate, Expr, Graph, Index, Node, SecondContribution};
 
-/// The structure of a one-form; see the constants of `dvi_core::DegenerateLagrangian`.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Structure {
-    pub(crate) linear: bool,
-    pub(crate) matching: bool,
-    pub(crate) canonical: bool,
-    /// The partner of each block, where canonical.
-    pub(crate) partners: Vec<usize>,
-    /// Blocks that Ω does not involve.
-    untouched: Vec<usize>,
-    /// Whether the places of Ω that are not zero leave room for an inverse.
-    invertible: bool,
-}
+mod mass;
+mod one_form;
 
-/// An entry of Ω = (Dα)ᵀ − Dα above its diagonal.
-struct FormEntry {
-    row: Coordinate,
-    column: Coordinate,
-    loops: Vec<Binder>,
-    value: Expr,
-}
+pub(crate) use mass::MassMatrix;
+pub(crate) use one_form::OneForm;
 
-pub(crate) fn analyse(graph: &mut Graph, model: &Model, entries: &[SecondContribution]) -> Structure {
-    let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Time);
-    let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, varies));
-    let diagonal = dalpha(graph, entries).iter().any(|(i, j, _)| i == j);
-    let omega = omega(graph, entries);
-    let touched = |block: usize| {
-        omega.iter().any(|entry| entry.row.block as usize == block || entry.column.block as usize == block)
-    };
-    let untouched = (0..model.blocks.len()).filter(|block| !touched(*block)).collect();
-    let partners = partners(model, &omega, &off_diagonal(graph, entries));
-    let canonical = partners.is_some();
-    let matching = canonical && !diagonal;
-    let partners = partners.unwrap_or_else(|| (0..model.blocks.len()).collect());
-    let invertible = has_matching(model, &omega);
-    Structure { linear, matching, canonical, partners, untouched, invertible }
-}
-
-/// Whether each row of Ω can have a column of its own, by augmenting paths. Among arrays this is not
-/// decided: true.
-fn has_matching(model: &Model, omega: &[FormEntry]) -> bool {
+/// Whether each row of a symmetric matrix with entries at these places, and their mirror images, can have
+/// a column of its own, by augmenting paths. Among arrays this is not decided: true.
+fn has_matching(model: &Model, places: &[[usize; 2]]) -> bool {
     fn assign(row: usize, columns: &[Vec<usize>], seen: &mut [bool], row_of: &mut [Option<usize>]) -> bool {
         columns[row].iter().any(|&column| {
             if std::mem::replace(&mut seen[column], true) {
@@ -66,108 +29,10 @@ fn has_matching(model: &Model, omega: &[FormEntry]) -> bool {
         return true;
     }
     let mut columns = vec![Vec::new(); dimension];
-    for entry in omega {
-        let (row, column) = (entry.row.block as usize, entry.column.block as usize);
+    for &[row, column] in places {
         columns[row].push(column);
         columns[column].push(row);
     }
     let mut row_of = vec![None; dimension];
     (0..dimension).all(|row| assign(row, &columns, &mut vec![false; dimension], &mut row_of))
-}
-
-/// Ω entry by entry: what (i, j) and (j, i) of Dα contribute, cancelled where they are the same formula.
-fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<FormEntry> {
-    let mut omega: Vec<FormEntry> = Vec::new();
-    for (i, j, entry) in dalpha(graph, entries) {
-        if i == j {
-            continue;
-        }
-        let (row, column, value) = if i < j { (i, j, entry.value.negated()) } else { (j, i, entry.value) };
-        let same =
-            |known: &&mut FormEntry| known.row == row && known.column == column && known.loops == entry.loops;
-        match omega.iter_mut().find(same) {
-            Some(known) => known.value = graph.add(known.value, value),
-            None => omega.push(FormEntry { row, column, loops: entry.loops.clone(), value }),
-        }
-    }
-    omega.retain(|entry| !entry.value.is_zero());
-    omega
-}
-
-/// The places of Dα off its diagonal, whether or not they cancel in Ω.
-fn off_diagonal(graph: &Graph, entries: &[SecondContribution]) -> Vec<(u32, u32)> {
-    dalpha(graph, entries).iter().filter(|(i, j, _)| i != j).map(|(i, j, _)| (i.block, j.block)).collect()
-}
-
-/// The partner of each block, if Ω couples block to block, entry by entry.
-fn partners(model: &Model, omega: &[FormEntry], dalpha: &[(u32, u32)]) -> Option<Vec<usize>> {
-    let mut partners: Vec<Option<usize>> = vec![None; model.blocks.len()];
-    for entry in omega {
-        let (row, column) = (entry.row.block as usize, entry.column.block as usize);
-        if row == column || entry.row.index != entry.column.index || !covers(model, row, column, entry) {
-            return None;
-        }
-        for (one, other) in [(row, column), (column, row)] {
-            if partners[one].is_some_and(|known| known != other) {
-                return None;
-            }
-            partners[one] = Some(other);
-        }
-    }
-    let partners: Vec<usize> = partners.into_iter().collect::<Option<_>>()?;
-    dalpha.iter().all(|(i, j)| partners[*i as usize] == *j as usize).then_some(partners)
-}
-
-/// Whether the loops of an entry visit each index of its blocks.
-fn covers(model: &Model, row: usize, column: usize, entry: &FormEntry) -> bool {
-    match (entry.loops.as_slice(), &model.blocks[row].array, &model.blocks[column].array) {
-        ([], None, None) => true,
-        ([binder], Some((size, _)), Some((other, _))) => {
-            size == other
-                && binder.lower == Index::literal(0)
-                && binder.upper == *size
-                && binder.except.is_none()
-                && entry.row.index == Index::bound(binder.level)
-        }
-        _ => false,
-    }
-}
-
-impl Structure {
-    /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
-    pub(crate) fn check(&self, model: &Model, at: Option<&Syntax>, errors: &mut Errors) {
-        let odd = model.dimension().as_literal().filter(|dimension| dimension % 2 != 0);
-        if let (Some(dimension), Some(last)) = (odd, model.blocks.last()) {
-            let message = format!(
-                "there are {dimension} coordinates, but Ω = -dα is nondegenerate in even dimension only; \
-                 add the conjugate coordinate or remove one"
-            );
-            errors.push(&last.name, message);
-            return;
-        }
-        if self.untouched.len() == model.blocks.len()
-            && let Some(at) = at
-        {
-            let message = "Ω = -dα is zero here, so nothing determines the motion; the one-form needs a term such as \
-                           `p * d(q)` that is not the differential of a function";
-            errors.push(at, message);
-            return;
-        }
-        if self.untouched.is_empty()
-            && !self.invertible
-            && let Some(at) = at
-        {
-            let message = "Ω = -dα is singular for all parameters: its nonzero entries leave a coordinate without a \
-                           partner; the one-form needs more terms such as `p * d(q)`";
-            errors.push(at, message);
-        }
-        for block in &self.untouched {
-            let name = &model.blocks[*block].name;
-            let message = format!(
-                "Ω = -dα does not involve `{name}`, so it is singular and the motion of `{name}` is not \
-                 determined; the one-form needs a term that couples it, such as `{name} * d(other)`"
-            );
-            errors.push(name, message);
-        }
-    }
 }

@@ -14,6 +14,16 @@ use crate::errors::{Errors, listed, nearest};
 
 pub(crate) mod depth;
 
+/// Which of the two attributes stands on a struct.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// `#[degenerate_lagrangian]`
+    #[default]
+    Degenerate,
+    /// `#[lagrangian]`
+    Regular,
+}
+
 /// `x`, or `x[n]`.
 #[derive(Debug)]
 pub(crate) struct Declaration {
@@ -38,6 +48,7 @@ pub(crate) struct Function {
 /// The arguments as written; what was not given is empty.
 #[derive(Debug, Default)]
 pub(crate) struct Attribute {
+    pub(crate) kind: Kind,
     pub(crate) coordinates: Vec<Declaration>,
     pub(crate) one_form: Option<Expr>,
     pub(crate) hamiltonian: Option<Expr>,
@@ -62,6 +73,27 @@ const ARGUMENTS: [(&str, &str); 7] = [
     ("functions",   "functions(f = [f, df, d2f])"),
     ("crate",       "crate = ::path"),
 ];
+
+/// The arguments that a regular system does not have.
+const DEGENERATE_ONLY: [&str; 2] = ["one_form", "hamiltonian"];
+
+impl Kind {
+    /// The attribute as it is written.
+    pub(crate) fn attribute(self) -> &'static str {
+        match self {
+            Self::Degenerate => "#[degenerate_lagrangian]",
+            Self::Regular => "#[lagrangian]",
+        }
+    }
+
+    fn takes(self, argument: &str) -> bool {
+        self == Self::Degenerate || !DEGENERATE_ONLY.contains(&argument)
+    }
+
+    fn arguments(self) -> impl Iterator<Item = &'static str> {
+        ARGUMENTS.into_iter().map(|(name, _)| name).filter(move |name| self.takes(name))
+    }
+}
 
 impl Parse for Declaration {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
@@ -143,10 +175,10 @@ enum Value {
     Neither,
 }
 
-impl Parse for Argument {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+impl Argument {
+    fn parse(input: ParseStream<'_>, kind: Kind) -> syn::Result<Self> {
         let name = input.call(Ident::parse_any).map_err(|error| {
-            let names = listed(ARGUMENTS.map(|(name, _)| name));
+            let names = listed(kind.arguments());
             syn::Error::new(error.span(), format!("expected an argument; the arguments are {names}"))
         })?;
         let value = if input.peek(syn::token::Paren) {
@@ -168,8 +200,8 @@ impl Parse for Argument {
     }
 }
 
-pub(crate) fn parse_attribute(tokens: TokenStream, errors: &mut Errors) -> Attribute {
-    let mut attribute = Attribute::default();
+pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Errors) -> Attribute {
+    let mut attribute = Attribute { kind, ..Attribute::default() };
     if let Err(error) = depth::check(&tokens) {
         errors.push_syn(error);
         attribute.lost_coordinates = true;
@@ -177,7 +209,7 @@ pub(crate) fn parse_attribute(tokens: TokenStream, errors: &mut Errors) -> Attri
     }
     let mut given: Vec<String> = Vec::new();
     for piece in split_at_commas(tokens) {
-        match read::<Argument>(piece) {
+        match read_by(piece, |input| Argument::parse(input, kind)) {
             Ok(Argument { name, .. }) if given.contains(&name.to_string()) => {
                 errors.push(&name, format!("`{name}` is given twice"));
             }
@@ -202,6 +234,14 @@ impl Attribute {
         let Argument { name, value } = argument;
         let keyword = name.to_string();
         match (keyword.as_str(), value) {
+            (other, _) if !self.kind.takes(other) => {
+                let message = format!(
+                    "`{}` takes all of L as `lagrangian = …`; `one_form` and `hamiltonian` are arguments of `{}`",
+                    self.kind.attribute(),
+                    Kind::Degenerate.attribute()
+                );
+                errors.push_once("arguments of the other attribute", &name, message);
+            }
             ("coordinates", Value::List(tokens)) => {
                 self.coordinates = list(tokens, errors, &mut self.lost_coordinates);
             }
@@ -225,9 +265,8 @@ impl Attribute {
                 errors.push(&name, format!("`{known}` is written `{form}`"));
             }
             _ => {
-                let names = ARGUMENTS.map(|(name, _)| name);
-                let hint = nearest(&keyword, names).map_or_else(
-                    || format!("the arguments are {}", listed(names)),
+                let hint = nearest(&keyword, self.kind.arguments()).map_or_else(
+                    || format!("the arguments are {}", listed(self.kind.arguments())),
                     |near| format!("did you mean `{near}`?"),
                 );
                 errors.push(&name, format!("unknown argument `{keyword}`; {hint}"));
@@ -258,16 +297,20 @@ fn value_of(name: &Ident, tokens: TokenStream, errors: &mut Errors) -> Option<Ex
     read(tokens).map_err(|error| errors.push_syn(error)).ok()
 }
 
+fn read<T: Parse>(tokens: TokenStream) -> syn::Result<T> {
+    read_by(tokens, T::parse)
+}
+
 /// Parses all of the tokens. What is missing at their end is reported on the last of them; a parser
 /// left to itself would report it on the whole attribute.
-fn read<T: Parse>(tokens: TokenStream) -> syn::Result<T> {
+fn read_by<T>(tokens: TokenStream, parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>) -> syn::Result<T> {
     let last = tokens.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
     let mut group = Group::new(Delimiter::Parenthesis, tokens);
     group.set_span(last);
     let all = |input: ParseStream<'_>| {
         let content;
         syn::parenthesized!(content in input);
-        let value = content.parse::<T>().map_err(|error| {
+        let value = parser(&content).map_err(|error| {
             let ended = error.to_string().starts_with("unexpected end of input");
             if ended { syn::Error::new(error.span(), "something is missing after this") } else { error }
         })?;

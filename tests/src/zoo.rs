@@ -4,5 +4,6 @@ pub mod functions;
 pub mod gauges;
 pub mod lattices;
 pub mod particles;
+pub mod regular;
 pub mod shapes;
 pub mod sums;

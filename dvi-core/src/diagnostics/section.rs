@@ -205,7 +205,7 @@ where
         let to_newest = T::lift((WINDOW - 1) as f64) - b;
         Crossing {
             time: self.run.time() - to_newest * self.run.step_size(),
-            state: S::State::read(|block| system.block_len(block), &self.probe),
+            state: S::State::read(|block| system.block_len(block), &self.probe, &[]),
         }
     }
 }

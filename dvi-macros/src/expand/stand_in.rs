@@ -10,9 +10,11 @@ use syn::{GenericParam, Generics, Path, Visibility};
 use crate::emit::Emitter;
 use crate::errors::Errors;
 use crate::implement::{self, State};
+use crate::syntax::Kind;
 
 /// A type that takes the place of a system.
 struct StandIn<'a> {
+    kind: Kind,
     name: &'a Ident,
     generics: &'a Generics,
     krate: &'a Path,
@@ -31,13 +33,15 @@ pub(super) fn stand_in(emitter: &Emitter<'_>, mut errors: Errors) -> TokenStream
         (space, type_in_trait, item)
     };
     let implementations =
-        StandIn { name: &item.ident, generics: &item.generics, krate, space, state }.implementations();
+        StandIn { kind: model.kind, name: &item.ident, generics: &item.generics, krate, space, state }
+            .implementations();
     let errors = errors.into_tokens();
     quote!(#errors #item #state_item #implementations)
 }
 
 /// With the attribute on a type that is no struct.
 pub(super) fn without_struct(
+    kind: Kind,
     visibility: &Visibility,
     name: &Ident,
     generics: &Generics,
@@ -45,7 +49,7 @@ pub(super) fn without_struct(
 ) -> TokenStream {
     let krate: Path = syn::parse_quote!(::dvi_core);
     let (space, state, state_item) = lost_state(&krate, visibility, name, generics, &mut errors);
-    let implementations = StandIn { name, generics, krate: &krate, space, state }.implementations();
+    let implementations = StandIn { kind, name, generics, krate: &krate, space, state }.implementations();
     let errors = errors.into_tokens();
     quote!(#errors #state_item #implementations)
 }
@@ -56,6 +60,8 @@ impl StandIn<'_> {
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         let allow = implement::allow();
         let never = quote!({ ::core::unreachable!() });
+        let regular = self.kind == Kind::Regular;
+        let special = if regular { self.regular(&never) } else { self.degenerate(&never) };
         quote! {
             const _: () = {
                 #[automatically_derived]
@@ -64,6 +70,7 @@ impl StandIn<'_> {
                     type Space = #space;
                     type State<__T: #krate::Scalar> = #state;
                     const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[]);
+                    const REGULAR: bool = #regular;
                     fn space(&self) -> Self::Space #never
                     fn block_len(&self, _: usize) -> usize #never
                     fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
@@ -72,24 +79,46 @@ impl StandIn<'_> {
                     fn linearize<__T: #krate::Scalar>(
                         &self, _: &[__T], _: &[__T], _: __T, _: #krate::Weights<__T>, _: &mut [__T], _: &mut [__T], _: &mut [__T],
                     ) #never
-                    fn momentum<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T) -> __T #never
-                    fn momentum_gradient<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T, _: &mut [__T]) #never
+                    fn momentum<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: &[__T], _: __T) -> __T #never
                 }
                 #[automatically_derived]
                 #allow
-                impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
-                    const LINEAR: bool = false;
-                    const MATCHING: bool = false;
-                    const CANONICAL: bool = false;
-                    fn hamiltonian<__T: #krate::Scalar>(&self, _: &[__T], _: __T) -> __T #never
-                    fn hamiltonian_gradient<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                    fn one_form<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                    fn flow_source<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                    fn one_form_jacobian<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
-                    fn partner_entries<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
-                    fn partner(&self, _: usize) -> usize #never
-                }
+                #special
             };
+        }
+    }
+
+    fn degenerate(&self, never: &TokenStream) -> TokenStream {
+        let Self { name, krate, .. } = self;
+        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
+        quote! {
+            impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
+                const LINEAR: bool = false;
+                const MATCHING: bool = false;
+                const CANONICAL: bool = false;
+                fn hamiltonian<__T: #krate::Scalar>(&self, _: &[__T], _: __T) -> __T #never
+                fn hamiltonian_gradient<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
+                fn one_form<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
+                fn flow_source<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
+                fn one_form_jacobian<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
+                fn partner_entries<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
+                fn partner(&self, _: usize) -> usize #never
+                fn momentum_gradient<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T, _: &mut [__T]) #never
+            }
+        }
+    }
+
+    fn regular(&self, never: &TokenStream) -> TokenStream {
+        let Self { name, krate, .. } = self;
+        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
+        quote! {
+            impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
+                const SEPARABLE: bool = false;
+                const DIAGONAL_MASS: bool = false;
+                const QUADRATIC: bool = false;
+                fn energy<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
+                fn force<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T]) #never
+            }
         }
     }
 }

@@ -31,8 +31,7 @@ struct Walk<'a> {
 pub(super) fn check(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     let mut walk =
         Walk { emitter, seen: HashSet::new(), visited: HashSet::new(), tokens: TokenStream::new() };
-    let momenta = programs.momenta.iter().map(|(value, _)| value);
-    for statement in [&programs.lagrangian].into_iter().chain(momenta).flatten() {
+    for statement in [&programs.lagrangian].into_iter().chain(&programs.momenta).flatten() {
         walk.statement(statement);
     }
     let checks = walk.tokens;

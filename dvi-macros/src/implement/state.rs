@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 use syn::{GenericParam, Ident};
 
 use crate::emit::{Emitter, local};
+use crate::model::{Block, Model, velocity_name};
 use crate::symbolic::{Atom, Index};
 
 pub(crate) struct State {
@@ -51,16 +52,15 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let declarations = constants.iter().map(|name| quote!(const #name: usize));
     let declarations: Vec<TokenStream> = declarations.collect();
     let (space, space_value) = space(emitter);
-    let fields: Vec<&Ident> = model.blocks.iter().map(|block| &block.name).collect();
-    let types: Vec<TokenStream> = (0..fields.len()).map(|block| field_type(emitter, block)).collect();
-    let docs = model.blocks.iter().map(|block| match &block.array {
-        Some((_, size)) => format!("Coordinates `{}[0]` to `{}[{size} - 1]`.", block.name, block.name),
-        None => format!("Coordinate `{}`.", block.name),
-    });
-    let summary = format!("A state of [`{}`]: its coordinates by name.", model.item.ident);
-    let copy = (0..fields.len()).all(|block| on_stack(emitter, block)).then(|| quote!(::core::marker::Copy,));
+    let (fields, docs): (Vec<Ident>, Vec<String>) = fields(model).into_iter().unzip();
+    let types: Vec<TokenStream> =
+        (0..fields.len()).map(|field| field_type(emitter, field % model.blocks.len())).collect();
+    let contents = if model.has_velocities() { "coordinates and velocities" } else { "coordinates" };
+    let summary = format!("A state of [`{}`]: its {contents} by name.", model.item.ident);
+    let copy =
+        (0..model.blocks.len()).all(|block| on_stack(emitter, block)).then(|| quote!(::core::marker::Copy,));
     let (write, read) = transfers(emitter, &fields);
-    let blocks = (0..fields.len()).map(block_name);
+    let values = (0..fields.len()).map(value_name);
     let allow = super::allow();
     let conversions = conversions(&name, &declarations, &constants, &fields, &types);
     let item = quote! {
@@ -76,16 +76,15 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
             fn write(
                 &self,
                 __len: impl ::core::ops::Fn(usize) -> usize,
-                __flat: &mut [__T],
+                __q: &mut [__T],
+                __v: &mut [__T],
             ) -> ::core::result::Result<(), #krate::LengthError> {
-                let mut __at = 0usize;
                 #write
                 ::core::result::Result::Ok(())
             }
-            fn read(__len: impl ::core::ops::Fn(usize) -> usize, __flat: &[__T]) -> Self {
-                let mut __at = 0usize;
+            fn read(__len: impl ::core::ops::Fn(usize) -> usize, __q: &[__T], __v: &[__T]) -> Self {
                 #read
-                Self { #(#fields: #blocks),* }
+                Self { #(#fields: #values),* }
             }
         }
         #conversions
@@ -93,24 +92,37 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     State { item, type_in_trait: quote!(#name<#(#constants,)* __T>), space, space_value }
 }
 
-/// From and into the tuple of the blocks, or the block itself if there is one only.
+/// The fields with their documentation: all coordinates, then all velocities if there are any.
+fn fields(model: &Model) -> Vec<(Ident, String)> {
+    let described = |block: &Block, what: &str| match &block.array {
+        Some((_, size)) => format!("{what}s `{}[0]` to `{}[{size} - 1]`.", block.name, block.name),
+        None => format!("{what} `{}`.", block.name),
+    };
+    let coordinates = model.blocks.iter().map(|block| (block.name.clone(), described(block, "Coordinate")));
+    let velocities = model.blocks.iter().filter(|_| model.has_velocities());
+    let velocities =
+        velocities.map(|block| (velocity_name(&block.name), described(block, "Velocity of coordinate")));
+    coordinates.chain(velocities).collect()
+}
+
+/// From and into the tuple of the fields, or the field itself if there is one only.
 fn conversions(
     name: &Ident,
     declarations: &[TokenStream],
     constants: &[Ident],
-    fields: &[&Ident],
+    fields: &[Ident],
     types: &[TokenStream],
 ) -> TokenStream {
     if fields.is_empty() {
         return TokenStream::new();
     }
-    let blocks: Vec<Ident> = (0..fields.len()).map(block_name).collect();
+    let values: Vec<Ident> = (0..fields.len()).map(value_name).collect();
     quote! {
         #[automatically_derived]
         #[allow(non_upper_case_globals)]
         impl<#(#declarations,)* __T> ::core::convert::From<(#(#types,)*)> for #name<#(#constants,)* __T> {
-            fn from((#(#blocks,)*): (#(#types,)*)) -> Self {
-                Self { #(#fields: #blocks),* }
+            fn from((#(#values,)*): (#(#types,)*)) -> Self {
+                Self { #(#fields: #values),* }
             }
         }
         #[automatically_derived]
@@ -158,27 +170,43 @@ fn field_type(emitter: &Emitter<'_>, block: usize) -> TokenStream {
     }
 }
 
-/// A local name: that of the coordinate may be the name of a constant, which is no place to bind to.
-fn block_name(block: usize) -> Ident {
-    local(format_args!("block{block}"))
+/// A local name: that of the field may be the name of a constant, which is no place to bind to.
+fn value_name(field: usize) -> Ident {
+    local(format_args!("value{field}"))
 }
 
-fn transfers(emitter: &Emitter<'_>, fields: &[&Ident]) -> (TokenStream, TokenStream) {
-    let krate = emitter.krate();
+/// The bodies of `write` and `read`: the coordinates go to and come from `__q`, the velocities `__v`.
+fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> (TokenStream, TokenStream) {
+    let blocks = emitter.model.blocks.len().max(1);
     let (mut write, mut read) = (TokenStream::new(), TokenStream::new());
-    for (block, field) in fields.iter().enumerate() {
-        let name = block_name(block);
-        let text = field.to_string();
-        if emitter.model.blocks[block].array.is_none() {
-            write.extend(quote!(__flat[__at] = self.#field; __at += 1usize;));
-            read.extend(quote!(let #name = __flat[__at]; __at += 1usize;));
-            continue;
+    for (half, (names, flat)) in fields.chunks(blocks).zip([quote!(__q), quote!(__v)]).enumerate() {
+        write.extend(quote!(let mut __at = 0usize;));
+        read.extend(quote!(let mut __at = 0usize;));
+        for (block, field) in names.iter().enumerate() {
+            let (written, value) = transfer(emitter, block, field, &flat);
+            let name = value_name(half * blocks + block);
+            write.extend(written);
+            read.extend(quote!(let #name = #value;));
         }
-        write.extend(quote! {
-            #krate::__private::write_block(#text, &self.#field[..], __len(#block), &mut __at, __flat)?;
-        });
-        let reader = if on_stack(emitter, block) { quote!(read_array) } else { quote!(read_vec) };
-        read.extend(quote!(let #name = #krate::__private::#reader(__len(#block), &mut __at, __flat);));
     }
     (write, read)
+}
+
+/// The statements that write a field at `__at`, and the expression that reads it there.
+fn transfer(
+    emitter: &Emitter<'_>,
+    block: usize,
+    field: &Ident,
+    flat: &TokenStream,
+) -> (TokenStream, TokenStream) {
+    let (krate, text) = (emitter.krate(), field.to_string());
+    if emitter.model.blocks[block].array.is_none() {
+        let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
+        return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);
+    }
+    let reader = if on_stack(emitter, block) { quote!(read_array) } else { quote!(read_vec) };
+    let write = quote! {
+        #krate::__private::write_block(#text, &self.#field[..], __len(#block), &mut __at, #flat)?;
+    };
+    (write, quote!(#krate::__private::#reader(__len(#block), &mut __at, #flat)))
 }

@@ -91,7 +91,7 @@ impl Lowering<'_> {
                 let (left, right) = (left?, right?);
                 self.check_at_rest(condition, &[left, right])?;
                 let value = self.graph.choose(left, relation, right, then?, otherwise?);
-                self.affine(condition, value)
+                self.admitted(condition, value)
             }
             _ => {
                 self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");

@@ -3,10 +3,11 @@
 use syn::token::Dot;
 use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
-use super::affine::LARGEST_EXPONENT;
+use super::admit::LARGEST_EXPONENT;
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest};
 use crate::symbolic::{Binary, Expr, Node, binary_by_name, unary_by_name, unary_names};
+use crate::syntax::Kind;
 
 /// Methods that are arithmetic rather than functions of the table, with their number of arguments.
 const ARITHMETIC: [(&str, usize); 5] =
@@ -43,12 +44,12 @@ impl Lowering<'_> {
             let exponent = self.integer(&call.args[0]);
             let (receiver, exponent) = (receiver?, exponent?);
             let value = self.graph.powi(receiver, exponent);
-            return self.affine(call, value);
+            return self.admitted(call, value);
         }
         let arguments: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
         let arguments: Vec<Expr> = arguments.into_iter().collect::<Option<_>>()?;
         let value = self.apply(&name, receiver?, &arguments);
-        self.affine(call, value)
+        self.admitted(call, value)
     }
 
     fn apply(&mut self, name: &str, x: Expr, arguments: &[Expr]) -> Expr {
@@ -140,7 +141,7 @@ impl Lowering<'_> {
         }
         let argument = self.expr(&call.args[0])?;
         let value = self.graph.call(function as u32, 0, argument);
-        self.affine(call, value)
+        self.admitted(call, value)
     }
 
     fn unknown_function(&mut self, at: &impl quote::ToTokens, name: &str) {
@@ -164,6 +165,7 @@ impl Lowering<'_> {
         let wanted = match self.role {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
+            Role::Momentum if self.model.kind == Kind::Regular => "dot",
             role => {
                 let advice = match role {
                     Role::Component => {

@@ -4,6 +4,7 @@
 //! leave as statements of a [`program`](crate::program); everything in between is arithmetic on ids.
 
 mod derivative;
+mod energy;
 mod graph;
 mod index;
 mod print;
@@ -15,5 +16,5 @@ mod tests;
 pub(crate) use derivative::{Contribution, SecondContribution};
 pub(crate) use graph::{Binary, Coordinate, Expr, Graph, Id, Node, Parameter, Relation, Unary, Weight};
 pub(crate) use index::{Atom, Binder, Index, Size};
-pub(crate) use print::{Names, print_binders, print_coordinate, print_expr};
+pub(crate) use print::{Names, print_binders, print_coordinate, print_expr, print_velocity};
 pub(crate) use rules::{binary_by_name, unary_by_name, unary_names};

@@ -9,6 +9,8 @@ use super::index::{Atom, Binder, Index};
 pub(crate) trait Names {
     /// The name, and whether it takes an index.
     fn coordinate(&self, block: u32) -> (String, bool);
+    /// The function that makes a velocity of a coordinate.
+    fn velocity(&self) -> &'static str;
     fn parameter(&self, field: u32) -> &str;
     fn size(&self, size: u32) -> &str;
     fn function(&self, function: u32) -> String;
@@ -69,6 +71,10 @@ pub(crate) fn print_binders(loops: &[Binder], names: &dyn Names) -> String {
         format!("{} in {lower}..{upper}{except}", bound(binder.level))
     };
     loops.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+pub(crate) fn print_velocity(coordinate: &Coordinate, names: &dyn Names) -> String {
+    format!("{}({})", names.velocity(), print_coordinate(coordinate, names))
 }
 
 pub(crate) fn print_coordinate(coordinate: &Coordinate, names: &dyn Names) -> String {
@@ -135,7 +141,7 @@ impl Printer<'_> {
         match self.graph.node(id) {
             Node::One => ("1".into(), Strength::Atom),
             Node::Coordinate(c) => (print_coordinate(c, self.names), Strength::Atom),
-            Node::Velocity(c) => (format!("d({})", print_coordinate(c, self.names)), Strength::Atom),
+            Node::Velocity(c) => (print_velocity(c, self.names), Strength::Atom),
             Node::Time => ("t".into(), Strength::Atom),
             Node::Parameter(p) => {
                 let indices: String =

@@ -6,6 +6,7 @@ mod indices;
 mod lattices;
 mod oracle;
 mod particles;
+mod regular;
 mod shapes;
 mod structure;
 mod sums;

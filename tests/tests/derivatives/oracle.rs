@@ -5,7 +5,7 @@
 //! be off by [`UNITS`]·ε·(the largest entry of it and of the (k+1)-th derivative; for k = 2, of it and
 //! of the first).
 
-use dvi_core::{DegenerateLagrangian, Space, Weights};
+use dvi_core::{DegenerateLagrangian, Lagrangian, Space, Weights};
 use num_dual::{Dual64, DualNum, HyperDual64};
 
 pub(crate) const UNITS: f64 = 16.0;
@@ -15,14 +15,26 @@ const POINTS: usize = 25;
 pub(crate) trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
-/// A system and its formulas, written a second time.
+/// A system and its L, written a second time.
+pub(crate) trait Action: Lagrangian {
+    fn action<D: Number>(&self, q: &[D], v: &[D], t: D) -> D;
+}
+
+impl<S: ByHand> Action for S {
+    fn action<D: Number>(&self, q: &[D], v: &[D], t: D) -> D {
+        self.whole(q, v, t)
+    }
+}
+
+/// A degenerate system and its formulas, written a second time.
 pub(crate) trait ByHand: DegenerateLagrangian {
     fn alpha<D: Number>(&self, q: &[D], t: D) -> Vec<D>;
     fn energy<D: Number>(&self, q: &[D], t: D) -> D;
     fn integrals<D: Number>(&self, _q: &[D], _t: D) -> Vec<D> {
         Vec::new()
     }
-    fn action<D: Number>(&self, q: &[D], v: &[D], t: D) -> D {
+    /// α·v − H, or L as it is declared.
+    fn whole<D: Number>(&self, q: &[D], v: &[D], t: D) -> D {
         self.alpha(q, t).iter().zip(v).map(|(&a, &v)| a * v).sum::<D>() - self.energy(q, t)
     }
     /// A point in the domain of the formulas.
@@ -30,7 +42,7 @@ pub(crate) trait ByHand: DegenerateLagrangian {
         self.within(random, -1.0, 1.0)
     }
     fn within(&self, random: &mut Random, low: f64, high: f64) -> Vec<f64> {
-        (0..self.space().dimension()).map(|_| random.between(low, high)).collect()
+        random.several(self.space().dimension(), low, high)
     }
 }
 
@@ -40,6 +52,10 @@ pub(crate) struct Random(u64);
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
         Self(seed)
+    }
+
+    pub(crate) fn several(&mut self, count: usize, low: f64, high: f64) -> Vec<f64> {
+        (0..count).map(|_| self.between(low, high)).collect()
     }
 
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
@@ -140,7 +156,7 @@ pub(crate) fn agrees<S: ByHand>(system: &S) {
 }
 
 /// Value, gradient and all four blocks of the second derivative of L.
-fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Random) {
+pub(crate) fn lagrangian<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Random) {
     let (q, n) = (place.q, place.q.len());
     let variables = [q, v].concat();
     let expected = expanded(&variables, |z| system.action(&z[..n], &z[n..], HyperDual64::from(t)));
@@ -174,7 +190,7 @@ fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64, rando
 }
 
 /// The same at f32. Coordinates are rounded first, so that both sides see the same point.
-fn single_precision<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
+pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
     let n = place.q.len();
     let single = |values: &[f64]| values.iter().map(|&value| value as f32).collect::<Vec<f32>>();
     let double = |values: &[f32]| values.iter().map(|&value| f64::from(value)).collect::<Vec<f64>>();
@@ -245,7 +261,7 @@ fn momenta<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
     assert_eq!(expected.values.len(), S::REPORT.momenta.len());
     for (index, (value, derivatives)) in expected.values.iter().zip(&expected.derivatives).enumerate() {
         let scale = largest(derivatives).max(value.abs());
-        place.compare("momentum", &[system.momentum(index, q, t)], &[*value], scale);
+        place.compare("momentum", &[system.momentum(index, q, &[], t)], &[*value], scale);
         let mut out = vec![f64::NAN; n];
         system.momentum_gradient(index, q, t, &mut out);
         let second = expanded(q, |q| system.integrals(q, HyperDual64::from(t))[index]).hessian;

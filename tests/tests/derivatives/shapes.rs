@@ -51,7 +51,7 @@ impl ByHand for FullLagrangian {
         body(0) + body(1) - branch - x * x * (x.exp() + y * y) - x * 2.0 / (x * x + 1.0)
     }
     /// As it was declared, before any splitting.
-    fn action<D: Number>(&self, q: &[D], v: &[D], _t: D) -> D {
+    fn whole<D: Number>(&self, q: &[D], v: &[D], _t: D) -> D {
         let [x, y, dx, dy] = [q[0], q[1], v[0], v[1]];
         let (u, w, dw) = (&q[2..4], &q[4..6], &v[4..6]);
         let branch = if x.re() > y.re() { dx * y + x } else { dx * y - y * y * y };

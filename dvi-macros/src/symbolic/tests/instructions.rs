@@ -9,7 +9,7 @@ use super::properties::raw_value;
 use super::streams::NONLINEAR;
 use super::tree::{Tree, point, tree};
 use crate::instructions::{Instruction, Instructions, Register, Signed};
-use crate::program::{Formulas, Place, Programs, Statement};
+use crate::program::{DegenerateFormulas, DegeneratePrograms, Place, Statement};
 use crate::schedule::{Step, schedule};
 use crate::select::select;
 use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
@@ -179,11 +179,16 @@ fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
     let mut graph = Graph::new();
     let hamiltonian = tree.lower(&mut graph, 0);
     let one_form = one_form(&mut graph);
-    let formulas = Formulas { one_form, hamiltonian, momenta: Vec::new() };
+    let formulas = DegenerateFormulas { one_form, hamiltonian, momenta: Vec::new() };
     let entries = graph.hessian(one_form);
-    let programs = Programs::new(&mut graph, &formulas, &entries, false);
-    let values = [&programs.lagrangian, &programs.hamiltonian, &programs.hamiltonian_gradient];
-    let forms = [&programs.gradient, &programs.linearize, &programs.flow_source, &programs.one_form_jacobian];
+    let programs = DegeneratePrograms::new(&mut graph, &formulas, &entries, false);
+    let values = [&programs.shared.lagrangian, &programs.hamiltonian, &programs.hamiltonian_gradient];
+    let forms = [
+        &programs.shared.gradient,
+        &programs.shared.linearize,
+        &programs.flow_source,
+        &programs.one_form_jacobian,
+    ];
     values.into_iter().chain(forms).try_for_each(|statements| check(&graph, statements, point))
 }
 

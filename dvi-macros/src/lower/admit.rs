@@ -1,4 +1,5 @@
-//! Whether a formula is affine in the velocities, reported on the smallest term that is not.
+//! What is admitted as a formula: of a reasonable size, and affine in the velocities where a degenerate
+//! system asks for it, reported on the smallest term that is not.
 
 use std::collections::HashMap;
 
@@ -7,6 +8,7 @@ use syn::Expr as Syntax;
 
 use super::{Lowering, Role};
 use crate::symbolic::{Expr, Graph, Id, Node};
+use crate::syntax::Kind;
 
 /// Far beyond what floating point can tell from 0 or ∞, and far from overflow.
 pub(super) const LARGEST_EXPONENT: u32 = 4096;
@@ -15,10 +17,13 @@ pub(super) const LARGEST_EXPONENT: u32 = 4096;
 /// nearly as deep.
 const DEEPEST_FUNCTION: u32 = 32;
 
+/// The degree of everything that is no polynomial of degree 0, 1 or 2.
+const BEYOND: u8 = 3;
+
 /// What is measured of each node.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Measure {
-    /// The degree in the velocities: 0, 1, or 2 for everything beyond.
+    /// The degree as a polynomial in the velocities, or [`BEYOND`].
     degree: u8,
     /// How deep functions nest.
     functions: u32,
@@ -53,11 +58,11 @@ fn measure_above(graph: &Graph, node: Id, known: &HashMap<Id, Measure>) -> Measu
         Node::Product(factors) => {
             let degrees = factors.iter().zip(&operands);
             let sum: u32 = degrees.map(|((_, e), of)| e.saturating_mul(u32::from(of.degree))).sum();
-            u8::try_from(sum.min(2)).unwrap_or(2)
+            u8::try_from(sum).unwrap_or(BEYOND).min(BEYOND)
         }
         // Left, right, then, otherwise.
         Node::Choose { .. } if operands[0].degree == 0 && operands[1].degree == 0 => largest,
-        _ if largest > 0 => 2,
+        _ if largest > 0 => BEYOND,
         _ => 0,
     };
     let function = matches!(
@@ -77,13 +82,18 @@ impl Lowering<'_> {
         self.measured(value).degree
     }
 
+    /// Whether an expression is a polynomial of degree at most two in the velocities.
+    pub(crate) fn is_quadratic(&mut self, value: Expr) -> bool {
+        self.degree(value) <= 2
+    }
+
     /// How deep an expression nests, the values of its names included.
     pub(super) fn nesting(&mut self, value: Expr) -> u32 {
         self.measured(value).depth
     }
 
-    /// Passes `value` on if it is affine in the velocities, and of a reasonable size.
-    pub(super) fn affine(&mut self, syntax: &impl ToTokens, value: Expr) -> Option<Expr> {
+    /// Passes `value` on if it is of a reasonable size and of a degree that its formula may have.
+    pub(super) fn admitted(&mut self, syntax: &impl ToTokens, value: Expr) -> Option<Expr> {
         if let Node::Product(factors) = self.graph.node(value.node)
             && factors.iter().any(|(_, exponent)| *exponent > LARGEST_EXPONENT)
         {
@@ -97,7 +107,7 @@ impl Lowering<'_> {
             self.errors.push(syntax, message);
             return None;
         }
-        if self.degree(value) < 2 {
+        if self.model.kind == Kind::Regular || self.degree(value) < 2 {
             return Some(value);
         }
         let message = match self.role {
@@ -111,9 +121,9 @@ impl Lowering<'_> {
         None
     }
 
-    /// The two sides of a condition do not depend on velocities.
+    /// The two sides of a condition do not depend on velocities, where L is to be affine in them.
     pub(super) fn check_at_rest(&mut self, condition: &Syntax, sides: &[Expr]) -> Option<()> {
-        if sides.iter().all(|side| self.degree(*side) == 0) {
+        if self.model.kind == Kind::Regular || sides.iter().all(|side| self.degree(*side) == 0) {
             return Some(());
         }
         let message = "this condition depends on a velocity, so L is not affine in the velocities; \

@@ -1,0 +1,118 @@
+//! What is generated for a degenerate system beyond what every system has.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::document::{Account, quantity};
+use crate::emit::Emitter;
+use crate::program::{DegenerateFormulas, DegeneratePrograms};
+use crate::structure::OneForm;
+use crate::symbolic::{Index, print_coordinate};
+
+pub(crate) fn degenerate(
+    emitter: &Emitter<'_>,
+    formulas: &DegenerateFormulas,
+    programs: &DegeneratePrograms,
+    structure: &OneForm,
+) -> TokenStream {
+    let implementation = implementation(emitter, programs, structure);
+    super::system(
+        emitter,
+        &programs.shared,
+        &account(emitter, formulas, programs, structure),
+        &implementation,
+    )
+}
+
+fn account(
+    emitter: &Emitter<'_>,
+    formulas: &DegenerateFormulas,
+    programs: &DegeneratePrograms,
+    structure: &OneForm,
+) -> Account {
+    let declared = [("α", formulas.one_form), ("H", formulas.hamiltonian)];
+    let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
+    let mut account =
+        Account::new("L(q, v, t) = α(q, t)·v − H(q, t) with", declared.to_vec(), structure.sentences());
+    account.momenta(emitter, &formulas.momenta);
+    let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
+    account.derived(emitter, &programs.one_form, |_, entry| format!("α_{}", coordinate(entry)));
+    account.derived(emitter, &programs.hamiltonian_gradient, |_, entry| format!("∂H/∂{}", coordinate(entry)));
+    account
+}
+
+/// The implementation of `DegenerateLagrangian`.
+fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structure: &OneForm) -> TokenStream {
+    let krate = emitter.krate();
+    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
+    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    let OneForm { linear, matching, canonical, .. } = *structure;
+    let hamiltonian = emitter.value(&programs.hamiltonian);
+    let hamiltonian_gradient = emitter.vector(&programs.hamiltonian_gradient);
+    let one_form = emitter.vector(&programs.one_form);
+    let flow_source = emitter.vector(&programs.flow_source);
+    let (read, matrix) = (emitter.read(&programs.one_form_jacobian), emitter.matrix());
+    let jacobian = emitter.body(&programs.one_form_jacobian);
+    let partner_entries = emitter.vector(&programs.partner_entries);
+    let partner = partner(emitter, structure);
+    let indices = 0..programs.momentum_gradients.len();
+    let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
+    quote! {
+        impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
+            const LINEAR: bool = #linear;
+            const MATCHING: bool = #matching;
+            const CANONICAL: bool = #canonical;
+
+            #[inline]
+            fn hamiltonian<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T) -> __T { #hamiltonian }
+            #[inline(always)]
+            fn hamiltonian_gradient<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+                #hamiltonian_gradient
+            }
+            #[inline]
+            fn one_form<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #one_form }
+            #[inline]
+            fn flow_source<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+                #flow_source
+            }
+            #[inline]
+            fn one_form_jacobian<__T: #krate::Scalar>(
+                &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __matrix: &mut [__T],
+            ) {
+                #read #matrix #jacobian
+            }
+            #[inline]
+            fn partner_entries<__T: #krate::Scalar>(
+                &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __vector: &mut [__T],
+            ) {
+                #partner_entries
+            }
+            #[inline(always)]
+            fn partner(&self, __i: usize) -> usize { #partner }
+            #[inline]
+            fn momentum_gradient<__T: #krate::Scalar>(
+                &self, __index: usize, __q: &[__T], __t: __T, __vector: &mut [__T],
+            ) {
+                match __index {
+                    #(#indices => { #gradients })*
+                    _ => __vector.fill(<__T as #krate::Scalar>::lift(f64::NAN)),
+                }
+            }
+        }
+    }
+}
+
+/// Block by block: `if i < end { return i − offset + partner's offset }`.
+fn partner(emitter: &Emitter<'_>, structure: &OneForm) -> TokenStream {
+    let model = emitter.model;
+    let mut offsets = vec![Index::default()];
+    for block in 0..model.blocks.len() {
+        offsets.push(offsets[block].plus(&model.block_size(block), 1));
+    }
+    let cases = structure.partners.iter().enumerate().map(|(block, partner)| {
+        let end = emitter.index(&offsets[block + 1]);
+        let (from, to) = (emitter.index(&offsets[block]), emitter.index(&offsets[*partner]));
+        quote!(if __i < #end { return __i - (#from) + (#to); })
+    });
+    quote!(#(#cases)* __i)
+}

@@ -1,0 +1,67 @@
+//! What is generated for a regular system beyond what every system has.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::document::{Account, quantity};
+use crate::emit::Emitter;
+use crate::program::{Output, RegularFormulas, RegularPrograms};
+use crate::structure::MassMatrix;
+use crate::symbolic::{Expr, print_coordinate, print_velocity};
+
+pub(crate) fn regular(
+    emitter: &Emitter<'_>,
+    formulas: &RegularFormulas,
+    programs: &RegularPrograms,
+    structure: &MassMatrix,
+) -> TokenStream {
+    let implementation = implementation(emitter, programs, structure);
+    super::system(
+        emitter,
+        &programs.shared,
+        &account(emitter, formulas, programs, structure),
+        &implementation,
+    )
+}
+
+fn account(
+    emitter: &Emitter<'_>,
+    formulas: &RegularFormulas,
+    programs: &RegularPrograms,
+    structure: &MassMatrix,
+) -> Account {
+    let energy = programs.energy.first().map_or(Expr::ZERO, |statement| statement.value);
+    let declared = [("L", formulas.lagrangian), ("E", energy)];
+    let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
+    let mut account =
+        Account::new("L(q, v, t) and its energy E = v·∂L/∂v − L:", declared.to_vec(), structure.sentences());
+    account.momenta(emitter, &formulas.momenta);
+    account.derived(emitter, &programs.shared.gradient, |output, entry| match output {
+        Output::Lv => format!("∂L/∂{}", print_velocity(entry, emitter.model)),
+        _ => format!("∂L/∂{}", print_coordinate(entry, emitter.model)),
+    });
+    account
+}
+
+/// The implementation of `RegularLagrangian`.
+fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: &MassMatrix) -> TokenStream {
+    let krate = emitter.krate();
+    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
+    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    let MassMatrix { separable, diagonal, quadratic, .. } = *structure;
+    let (energy, force) = (emitter.value(&programs.energy), emitter.vector(&programs.force));
+    quote! {
+        impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
+            const SEPARABLE: bool = #separable;
+            const DIAGONAL_MASS: bool = #diagonal;
+            const QUADRATIC: bool = #quadratic;
+
+            #[inline]
+            fn energy<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
+            #[inline(always)]
+            fn force<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) {
+                #force
+            }
+        }
+    }
+}

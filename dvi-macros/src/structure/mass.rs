@@ -1,0 +1,293 @@
+//! The mass matrix M = ∂²L/∂v∂v of a regular system.
+
+use syn::Expr as Syntax;
+
+use super::has_matching;
+use crate::errors::{Errors, listed};
+use crate::model::Model;
+use crate::program::{RegularFormulas, Variable, variable};
+use crate::symbolic::{Coordinate, Expr, Graph, Id, Node, SecondContribution};
+use crate::syntax::Kind;
+
+/// The structure of a regular L; see the constants of `dvi_core::RegularLagrangian`.
+#[derive(Clone, Debug)]
+pub(crate) struct MassMatrix {
+    pub(crate) separable: bool,
+    pub(crate) diagonal: bool,
+    pub(crate) quadratic: bool,
+    /// What M depends on, of `q`, `v` and `t`.
+    depends_on: Vec<&'static str>,
+    /// Blocks whose velocities L does not mention.
+    unmentioned: Vec<usize>,
+    /// Blocks whose velocities L mentions, but M does not involve.
+    linear: Vec<usize>,
+    /// Whether M is zero.
+    zero: bool,
+    /// Whether the places of M that are not zero leave room for an inverse.
+    invertible: bool,
+    /// Whether the entries are numbers times a common factor, and the numbers make a singular matrix.
+    numerically_singular: bool,
+}
+
+/// An entry of M.
+struct Entry {
+    row: Coordinate,
+    column: Coordinate,
+    value: Expr,
+}
+
+impl MassMatrix {
+    /// From L, its second derivative, and its first derivatives as they are declared.
+    pub(crate) fn new(
+        graph: &mut Graph,
+        model: &Model,
+        formulas: &RegularFormulas,
+        entries: &[SecondContribution],
+    ) -> Self {
+        let mass = mass_entries(graph, entries);
+        let block_of = |coordinate: &Coordinate| coordinate.block as usize;
+        let depends_on = depends_on(graph, &mass);
+        let diagonal = mass.iter().all(|entry| entry.row == entry.column);
+        let separable = formulas.quadratic
+            && depends_on.is_empty()
+            && !mixes_position_and_velocity(graph, entries)
+            && force_is_at_rest(graph, formulas.lagrangian)
+            && momentum_vanishes_at_rest(graph, formulas.lagrangian);
+        let mentioned = mentioned(graph, formulas.lagrangian);
+        let involved = |block: usize| {
+            mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
+        };
+        let uninvolved = (0..model.blocks.len()).filter(|block| !involved(*block));
+        let (linear, unmentioned) = uninvolved.partition(|block| mentioned.contains(block));
+        let places: Vec<[usize; 2]> =
+            mass.iter().map(|entry| [block_of(&entry.row), block_of(&entry.column)]).collect();
+        Self {
+            separable,
+            diagonal,
+            quadratic: formulas.quadratic,
+            depends_on,
+            unmentioned,
+            linear,
+            zero: mass.is_empty(),
+            invertible: has_matching(model, &places),
+            numerically_singular: is_numerically_singular(model, &mass),
+        }
+    }
+
+    /// Reports what makes M singular for certain; `at` is the formula of L.
+    pub(crate) fn check(&self, model: &Model, at: Option<&Syntax>, errors: &mut Errors) {
+        let Some(at) = at else { return };
+        if self.zero {
+            errors.push(at, self.without_mass(model));
+            return;
+        }
+        for block in &self.unmentioned {
+            let name = &model.blocks[*block].name;
+            let message = format!(
+                "L does not mention the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic \
+                 energy such as `{} / 2.0`",
+                squared_velocity(model, *block)
+            );
+            errors.push(name, message);
+        }
+        for block in &self.linear {
+            let name = &model.blocks[*block].name;
+            let message = format!(
+                "L is linear in the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
+                 such as `{} / 2.0`",
+                squared_velocity(model, *block)
+            );
+            errors.push(name, message);
+        }
+        if self.unmentioned.is_empty() && self.linear.is_empty() {
+            self.check_rank(at, errors);
+        }
+    }
+
+    fn check_rank(&self, at: &Syntax, errors: &mut Errors) {
+        if !self.invertible {
+            let message = "the mass matrix ∂²L/∂v∂v is singular for all parameters: its nonzero entries leave a \
+                           velocity without a row of its own; L needs more terms such as `dot(x).powi(2)`";
+            errors.push(at, message);
+        } else if self.numerically_singular {
+            let message = "the mass matrix ∂²L/∂v∂v is singular: some combination of the velocities has no kinetic \
+                           energy; L needs more terms such as `dot(x).powi(2)`";
+            errors.push(at, message);
+        }
+    }
+
+    fn without_mass(&self, model: &Model) -> String {
+        if self.linear.is_empty() {
+            let names: Vec<String> =
+                (0..model.blocks.len()).map(|block| squared_velocity(model, block)).collect();
+            let terms = listed(names.iter().map(String::as_str));
+            return format!(
+                "this Lagrangian mentions no velocity: it needs a kinetic energy, with terms such as {terms}"
+            );
+        }
+        format!(
+            "this Lagrangian is affine in the velocities, so its mass matrix ∂²L/∂v∂v is zero: it belongs to `{}`",
+            Kind::Degenerate.attribute()
+        )
+    }
+
+    /// What is said of the structure in reports.
+    pub(crate) fn sentences(&self) -> Vec<String> {
+        let mass = if self.diagonal { "diagonal" } else { "full" };
+        let mut sentences = Vec::new();
+        match (self.separable, self.depends_on.as_slice()) {
+            (true, _) => {
+                sentences.push(format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."));
+                sentences.push(
+                    match self.diagonal {
+                        true => {
+                            "The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no \
+                             factorisation."
+                        }
+                        false => {
+                            "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run."
+                        }
+                    }
+                    .to_string(),
+                );
+            }
+            (false, []) => {
+                sentences
+                    .push(format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."));
+            }
+            (false, variables) => {
+                sentences.push(format!("The {mass} mass matrix depends on {}.", variables.join(", ")));
+            }
+        }
+        if !self.separable {
+            sentences.push("All steps are implicit.".to_string());
+        }
+        sentences.push(
+            match self.quadratic {
+                true => "L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.",
+                false => "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
+            }
+            .to_string(),
+        );
+        sentences
+    }
+}
+
+/// `dot(x).powi(2)`
+fn squared_velocity(model: &Model, block: usize) -> String {
+    let name = &model.blocks[block].name;
+    match model.blocks[block].array {
+        Some(_) => format!("dot({name}[j]).powi(2)"),
+        None => format!("dot({name}).powi(2)"),
+    }
+}
+
+/// M entry by entry, on one side of its diagonal, without those that cancel.
+fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry> {
+    let mut mass: Vec<(Vec<crate::symbolic::Binder>, Entry)> = Vec::new();
+    for entry in entries {
+        let (Some((Variable::Velocity, i)), Some((Variable::Velocity, j))) =
+            (variable(graph, entry.row), variable(graph, entry.column))
+        else {
+            continue;
+        };
+        let (row, column) = if j < i { (j, i) } else { (i, j) };
+        let same = |(loops, known): &&mut (Vec<_>, Entry)| {
+            known.row == row && known.column == column && *loops == entry.loops
+        };
+        match mass.iter_mut().find(same) {
+            Some((_, known)) => known.value = graph.add(known.value, entry.value),
+            None => mass.push((entry.loops.clone(), Entry { row, column, value: entry.value })),
+        }
+    }
+    mass.into_iter().map(|(_, entry)| entry).filter(|entry| !entry.value.is_zero()).collect()
+}
+
+fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
+    let reachable = graph.reachable(mass.iter().map(|entry| entry.value.node));
+    let any = |property: fn(&Node) -> bool| reachable.iter().any(|id| property(graph.node(*id)));
+    let found = [
+        ("q", any(|node| matches!(node, Node::Coordinate(_)))),
+        ("v", any(|node| matches!(node, Node::Velocity(_)))),
+        ("t", any(|node| matches!(node, Node::Time))),
+    ];
+    found.into_iter().filter(|(_, found)| *found).map(|(name, _)| name).collect()
+}
+
+fn mixes_position_and_velocity(graph: &Graph, entries: &[SecondContribution]) -> bool {
+    let kind = |id: Id| variable(graph, id).map(|(kind, _)| kind);
+    entries.iter().any(|entry| kind(entry.row) != kind(entry.column))
+}
+
+/// Whether ∂L/∂q is written without velocities.
+fn force_is_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
+    let first = graph.gradient(lagrangian, &[]);
+    first
+        .iter()
+        .filter(|first| matches!(graph.node(first.target), Node::Coordinate(_)))
+        .all(|first| !graph.depends(first.value.node, |node| matches!(node, Node::Velocity(_))))
+}
+
+/// Whether ∂L/∂v = 0 where v = 0.
+fn momentum_vanishes_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
+    let at_rest = |graph: &mut Graph, id| matches!(graph.node(id), Node::Velocity(_)).then_some(Expr::ZERO);
+    let first = graph.gradient(lagrangian, &[]);
+    first
+        .iter()
+        .filter(|first| matches!(graph.node(first.target), Node::Velocity(_)))
+        .map(|first| first.value.node)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .all(|value| graph.rebuild(value, at_rest, Clone::clone).is_zero())
+}
+
+/// The blocks whose velocities stand in L.
+fn mentioned(graph: &Graph, lagrangian: Expr) -> Vec<usize> {
+    let reachable = graph.reachable([lagrangian.node]);
+    let block = |id: Id| match graph.node(id) {
+        Node::Velocity(coordinate) => Some(coordinate.block as usize),
+        _ => None,
+    };
+    reachable.into_iter().filter_map(block).collect()
+}
+
+/// Where no arrays are involved and the entries are numbers times one common factor: whether the numbers
+/// make a singular matrix, by elimination with complete pivoting. What rounding may have left of a
+/// difference counts as zero.
+fn is_numerically_singular(model: &Model, mass: &[Entry]) -> bool {
+    let dimension = model.blocks.len();
+    let common = mass.first().map(|entry| entry.value.node);
+    if model.blocks.iter().any(|block| block.array.is_some())
+        || mass.iter().any(|entry| Some(entry.value.node) != common)
+    {
+        return false;
+    }
+    // Each entry with the size of what it was added up from.
+    let mut matrix = vec![vec![(0.0_f64, 0.0_f64); dimension]; dimension];
+    for entry in mass {
+        let (row, column, value) = (entry.row.block as usize, entry.column.block as usize, entry.value.scale);
+        matrix[row][column] = (value, value.abs());
+        matrix[column][row] = (value, value.abs());
+    }
+    while let Some((row, column)) = pivot(&matrix) {
+        let pivoted = matrix.swap_remove(row);
+        for other in &mut matrix {
+            let factor = other[column].0 / pivoted[column].0;
+            for ((value, size), (subtracted, _)) in other.iter_mut().zip(&pivoted) {
+                *value -= factor * subtracted;
+                *size += (factor * subtracted).abs();
+            }
+            other[column] = (0.0, 0.0);
+        }
+    }
+    !matrix.is_empty()
+}
+
+/// The largest entry that is more than rounding.
+fn pivot(matrix: &[Vec<(f64, f64)>]) -> Option<(usize, usize)> {
+    let columns = matrix.iter().enumerate().flat_map(|(row, entries)| {
+        entries.iter().enumerate().map(move |(column, (value, size))| (row, column, value.abs(), *size))
+    });
+    let significant = columns.filter(|(_, _, value, size)| *value > 64.0 * f64::EPSILON * size);
+    significant.max_by(|a, b| a.2.total_cmp(&b.2)).map(|(row, column, ..)| (row, column))
+}

@@ -1,0 +1,126 @@
+//! The energy E = v·∂f/∂v − f of a function of the velocities, term by term.
+//!
+//! By Euler's theorem v·∂f/∂v = k·f where f is homogeneous of degree k in v, so such a term gives
+//! (k − 1)·f: a quadratic kinetic energy is kept, a linear term drops out, a potential changes its sign.
+//! E is linear in f, so sums stay sums and their loops stay loops. What is not homogeneous, such as
+//! √(1 − v²), is differentiated along v.
+
+use std::collections::HashMap;
+
+use super::graph::{Binary, Expr, Graph, Id, Node, Unary, Weight};
+
+impl Graph {
+    /// v·∂f/∂v − f.
+    pub(crate) fn energy(&mut self, of: Expr) -> Expr {
+        let degrees = self.velocity_degrees(of.node);
+        Energy { graph: self, degrees, known: HashMap::new() }.of(of)
+    }
+
+    /// For each node f below `root` the degree k with f(q, s·v) = sᵏ·f(q, v) for s > 0, as far as the form
+    /// of f shows it.
+    fn velocity_degrees(&self, root: Id) -> HashMap<Id, f64> {
+        let mut degrees = HashMap::new();
+        for id in self.reachable([root]) {
+            if let Some(degree) = self.velocity_degree(id, &degrees) {
+                degrees.insert(id, degree);
+            }
+        }
+        degrees
+    }
+
+    fn velocity_degree(&self, id: Id, known: &HashMap<Id, f64>) -> Option<f64> {
+        let known = |id: &Id| known.get(id).copied();
+        let common = |operands: &[Id]| {
+            let first = known(operands.first()?)?;
+            operands.iter().all(|operand| known(operand) == Some(first)).then_some(first)
+        };
+        let operands = self.node(id).operands();
+        match self.node(id) {
+            Node::Velocity(_) => Some(1.0),
+            Node::Sum(_) | Node::Reduce(..) => common(&operands),
+            Node::Product(factors) => {
+                factors.iter().map(|(factor, exponent)| Some(known(factor)? * f64::from(*exponent))).sum()
+            }
+            Node::Reciprocal(of) => Some(-known(of)?),
+            Node::Unary(Unary::Sqrt, of) => Some(known(&of.node)? / 2.0),
+            Node::Unary(Unary::Cbrt, of) => Some(known(&of.node)? / 3.0),
+            Node::Unary(Unary::Abs, of) => known(&of.node),
+            Node::Binary(Binary::Hypot, ..) => common(&operands),
+            Node::Binary(Binary::Powf, base, exponent) if exponent.as_number().is_some() => {
+                Some(known(&base.node)? * exponent.as_number()?)
+            }
+            Node::Choose { then, otherwise, .. } => common(&[then.node, otherwise.node]),
+            _ => operands.iter().all(|operand| known(operand) == Some(0.0)).then_some(0.0),
+        }
+    }
+}
+
+struct Energy<'a> {
+    graph: &'a mut Graph,
+    degrees: HashMap<Id, f64>,
+    known: HashMap<Id, Expr>,
+}
+
+impl Energy<'_> {
+    fn of(&mut self, of: Expr) -> Expr {
+        self.of_node(of.node).scaled(of.scale)
+    }
+
+    fn of_node(&mut self, of: Id) -> Expr {
+        if let Some(known) = self.known.get(&of) {
+            return *known;
+        }
+        let energy = match self.degrees.get(&of) {
+            Some(degree) => Expr::from(of).scaled(degree - 1.0),
+            None => self.of_inhomogeneous(of),
+        };
+        self.known.insert(of, energy);
+        energy
+    }
+
+    fn of_inhomogeneous(&mut self, of: Id) -> Expr {
+        match self.graph.node(of).clone() {
+            Node::Sum(terms) => {
+                let terms: Vec<Expr> = terms.iter().map(|term| self.of(*term)).collect();
+                self.graph.sum(&terms)
+            }
+            Node::Reduce(binder, body) => {
+                let body = self.of_node(body);
+                self.graph.reduce(binder, body)
+            }
+            Node::Choose { left, relation, right, then, otherwise } => {
+                let (then, otherwise) = (self.of(then), self.of(otherwise));
+                self.graph.choose(left, relation, right, then, otherwise)
+            }
+            Node::Product(factors) => self.of_product(of, &factors),
+            _ => self.along_velocity(of),
+        }
+    }
+
+    /// c·f for the only factor f with velocities gives c times the energy of f.
+    fn of_product(&mut self, of: Id, factors: &[(Id, u32)]) -> Expr {
+        let (resting, moving): (Vec<_>, Vec<_>) =
+            factors.iter().partition(|(factor, _)| self.degrees.get(factor) == Some(&0.0));
+        let [(single, 1)] = moving.as_slice() else { return self.along_velocity(of) };
+        let mut product = vec![self.of_node(*single)];
+        for (factor, exponent) in resting {
+            product.push(self.graph.power(factor.into(), exponent));
+        }
+        self.graph.product(&product)
+    }
+
+    /// ∂f(q, s·v)/∂s − f at s = 1; a weight stands for s, because no formula has one.
+    fn along_velocity(&mut self, of: Id) -> Expr {
+        let graph = &mut *self.graph;
+        let factor = graph.intern(Node::Weight(Weight::A));
+        let stretch = |graph: &mut Graph, id: Id| {
+            let velocity = matches!(graph.node(id), Node::Velocity(_));
+            velocity.then(|| graph.multiply(factor.into(), id.into()))
+        };
+        let stretched = graph.rebuild(of, stretch, Clone::clone);
+        let along = graph.derivative(stretched, factor);
+        let at_one = |_: &mut Graph, id: Id| (id == factor).then_some(Expr::ONE);
+        let along = graph.rebuild(along.node, at_one, Clone::clone).scaled(along.scale);
+        graph.subtract(along, of.into())
+    }
+}
