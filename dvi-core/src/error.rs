@@ -46,10 +46,10 @@ pub enum StartError {
         /// What is allowed.
         range: &'static str,
     },
-    /// A coordinate of the initial state is infinite or not a number.
-    #[error("coordinate {coordinate} of the initial state is {value}")]
+    /// A coordinate or velocity of the initial state is infinite or not a number.
+    #[error("number {coordinate} of the initial state is {value}")]
     NotFinite {
-        /// The flat index of the coordinate.
+        /// Its index in the flat state, counted from 0: the coordinates, then the velocities.
         coordinate: usize,
         /// Its value.
         value: f64,

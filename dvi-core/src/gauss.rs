@@ -117,7 +117,7 @@ impl<const S: usize> Scheme for Gauss<S> {
 impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gauss<STAGES> {
     type Memory = GaussMemory<STAGES, S, T>;
 
-    fn begin(&self, system: &S, q: &Vector<S, T>, t: T, _h: T) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
         let (vectors, tableau) = (|| core::array::from_fn(|_| system.space().vector()), Tableau::new());

@@ -43,8 +43,8 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
     pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
         validate(system, t, h)?;
-        let q = flatten(system, &start)?;
-        let memory = method.begin(system, &q, t, h)?;
+        let (q, v) = flatten(system, &start)?;
+        let memory = method.begin(system, &q, &v[..velocities(system)], t, h)?;
         Ok(Self::assemble(system, method, memory, q, t, h))
     }
 
@@ -88,9 +88,43 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         StepError { step: self.statistics.steps, time: reported(self.time()), failure }
     }
 
-    /// The current state.
+    /// The current state. The velocities of a regular system are not a number where the mass matrix is
+    /// singular and the momenta have no velocity; an iterator yields an error there.
     pub fn state(&self) -> S::State<T> {
-        S::State::read(|block| self.system.block_len(block), &self.q, &[])
+        self.with_velocity(|v| S::State::read(|block| self.system.block_len(block), &self.q, v))
+    }
+
+    /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.
+    pub fn energy(&self) -> T {
+        self.with_velocity(|v| self.system.energy(&self.q, v, self.time()))
+    }
+
+    /// Passes the velocity on, or nothing if the system is degenerate.
+    fn with_velocity<R>(&self, read: impl FnOnce(&[T]) -> R) -> R {
+        if !S::REGULAR {
+            return read(&[]);
+        }
+        let mut v = self.system.space().vector();
+        if self.velocity(&mut v).is_err() {
+            v.fill(T::lift(f64::NAN));
+        }
+        read(&v)
+    }
+
+    fn try_state(&mut self) -> Result<S::State<T>, StepError> {
+        let system = self.system;
+        if !S::REGULAR {
+            return Ok(self.state());
+        }
+        let mut v = system.space().vector();
+        match self.velocity(&mut v) {
+            Ok(()) => Ok(S::State::read(|block| system.block_len(block), &self.q, &v)),
+            Err(failure) => Err(self.error(failure)),
+        }
+    }
+
+    fn velocity(&self, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
+        self.method.velocity(self.system, &self.memory, &self.q, self.time(), v)
     }
 
     /// The current coordinates, flat, in the order of declaration.
@@ -143,13 +177,15 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
     pub fn momentum(&self, index: usize) -> Option<T> {
         let declared = index < S::REPORT.momenta.len();
-        declared.then(|| self.system.momentum(index, &self.q, &[], self.time()))
+        declared.then(|| self.with_velocity(|v| self.system.momentum(index, &self.q, v, self.time())))
     }
 
     /// The names and values of all declared momenta.
     pub fn momenta(&self) -> impl Iterator<Item = (&'static str, T)> + '_ {
         let names = S::REPORT.momenta.iter().enumerate();
-        names.map(|(index, &name)| (name, self.system.momentum(index, &self.q, &[], self.time())))
+        names.map(|(index, &name)| {
+            (name, self.with_velocity(|v| self.system.momentum(index, &self.q, v, self.time())))
+        })
     }
 }
 
@@ -167,16 +203,9 @@ impl<'a, S: Lagrangian, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
     ) -> Result<Self, StartError> {
         let t = T::lift(0.0);
         validate(system, t, h)?;
-        let (q0, q1) = (flatten(system, &first)?, flatten(system, &second)?);
+        let ((q0, _), (q1, _)) = (flatten(system, &first)?, flatten(system, &second)?);
         let memory = method.begin_between(system, &q0, &q1, t, h)?;
         Ok(Self::assemble(system, method, memory, q0, t, h))
-    }
-}
-
-impl<S: DegenerateLagrangian, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
-    /// H at the current state.
-    pub fn energy(&self) -> T {
-        self.system.hamiltonian(&self.q, self.time())
     }
 }
 
@@ -210,10 +239,7 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, 
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
-            return None;
-        }
-        Some(self.advance().map(|()| self.state()))
+        self.nth(0)
     }
 
     /// Skips `n` states without building them and yields the next. Unlike elsewhere, a failure on the way is
@@ -223,7 +249,7 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, 
         if self.failed {
             return None;
         }
-        Some(self.advance_by(n as u64 + 1).map(|()| self.state()))
+        Some(self.advance_by(n as u64 + 1).and_then(|()| self.try_state()))
     }
 }
 
@@ -252,11 +278,23 @@ fn validate<S: Lagrangian, T: Real>(system: &S, t: T, h: T) -> Result<(), StartE
     Ok(system.check()?)
 }
 
-fn flatten<S: Lagrangian, T: Real>(system: &S, state: &S::State<T>) -> Result<Vector<S, T>, StartError> {
-    let mut q = system.space().vector();
-    state.write(|block| system.block_len(block), &mut q, &mut [])?;
-    match q.iter().position(|q| !q.is_finite()) {
-        Some(coordinate) => Err(StartError::NotFinite { coordinate, value: reported(q[coordinate]) }),
-        None => Ok(q),
+/// The number of velocities that a state carries.
+fn velocities<S: Lagrangian>(system: &S) -> usize {
+    if S::REGULAR { system.space().dimension() } else { 0 }
+}
+
+/// The coordinates and, if the system is regular, the velocities of a state.
+fn flatten<S: Lagrangian, T: Real>(
+    system: &S,
+    state: &S::State<T>,
+) -> Result<(Vector<S, T>, Vector<S, T>), StartError> {
+    let (mut q, mut v) = (system.space().vector(), system.space().vector());
+    state.write(|block| system.block_len(block), &mut q, &mut v)?;
+    match q.iter().chain(v.iter()).position(|x| !x.is_finite()) {
+        Some(coordinate) => {
+            let value = if coordinate < q.len() { q[coordinate] } else { v[coordinate - q.len()] };
+            Err(StartError::NotFinite { coordinate, value: reported(value) })
+        }
+        None => Ok((q, v)),
     }
 }

@@ -4,8 +4,8 @@
 //! its second derivatives, which is all that a discrete Lagrangian of the quadrature family needs
 //! (its D1, D2, D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to
 //! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
-//! [`RegularLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the
-//! energy, the force, and the structure of that matrix.
+//! [`RegularLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the force,
+//! and the structure of that matrix.
 //!
 //! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
 //! order of the declared coordinates, unless a function says that one may be empty; the integrators of
@@ -83,6 +83,8 @@ pub trait Lagrangian {
         matrix: &mut [T],
     );
 
+    /// The energy E = v·∂L/∂v − L. For degenerate systems this is H(q, t), and `v` may be empty.
+    fn energy<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
     /// The value J(q, v, t) of declared momentum `index` (see [`Report::momenta`]). Momenta of degenerate
     /// systems do not depend on v, which may be empty there.
     fn momentum<T: Scalar>(&self, index: usize, q: &[T], v: &[T], t: T) -> T;
@@ -134,8 +136,6 @@ pub trait RegularLagrangian: Lagrangian {
     /// Whether L is a polynomial of degree at most two in v, so that p = ∂L/∂v is affine in v.
     const QUADRATIC: bool;
 
-    /// The energy E = v·∂L/∂v − L.
-    fn energy<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
     /// Sets `out` to ∂L/∂q alone. Where [`SEPARABLE`](Self::SEPARABLE) holds, this is −∇V(q, t): `v` is
     /// not read, and may be empty.
     fn force<T: Scalar>(&self, q: &[T], v: &[T], t: T, out: &mut [T]);

@@ -66,12 +66,13 @@ pub trait Method<S: Lagrangian, T: Real>: Scheme {
     /// What a run carries from step to step besides the coordinates: momenta, guesses, work space.
     type Memory;
 
-    /// Prepares a run with step `h` from (`q`, `t`). Everything that needs memory is allocated here.
+    /// Prepares a run with step `h` from (`q`, `t`), with velocity `v` if the system is regular; for
+    /// degenerate systems `v` is empty. Everything that needs memory is allocated here.
     ///
     /// # Errors
     /// [`StartError::Parameter`] if an option is out of range; [`StartError::Starter`] if the starting
     /// values cannot be computed, or a matrix that is the same for all steps is singular.
-    fn begin(&self, system: &S, q: &Vector<S, T>, t: T, h: T) -> Result<Self::Memory, StartError>;
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError>;
 
     /// Advances `q` from `t` to `t + h`, without allocation.
     ///
@@ -86,6 +87,21 @@ pub trait Method<S: Lagrangian, T: Real>: Scheme {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
+
+    /// Sets `v` to the velocity at the current point. There is nothing to do for degenerate systems.
+    ///
+    /// # Errors
+    /// [`StepFailure`] if the momenta of the run have no velocity: the mass matrix is singular there.
+    fn velocity(
+        &self,
+        _system: &S,
+        _memory: &Self::Memory,
+        _q: &Vector<S, T>,
+        _t: T,
+        _v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        Ok(())
+    }
 
     /// Takes `count` steps from the present time of `clock`, or as many as succeed, and counts them in
     /// `statistics.steps`. A method with something to gain from many steps at once does better than the

@@ -112,7 +112,7 @@ impl Scheme for RungeKutta {
 impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
     type Memory = RungeKuttaMemory<S, T>;
 
-    fn begin(&self, system: &S, q: &Vector<S, T>, t: T, _h: T) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         Ok(RungeKuttaMemory {
             field: VectorField::new(system, q, t).map_err(StartError::Starter)?,
             slopes: core::array::from_fn(|_| system.space().vector()),

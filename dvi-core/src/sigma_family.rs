@@ -144,7 +144,7 @@ impl<T: Real> Scheme for Sigma<T> {
 impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
     type Memory = SigmaMemory<S, T>;
 
-    fn begin(&self, system: &S, q: &Vector<S, T>, t: T, h: T) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
         if S::LINEAR && self.is_midpoint() && self.start == Start::Consistent {
             return SigmaMemory::without_defect(system, self, q, t, h);

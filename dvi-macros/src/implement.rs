@@ -104,16 +104,17 @@ impl Emitter<'_> {
 }
 
 /// The item as written with its documentation continued, its state, and its implementations: the one
-/// that all systems have, and `special`.
+/// that all systems have, where `energy` is the body of that function, and `special`.
 fn system(
     emitter: &Emitter<'_>,
     programs: &Programs,
     account: &Account,
+    energy: &TokenStream,
     special: &TokenStream,
 ) -> TokenStream {
     let (documentation, report) = (account.documentation(), account.report(emitter, programs));
     let state = state(emitter);
-    let lagrangian = lagrangian(emitter, programs, &state, &report);
+    let lagrangian = lagrangian(emitter, programs, &state, &report, energy);
     let (item, state) = (&emitter.model.item, &state.item);
     let allow = allow();
     quote! {
@@ -137,6 +138,7 @@ fn lagrangian(
     programs: &Programs,
     state: &State,
     report: &TokenStream,
+    energy: &TokenStream,
 ) -> TokenStream {
     let krate = emitter.krate();
     let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
@@ -182,6 +184,8 @@ fn lagrangian(
             ) {
                 #read_all #l_q #l_v #matrix #linearize
             }
+            #[inline]
+            fn energy<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
             #[inline]
             fn momentum<__T: #krate::Scalar>(&self, __index: usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
                 match __index {

@@ -43,7 +43,7 @@ fn one_step<S: DegenerateLagrangian, T: Real, M: Method<S, T>>(
     t: T,
     h: T,
 ) -> Result<Vector<S, T>, StartError> {
-    let mut memory = method.begin(system, q, t, h)?;
+    let mut memory = method.begin(system, q, &[], t, h)?;
     let mut q = q.clone();
     method
         .step(system, &mut memory, &mut q, t, h, &mut Statistics::default())

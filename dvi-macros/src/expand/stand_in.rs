@@ -79,6 +79,7 @@ impl StandIn<'_> {
                     fn linearize<__T: #krate::Scalar>(
                         &self, _: &[__T], _: &[__T], _: __T, _: #krate::Weights<__T>, _: &mut [__T], _: &mut [__T], _: &mut [__T],
                     ) #never
+                    fn energy<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
                     fn momentum<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: &[__T], _: __T) -> __T #never
                 }
                 #[automatically_derived]
@@ -116,7 +117,6 @@ impl StandIn<'_> {
                 const SEPARABLE: bool = false;
                 const DIAGONAL_MASS: bool = false;
                 const QUADRATIC: bool = false;
-                fn energy<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
                 fn force<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T]) #never
             }
         }

@@ -16,10 +16,13 @@ pub(crate) fn degenerate(
     structure: &OneForm,
 ) -> TokenStream {
     let implementation = implementation(emitter, programs, structure);
+    let krate = emitter.krate();
+    let energy = quote!(<Self as #krate::DegenerateLagrangian>::hamiltonian(self, __q, __t));
     super::system(
         emitter,
         &programs.shared,
         &account(emitter, formulas, programs, structure),
+        &energy,
         &implementation,
     )
 }

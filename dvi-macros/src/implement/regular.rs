@@ -20,6 +20,7 @@ pub(crate) fn regular(
         emitter,
         &programs.shared,
         &account(emitter, formulas, programs, structure),
+        &emitter.value(&programs.energy),
         &implementation,
     )
 }
@@ -49,15 +50,13 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
     let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
     let MassMatrix { separable, diagonal, quadratic, .. } = *structure;
-    let (energy, force) = (emitter.value(&programs.energy), emitter.vector(&programs.force));
+    let force = emitter.vector(&programs.force);
     quote! {
         impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
             const SEPARABLE: bool = #separable;
             const DIAGONAL_MASS: bool = #diagonal;
             const QUADRATIC: bool = #quadratic;
 
-            #[inline]
-            fn energy<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
             #[inline(always)]
             fn force<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) {
                 #force

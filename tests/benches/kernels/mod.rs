@@ -31,7 +31,11 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
     match name {
         "explicit/generated" => generated(explicit(), |run| run.advance_by(steps)),
         "explicit, each state read/generated" => generated(explicit(), |run| {
-            (0..steps).try_for_each(|_| run.advance().map(|()| drop(black_box(run.q()))))
+            (0..steps).try_for_each(|_| {
+                run.advance()?;
+                black_box(run.q());
+                Ok(())
+            })
         }),
         "fixed point/generated" => generated(implicit(Solver::FixedPoint), |run| run.advance_by(steps)),
         "newton/generated" => generated(implicit(Solver::Newton), |run| run.advance_by(steps)),

@@ -35,7 +35,7 @@ pub(crate) trait ByHand: DegenerateLagrangian {
     }
     /// α·v − H, or L as it is declared.
     fn whole<D: Number>(&self, q: &[D], v: &[D], t: D) -> D {
-        self.alpha(q, t).iter().zip(v).map(|(&a, &v)| a * v).sum::<D>() - self.energy(q, t)
+        self.alpha(q, t).iter().zip(v).map(|(&a, &v)| a * v).sum::<D>() - ByHand::energy(self, q, t)
     }
     /// A point in the domain of the formulas.
     fn point(&self, random: &mut Random) -> Vec<f64> {
@@ -210,10 +210,10 @@ pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f6
 /// H, its gradient, and the right side of the flow.
 fn hamiltonian<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
     let (q, n) = (place.q, place.q.len());
-    let energy = differentiated(q, t, |q, t| vec![system.energy(q, t)]);
+    let energy = differentiated(q, t, |q, t| vec![ByHand::energy(system, q, t)]);
     let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
     let gradient = &energy.derivatives[0][..n];
-    let second = expanded(q, |q| system.energy(q, HyperDual64::from(t))).hessian;
+    let second = expanded(q, |q| ByHand::energy(system, q, HyperDual64::from(t))).hessian;
     let scale = largest(gradient).max(energy.values[0].abs());
     place.compare("H", &[system.hamiltonian(q, t)], &energy.values, scale);
     let mut out = vec![f64::NAN; n];
