@@ -69,6 +69,7 @@ mod solver;
 mod space;
 mod statistics;
 mod vector_field;
+mod walk;
 
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

@@ -35,6 +35,21 @@ pub trait Space: Copy + Debug + PartialEq {
     fn permutation(self) -> Self::Permutation;
 }
 
+/// `scratch!(name = system, field)`: a vector to work in, on the stack if that is where vectors of the
+/// system live, so that it can stay in registers, and else the given field.
+macro_rules! scratch {
+    ($name:ident = $system:expr, $field:expr) => {
+        let mut on_stack;
+        let $name: &mut [T] = if <S::Space as $crate::Space>::ON_STACK {
+            on_stack = $crate::Space::vector($system.space());
+            &mut on_stack
+        } else {
+            &mut $field
+        };
+    };
+}
+pub(crate) use scratch;
+
 /// A space of `BLOCKS` × `N` coordinates, stored on the stack.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fixed<const BLOCKS: usize, const N: usize>;

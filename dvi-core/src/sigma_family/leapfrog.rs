@@ -9,11 +9,13 @@
 
 use super::SigmaMemory;
 use super::linear::add;
-use super::memory::{Work, scratch};
+use super::memory::Work;
 use crate::error::StepFailure;
 use crate::form::{Form, Product};
 use crate::method::Clock;
 use crate::norm;
+use crate::space::scratch;
+use crate::walk::{Walk, walk};
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
 
 /// How the point ahead, q1 + K⁻¹c1, follows from q0 and q1.
@@ -78,11 +80,7 @@ pub(super) fn steps<S: DegenerateLagrangian, T: Real>(
     }
 }
 
-/// After how many steps the points are examined. A coordinate that is not finite stays so from then on; the
-/// steps since the last examination are then taken once more, one by one, to find the last good point.
-const BLOCK: u64 = 64;
-
-/// What the loop over the steps works on.
+/// What the steps work on.
 struct Run<'a, S: Lagrangian, T: Real> {
     system: &'a S,
     inverse: &'a Form<S, T>,
@@ -97,7 +95,7 @@ struct Run<'a, S: Lagrangian, T: Real> {
 impl<S: DegenerateLagrangian, T: Real> Run<'_, S, T> {
     /// With the rule that sets the point ahead, its last argument, from q0 and q1.
     #[inline(always)]
-    fn steps(self, mut look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
+    fn steps(self, look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
         let Self { system, inverse, product, work, defect, q, clock, count } = self;
         scratch!(q0 = system, work.point);
         scratch!(q1 = system, work.next);
@@ -105,45 +103,80 @@ impl<S: DegenerateLagrangian, T: Real> Run<'_, S, T> {
         scratch!(ahead = system, work.velocity);
         scratch!(gradient = system, work.gradient);
         scratch!(s = system, work.increment);
+        let (kept_ahead, spare) = (&mut work.ahead, &mut work.momentum);
         q1.copy_from_slice(q);
-        ahead.copy_from_slice(&work.ahead);
-        let (mut taken, mut block) = (0, BLOCK);
-        while taken < count {
-            let steps = block.min(count - taken);
-            for step in taken..taken + steps {
-                system.hamiltonian_gradient(q1, clock.after(step).time(), gradient);
-                inverse.solve(system, gradient, s);
-                add(ahead, s, q2);
-                q0.copy_from_slice(q1);
-                q1.copy_from_slice(q2);
-                look_ahead(q0, q1, ahead);
-            }
-            // Copies: what is examined must live in memory.
-            scratch!(examined = system, work.momentum);
-            examined.copy_from_slice(q1);
-            let mut verdict = norm::finite(examined);
-            if steps > 1 {
-                examined.copy_from_slice(q0);
-                verdict = verdict.and(norm::finite(examined));
-            }
-            match verdict {
-                Ok(()) => {
-                    taken += steps;
-                    q.copy_from_slice(q1);
-                    work.ahead.copy_from_slice(ahead);
-                    for i in 0..s.len() {
-                        s[i] = q1[i] - q0[i];
-                    }
-                    product.apply(system, s, defect);
-                }
-                Err(failure) if steps == 1 => return (taken, Err(failure)),
-                Err(_) => {
-                    q1.copy_from_slice(q);
-                    ahead.copy_from_slice(&work.ahead);
-                    block = 1;
-                }
-            }
+        ahead.copy_from_slice(kept_ahead);
+        let points = Points { q0, q1, q2, ahead, gradient, s };
+        walk(
+            Hops { system, inverse, product, clock, look_ahead, points, q, kept_ahead, defect, spare },
+            count,
+        )
+    }
+}
+
+/// Arrays that hold the last points.
+struct Points<'a, T> {
+    q0: &'a mut [T],
+    q1: &'a mut [T],
+    q2: &'a mut [T],
+    ahead: &'a mut [T],
+    gradient: &'a mut [T],
+    s: &'a mut [T],
+}
+
+/// The last points, and where they are kept.
+struct Hops<'a, S: Lagrangian, T: Real, L> {
+    system: &'a S,
+    inverse: &'a Form<S, T>,
+    product: &'a Product<S, T>,
+    clock: Clock<T>,
+    look_ahead: L,
+    points: Points<'a, T>,
+    q: &'a mut Vector<S, T>,
+    kept_ahead: &'a mut Vector<S, T>,
+    defect: &'a mut Vector<S, T>,
+    spare: &'a mut Vector<S, T>,
+}
+
+impl<S: DegenerateLagrangian, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for Hops<'_, S, T, L> {
+    #[inline(always)]
+    fn step(&mut self, number: u64) {
+        let Points { q0, q1, q2, ahead, gradient, s } = &mut self.points;
+        self.system.hamiltonian_gradient(q1, self.clock.after(number).time(), gradient);
+        self.inverse.solve(self.system, gradient, s);
+        add(ahead, s, q2);
+        q0.copy_from_slice(q1);
+        q1.copy_from_slice(q2);
+        (self.look_ahead)(q0, q1, ahead);
+    }
+
+    #[inline(always)]
+    fn examine(&mut self, steps: u64) -> Result<(), StepFailure> {
+        // Copies: what is examined must live in memory.
+        scratch!(examined = self.system, *self.spare);
+        examined.copy_from_slice(self.points.q1);
+        norm::finite(examined)?;
+        if steps == 1 {
+            return Ok(());
         }
-        (taken, Ok(()))
+        examined.copy_from_slice(self.points.q0);
+        norm::finite(examined)
+    }
+
+    #[inline(always)]
+    fn keep(&mut self) {
+        let Points { q0, q1, ahead, s, .. } = &mut self.points;
+        self.q.copy_from_slice(q1);
+        self.kept_ahead.copy_from_slice(ahead);
+        for (s, (&q1, &q0)) in s.iter_mut().zip(q1.iter().zip(q0.iter())) {
+            *s = q1 - q0;
+        }
+        self.product.apply(self.system, s, self.defect);
+    }
+
+    #[inline(always)]
+    fn go_back(&mut self) {
+        self.points.q1.copy_from_slice(self.q);
+        self.points.ahead.copy_from_slice(self.kept_ahead);
     }
 }

@@ -7,13 +7,13 @@
 //! with c0 = 0 the scheme is the implicit midpoint rule.
 
 use super::leapfrog;
-use super::memory::scratch;
 use super::newton::{self, Guess};
 use super::{SigmaMemory, Step};
 use crate::error::StepFailure;
 use crate::method::Clock;
 use crate::norm;
 use crate::solver::{Convergence, Solver, Verdict};
+use crate::space::scratch;
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Real, Vector};
 

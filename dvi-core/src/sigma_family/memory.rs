@@ -10,23 +10,9 @@ use crate::error::StartError;
 use crate::form::{Combination, Form, Product};
 use crate::history::History;
 use crate::solver::Solver;
+use crate::space::scratch;
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Lagrangian, Matrix, Real, Space, Vector};
-
-/// `scratch!(name = system, field)`: a vector to work in, on the stack if that is where vectors of the
-/// system live, so that it can stay in registers, and else the given field.
-macro_rules! scratch {
-    ($name:ident = $system:expr, $field:expr) => {
-        let mut on_stack;
-        let $name: &mut [T] = if <S::Space as $crate::Space>::ON_STACK {
-            on_stack = $crate::Space::vector($system.space());
-            &mut on_stack
-        } else {
-            &mut $field
-        };
-    };
-}
-pub(super) use scratch;
 
 /// The defect of a run of the σ-family, its guesses and its work space.
 #[derive(Debug)]
