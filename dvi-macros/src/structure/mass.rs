@@ -17,10 +17,8 @@ pub(crate) struct MassMatrix {
     pub(crate) quadratic: bool,
     /// What M depends on, of `q`, `v` and `t`.
     depends_on: Vec<&'static str>,
-    /// Blocks whose velocities L does not mention.
-    unmentioned: Vec<usize>,
-    /// Blocks whose velocities L mentions, but M does not involve.
-    linear: Vec<usize>,
+    /// Blocks that M does not involve, and whether L mentions their velocities at all.
+    massless: Vec<(usize, bool)>,
     /// Whether M is zero.
     zero: bool,
     /// Whether the places of M that are not zero leave room for an inverse.
@@ -57,8 +55,10 @@ impl MassMatrix {
         let involved = |block: usize| {
             mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
         };
-        let uninvolved = (0..model.blocks.len()).filter(|block| !involved(*block));
-        let (linear, unmentioned) = uninvolved.partition(|block| mentioned.contains(block));
+        let massless = (0..model.blocks.len())
+            .filter(|block| !involved(*block))
+            .map(|block| (block, mentioned.contains(&block)));
+        let massless = massless.collect();
         let places: Vec<[usize; 2]> =
             mass.iter().map(|entry| [block_of(&entry.row), block_of(&entry.column)]).collect();
         Self {
@@ -66,8 +66,7 @@ impl MassMatrix {
             diagonal,
             quadratic: formulas.quadratic,
             depends_on,
-            unmentioned,
-            linear,
+            massless,
             zero: mass.is_empty(),
             invertible: has_matching(model, &places),
             numerically_singular: is_numerically_singular(model, &mass),
@@ -81,33 +80,25 @@ impl MassMatrix {
             errors.push(at, self.without_mass(model));
             return;
         }
-        for block in &self.unmentioned {
+        for (block, mentioned) in &self.massless {
             let name = &model.blocks[*block].name;
+            let relation = if *mentioned { "is linear in" } else { "does not mention" };
             let message = format!(
-                "L does not mention the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic \
-                 energy such as `{} / 2.0`",
-                squared_velocity(model, *block)
+                "L {relation} the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
+                 such as `{}`",
+                kinetic_energy(model, *block)
             );
             errors.push(name, message);
         }
-        for block in &self.linear {
-            let name = &model.blocks[*block].name;
-            let message = format!(
-                "L is linear in the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
-                 such as `{} / 2.0`",
-                squared_velocity(model, *block)
-            );
-            errors.push(name, message);
-        }
-        if self.unmentioned.is_empty() && self.linear.is_empty() {
+        if self.massless.is_empty() {
             self.check_rank(at, errors);
         }
     }
 
     fn check_rank(&self, at: &Syntax, errors: &mut Errors) {
         if !self.invertible {
-            let message = "the mass matrix ∂²L/∂v∂v is singular for all parameters: its nonzero entries leave a \
-                           velocity without a row of its own; L needs more terms such as `dot(x).powi(2)`";
+            let message = "the mass matrix ∂²L/∂v∂v is singular for all parameters: its nonzero entries \
+                           couple several velocities to fewer others; L needs more terms such as `dot(x).powi(2)`";
             errors.push(at, message);
         } else if self.numerically_singular {
             let message = "the mass matrix ∂²L/∂v∂v is singular: some combination of the velocities has no kinetic \
@@ -117,13 +108,11 @@ impl MassMatrix {
     }
 
     fn without_mass(&self, model: &Model) -> String {
-        if self.linear.is_empty() {
-            let names: Vec<String> =
-                (0..model.blocks.len()).map(|block| squared_velocity(model, block)).collect();
-            let terms = listed(names.iter().map(String::as_str));
-            return format!(
-                "this Lagrangian mentions no velocity: it needs a kinetic energy, with terms such as {terms}"
-            );
+        if self.massless.iter().all(|(_, mentioned)| !mentioned) {
+            let terms: Vec<String> =
+                (0..model.blocks.len()).map(|block| kinetic_energy(model, block)).collect();
+            let terms = listed(terms.iter().map(String::as_str));
+            return format!("this Lagrangian mentions no velocity: add a kinetic energy such as {terms}");
         }
         format!(
             "this Lagrangian is affine in the velocities, so its mass matrix ∂²L/∂v∂v is zero: it belongs to `{}`",
@@ -173,12 +162,12 @@ impl MassMatrix {
     }
 }
 
-/// `dot(x).powi(2)`
-fn squared_velocity(model: &Model, block: usize) -> String {
+/// `dot(x).powi(2) / 2.0`
+fn kinetic_energy(model: &Model, block: usize) -> String {
     let name = &model.blocks[block].name;
-    match model.blocks[block].array {
-        Some(_) => format!("dot({name}[j]).powi(2)"),
-        None => format!("dot({name}).powi(2)"),
+    match &model.blocks[block].array {
+        Some((_, size)) => format!("sum(0..{size}, |j| dot({name}[j]).powi(2) / 2.0)"),
+        None => format!("dot({name}).powi(2) / 2.0"),
     }
 }
 
