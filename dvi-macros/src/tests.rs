@@ -229,7 +229,10 @@ fn kepler() -> TokenStream {
 
 #[test]
 fn kepler_linearized() {
-    check_expansion(kepler(), "linearize", &expect![[r#"
+    check_expansion(
+        kepler(),
+        "linearize",
+        &expect![[r#"
         fn linearize() {
             let (__q0, __rest) = __q.split_at(1usize);
             let (__q1, __rest) = __rest.split_at(1usize);
@@ -276,12 +279,16 @@ fn kepler_linearized() {
                 += (((__r17 * __r4) - T::lift(1f64)) * __r21);
             __matrix[(__offset1 + 0usize) * __dimension + __offset1 + 0usize] += __r26;
         }
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn energy_of_kepler() {
-    check_expansion(kepler(), "energy", &expect![[r#"
+    check_expansion(
+        kepler(),
+        "energy",
+        &expect![[r#"
         fn energy() {
             let (__q0, __rest) = __q.split_at(1usize);
             let (__q1, __rest) = __rest.split_at(1usize);
@@ -303,13 +310,17 @@ fn energy_of_kepler() {
                             ((__r9 * __r9) + (__r11 * __r11)),
                         )))))
         }
-    "#]]);
+    "#]],
+    );
 }
 
 /// A separable system reads no velocity.
 #[test]
 fn force_of_kepler() {
-    check_expansion(kepler(), "force", &expect![[r#"
+    check_expansion(
+        kepler(),
+        "force",
+        &expect![[r#"
         fn force() {
             let (__q0, __rest) = __q.split_at(1usize);
             let (__q1, __rest) = __rest.split_at(1usize);
@@ -328,7 +339,8 @@ fn force_of_kepler() {
             __vector0[0usize] -= (__r0 * __r11);
             __vector1[0usize] -= (__r4 * __r11);
         }
-    "#]]);
+    "#]],
+    );
 }
 
 /// One loop holds both T and V.
@@ -341,7 +353,10 @@ fn energy_of_a_chain() {
         },
         quote! { struct Chain<const N: usize> { mass: [f64; N] } },
     );
-    check_expansion(chain, "energy", &expect![[r#"
+    check_expansion(
+        chain,
+        "energy",
+        &expect![[r#"
         fn energy() {
             let (__q0, __rest) = __q.split_at(N);
             let _ = __rest;
@@ -365,12 +380,16 @@ fn energy_of_a_chain() {
             }
             (T::lift(0.5f64) * __r14)
         }
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn state_of_kepler() {
-    check_expansion(kepler(), "write", &expect![[r#"
+    check_expansion(
+        kepler(),
+        "write",
+        &expect![[r#"
         fn write() {
             let mut __at = 0usize;
             __q[__at] = self.x;
@@ -384,5 +403,6 @@ fn state_of_kepler() {
             __at += 1usize;
             ::core::result::Result::Ok(())
         }
-    "#]]);
+    "#]],
+    );
 }
