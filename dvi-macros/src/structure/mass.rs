@@ -149,7 +149,7 @@ impl MassMatrix {
             }
         }
         if !self.separable {
-            sentences.push("All steps are implicit.".to_string());
+            sentences.push("The trapezoidal step is implicit in general.".to_string());
         }
         sentences.push(
             match self.quadratic {
