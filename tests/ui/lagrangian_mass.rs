@@ -96,6 +96,42 @@ mod linear_and_unmentioned {
     }
 }
 
+mod part_of_an_array {
+    use super::*;
+    #[lagrangian(coordinates(x[4], y), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) + dot(y).powi(2) - x[3] * y)]
+    pub struct System;
+    pub fn go() {
+        run(&System, SystemState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
+    }
+}
+
+mod one_of_an_array {
+    use super::*;
+    #[lagrangian(coordinates(x[4], y), lagrangian = dot(x[2]).powi(2) + dot(y).powi(2) - x[3] * y)]
+    pub struct System;
+    pub fn go() {
+        run(&System, SystemState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
+    }
+}
+
+mod piecewise_linear {
+    use super::*;
+    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).abs() - x * y)]
+    pub struct System;
+    pub fn go() {
+        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
+    }
+}
+
+mod all_piecewise_linear {
+    use super::*;
+    #[lagrangian(coordinates(x, y), lagrangian = dot(x).abs() + dot(y).abs() - x * y)]
+    pub struct System;
+    pub fn go() {
+        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
+    }
+}
+
 mod no_matching {
     use super::*;
     #[lagrangian(coordinates(x, y, z), lagrangian = dot(x) * (dot(y) + dot(z)) - x * y * z)]
@@ -141,6 +177,9 @@ mod regular {
     pub struct Indefinite;
     #[lagrangian(coordinates(x, y), lagrangian = 1e-20 * dot(x).powi(2) + 1e20 * dot(y).powi(2) - x * y)]
     pub struct Scaled;
+    #[lagrangian(coordinates(x[4], y[2]), lagrangian = dot(x[0]).powi(2) + sum(1..4, |j| dot(x[j]).powi(2))
+        + sum(0..2, |j| dot(y[(j + 1) % 2]).powi(2)) - x[3] * y[0])]
+    pub struct Covered;
     pub fn go() {
         run(&Indefinite, IndefiniteState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
         run(&Scaled, ScaledState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });

@@ -6,7 +6,7 @@ use super::has_matching;
 use crate::errors::{Errors, listed};
 use crate::model::Model;
 use crate::program::{RegularFormulas, Variable, variable};
-use crate::symbolic::{Coordinate, Expr, Graph, Id, Node, SecondContribution};
+use crate::symbolic::{Atom, Binder, Coordinate, Expr, Graph, Id, Index, Node, SecondContribution};
 use crate::syntax::Kind;
 
 /// The structure of a regular L; see the constants of `dvi_core::RegularLagrangian`.
@@ -19,6 +19,8 @@ pub(crate) struct MassMatrix {
     depends_on: Vec<&'static str>,
     /// Blocks that M does not involve, and whether L mentions their velocities at all.
     massless: Vec<(usize, bool)>,
+    /// Coordinates of arrays that M does not involve.
+    skipped: Vec<(usize, i64)>,
     /// Whether M is zero.
     zero: bool,
     /// Whether the places of M that are not zero leave room for an inverse.
@@ -29,6 +31,7 @@ pub(crate) struct MassMatrix {
 
 /// An entry of M.
 struct Entry {
+    loops: Vec<Binder>,
     row: Coordinate,
     column: Coordinate,
     value: Expr,
@@ -67,6 +70,7 @@ impl MassMatrix {
             quadratic: formulas.quadratic,
             depends_on,
             massless,
+            skipped: skipped(model, &mass),
             zero: mass.is_empty(),
             invertible: has_matching(model, &places),
             numerically_singular: is_numerically_singular(model, &mass),
@@ -82,7 +86,11 @@ impl MassMatrix {
         }
         for (block, mentioned) in &self.massless {
             let name = &model.blocks[*block].name;
-            let relation = if *mentioned { "is linear in" } else { "does not mention" };
+            let relation = match (mentioned, self.quadratic) {
+                (false, _) => "does not mention",
+                (true, true) => "is linear in",
+                (true, false) => "is piecewise linear in",
+            };
             let message = format!(
                 "L {relation} the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
                  such as `{}`",
@@ -90,7 +98,16 @@ impl MassMatrix {
             );
             errors.push(name, message);
         }
-        if self.massless.is_empty() {
+        for (block, index) in &self.skipped {
+            let name = &model.blocks[*block].name;
+            let message = format!(
+                "the velocity of `{name}[{index}]` has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
+                 all entries have one with `{}`",
+                kinetic_energy(model, *block)
+            );
+            errors.push(name, message);
+        }
+        if self.massless.is_empty() && self.skipped.is_empty() {
             self.check_rank(at, errors);
         }
     }
@@ -113,6 +130,11 @@ impl MassMatrix {
                 (0..model.blocks.len()).map(|block| kinetic_energy(model, block)).collect();
             let terms = listed(terms.iter().map(String::as_str));
             return format!("this Lagrangian mentions no velocity: add a kinetic energy such as {terms}");
+        }
+        if !self.quadratic {
+            return "the mass matrix ∂²L/∂v∂v of this Lagrangian is zero: it needs a kinetic energy such as \
+                    `dot(x).powi(2) / 2.0`"
+                .to_string();
         }
         format!(
             "this Lagrangian is affine in the velocities, so its mass matrix ∂²L/∂v∂v is zero: it belongs to `{}`",
@@ -173,7 +195,7 @@ fn kinetic_energy(model: &Model, block: usize) -> String {
 
 /// M entry by entry, on one side of its diagonal, without those that cancel.
 fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry> {
-    let mut mass: Vec<(Vec<crate::symbolic::Binder>, Entry)> = Vec::new();
+    let mut mass: Vec<Entry> = Vec::new();
     for entry in entries {
         let (Some((Variable::Velocity, i)), Some((Variable::Velocity, j))) =
             (variable(graph, entry.row), variable(graph, entry.column))
@@ -181,15 +203,56 @@ fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry>
             continue;
         };
         let (row, column) = if j < i { (j, i) } else { (i, j) };
-        let same = |(loops, known): &&mut (Vec<_>, Entry)| {
-            known.row == row && known.column == column && *loops == entry.loops
-        };
+        let same =
+            |known: &&mut Entry| known.row == row && known.column == column && known.loops == entry.loops;
         match mass.iter_mut().find(same) {
-            Some((_, known)) => known.value = graph.add(known.value, entry.value),
-            None => mass.push((entry.loops.clone(), Entry { row, column, value: entry.value })),
+            Some(known) => known.value = graph.add(known.value, entry.value),
+            None => mass.push(Entry { loops: entry.loops.clone(), row, column, value: entry.value }),
         }
     }
-    mass.into_iter().map(|(_, entry)| entry).filter(|entry| !entry.value.is_zero()).collect()
+    mass.retain(|entry| !entry.value.is_zero());
+    mass
+}
+
+/// For each array of literal size, the first of its coordinates whose velocity M certainly does not involve
+/// while it involves others of that array.
+fn skipped(model: &Model, mass: &[Entry]) -> Vec<(usize, i64)> {
+    let first_skipped = |block: usize| {
+        let size = model.block_size(block).as_literal()?;
+        let mut involved = Vec::new();
+        for entry in mass {
+            for coordinate in [&entry.row, &entry.column] {
+                if coordinate.block as usize == block {
+                    involved.push(reach(&coordinate.index, &entry.loops)?);
+                }
+            }
+        }
+        involved.sort_unstable();
+        let reached = involved.iter().fold(
+            0,
+            |reached, (least, beyond)| {
+                if *least <= reached { reached.max(*beyond) } else { reached }
+            },
+        );
+        (!involved.is_empty() && reached < size).then_some((block, reached))
+    };
+    (0..model.blocks.len())
+        .filter(|block| model.blocks[*block].array.is_some())
+        .filter_map(first_skipped)
+        .collect()
+}
+
+/// The range of an index that takes each value of a literal range.
+fn reach(index: &Index, loops: &[Binder]) -> Option<(i64, i64)> {
+    match index.terms.as_slice() {
+        [] => Some((index.constant, index.constant + 1)),
+        [(Atom::Bound(level), 1)] => {
+            let binder = loops.iter().find(|binder| binder.level == *level && binder.except.is_none())?;
+            let (lower, upper) = (binder.lower.as_literal()?, binder.upper.as_literal()?);
+            Some((lower + index.constant, upper + index.constant))
+        }
+        _ => None,
+    }
 }
 
 fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
