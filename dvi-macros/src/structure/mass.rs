@@ -146,42 +146,26 @@ impl MassMatrix {
     /// What is said of the structure in reports.
     pub(crate) fn sentences(&self) -> Vec<String> {
         let mass = if self.diagonal { "diagonal" } else { "full" };
-        let mut sentences = Vec::new();
-        match (self.separable, self.depends_on.as_slice()) {
-            (true, _) => {
-                sentences.push(format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."));
-                sentences.push(
-                    match self.diagonal {
-                        true => {
-                            "The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no \
-                             factorisation."
-                        }
-                        false => {
-                            "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run."
-                        }
-                    }
-                    .to_string(),
-                );
+        let form = match (self.separable, self.depends_on.as_slice()) {
+            (true, _) => format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."),
+            (false, []) => format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."),
+            (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
+        };
+        let step = match (self.separable, self.diagonal) {
+            (true, true) => {
+                "The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no \
+                 factorisation."
             }
-            (false, []) => {
-                sentences
-                    .push(format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."));
+            (true, false) => {
+                "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run."
             }
-            (false, variables) => {
-                sentences.push(format!("The {mass} mass matrix depends on {}.", variables.join(", ")));
-            }
-        }
-        if !self.separable {
-            sentences.push("The trapezoidal step is implicit in general.".to_string());
-        }
-        sentences.push(
-            match self.quadratic {
-                true => "L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.",
-                false => "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
-            }
-            .to_string(),
-        );
-        sentences
+            (false, _) => "The trapezoidal step is implicit in general.",
+        };
+        let degree = match self.quadratic {
+            true => "L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.",
+            false => "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
+        };
+        vec![form, step.to_string(), degree.to_string()]
     }
 }
 
