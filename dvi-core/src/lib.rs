@@ -26,6 +26,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! A regular Lagrangian L(q, v, t) is declared in the same language by [`lagrangian`](macro@lagrangian);
+//! its derivatives, energy and force are those of [`RegularLagrangian`].
+//!
 //! | to find | look at |
 //! |---|---|
 //! | what the attributes understand | [`degenerate_lagrangian`], [`lagrangian`](macro@lagrangian) |

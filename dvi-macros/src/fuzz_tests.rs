@@ -4,64 +4,18 @@ use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use proptest::prelude::*;
 use quote::quote;
 
-use crate::expand::degenerate_lagrangian;
+use crate::expand::{degenerate_lagrangian, lagrangian};
+use crate::syntax::Kind;
 
-/// Attributes that are right, for mutation, each with its struct.
-fn systems() -> Vec<(TokenStream, TokenStream)> {
-    vec![
-        (
-            quote! {
-                coordinates(x[N], y[N]),
-                one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-                hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
-                    * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-                momenta(impulse = sum(0..N, |j| gamma[j] * x[j]), other = x[0].hypot(y[0])),
-            },
-            quote!(
-                pub struct System<const N: usize> {
-                    gamma: [f64; N],
-                }
-            ),
-        ),
-        (
-            quote! {
-                coordinates(x[gamma.len()], y[gamma.len()], u, w),
-                lagrangian = sum(0..gamma.len(), |j| gamma[j] * x[j] * dot(y[(j + 1) % gamma.len()]))
-                    + u * dot(w) - if u < w && t > -1.0 { f(u) } else { let a = w.atan2(u); a.powf(2.5) / a },
-                functions(f = [f, df, d2f]),
-                crate = ::other::path,
-            },
-            quote!(
-                struct System<'a> {
-                    gamma: &'a [f64],
-                }
-            ),
-        ),
-        (
-            quote! {
-                coordinates(z[4]),
-                one_form = [|i| sum(0..=3, |j| a[i][j] * z[j] * (i + 2 * j) as f64)],
-                hamiltonian = sum_ordered_pairs(0..4, |j, k| z[j].powi(-3) * z[k - 0] * self.s),
-            },
-            quote!(
-                pub(crate) struct System {
-                    a: [[f64; 4]; 4],
-                    s: f64,
-                    n: usize,
-                }
-            ),
-        ),
-        (
-            quote! {
-                coordinates(x, y),
-                one_form = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
-                hamiltonian = { let b = Self::B * x; -b.sqrt() + y.mul_add(2.0, 1e-3) + f64::exp(x) },
-            },
-            quote!(
-                struct System;
-            ),
-        ),
-    ]
+mod systems;
+
+use systems::systems;
+
+/// The number of [`systems`].
+const SYSTEMS: usize = 6;
+
+fn any_kind() -> impl Strategy<Value = Kind> {
+    prop::sample::select(vec![Kind::Degenerate, Kind::Regular])
 }
 
 /// Words and numbers of the language, of Rust, and of neither.
@@ -190,16 +144,19 @@ fn mutated(tokens: &TokenStream, mutation: &Mutation) -> TokenStream {
 }
 
 /// Expands on a stack as large as the compiler's.
-fn expand(attribute: &TokenStream, item: &TokenStream) -> String {
-    expand_text(attribute.to_string(), item.to_string())
+fn expand(kind: Kind, attribute: &TokenStream, item: &TokenStream) -> String {
+    expand_text(kind, attribute.to_string(), item.to_string())
 }
 
 /// Token streams stay on their thread; texts travel.
-fn expand_text(attribute: String, item: String) -> String {
+fn expand_text(kind: Kind, attribute: String, item: String) -> String {
     let run = move || {
         let parse = |text: &str| text.parse::<TokenStream>().ok();
         let (Some(attribute), Some(item)) = (parse(&attribute), parse(&item)) else { return String::new() };
-        let output = degenerate_lagrangian(attribute, item.clone());
+        let output = match kind {
+            Kind::Degenerate => degenerate_lagrangian(attribute, item.clone()),
+            Kind::Regular => lagrangian(attribute, item.clone()),
+        };
         let parsed = syn::parse2::<syn::File>(output.clone());
         // What was no item before is none afterwards.
         assert!(parsed.is_ok() || syn::parse2::<syn::Item>(item).is_err(), "not Rust: {output}");
@@ -219,55 +176,65 @@ fn system() -> TokenStream {
     )
 }
 
+/// A formula as H and as part of L; the expansion of the former.
 fn hamiltonian(formula: &str) -> String {
+    let regular = format!(
+        "coordinates(x[n], y[n]), lagrangian = sum(0..n, |j| dot(x[j]) * dot(y[j])) + dot(x[0]) * ({formula})"
+    );
+    expand_text(Kind::Regular, regular, system().to_string());
     let attribute =
         format!("coordinates(x[n], y[n]), one_form = sum(0..n, |j| x[j] * d(y[j])), hamiltonian = {formula}");
-    expand_text(attribute, system().to_string())
+    expand_text(Kind::Degenerate, attribute, system().to_string())
 }
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_attribute(attribute in any_tokens()) {
-        expand(&attribute, &system());
+    fn any_attribute(kind in any_kind(), attribute in any_tokens()) {
+        expand(kind, &attribute, &system());
     }
 
     #[test]
-    fn any_formula(formula in any_tokens(), role in 0..4) {
+    fn any_formula(formula in any_tokens(), role in 0..6) {
+        let kind = if role < 4 { Kind::Degenerate } else { Kind::Regular };
         let attribute = match role {
             0 => quote!(coordinates(x, y, z[3], u[n], w[n]), one_form = x * d(y), hamiltonian = #formula),
             1 => quote!(coordinates(x, y, z[3], u[n], w[n]), one_form = #formula, hamiltonian = x),
             2 => quote!(coordinates(x, y, z[3], u[n], w[n]), lagrangian = #formula, momenta(p = #formula)),
-            _ => quote!(coordinates(#formula), one_form = x * d(y), hamiltonian = x, functions(#formula)),
+            3 => quote!(coordinates(#formula), one_form = x * d(y), hamiltonian = x, functions(#formula)),
+            4 => quote!(coordinates(x, y, z[3], u[n], w[n]), lagrangian = #formula, momenta(p = #formula)),
+            _ => quote!(coordinates(x, #formula), lagrangian = dot(x) * dot(x), momenta(p = #formula)),
         };
-        expand(&attribute, &system());
+        expand(kind, &attribute, &system());
     }
 
     #[test]
-    fn any_item(item in any_tokens()) {
-        expand(&systems()[3].0, &item);
+    fn any_item(which in 3..SYSTEMS, item in any_tokens()) {
+        let (kind, attribute, _) = &systems()[which];
+        expand(*kind, attribute, &item);
     }
 
     #[test]
-    fn mutated_attributes(which in 0..4_usize, mutations in prop::collection::vec(any_mutation(), 1..4)) {
-        let (attribute, item) = &systems()[which];
+    fn mutated_attributes(which in 0..SYSTEMS, mutations in prop::collection::vec(any_mutation(), 1..4)) {
+        let (kind, attribute, item) = &systems()[which];
         let attribute = mutations.iter().fold(attribute.clone(), |tokens, mutation| mutated(&tokens, mutation));
-        expand(&attribute, item);
+        expand(*kind, &attribute, item);
     }
 
     #[test]
-    fn mutated_items(which in 0..4_usize, mutations in prop::collection::vec(any_mutation(), 1..4)) {
-        let (attribute, item) = &systems()[which];
+    fn mutated_items(which in 0..SYSTEMS, mutations in prop::collection::vec(any_mutation(), 1..4)) {
+        let (kind, attribute, item) = &systems()[which];
         let item = mutations.iter().fold(item.clone(), |tokens, mutation| mutated(&tokens, mutation));
-        expand(attribute, &item);
+        expand(*kind, attribute, &item);
     }
 }
 
 #[test]
 fn the_systems_themselves_are_accepted() {
-    for (attribute, item) in systems() {
-        let output = expand(&attribute, &item);
+    assert_eq!(systems().len(), SYSTEMS);
+    for (kind, attribute, item) in systems() {
+        let output = expand(kind, &attribute, &item);
         assert!(!output.contains("compile_error"), "{output}");
     }
 }
@@ -275,8 +242,10 @@ fn the_systems_themselves_are_accepted() {
 #[test]
 fn empty_input() {
     let nothing = TokenStream::new();
-    assert!(expand(&nothing, &system()).contains("no coordinates"));
-    expand(&nothing, &nothing);
+    for kind in [Kind::Degenerate, Kind::Regular] {
+        assert!(expand(kind, &nothing, &system()).contains("no coordinates"));
+        expand(kind, &nothing, &nothing);
+    }
     for formula in
         ["", "()", "{}", "[]", ";", "sum()", "sum(,)", "d()", "if {}", "x[]", "||", "|", "sum(0..n, ||)"]
     {
@@ -370,6 +339,7 @@ fn numbers_beyond_reason() {
     {
         let size: TokenStream = size.parse().expect("tokens");
         expand(
+            Kind::Degenerate,
             &quote!(coordinates(x[#size], y[#size]), one_form = x[0] * d(y[0]), hamiltonian = x[0]),
             &system(),
         );

@@ -10,7 +10,7 @@ use syn::visit::Visit;
 use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
 
 use crate::errors::{Errors, listed, nearest};
-use crate::model::{Model, Shape};
+use crate::model::{Model, Shape, velocity_name};
 use crate::symbolic::{Binder, Expr, Graph, Id, Index, Node, Parameter};
 
 mod admit;
@@ -313,6 +313,12 @@ impl<'a> Lowering<'a> {
         declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));
         declared.extend(self.scope.iter().map(|(name, _)| name.clone()));
         declared.extend(names::CONSTANTS.iter().map(|(name, _)| (*name).to_string()));
+        let velocity = self.model.blocks.iter().find(|block| velocity_name(&block.name) == *name);
+        if let Some(block) = velocity.filter(|_| self.model.has_velocities()) {
+            let message = format!("{what} `{name}`; the velocity of `{0}` is written `dot({0})`", block.name);
+            self.errors.push_once(&format!("name {name}"), at, message);
+            return;
+        }
         let hint = match nearest(name, declared.iter().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),
             None if name.chars().all(|letter| letter.is_uppercase() || letter == '_') => {

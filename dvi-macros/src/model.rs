@@ -266,7 +266,7 @@ impl Names for Model {
 
 /// The field of a state that holds the velocity of a coordinate.
 pub(crate) fn velocity_name(coordinate: &Ident) -> Ident {
-    format_ident!("dot_{coordinate}")
+    format_ident!("dot_{}", coordinate)
 }
 
 /// `name` in `name` and in `self.name`.

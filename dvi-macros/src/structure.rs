@@ -5,6 +5,7 @@ use crate::model::Model;
 
 mod mass;
 mod one_form;
+mod singular;
 
 pub(crate) use mass::MassMatrix;
 pub(crate) use one_form::OneForm;

@@ -8,6 +8,8 @@ use syn::visit::Visit;
 
 use crate::expand::degenerate_lagrangian;
 
+mod regular;
+
 /// All functions of an expansion, those inside of `const _` included.
 #[derive(Default)]
 struct Functions(Vec<ImplItemFn>);
@@ -20,7 +22,11 @@ impl<'ast> Visit<'ast> for Functions {
 
 /// Compares the body of a generated function; its signature is that of the trait.
 fn check(attribute: TokenStream, item: TokenStream, name: &str, expected: &Expect) {
-    let file: syn::File = syn::parse2(degenerate_lagrangian(attribute, item)).expect("the expansion parses");
+    check_expansion(degenerate_lagrangian(attribute, item), name, expected);
+}
+
+fn check_expansion(expansion: TokenStream, name: &str, expected: &Expect) {
+    let file: syn::File = syn::parse2(expansion).expect("the expansion parses");
     let mut functions = Functions::default();
     functions.visit_file(&file);
     let found = functions.0.iter().find(|function| function.sig.ident == name).expect("it is generated");

@@ -6,6 +6,9 @@ use dvi_core::{DegenerateLagrangian, Method};
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
 use dvi_tests::oracle::discrete_lagrangian;
 use dvi_tests::systems::*;
+use dvi_tests::zoo::regular::{
+    DoublePendulum, Gravity, Kepler, MagneticParticle, Relativistic, RunTimeChain,
+};
 use num_dual::HyperDual64;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -319,5 +322,59 @@ fn the_filter_passes_alternating_sequences_and_stops_cubics() {
         // The window is centred two steps back, where the sign is the same.
         let expected = (k >= 4).then(|| vec![0.75 * sign, 0.0]);
         assert_eq!(filtered, expected);
+    }
+}
+
+#[test]
+fn the_report_of_a_regular_system_prints_all_of_it() {
+    let expected = "\
+Kepler
+coordinates
+  x
+  y
+formulas
+  L = 0.5·(dot(x)^2 + dot(y)^2 + 2·mu/sqrt(x^2 + y^2))
+  E = 0.5·(dot(x)^2 + dot(y)^2 - 2·mu/sqrt(x^2 + y^2))
+  angular = x·dot(y) - dot(x)·y
+  ∂L/∂x = -x·mu/sqrt(x^2 + y^2)^3
+  ∂L/∂dot(x) = dot(x)
+  ∂L/∂y = -y·mu/sqrt(x^2 + y^2)^3
+  ∂L/∂dot(y) = dot(y)
+structure
+  L = ½ v·M v − V(q, t) with a constant diagonal mass matrix M.
+  The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no factorisation.
+  L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.
+operations of the residual
+  once: 1 additions, 7 multiplications, 1 divisions, 1 calls
+operations of residual and Jacobian
+  once: 3 additions, 16 multiplications, 1 divisions, 1 calls
+entries of the Jacobian
+  (x, x)
+  (x, y)
+  (y, x)
+  (y, y)
+";
+    assert_eq!(Kepler::REPORT.to_string(), expected);
+}
+
+#[test]
+fn reports_say_what_the_mass_matrix_is_like() {
+    for (report, sentence) in [
+        (Gravity::<3>::REPORT, "L = ½ v·M v − V(q, t) with a constant diagonal mass matrix M."),
+        (RunTimeChain::REPORT, "L = ½ v·M v − V(q, t) with a constant full mass matrix M."),
+        (
+            RunTimeChain::REPORT,
+            "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run.",
+        ),
+        (DoublePendulum::REPORT, "The full mass matrix depends on q."),
+        (DoublePendulum::REPORT, "The trapezoidal step is implicit in general."),
+        (Relativistic::REPORT, "The full mass matrix depends on v."),
+        (
+            Relativistic::REPORT,
+            "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
+        ),
+        (MagneticParticle::REPORT, "The diagonal mass matrix is constant, but L is not ½ v·M v − V(q, t)."),
+    ] {
+        assert!(report.structure.contains(&sentence), "{}: {:?}", report.system, report.structure);
     }
 }

@@ -3,10 +3,11 @@
 use syn::Expr as Syntax;
 
 use super::has_matching;
+use super::singular::{is_numerically_singular, skipped};
 use crate::errors::{Errors, listed};
 use crate::model::Model;
 use crate::program::{RegularFormulas, Variable, variable};
-use crate::symbolic::{Coordinate, Expr, Graph, Id, Node, SecondContribution};
+use crate::symbolic::{Binder, Coordinate, Expr, Graph, Id, Node, SecondContribution};
 use crate::syntax::Kind;
 
 /// The structure of a regular L; see the constants of `dvi_core::RegularLagrangian`.
@@ -17,10 +18,10 @@ pub(crate) struct MassMatrix {
     pub(crate) quadratic: bool,
     /// What M depends on, of `q`, `v` and `t`.
     depends_on: Vec<&'static str>,
-    /// Blocks whose velocities L does not mention.
-    unmentioned: Vec<usize>,
-    /// Blocks whose velocities L mentions, but M does not involve.
-    linear: Vec<usize>,
+    /// Blocks that M does not involve, and whether L mentions their velocities at all.
+    massless: Vec<(usize, bool)>,
+    /// Coordinates of arrays that M does not involve.
+    skipped: Vec<(usize, i64)>,
     /// Whether M is zero.
     zero: bool,
     /// Whether the places of M that are not zero leave room for an inverse.
@@ -30,14 +31,15 @@ pub(crate) struct MassMatrix {
 }
 
 /// An entry of M.
-struct Entry {
-    row: Coordinate,
-    column: Coordinate,
-    value: Expr,
+pub(super) struct Entry {
+    pub(super) loops: Vec<Binder>,
+    pub(super) row: Coordinate,
+    pub(super) column: Coordinate,
+    pub(super) value: Expr,
 }
 
 impl MassMatrix {
-    /// From L, its second derivative, and its first derivatives as they are declared.
+    /// From the formulas and the second derivative of L.
     pub(crate) fn new(
         graph: &mut Graph,
         model: &Model,
@@ -57,8 +59,10 @@ impl MassMatrix {
         let involved = |block: usize| {
             mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
         };
-        let uninvolved = (0..model.blocks.len()).filter(|block| !involved(*block));
-        let (linear, unmentioned) = uninvolved.partition(|block| mentioned.contains(block));
+        let massless = (0..model.blocks.len())
+            .filter(|block| !involved(*block))
+            .map(|block| (block, mentioned.contains(&block)));
+        let massless = massless.collect();
         let places: Vec<[usize; 2]> =
             mass.iter().map(|entry| [block_of(&entry.row), block_of(&entry.column)]).collect();
         Self {
@@ -66,8 +70,8 @@ impl MassMatrix {
             diagonal,
             quadratic: formulas.quadratic,
             depends_on,
-            unmentioned,
-            linear,
+            massless,
+            skipped: skipped(model, &mass),
             zero: mass.is_empty(),
             invertible: has_matching(model, &places),
             numerically_singular: is_numerically_singular(model, &mass),
@@ -81,33 +85,38 @@ impl MassMatrix {
             errors.push(at, self.without_mass(model));
             return;
         }
-        for block in &self.unmentioned {
+        for (block, mentioned) in &self.massless {
             let name = &model.blocks[*block].name;
+            let relation = match (mentioned, self.quadratic) {
+                (false, _) => "does not mention",
+                (true, true) => "is linear in",
+                (true, false) => "is piecewise linear in",
+            };
             let message = format!(
-                "L does not mention the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic \
-                 energy such as `{} / 2.0`",
-                squared_velocity(model, *block)
+                "L {relation} the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
+                 such as `{}`",
+                kinetic_energy(model, *block)
             );
             errors.push(name, message);
         }
-        for block in &self.linear {
+        for (block, index) in &self.skipped {
             let name = &model.blocks[*block].name;
             let message = format!(
-                "L is linear in the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
-                 such as `{} / 2.0`",
-                squared_velocity(model, *block)
+                "the velocity of `{name}[{index}]` has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
+                 all entries have one with `{}`",
+                kinetic_energy(model, *block)
             );
             errors.push(name, message);
         }
-        if self.unmentioned.is_empty() && self.linear.is_empty() {
+        if self.massless.is_empty() && self.skipped.is_empty() {
             self.check_rank(at, errors);
         }
     }
 
     fn check_rank(&self, at: &Syntax, errors: &mut Errors) {
         if !self.invertible {
-            let message = "the mass matrix ∂²L/∂v∂v is singular for all parameters: its nonzero entries leave a \
-                           velocity without a row of its own; L needs more terms such as `dot(x).powi(2)`";
+            let message = "the mass matrix ∂²L/∂v∂v is singular for all parameters: its nonzero entries \
+                           couple several velocities to fewer others; L needs more terms such as `dot(x).powi(2)`";
             errors.push(at, message);
         } else if self.numerically_singular {
             let message = "the mass matrix ∂²L/∂v∂v is singular: some combination of the velocities has no kinetic \
@@ -117,13 +126,16 @@ impl MassMatrix {
     }
 
     fn without_mass(&self, model: &Model) -> String {
-        if self.linear.is_empty() {
-            let names: Vec<String> =
-                (0..model.blocks.len()).map(|block| squared_velocity(model, block)).collect();
-            let terms = listed(names.iter().map(String::as_str));
-            return format!(
-                "this Lagrangian mentions no velocity: it needs a kinetic energy, with terms such as {terms}"
-            );
+        if self.massless.iter().all(|(_, mentioned)| !mentioned) {
+            let terms: Vec<String> =
+                (0..model.blocks.len()).map(|block| kinetic_energy(model, block)).collect();
+            let terms = listed(terms.iter().map(String::as_str));
+            return format!("this Lagrangian mentions no velocity: add a kinetic energy such as {terms}");
+        }
+        if !self.quadratic {
+            return "the mass matrix ∂²L/∂v∂v of this Lagrangian is zero: it needs a kinetic energy such as \
+                    `dot(x).powi(2) / 2.0`"
+                .to_string();
         }
         format!(
             "this Lagrangian is affine in the velocities, so its mass matrix ∂²L/∂v∂v is zero: it belongs to `{}`",
@@ -134,57 +146,41 @@ impl MassMatrix {
     /// What is said of the structure in reports.
     pub(crate) fn sentences(&self) -> Vec<String> {
         let mass = if self.diagonal { "diagonal" } else { "full" };
-        let mut sentences = Vec::new();
-        match (self.separable, self.depends_on.as_slice()) {
-            (true, _) => {
-                sentences.push(format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."));
-                sentences.push(
-                    match self.diagonal {
-                        true => {
-                            "The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no \
-                             factorisation."
-                        }
-                        false => {
-                            "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run."
-                        }
-                    }
-                    .to_string(),
-                );
+        let form = match (self.separable, self.depends_on.as_slice()) {
+            (true, _) => format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."),
+            (false, []) => format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."),
+            (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
+        };
+        let step = match (self.separable, self.diagonal) {
+            (true, true) => {
+                "The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no \
+                 factorisation."
             }
-            (false, []) => {
-                sentences
-                    .push(format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."));
+            (true, false) => {
+                "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run."
             }
-            (false, variables) => {
-                sentences.push(format!("The {mass} mass matrix depends on {}.", variables.join(", ")));
-            }
-        }
-        if !self.separable {
-            sentences.push("All steps are implicit.".to_string());
-        }
-        sentences.push(
-            match self.quadratic {
-                true => "L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.",
-                false => "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
-            }
-            .to_string(),
-        );
-        sentences
+            (false, _) => "The trapezoidal step is implicit in general.",
+        };
+        let degree = match self.quadratic {
+            true => "L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.",
+            false => "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
+        };
+        vec![form, step.to_string(), degree.to_string()]
     }
 }
 
-/// `dot(x).powi(2)`
-fn squared_velocity(model: &Model, block: usize) -> String {
+/// `dot(x).powi(2) / 2.0`
+fn kinetic_energy(model: &Model, block: usize) -> String {
     let name = &model.blocks[block].name;
-    match model.blocks[block].array {
-        Some(_) => format!("dot({name}[j]).powi(2)"),
-        None => format!("dot({name}).powi(2)"),
+    match &model.blocks[block].array {
+        Some((_, size)) => format!("sum(0..{size}, |j| dot({name}[j]).powi(2) / 2.0)"),
+        None => format!("dot({name}).powi(2) / 2.0"),
     }
 }
 
 /// M entry by entry, on one side of its diagonal, without those that cancel.
 fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry> {
-    let mut mass: Vec<(Vec<crate::symbolic::Binder>, Entry)> = Vec::new();
+    let mut mass: Vec<Entry> = Vec::new();
     for entry in entries {
         let (Some((Variable::Velocity, i)), Some((Variable::Velocity, j))) =
             (variable(graph, entry.row), variable(graph, entry.column))
@@ -192,15 +188,15 @@ fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry>
             continue;
         };
         let (row, column) = if j < i { (j, i) } else { (i, j) };
-        let same = |(loops, known): &&mut (Vec<_>, Entry)| {
-            known.row == row && known.column == column && *loops == entry.loops
-        };
+        let same =
+            |known: &&mut Entry| known.row == row && known.column == column && known.loops == entry.loops;
         match mass.iter_mut().find(same) {
-            Some((_, known)) => known.value = graph.add(known.value, entry.value),
-            None => mass.push((entry.loops.clone(), Entry { row, column, value: entry.value })),
+            Some(known) => known.value = graph.add(known.value, entry.value),
+            None => mass.push(Entry { loops: entry.loops.clone(), row, column, value: entry.value }),
         }
     }
-    mass.into_iter().map(|(_, entry)| entry).filter(|entry| !entry.value.is_zero()).collect()
+    mass.retain(|entry| !entry.value.is_zero());
+    mass
 }
 
 fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
@@ -249,45 +245,4 @@ fn mentioned(graph: &Graph, lagrangian: Expr) -> Vec<usize> {
         _ => None,
     };
     reachable.into_iter().filter_map(block).collect()
-}
-
-/// Where no arrays are involved and the entries are numbers times one common factor: whether the numbers
-/// make a singular matrix, by elimination with complete pivoting. What rounding may have left of a
-/// difference counts as zero.
-fn is_numerically_singular(model: &Model, mass: &[Entry]) -> bool {
-    let dimension = model.blocks.len();
-    let common = mass.first().map(|entry| entry.value.node);
-    if model.blocks.iter().any(|block| block.array.is_some())
-        || mass.iter().any(|entry| Some(entry.value.node) != common)
-    {
-        return false;
-    }
-    // Each entry with the size of what it was added up from.
-    let mut matrix = vec![vec![(0.0_f64, 0.0_f64); dimension]; dimension];
-    for entry in mass {
-        let (row, column, value) = (entry.row.block as usize, entry.column.block as usize, entry.value.scale);
-        matrix[row][column] = (value, value.abs());
-        matrix[column][row] = (value, value.abs());
-    }
-    while let Some((row, column)) = pivot(&matrix) {
-        let pivoted = matrix.swap_remove(row);
-        for other in &mut matrix {
-            let factor = other[column].0 / pivoted[column].0;
-            for ((value, size), (subtracted, _)) in other.iter_mut().zip(&pivoted) {
-                *value -= factor * subtracted;
-                *size += (factor * subtracted).abs();
-            }
-            other[column] = (0.0, 0.0);
-        }
-    }
-    !matrix.is_empty()
-}
-
-/// The largest entry that is more than rounding.
-fn pivot(matrix: &[Vec<(f64, f64)>]) -> Option<(usize, usize)> {
-    let columns = matrix.iter().enumerate().flat_map(|(row, entries)| {
-        entries.iter().enumerate().map(move |(column, (value, size))| (row, column, value.abs(), *size))
-    });
-    let significant = columns.filter(|(_, _, value, size)| *value > 64.0 * f64::EPSILON * size);
-    significant.max_by(|a, b| a.2.total_cmp(&b.2)).map(|(row, column, ..)| (row, column))
 }

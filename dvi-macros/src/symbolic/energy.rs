@@ -3,7 +3,7 @@
 //! By Euler's theorem v·∂f/∂v = k·f where f is homogeneous of degree k in v, so such a term gives
 //! (k − 1)·f: a quadratic kinetic energy is kept, a linear term drops out, a potential changes its sign.
 //! E is linear in f, so sums stay sums and their loops stay loops. What is not homogeneous, such as
-//! √(1 − v²), is differentiated along v.
+//! cosh v, is differentiated along v.
 
 use std::collections::HashMap;
 
@@ -55,6 +55,9 @@ impl Graph {
     }
 }
 
+/// Beyond this many terms nothing is sought that cancels.
+const MOST_TERMS: usize = 64;
+
 struct Energy<'a> {
     graph: &'a mut Graph,
     degrees: HashMap<Id, f64>,
@@ -93,6 +96,7 @@ impl Energy<'_> {
                 self.graph.choose(left, relation, right, then, otherwise)
             }
             Node::Product(factors) => self.of_product(of, &factors),
+            Node::Unary(Unary::Sqrt, u) => self.of_root(of, u),
             _ => self.along_velocity(of),
         }
     }
@@ -107,6 +111,27 @@ impl Energy<'_> {
             product.push(self.graph.power(factor.into(), exponent));
         }
         self.graph.product(&product)
+    }
+
+    /// v·∂√u/∂v − √u = (E(u) − u)/(2√u), where velocities often cancel: √(1 − v²) gives −1/√(1 − v²).
+    fn of_root(&mut self, root: Id, u: Expr) -> Expr {
+        let energy = self.of(u);
+        let mut terms = Vec::new();
+        self.flatten(energy, &mut terms);
+        self.flatten(u.negated(), &mut terms);
+        let numerator = self.graph.sum(&terms);
+        let reciprocal = self.graph.reciprocal(root.into());
+        self.graph.multiply(numerator, reciprocal).scaled(0.5)
+    }
+
+    /// Adds the terms of sums of sums, as far as they are few.
+    fn flatten(&self, of: Expr, terms: &mut Vec<Expr>) {
+        match self.graph.node(of.node) {
+            Node::Sum(inner) if terms.len() < MOST_TERMS => {
+                inner.iter().for_each(|term| self.flatten(term.scaled(of.scale), terms));
+            }
+            _ => terms.push(of),
+        }
     }
 
     /// ∂f(q, s·v)/∂s − f at s = 1; a weight stands for s, because no formula has one.

@@ -35,6 +35,18 @@ pub struct Chain<'a> {
     pub stiffness: &'a [f64],
 }
 
+/// Bodies in the plane that attract each other.
+#[lagrangian(
+    coordinates(x[N], y[N]),
+    lagrangian = sum(0..N, |j| mass[j] * (dot(x[j]).powi(2) + dot(y[j]).powi(2))) / 2.0
+        + sum_pairs(0..N, |j, k| mass[j] * mass[k] / (x[j] - x[k]).hypot(y[j] - y[k])),
+)]
+#[derive(Clone, Debug)]
+pub struct Gravity<const N: usize> {
+    /// Masses.
+    pub mass: [f64; N],
+}
+
 /// The state after some steps of the implicit midpoint rule.
 ///
 /// # Errors

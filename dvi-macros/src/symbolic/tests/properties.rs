@@ -65,6 +65,25 @@ proptest! {
     }
 
     #[test]
+    fn energies_agree_with_dual_numbers(tree in tree(3), point in point()) {
+        let mut graph = Graph::new();
+        let root = tree.lower(&mut graph, 0);
+        let values = variables(&point);
+        let first_velocity = point.coordinates.iter().map(Vec::len).sum::<usize>();
+        // The derivative along v is Σ v ∂f/∂v.
+        let seed = |(k, value): (usize, &f64)| Dual {
+            re: Bounded::lift(*value),
+            eps: Bounded::lift(if k < first_velocity { 0.0 } else { *value }),
+        };
+        let duals: Vec<_> = values.iter().enumerate().map(seed).collect();
+        let expected = tree.evaluate(&point, &duals, &mut Vec::new());
+        prop_assume!(expected.re.is_sharp() && expected.eps.is_sharp());
+        let energy = graph.energy(root);
+        let found = Evaluation::new(&graph, &point).expr(energy, &Vec::new());
+        agree("energy", found, expected.eps - expected.re)?;
+    }
+
+    #[test]
     fn the_same_formula_is_the_same_node(tree in tree(3), other in tree(3), point in point()) {
         prop_assume!(raw_value(&tree, &point).is_sharp());
         let mut graph = Graph::new();

@@ -3,6 +3,8 @@
 #![deny(clippy::all, clippy::pedantic)]
 #![allow(unreachable_pub)]
 
+mod regular;
+
 use dvi_core::{Integrator, Lagrangian, Sigma};
 
 /// Parameters with the names of types, variants, crates, and of what generated code might use.

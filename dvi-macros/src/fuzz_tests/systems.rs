@@ -1,0 +1,104 @@
+//! Systems without mistakes, to be mutated.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::syntax::Kind;
+
+/// Attributes that are right, for mutation, each with its struct: degenerate, then regular.
+pub(super) fn systems() -> Vec<(Kind, TokenStream, TokenStream)> {
+    let degenerate =
+        degenerate_systems().into_iter().map(|(attribute, item)| (Kind::Degenerate, attribute, item));
+    let regular = regular_systems().into_iter().map(|(attribute, item)| (Kind::Regular, attribute, item));
+    degenerate.chain(regular).collect()
+}
+
+fn regular_systems() -> Vec<(TokenStream, TokenStream)> {
+    vec![
+        (
+            quote! {
+                coordinates(x[N], r#type),
+                lagrangian = sum(0..N, |j| gamma[j] / 2.0 * (dot(x[j]).powi(2) - x[j] * x[(j + 1) % N]))
+                    + sum_pairs(0..N, |j, k| dot(x[j]) * dot(x[k]) / (x[j] - x[k]).hypot(1.0))
+                    + (1.0 + dot(r#type).powi(2)).sqrt() * r#type + dot(r#type) * t,
+                momenta(p = sum(0..N, |j| gamma[j] * dot(x[j])), other = dot(r#type)),
+            },
+            quote!(
+                pub struct System<const N: usize> {
+                    gamma: [f64; N],
+                }
+            ),
+        ),
+        (
+            quote! {
+                coordinates(x, y[gamma.len()]),
+                lagrangian = { let v = dot(x); v * v / 2.0 - f(x) }
+                    + sum(0..gamma.len(), |j| if dot(y[j]) > 0.0 { dot(y[j]).powf(2.5) } else { f(dot(y[j])) }),
+                functions(f = [f, df, d2f]),
+                crate = ::other::path,
+            },
+            quote!(
+                struct System<'a> {
+                    gamma: &'a [f64],
+                }
+            ),
+        ),
+    ]
+}
+
+fn degenerate_systems() -> Vec<(TokenStream, TokenStream)> {
+    vec![
+        (
+            quote! {
+                coordinates(x[N], y[N]),
+                one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+                hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
+                    * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
+                momenta(impulse = sum(0..N, |j| gamma[j] * x[j]), other = x[0].hypot(y[0])),
+            },
+            quote!(
+                pub struct System<const N: usize> {
+                    gamma: [f64; N],
+                }
+            ),
+        ),
+        (
+            quote! {
+                coordinates(x[gamma.len()], y[gamma.len()], u, w),
+                lagrangian = sum(0..gamma.len(), |j| gamma[j] * x[j] * dot(y[(j + 1) % gamma.len()]))
+                    + u * dot(w) - if u < w && t > -1.0 { f(u) } else { let a = w.atan2(u); a.powf(2.5) / a },
+                functions(f = [f, df, d2f]),
+                crate = ::other::path,
+            },
+            quote!(
+                struct System<'a> {
+                    gamma: &'a [f64],
+                }
+            ),
+        ),
+        (
+            quote! {
+                coordinates(z[4]),
+                one_form = [|i| sum(0..=3, |j| a[i][j] * z[j] * (i + 2 * j) as f64)],
+                hamiltonian = sum_ordered_pairs(0..4, |j, k| z[j].powi(-3) * z[k - 0] * self.s),
+            },
+            quote!(
+                pub(crate) struct System {
+                    a: [[f64; 4]; 4],
+                    s: f64,
+                    n: usize,
+                }
+            ),
+        ),
+        (
+            quote! {
+                coordinates(x, y),
+                one_form = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
+                hamiltonian = { let b = Self::B * x; -b.sqrt() + y.mul_add(2.0, 1e-3) + f64::exp(x) },
+            },
+            quote!(
+                struct System;
+            ),
+        ),
+    ]
+}

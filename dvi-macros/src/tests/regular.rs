@@ -1,0 +1,198 @@
+//! The same for regular systems.
+
+use expect_test::expect;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::check_expansion;
+use crate::expand::lagrangian;
+
+fn kepler() -> TokenStream {
+    lagrangian(
+        quote! {
+            coordinates(x, y),
+            lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / (x * x + y * y).sqrt(),
+        },
+        quote! { struct Kepler { mu: f64 } },
+    )
+}
+
+#[test]
+fn kepler_linearized() {
+    check_expansion(
+        kepler(),
+        "linearize",
+        &expect![[r#"
+        fn linearize() {
+            let (__q0, __rest) = __q.split_at(1usize);
+            let (__q1, __rest) = __rest.split_at(1usize);
+            let _ = __rest;
+            let (__v0, __rest) = __v.split_at(1usize);
+            let (__v1, __rest) = __rest.split_at(1usize);
+            let _ = __rest;
+            __l_q.fill(T::lift(-0.0));
+            let (__l_q0, __rest) = __l_q.split_at_mut(1usize);
+            let (__l_q1, __rest) = __rest.split_at_mut(1usize);
+            let _ = __rest;
+            __l_v.fill(T::lift(-0.0));
+            let (__l_v0, __rest) = __l_v.split_at_mut(1usize);
+            let (__l_v1, __rest) = __rest.split_at_mut(1usize);
+            let _ = __rest;
+            let __offset0: usize = 0usize;
+            let __offset1: usize = 1usize;
+            let __dimension: usize = 2usize;
+            let __r0 = __q0[0usize];
+            let __r2 = __r0 * __r0;
+            let __r3 = __q1[0usize];
+            let __r4 = __r3 * __r3;
+            let __r7 = T::lift(1f64)
+                / (T::sqrt((__r2 + __r4)));
+            let __r9 = __r7 * __r7;
+            let __r11 = __r7
+                * (T::lift(
+                    __private::Number::number(self.mu),
+                ) * __r9);
+            let __r17 = T::lift(3f64) * __r9;
+            let __r21 = __w.qq * __r11;
+            let __r25 = ((__r0 * __r3) * __r17) * __r21;
+            let __r26 = __w.vv;
+            __l_q0[0usize] -= (__r0 * __r11);
+            __l_v0[0usize] += __v0[0usize];
+            __l_q1[0usize] -= (__r3 * __r11);
+            __l_v1[0usize] += __v1[0usize];
+            __matrix[(__offset0 + 0usize) * __dimension + __offset0 + 0usize]
+                += (((__r17 * __r2) - T::lift(1f64)) * __r21);
+            __matrix[(__offset0 + 0usize) * __dimension + __offset1 + 0usize] += __r25;
+            __matrix[(__offset1 + 0usize) * __dimension + __offset0 + 0usize] += __r25;
+            __matrix[(__offset0 + 0usize) * __dimension + __offset0 + 0usize] += __r26;
+            __matrix[(__offset1 + 0usize) * __dimension + __offset1 + 0usize]
+                += (((__r17 * __r4) - T::lift(1f64)) * __r21);
+            __matrix[(__offset1 + 0usize) * __dimension + __offset1 + 0usize] += __r26;
+        }
+    "#]],
+    );
+}
+
+#[test]
+fn energy_of_kepler() {
+    check_expansion(
+        kepler(),
+        "energy",
+        &expect![[r#"
+        fn energy() {
+            let (__q0, __rest) = __q.split_at(1usize);
+            let (__q1, __rest) = __rest.split_at(1usize);
+            let _ = __rest;
+            let (__v0, __rest) = __v.split_at(1usize);
+            let (__v1, __rest) = __rest.split_at(1usize);
+            let _ = __rest;
+            let __r1 = __v0[0usize];
+            let __r3 = __v1[0usize];
+            let __r9 = __q0[0usize];
+            let __r11 = __q1[0usize];
+            (T::lift(0.5f64)
+                * (((__r1 * __r1) + (__r3 * __r3))
+                    - ((T::lift(2f64)
+                        * T::lift(
+                            __private::Number::number(self.mu),
+                        ))
+                        / (T::sqrt(
+                            ((__r9 * __r9) + (__r11 * __r11)),
+                        )))))
+        }
+    "#]],
+    );
+}
+
+/// A separable system reads no velocity.
+#[test]
+fn force_of_kepler() {
+    check_expansion(
+        kepler(),
+        "force",
+        &expect![[r#"
+        fn force() {
+            let (__q0, __rest) = __q.split_at(1usize);
+            let (__q1, __rest) = __rest.split_at(1usize);
+            let _ = __rest;
+            __vector.fill(T::lift(-0.0));
+            let (__vector0, __rest) = __vector.split_at_mut(1usize);
+            let (__vector1, __rest) = __rest.split_at_mut(1usize);
+            let _ = __rest;
+            let __r0 = __q0[0usize];
+            let __r4 = __q1[0usize];
+            let __r8 = T::lift(1f64)
+                / (T::sqrt(((__r0 * __r0) + (__r4 * __r4))));
+            let __r11 = (T::lift(
+                __private::Number::number(self.mu),
+            ) * __r8) * (__r8 * __r8);
+            __vector0[0usize] -= (__r0 * __r11);
+            __vector1[0usize] -= (__r4 * __r11);
+        }
+    "#]],
+    );
+}
+
+/// One loop holds both T and V.
+#[test]
+fn energy_of_a_chain() {
+    let chain = lagrangian(
+        quote! {
+            coordinates(q[N]),
+            lagrangian = sum(0..N, |j| mass[j] * dot(q[j]).powi(2) / 2.0 - (1.0 - (q[(j + 1) % N] - q[j]).cos())),
+        },
+        quote! { struct Chain<const N: usize> { mass: [f64; N] } },
+    );
+    check_expansion(
+        chain,
+        "energy",
+        &expect![[r#"
+        fn energy() {
+            let (__q0, __rest) = __q.split_at(N);
+            let _ = __rest;
+            let (__v0, __rest) = __v.split_at(N);
+            let _ = __rest;
+            let mut __r14 = T::lift(-0.0);
+            for __i0 in (0usize)..(N) {
+                let __r2 = __v0[__i0];
+                let __r13 = ((T::lift(
+                    __private::Number::number(self.mass[__i0]),
+                ) * __r2) * __r2)
+                    - (T::lift(2f64)
+                        * ((T::cos(
+                            (__q0[__i0]
+                                - __q0[__private::wrap(
+                                    (1i64 + 1i64 * (__i0 as i64)),
+                                    (0i64 + 1i64 * (N as i64)),
+                                )]),
+                        )) - T::lift(1f64)));
+                __r14 += __r13;
+            }
+            (T::lift(0.5f64) * __r14)
+        }
+    "#]],
+    );
+}
+
+#[test]
+fn state_of_kepler() {
+    check_expansion(
+        kepler(),
+        "write",
+        &expect![[r#"
+        fn write() {
+            let mut __at = 0usize;
+            __q[__at] = self.x;
+            __at += 1usize;
+            __q[__at] = self.y;
+            __at += 1usize;
+            let mut __at = 0usize;
+            __v[__at] = self.dot_x;
+            __at += 1usize;
+            __v[__at] = self.dot_y;
+            __at += 1usize;
+            ::core::result::Result::Ok(())
+        }
+    "#]],
+    );
+}
