@@ -46,6 +46,14 @@ pub enum StartError {
         /// What is allowed.
         range: &'static str,
     },
+    /// An option does not go with the system or with another option.
+    #[error("{option} is not available here: {reason}")]
+    Unsupported {
+        /// The option.
+        option: &'static str,
+        /// What it needs.
+        reason: &'static str,
+    },
     /// A coordinate or velocity of the initial state is infinite or not a number.
     #[error("number {coordinate} of the initial state is {value}")]
     NotFinite {
@@ -81,6 +89,19 @@ pub enum StepFailure {
         correction: f64,
         /// The largest correction that would have been accepted.
         tolerance: f64,
+    },
+    /// A phase-fitted interpolation does not exist, or does not determine the step, near this step length.
+    #[error(
+        "phase fitting breaks down at u = ωh = {u}: sin u = {sine:e}, Σ w cos((1 − 2c)u) = {kernel:e}; a smaller \
+         step helps"
+    )]
+    Resonance {
+        /// ωh, in radians.
+        u: f64,
+        /// sin u, by which the interpolation divides.
+        sine: f64,
+        /// S = Σ w cos((1 − 2c)u), which multiplies the new point.
+        kernel: f64,
     },
     /// A matrix that must be solved with is singular to working precision.
     #[error(

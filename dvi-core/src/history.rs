@@ -63,6 +63,11 @@ impl<S: Lagrangian, T: Real> History<S, T> {
         }
     }
 
+    /// Forgets all increments, but not the seed.
+    pub(crate) fn clear(&mut self) {
+        self.len = 0;
+    }
+
     /// Remembers the increment of a completed step.
     #[inline(always)]
     pub(crate) fn push(&mut self, increment: &[T]) {

@@ -43,7 +43,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
     pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
         validate(system, t, h)?;
-        let (q, v) = flatten(system, &start)?;
+        let [q, v] = flatten(system, &start)?;
         let memory = method.begin(system, &q, &v[..velocities(system)], t, h)?;
         Ok(Self::assemble(system, method, memory, q, t, h))
     }
@@ -203,7 +203,7 @@ impl<'a, S: Lagrangian, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
     ) -> Result<Self, StartError> {
         let t = T::lift(0.0);
         validate(system, t, h)?;
-        let ((q0, _), (q1, _)) = (flatten(system, &first)?, flatten(system, &second)?);
+        let ([q0, _], [q1, _]) = (flatten(system, &first)?, flatten(system, &second)?);
         let memory = method.begin_between(system, &q0, &q1, t, h)?;
         Ok(Self::assemble(system, method, memory, q0, t, h))
     }
@@ -284,10 +284,7 @@ fn velocities<S: Lagrangian>(system: &S) -> usize {
 }
 
 /// The coordinates and, if the system is regular, the velocities of a state.
-fn flatten<S: Lagrangian, T: Real>(
-    system: &S,
-    state: &S::State<T>,
-) -> Result<(Vector<S, T>, Vector<S, T>), StartError> {
+fn flatten<S: Lagrangian, T: Real>(system: &S, state: &S::State<T>) -> Result<[Vector<S, T>; 2], StartError> {
     let (mut q, mut v) = (system.space().vector(), system.space().vector());
     state.write(|block| system.block_len(block), &mut q, &mut v)?;
     match q.iter().chain(v.iter()).position(|x| !x.is_finite()) {
@@ -295,6 +292,6 @@ fn flatten<S: Lagrangian, T: Real>(
             let value = if coordinate < q.len() { q[coordinate] } else { v[coordinate - q.len()] };
             Err(StartError::NotFinite { coordinate, value: reported(value) })
         }
-        None => Ok((q, v)),
+        None => Ok([q, v]),
     }
 }

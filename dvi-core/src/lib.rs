@@ -53,17 +53,22 @@ extern crate alloc;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
+mod basis;
 pub mod diagnostics;
 mod elimination;
 mod error;
 mod form;
+mod frequency;
 mod gauss;
 mod history;
 mod integrator;
 mod lagrangian;
+mod legendre;
+mod mass;
 mod method;
 mod norm;
 pub mod prelude;
+mod quadrature;
 mod report;
 mod runge_kutta;
 mod scalar;
@@ -71,16 +76,19 @@ mod sigma_family;
 mod solver;
 mod space;
 mod statistics;
+mod variational;
 mod vector_field;
 mod walk;
 
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};
+pub use frequency::{Constant, Curvature, Frequency, FrequencyIn, PerCoordinate, Radial, Reading, Unfitted};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
-pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint};
+pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
+pub use quadrature::Quadrature;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};
@@ -90,6 +98,7 @@ pub use solver::{Solver, Stopping};
 pub use space::RunTime;
 pub use space::{Fixed, FixedMatrix, FixedVector, Space};
 pub use statistics::Statistics;
+pub use variational::{Fitting, Variational, VariationalMemory};
 pub use vector_field::VectorField;
 
 /// A point, velocity or covector of the space of `S`.

@@ -14,6 +14,8 @@ pub enum PreservedForm {
     OmegaIfAffine,
     /// The discrete two-form ∂²L_d/∂q0∂q1 dq0 ∧ dq1 on Q×Q (Rowley & Marsden 2002, eq. 17).
     Discrete,
+    /// dq ∧ dp on T*Q.
+    Canonical,
 }
 
 /// What is known of a method before it meets a system.
@@ -139,6 +141,10 @@ pub(crate) fn one_by_one<S: Lagrangian, T: Real, M: Method<S, T> + ?Sized>(
     }
     Ok(())
 }
+
+/// A method whose memory does not depend on the step, so that steps of different lengths, also negative, may
+/// follow one another.
+pub trait VariableStep {}
 
 /// A method whose run is determined by two consecutive points.
 pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {

@@ -57,6 +57,9 @@ impl Stopping {
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
 const FLOOR: f64 = 32.0;
 
+/// After the fixed point has failed, this many steps are left to Newton before it is tried again.
+pub(crate) const STEPS_BEFORE_RETRY: u32 = 32;
+
 /// What to do with an iterate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {

@@ -12,7 +12,7 @@ use super::{SigmaMemory, Step};
 use crate::error::StepFailure;
 use crate::method::Clock;
 use crate::norm;
-use crate::solver::{Convergence, Solver, Verdict};
+use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
 use crate::space::scratch;
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Real, Vector};
@@ -103,7 +103,7 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
         if step.method.solver == Solver::FixedPoint {
             return Err(failure);
         }
-        memory.newton_steps = newton::STEPS_BEFORE_RETRY;
+        memory.newton_steps = STEPS_BEFORE_RETRY;
         by_newton(step, memory, q, statistics)?;
     }
     finish(step, memory, q)

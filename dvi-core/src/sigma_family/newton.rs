@@ -19,9 +19,6 @@ pub(super) enum Guess {
     Zero,
 }
 
-/// After the fixed point has failed, this many steps are left to Newton before it is tried again.
-pub(super) const STEPS_BEFORE_RETRY: u32 = 32;
-
 /// The weights with which the second derivatives of L make ∂²L_d/∂q0∂q1, for affine L.
 pub(crate) fn mixed_weights<T: Real>(sigma: T, h: T) -> Weights<T> {
     let left = T::lift(1.0) - sigma;

@@ -9,7 +9,7 @@ use super::newton::{self, Guess};
 use super::{SigmaMemory, Step};
 use crate::error::StepFailure;
 use crate::norm;
-use crate::solver::{Convergence, Solver, Verdict};
+use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Real, Vector};
 
@@ -29,7 +29,7 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
         if step.method.solver == Solver::FixedPoint {
             return Err(failure);
         }
-        memory.newton_steps = newton::STEPS_BEFORE_RETRY;
+        memory.newton_steps = STEPS_BEFORE_RETRY;
         by_newton(step, memory, q, statistics)?;
     }
     finish(step, memory, q, statistics)

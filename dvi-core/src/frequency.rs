@@ -1,0 +1,286 @@
+//! The frequency that a phase-fitted interpolation is fitted to.
+//!
+//! Kosmas & Vlachos interpolate between q0 and q1 by sin ωt and cos ωt. ω may be one number, one number per
+//! coordinate, or taken from the motion: from the curvature of the path (their eq. 19), or from the ratio of
+//! acceleration to distance. How it is taken, the [`Reading`], decides what a step preserves.
+
+use core::fmt::Debug;
+
+use crate::error::{StartError, StepFailure};
+use crate::mass::Mass;
+use crate::norm::{self, reported};
+use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+
+/// How a frequency that depends on the motion enters a step from q0 to q1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// ω at (q0, v0), held constant: what Kosmas & Vlachos do. The step is neither symplectic (its defect is
+    /// O(h³)) nor reversible, and the energy drifts like O(h³)t.
+    LeftFrozen,
+    /// The mean of ω at both ends, held constant in the derivatives of L_d. Reversible, hence without drift
+    /// on reversible orbits; not symplectic.
+    Averaged,
+    /// The mean of ω at both ends, differentiated with the rest of L_d. Symplectic and reversible; the most
+    /// expensive of the three: a step needs the second derivatives of L.
+    Variational,
+}
+
+/// A rule for the frequency ω of a step.
+pub trait Frequency: Debug {
+    /// Whether it is zero, and the interpolation linear.
+    const UNFITTED: bool = false;
+    /// Whether each coordinate has a frequency of its own.
+    const PER_COORDINATE: bool = false;
+    /// Whether ω depends on the velocity.
+    const OF_VELOCITY: bool = false;
+
+    /// How the motion is read; `None` if the frequency does not depend on it.
+    fn reading(&self) -> Option<Reading> {
+        None
+    }
+}
+
+/// A [`Frequency`] in the arithmetic of `T`, in radians per unit of time.
+pub trait FrequencyIn<T: Real>: Frequency {
+    /// The frequency of a coordinate, where it does not depend on the motion.
+    fn fixed(&self, _coordinate: usize) -> T {
+        T::lift(0.0)
+    }
+
+    /// ω at (q, v), from the acceleration a = M⁻¹∂L/∂q.
+    fn at(&self, _q: &[T], _v: &[T], _a: &[T]) -> T {
+        T::lift(0.0)
+    }
+
+    /// The derivatives of ω at (q, v, a): sets `dq`, `dv` and `da`, and returns ω.
+    fn derivatives(&self, _q: &[T], _v: &[T], _a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {
+        dq.fill(T::lift(0.0));
+        dv.fill(T::lift(0.0));
+        da.fill(T::lift(0.0));
+        T::lift(0.0)
+    }
+
+    /// Checks the options against a system of `dimension` coordinates.
+    ///
+    /// # Errors
+    /// [`StartError::Parameter`] names the option that is out of range.
+    fn validate(&self, _dimension: usize) -> Result<(), StartError> {
+        Ok(())
+    }
+}
+
+/// No frequency: linear interpolation, the limit ω → 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unfitted;
+
+impl Frequency for Unfitted {
+    const UNFITTED: bool = true;
+}
+
+impl<T: Real> FrequencyIn<T> for Unfitted {}
+
+/// One frequency for all coordinates and all times. Symplectic, and exact on oscillators of that frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant<T = f64>(
+    /// ω ≥ 0.
+    pub T,
+);
+
+impl<T: Debug> Frequency for Constant<T> {}
+
+impl<T: Real> FrequencyIn<T> for Constant<T> {
+    fn fixed(&self, _coordinate: usize) -> T {
+        self.0
+    }
+    fn validate(&self, _dimension: usize) -> Result<(), StartError> {
+        in_range("omega", self.0)
+    }
+}
+
+/// One frequency for each coordinate, for all times, in the order of declaration: an array, a `Vec` or a
+/// slice. Symplectic, and exact on uncoupled oscillators. It is the interpolation of the coordinates that is
+/// fitted: with mass matrices that couple them it is still consistent, but exact on nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PerCoordinate<A>(
+    /// ωᵢ ≥ 0.
+    pub A,
+);
+
+impl<A: Debug> Frequency for PerCoordinate<A> {
+    const PER_COORDINATE: bool = true;
+}
+
+impl<T: Real, A: AsRef<[T]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
+    fn fixed(&self, coordinate: usize) -> T {
+        self.0.as_ref().get(coordinate).copied().unwrap_or_else(|| T::lift(f64::NAN))
+    }
+    fn validate(&self, dimension: usize) -> Result<(), StartError> {
+        let omega = self.0.as_ref();
+        if omega.len() != dimension {
+            let (value, range) = (omega.len() as f64, "one frequency for each coordinate");
+            return Err(StartError::Parameter { name: "omega.len()", value, range });
+        }
+        omega.iter().try_for_each(|&omega| in_range("omega", omega))
+    }
+}
+
+fn in_range<T: Real>(name: &'static str, omega: T) -> Result<(), StartError> {
+    if omega >= T::lift(0.0) && omega.is_finite() {
+        Ok(())
+    } else {
+        Err(StartError::Parameter { name, value: reported(omega), range: "0 <= omega, finite" })
+    }
+}
+
+/// ω = |v × a|/|v|², the angular velocity of the osculating circle (Kosmas & Vlachos, eq. 19), in any number
+/// of dimensions as √(v²a² − (v·a)²)/v².
+///
+/// At both ends v is the mean velocity Δ/h; for [`Reading::LeftFrozen`] it is that of the motion. On Kepler
+/// orbits it changes fast at the pericentre; [`Radial`] is smoother there and gives order 4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Curvature(
+    /// How it enters the step.
+    pub Reading,
+);
+
+impl Frequency for Curvature {
+    const OF_VELOCITY: bool = true;
+
+    fn reading(&self) -> Option<Reading> {
+        Some(self.0)
+    }
+}
+
+impl<T: Real> FrequencyIn<T> for Curvature {
+    #[inline]
+    fn at(&self, _q: &[T], v: &[T], a: &[T]) -> T {
+        let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
+        // Rounding may leave a negative square on a straight path.
+        let square = (vv * aa - va * va).max(T::lift(0.0));
+        Scalar::sqrt(square) / vv
+    }
+
+    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {
+        let omega = self.at(q, v, a);
+        let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
+        let two = T::lift(2.0);
+        // ω² = a²/v² − (v·a)²/v⁴; on a straight path, where ω = 0 has a kink, the derivative is left out.
+        let half = if omega > T::lift(0.0) { T::lift(0.5) / omega } else { T::lift(0.0) };
+        let ratio = va / vv;
+        dq.fill(T::lift(0.0));
+        for i in 0..v.len() {
+            da[i] = half * two * (a[i] - ratio * v[i]) / vv;
+            dv[i] = half * two * (two * ratio * ratio * v[i] - aa / vv * v[i] - ratio * a[i]) / vv;
+        }
+        omega
+    }
+}
+
+/// ω = √(|a|/|q|): the frequency of the oscillator q'' = −ω²q with the same acceleration at the same distance
+/// from the origin. On Kepler orbits it is r^(−3/2), and the averaged and the variational reading are of order
+/// 4 there with Simpson's rule or a better one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Radial(
+    /// How it enters the step.
+    pub Reading,
+);
+
+impl Frequency for Radial {
+    fn reading(&self) -> Option<Reading> {
+        Some(self.0)
+    }
+}
+
+impl<T: Real> FrequencyIn<T> for Radial {
+    #[inline]
+    fn at(&self, q: &[T], _v: &[T], a: &[T]) -> T {
+        Scalar::sqrt(Scalar::sqrt(dot(a, a) / dot(q, q)))
+    }
+
+    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {
+        let omega = self.at(q, v, a);
+        let half = T::lift(0.5) * omega;
+        let (per_a, per_q) = (half / dot(a, a), half / dot(q, q));
+        dv.fill(T::lift(0.0));
+        for i in 0..q.len() {
+            da[i] = per_a * a[i];
+            dq[i] = -per_q * q[i];
+        }
+        omega
+    }
+}
+
+fn dot<T: Real>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y)
+}
+
+/// ω and its gradient at one end of a step.
+#[derive(Debug)]
+pub(crate) struct Local<S: RegularLagrangian, T: Real> {
+    pub(crate) omega: T,
+    /// ∂ω/∂q, acceleration included.
+    pub(crate) dq: Vector<S, T>,
+    /// ∂ω/∂v.
+    pub(crate) dv: Vector<S, T>,
+    acceleration: Vector<S, T>,
+    da: Vector<S, T>,
+    l: [Vector<S, T>; 2],
+    hessian: Option<Matrix<S, T>>,
+}
+
+impl<S: RegularLagrangian, T: Real> Local<S, T> {
+    pub(crate) fn new(system: &S, reading: Option<Reading>) -> Self {
+        let space = system.space();
+        let differentiated = reading == Some(Reading::Variational);
+        Self {
+            omega: T::lift(0.0),
+            dq: space.vector(),
+            dv: space.vector(),
+            acceleration: space.vector(),
+            da: space.vector(),
+            l: [space.vector(), space.vector()],
+            hessian: differentiated.then(|| space.matrix()),
+        }
+    }
+
+    /// ω at (`q`, `v`), where the force is `force`.
+    #[inline]
+    pub(crate) fn evaluate<F: FrequencyIn<T>>(
+        &mut self,
+        frequency: &F,
+        mass: &Mass<S, T>,
+        q: &[T],
+        v: &[T],
+        force: &[T],
+    ) -> Result<(), StepFailure> {
+        mass.solve(force, &mut self.acceleration);
+        self.omega = frequency.at(q, v, &self.acceleration);
+        norm::finite(&[self.omega])
+    }
+
+    /// ω and its gradient at (`q`, `v`): da = M⁻¹∂²L/∂q∂q dq.
+    pub(crate) fn differentiate<F: FrequencyIn<T>>(
+        &mut self,
+        frequency: &F,
+        mass: &Mass<S, T>,
+        system: &S,
+        q: &[T],
+        v: &[T],
+        t: T,
+    ) -> Result<(), StepFailure> {
+        // Kept whenever the reading is variational.
+        let Some(hessian) = &mut self.hessian else { return Ok(()) };
+        let zero = T::lift(0.0);
+        hessian.fill(zero);
+        let weights = Weights { qq: T::lift(1.0), qv: zero, vq: zero, vv: zero };
+        let [l_q, l_v] = &mut self.l;
+        system.linearize(q, v, t, weights, l_q, l_v, hessian);
+        mass.solve(l_q, &mut self.acceleration);
+        self.omega =
+            frequency.derivatives(q, v, &self.acceleration, &mut self.dq, &mut self.dv, &mut self.da);
+        mass.solve(&self.da, l_v);
+        crate::elimination::multiply_add(hessian, l_v, &mut self.dq);
+        norm::finite(&self.dq)?;
+        norm::finite(&[self.omega])
+    }
+}

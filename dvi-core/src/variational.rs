@@ -1,0 +1,262 @@
+//! Variational integrators of the quadrature family, for regular Lagrangians.
+//!
+//! L_d(q0, q1) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh),   qʲ = bⱼ q0 + b̄ⱼ q1,   q̇ʲ = (Bⱼ q0 + B̄ⱼ q1)/h
+//!
+//! with the nodes and weights of a [`Quadrature`] and an interpolation that is linear, or fitted to a
+//! [`Frequency`] (Marsden & West 2001, section 2.3; Kosmas & Vlachos, eqs. 9, 11 and 15). A step solves
+//! p0 = −D₁L_d(q0, q1) for q1 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
+
+mod coefficients;
+mod general;
+mod memory;
+mod separable;
+mod verlet;
+
+use crate::error::{StartError, StepFailure};
+use crate::frequency::{Frequency, FrequencyIn, Reading, Unfitted};
+use crate::method::{Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::quadrature::Quadrature;
+use crate::solver::{Solver, Stopping};
+use crate::statistics::Statistics;
+use crate::{Real, RegularLagrangian, Vector};
+
+pub use memory::VariationalMemory;
+
+/// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fitting {
+    /// The positions: q_{k+1} = 2 cos(ωh) q_k − q_{k−1}. The momentum is s·v with a factor s near one
+    /// (midpoint at ωh = 1: 1.188), so that a run from given velocities has a wrong amplitude for ever.
+    #[default]
+    Phase,
+    /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u).
+    /// Not available with [`PerCoordinate`](crate::PerCoordinate) frequencies, which would need weights per
+    /// coordinate.
+    PhaseAndMomentum,
+}
+
+/// The quadrature family: L_d = h Σⱼ wⱼ L(qʲ, q̇ʲ), q and q̇ interpolated between q0 and q1.
+///
+/// | rule | step if L = ½ v·M v − V(q, t) | order |
+/// |---|---|---|
+/// | [`trapezoid`](Self::trapezoid), unfitted: Störmer–Verlet | explicit: one ∂L/∂q, no iteration, no factorisation | 2 |
+/// | [`sigma`](Self::sigma) with σ = 0 or 1: symplectic Euler | explicit | 1 |
+/// | symmetric rules | implicit in q1 | 2 |
+/// | others | implicit in q1 | 1 |
+///
+/// The order is two for every symmetric rule, however many nodes it has, because the interpolation between
+/// two points is; [`Galerkin`](crate::Galerkin) has more. Other Lagrangians take the implicit step. Starts
+/// from p0 = ∂L/∂v(q0, v0). Preserves dq ∧ dp and the momentum maps of symmetries that act linearly,
+/// unless the frequency is read from the motion without being differentiated ([`Reading`]).
+///
+/// On the oscillator of the fitted frequency each step is exact, whatever the rule, where sin u ≠ 0 and
+/// S ≠ 0, u = ωh; near a zero of either it ends with [`StepFailure::Resonance`]. It is not translation
+/// invariant: constants are not among the functions that it interpolates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variational<F = Unfitted> {
+    /// Nodes and weights.
+    pub rule: Quadrature,
+    /// What the interpolation is fitted to.
+    pub frequency: F,
+    /// Whether momenta are fitted too. Default: [`Fitting::Phase`].
+    pub fitting: Fitting,
+    /// How implicit steps are solved. [`Solver::FixedPoint`] is for L = ½ v·M v − V(q, t) only.
+    pub solver: Solver,
+    /// When an implicit step counts as solved. Default: to rounding errors.
+    pub stopping: Stopping,
+}
+
+impl Variational {
+    /// Any rule, with linear interpolation.
+    pub fn new(rule: Quadrature) -> Self {
+        Self {
+            rule,
+            frequency: Unfitted,
+            fitting: Fitting::default(),
+            solver: Solver::default(),
+            stopping: Stopping::default(),
+        }
+    }
+
+    /// L_d = h L((q0 + q1)/2, Δ/h): the implicit midpoint rule.
+    pub fn midpoint() -> Self {
+        Self::new(Quadrature::midpoint())
+    }
+
+    /// L_d = (h/2)[L(q0, Δ/h) + L(q1, Δ/h)]: Störmer–Verlet, in the form kick–drift–kick, if L is separable.
+    pub fn trapezoid() -> Self {
+        Self::new(Quadrature::trapezoid())
+    }
+
+    /// L_d = h L((1 − σ)q0 + σq1, Δ/h).
+    pub fn sigma(sigma: f64) -> Self {
+        Self::new(Quadrature::sigma(sigma))
+    }
+
+    /// Nodes 0, ½, 1 with weights 1/6, 2/3, 1/6.
+    pub fn simpson() -> Self {
+        Self::new(Quadrature::simpson())
+    }
+}
+
+impl<F> Variational<F> {
+    /// The same rule with interpolation fitted to a frequency.
+    pub fn phase_fitted<G>(self, frequency: G) -> Variational<G> {
+        let Self { rule, fitting, solver, stopping, .. } = self;
+        Variational { rule, frequency, fitting, solver, stopping }
+    }
+}
+
+/// One step: where it starts, how long it is, and which member of the family takes it.
+#[derive(Debug)]
+struct Step<'a, S, F, T> {
+    system: &'a S,
+    method: &'a Variational<F>,
+    t: T,
+    h: T,
+}
+
+impl<S: RegularLagrangian, F: Frequency, T: Real> Step<'_, S, F, T> {
+    /// The time of a node.
+    #[inline(always)]
+    fn node_time(&self, c: f64) -> T {
+        self.t + T::lift(c) * self.h
+    }
+
+    /// How many iterations the fixed point gets; fewer where Newton stands by.
+    #[inline(always)]
+    fn budget(&self, dimension: usize) -> usize {
+        let max = self.method.stopping.max_iterations;
+        if self.method.solver == Solver::Automatic { max.min(24 + dimension) } else { max }
+    }
+}
+
+impl<F: Frequency> Variational<F> {
+    /// Whether the step is Störmer–Verlet, for separable systems.
+    #[inline(always)]
+    fn is_verlet(&self) -> bool {
+        F::UNFITTED && self.rule == Quadrature::trapezoid()
+    }
+
+    /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
+    #[inline(always)]
+    fn is_explicit(&self) -> bool {
+        !self.rule.has_interior_nodes() && !self.reads_both_ends()
+    }
+
+    /// Whether forces are all that a step needs, for separable systems.
+    #[inline(always)]
+    fn is_separable<S: RegularLagrangian>(&self) -> bool {
+        let couples = F::PER_COORDINATE && !S::DIAGONAL_MASS;
+        !couples && self.frequency.reading() != Some(Reading::Variational)
+    }
+
+    #[inline(always)]
+    fn reads_both_ends(&self) -> bool {
+        matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
+    }
+
+    fn validate<S: RegularLagrangian, T: Real>(&self, system: &S) -> Result<(), StartError>
+    where
+        F: FrequencyIn<T>,
+    {
+        self.rule.validate()?;
+        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
+        if F::PER_COORDINATE && self.fitting == Fitting::PhaseAndMomentum {
+            return unsupported("Fitting::PhaseAndMomentum", "frequencies per coordinate fit the phase only");
+        }
+        if !S::SEPARABLE && self.frequency.reading().is_some() {
+            return unsupported(
+                "a frequency read from the motion",
+                "it needs L = ½ v·M v − V(q, t) with a constant matrix M",
+            );
+        }
+        if !S::SEPARABLE && self.solver == Solver::FixedPoint {
+            return unsupported(
+                "Solver::FixedPoint",
+                "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton",
+            );
+        }
+        self.frequency.validate(crate::Space::dimension(system.space()))?;
+        self.stopping.validate()
+    }
+}
+
+impl<F: Frequency> Scheme for Variational<F> {
+    fn order(&self) -> usize {
+        if self.rule.is_symmetric() { 2 } else { 1 }
+    }
+    fn is_symmetric(&self) -> bool {
+        self.rule.is_symmetric() && self.frequency.reading() != Some(Reading::LeftFrozen)
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        match self.frequency.reading() {
+            None | Some(Reading::Variational) => PreservedForm::Canonical,
+            Some(Reading::LeftFrozen | Reading::Averaged) => PreservedForm::Nothing,
+        }
+    }
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T> for Variational<F> {
+    type Memory = VariationalMemory<S, T>;
+
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        self.validate::<S, T>(system)?;
+        VariationalMemory::new(system, self, q, v, t, h)
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, method: self, t, h };
+        if S::SEPARABLE && self.is_verlet() {
+            let (taken, result) = verlet::steps(system, memory, q, Clock::new(t, h), 1);
+            statistics.gradients += taken;
+            result
+        } else if S::SEPARABLE && self.is_separable::<S>() {
+            separable::step(&step, memory, q, statistics)
+        } else {
+            general::step(&step, memory, q, statistics)
+        }
+    }
+
+    fn velocity(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        memory.motion.velocity(system, q, t, v)
+    }
+
+    #[inline]
+    fn steps(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        if S::SEPARABLE && self.is_verlet() {
+            let (taken, result) = verlet::steps(system, memory, q, clock, count);
+            statistics.gradients += taken;
+            statistics.steps += taken;
+            result
+        } else {
+            one_by_one(self, system, memory, q, clock, count, statistics)
+        }
+    }
+}
+
+impl<F> VariableStep for Variational<F> {}

@@ -1,0 +1,202 @@
+//! What a run of the quadrature family carries from step to step.
+
+use super::coefficients::{Each, Uniform};
+use super::{Step, Variational};
+use crate::error::{StartError, StepFailure};
+use crate::frequency::{Frequency, FrequencyIn, Local};
+use crate::history::History;
+use crate::legendre::Legendre;
+use crate::mass::Mass;
+use crate::solver::Solver;
+use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector, norm};
+
+/// The momentum of a run of the quadrature family, its guesses and its work space.
+#[derive(Debug)]
+pub struct VariationalMemory<S: RegularLagrangian, T: Real> {
+    pub(super) interpolation: Interpolation<S, T>,
+    /// The frequencies at both ends of the step.
+    pub(super) ends: [Local<S, T>; 2],
+    pub(super) motion: Motion<S, T>,
+}
+
+/// The latest coefficients of the interpolation.
+#[derive(Debug)]
+pub(super) enum Interpolation<S: Lagrangian, T: Real> {
+    Uniform(Uniform<T>),
+    Each(Each<S, T>),
+}
+
+/// Where a run is, how it got there, and work space.
+#[derive(Debug)]
+pub(super) struct Motion<S: RegularLagrangian, T: Real> {
+    /// p at the current point.
+    pub(super) p: Vector<S, T>,
+    /// ∂L/∂q at the current point; kept if L is separable.
+    pub(super) force: Vector<S, T>,
+    /// Kept if L is separable.
+    pub(super) mass: Option<Mass<S, T>>,
+    /// The mean velocities Δ/h of the last steps.
+    pub(super) history: History<S, T>,
+    /// The length of the step before; zero before the first.
+    pub(super) last_step: T,
+    /// Storage for the Newton matrix and for one term of it.
+    pub(super) newton: Option<[Matrix<S, T>; 2]>,
+    /// How many steps Newton takes before the fixed point is tried again.
+    pub(super) newton_steps: u32,
+    pub(super) work: Work<S, T>,
+}
+
+/// Vectors that are written before they are read in each step.
+#[derive(Debug)]
+pub(super) struct Work<S: Lagrangian, T: Real> {
+    pub(super) increment: Vector<S, T>,
+    pub(super) next: Vector<S, T>,
+    pub(super) point: Vector<S, T>,
+    pub(super) velocity: Vector<S, T>,
+    /// ∂L/∂q at a node.
+    pub(super) gradient: Vector<S, T>,
+    /// ∂L/∂v at a node, or p1.
+    pub(super) momentum: Vector<S, T>,
+    /// The residual, then the correction.
+    pub(super) trial: Vector<S, T>,
+    pub(super) d1: Vector<S, T>,
+    pub(super) d2: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
+    /// p = ∂L/∂v at the current point, one entry per coordinate.
+    pub fn p(&self) -> &[T] {
+        &self.motion.p
+    }
+
+    pub(super) fn new<F: FrequencyIn<T>>(
+        system: &S,
+        method: &Variational<F>,
+        q: &Vector<S, T>,
+        v: &[T],
+        t: T,
+        h: T,
+    ) -> Result<Self, StartError> {
+        let space = system.space();
+        let vector = || space.vector();
+        let [mut force, mut p]: [Vector<S, T>; 2] = [vector(), vector()];
+        system.gradient(q, v, t, &mut force, &mut p);
+        norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
+        let mass = S::SEPARABLE.then(|| Mass::new(system, q, t)).transpose().map_err(StartError::Starter)?;
+        let explicit = S::SEPARABLE && method.is_explicit();
+        let newton =
+            (!explicit && method.solver != Solver::FixedPoint).then(|| [space.matrix(), space.matrix()]);
+        let reading = method.frequency.reading();
+        let mut mean = vector();
+        mean.copy_from_slice(v);
+        let mut interpolation = if F::PER_COORDINATE {
+            Interpolation::Each(Each::new(system))
+        } else {
+            let unfitted = Uniform::new(&method.rule, method.fitting, T::lift(0.0));
+            Interpolation::Uniform(unfitted.map_err(StartError::Starter)?)
+        };
+        if reading.is_none() {
+            interpolation.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
+        }
+        let motion = Motion {
+            p,
+            force,
+            mass,
+            history: History::new(system, Some(mean)),
+            last_step: T::lift(0.0),
+            newton,
+            newton_steps: 0,
+            work: Work::new(system),
+        };
+        Ok(Self { interpolation, ends: [Local::new(system, reading), Local::new(system, reading)], motion })
+    }
+}
+
+impl<S: Lagrangian, T: Real> Work<S, T> {
+    fn new(system: &S) -> Self {
+        let vector = || system.space().vector();
+        Self {
+            increment: vector(),
+            next: vector(),
+            point: vector(),
+            velocity: vector(),
+            gradient: vector(),
+            momentum: vector(),
+            trial: vector(),
+            d1: vector(),
+            d2: vector(),
+        }
+    }
+}
+
+impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
+    /// Where the frequency does not depend on the motion: makes the coefficients those of this step.
+    #[inline(always)]
+    pub(super) fn fix<F: FrequencyIn<T>>(&mut self, step: &Step<'_, S, F, T>) -> Result<(), StepFailure> {
+        match self {
+            Self::Each(each) => each.fix(step),
+            Self::Uniform(_) => self.set(step, step.method.frequency.fixed(0)),
+        }
+    }
+
+    /// Makes the coefficients those for one frequency `omega`, if they are not.
+    #[inline(always)]
+    pub(super) fn set<F>(&mut self, step: &Step<'_, S, F, T>, omega: T) -> Result<(), StepFailure> {
+        let u = omega * step.h;
+        match self {
+            Self::Uniform(known) if !known.is_for(u * u) => {
+                *known = Uniform::new(&step.method.rule, step.method.fitting, u * u)?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+impl<S: RegularLagrangian, T: Real> Motion<S, T> {
+    /// Sets `work.increment` to the guess of Δ: extrapolated from the steps before if they had about this
+    /// length, and from the momentum elsewhere.
+    #[inline(always)]
+    pub(super) fn guess<F: Frequency>(&mut self, step: &Step<'_, S, F, T>) {
+        let Self { p, mass, history, last_step, work, .. } = self;
+        let ratio = step.h / *last_step;
+        let similar = ratio > T::lift(0.5) && ratio < T::lift(2.0);
+        match mass {
+            Some(mass) if !similar => mass.solve(p, &mut work.increment),
+            _ => history.extrapolate(&mut work.increment),
+        }
+        for delta in work.increment.iter_mut() {
+            *delta *= step.h;
+        }
+    }
+
+    /// Remembers a completed step with increment `work.increment`.
+    #[inline(always)]
+    pub(super) fn remember(&mut self, h: T) {
+        let Self { history, last_step, work, .. } = self;
+        let ratio = h / *last_step;
+        if !(ratio > T::lift(0.5) && ratio < T::lift(2.0)) {
+            history.clear();
+        }
+        *last_step = h;
+        let per_h = T::lift(1.0) / h;
+        for (mean, &delta) in work.velocity.iter_mut().zip(work.increment.iter()) {
+            *mean = delta * per_h;
+        }
+        history.push(&work.velocity);
+    }
+
+    /// Sets `v` to the velocity with ∂L/∂v = p.
+    pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
+        match &self.mass {
+            Some(mass) => {
+                mass.solve(&self.p, v);
+                Ok(())
+            }
+            None => {
+                self.history.extrapolate(v);
+                Legendre::new(system).solve(system, q, &self.p, t, v)
+            }
+        }
+    }
+}

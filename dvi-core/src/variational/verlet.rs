@@ -1,0 +1,96 @@
+//! The trapezoidal rule with linear interpolation on L = ½ v·M v − V(q, t): Störmer–Verlet, in the form
+//! kick–drift–kick. One ∂L/∂q a step, no iteration, no factorisation.
+//!
+//! p½ = p0 + (h/2) F(q0, t)    q1 = q0 + h M⁻¹p½    p1 = p½ + (h/2) F(q1, t + h)
+//!
+//! Source: Hairer, Lubich & Wanner 2003, "Geometric numerical integration illustrated by the Störmer–Verlet
+//! method".
+
+use super::memory::{Motion, VariationalMemory};
+use crate::error::StepFailure;
+use crate::mass::Mass;
+use crate::method::Clock;
+use crate::space::scratch;
+use crate::walk::{Walk, walk};
+use crate::{Real, RegularLagrangian, Vector, norm};
+
+/// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
+/// good point.
+#[inline(always)]
+pub(super) fn steps<S: RegularLagrangian, T: Real>(
+    system: &S,
+    memory: &mut VariationalMemory<S, T>,
+    q: &mut Vector<S, T>,
+    clock: Clock<T>,
+    count: u64,
+) -> (u64, Result<(), StepFailure>) {
+    let Motion { p, force, mass, work, .. } = &mut memory.motion;
+    // Every run of a separable system has it.
+    let Some(mass) = mass else { return (0, Ok(())) };
+    scratch!(q1 = system, work.point);
+    scratch!(p1 = system, work.momentum);
+    scratch!(f1 = system, work.trial);
+    scratch!(v = system, work.velocity);
+    q1.copy_from_slice(q);
+    p1.copy_from_slice(p);
+    f1.copy_from_slice(force);
+    let half = T::lift(0.5) * clock.step_size();
+    walk(Kicks { system, mass, clock, half, q, p, force, q1, p1, f1, v }, count)
+}
+
+/// The present point, momentum and force, and where they are kept.
+struct Kicks<'a, S: RegularLagrangian, T: Real> {
+    system: &'a S,
+    mass: &'a Mass<S, T>,
+    clock: Clock<T>,
+    half: T,
+    q: &'a mut Vector<S, T>,
+    p: &'a mut Vector<S, T>,
+    force: &'a mut Vector<S, T>,
+    q1: &'a mut [T],
+    p1: &'a mut [T],
+    f1: &'a mut [T],
+    v: &'a mut [T],
+}
+
+impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
+    #[inline(always)]
+    fn step(&mut self, number: u64) {
+        let Self { half, q1, p1, f1, v, .. } = self;
+        for (p, &f) in p1.iter_mut().zip(f1.iter()) {
+            *p += *half * f;
+        }
+        self.mass.solve(p1, v);
+        for (q, &v) in q1.iter_mut().zip(v.iter()) {
+            *q += self.clock.step_size() * v;
+        }
+        self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
+        for (p, &f) in p1.iter_mut().zip(f1.iter()) {
+            *p += *half * f;
+        }
+    }
+
+    #[inline(always)]
+    fn examine(&mut self, _steps: u64) -> Result<(), StepFailure> {
+        scratch!(examined = self.system, *self.v);
+        examined.copy_from_slice(self.q1);
+        norm::finite(examined)?;
+        // A collision shows in the force, which is in the momentum.
+        examined.copy_from_slice(self.p1);
+        norm::finite(examined)
+    }
+
+    #[inline(always)]
+    fn keep(&mut self) {
+        self.q.copy_from_slice(self.q1);
+        self.p.copy_from_slice(self.p1);
+        self.force.copy_from_slice(self.f1);
+    }
+
+    #[inline(always)]
+    fn go_back(&mut self) {
+        self.q1.copy_from_slice(self.q);
+        self.p1.copy_from_slice(self.p);
+        self.f1.copy_from_slice(self.force);
+    }
+}

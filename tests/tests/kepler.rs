@@ -1,0 +1,62 @@
+//! One period of Kepler's problem against the values of independent programs, orders, and invariants.
+
+use core::f64::consts::TAU;
+use dvi_core::FrequencyIn;
+use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+type Run = (KeplerState, f64);
+
+const SYSTEM: Kepler = Kepler { mu: 1.0 };
+
+/// At the pericentre of an orbit with period 2π.
+fn pericentre(e: f64) -> KeplerState {
+    KeplerState { x: 1.0 - e, y: 0.0, dot_x: 0.0, dot_y: ((1.0 + e) / (1.0 - e)).sqrt() }
+}
+
+/// The state after one period of `steps` steps, and max |ΔE| on the way.
+fn period<F: FrequencyIn<f64>>(
+    method: Variational<F>,
+    e: f64,
+    steps: u64,
+) -> Result<Run, Box<dyn core::error::Error>> {
+    let mut run = Integrator::new(&SYSTEM, method, TAU / steps as f64, pericentre(e))?;
+    let initial = run.energy();
+    let mut largest: f64 = 0.0;
+    for _ in 0..steps {
+        run.advance()?;
+        largest = largest.max((run.energy() - initial).abs());
+    }
+    Ok((run.state(), largest))
+}
+
+#[test]
+fn one_period_has_the_reference_values() -> Outcome {
+    let (verlet, energy) = period(Variational::trapezoid(), 0.2, 200)?;
+    assert!((verlet.x - 0.799_989_183_048_22).abs() < 1e-11, "{verlet:?}");
+    assert!((verlet.y + 0.004_327_113_757_24).abs() < 1e-11, "{verlet:?}");
+    assert!((energy - 1.287_935_994_34e-4).abs() < 1e-13, "{energy:e}");
+    let fitted = Variational::trapezoid().phase_fitted(Curvature(Reading::LeftFrozen));
+    let (fitted, energy) = period(fitted, 0.2, 200)?;
+    assert!((fitted.x - 0.799_914_909_563_45).abs() < 1e-11, "{fitted:?}");
+    assert!((fitted.y + 0.011_460_521_261_26).abs() < 1e-11, "{fitted:?}");
+    assert!((energy - 3.101_285_800_05e-4).abs() < 1e-13, "{energy:e}");
+    Ok(())
+}
+
+#[test]
+fn fixed_point_and_newton_find_the_same_steps() -> Outcome {
+    for reading in [Reading::LeftFrozen, Reading::Averaged, Reading::Variational] {
+        for rule in [Quadrature::midpoint(), Quadrature::simpson(), Quadrature::gauss(2)?] {
+            let method = |solver| {
+                let rule = Variational { solver, ..Variational::new(rule) };
+                rule.phase_fitted(Radial(reading))
+            };
+            let (a, _) = period(method(Solver::FixedPoint), 0.3, 100)?;
+            let (b, _) = period(method(Solver::Newton), 0.3, 100)?;
+            assert!((a.x - b.x).abs().max((a.y - b.y).abs()) < 1e-12, "{reading:?}, {rule:?}: {a:?} {b:?}");
+        }
+    }
+    Ok(())
+}
