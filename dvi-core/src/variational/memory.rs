@@ -83,7 +83,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         system.gradient(q, v, t, &mut force, &mut p);
         norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
         let mass = S::SEPARABLE.then(|| Mass::new(system, q, t)).transpose().map_err(StartError::Starter)?;
-        let explicit = S::SEPARABLE && method.is_explicit();
+        let explicit = method.needs_forces_only::<S>() && method.is_explicit();
         let newton =
             (!explicit && method.solver != Solver::FixedPoint).then(|| [space.matrix(), space.matrix()]);
         let reading = method.frequency.reading();
