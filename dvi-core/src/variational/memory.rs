@@ -92,8 +92,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         let mut interpolation = if F::PER_COORDINATE {
             Interpolation::Each(Each::new(system))
         } else {
-            let unfitted = Uniform::new(&method.rule, method.fitting, T::lift(0.0));
-            Interpolation::Uniform(unfitted.map_err(StartError::Starter)?)
+            Interpolation::Uniform(Uniform::linear(&method.rule))
         };
         if reading.is_none() {
             interpolation.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
@@ -144,12 +143,9 @@ impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
     pub(super) fn set<F>(&mut self, step: &Step<'_, S, F, T>, omega: T) -> Result<(), StepFailure> {
         let u = omega * step.h;
         match self {
-            Self::Uniform(known) if !known.is_for(u * u) => {
-                *known = Uniform::new(&step.method.rule, step.method.fitting, u * u)?;
-            }
-            _ => {}
+            Self::Uniform(known) if !known.is_for(u) => known.set(&step.method.rule, step.method.fitting, u),
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
