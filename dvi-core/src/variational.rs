@@ -265,4 +265,9 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T> for Variatio
     }
 }
 
-impl<F> VariableStep for Variational<F> {}
+impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> VariableStep<S, T> for Variational<F> {
+    #[inline]
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.motion.restore(&from.motion);
+    }
+}

@@ -182,6 +182,14 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
         history.push(&work.velocity);
     }
 
+    /// Takes over all that the next step can depend on.
+    pub(super) fn restore(&mut self, from: &Self) {
+        self.p.copy_from_slice(&from.p);
+        self.force.copy_from_slice(&from.force);
+        self.history.restore(&from.history);
+        (self.last_step, self.newton_steps) = (from.last_step, from.newton_steps);
+    }
+
     /// Sets `v` to the velocity with ∂L/∂v = p.
     pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         match &self.mass {

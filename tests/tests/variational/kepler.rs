@@ -1,8 +1,8 @@
 //! One period of Kepler's problem against the values of independent programs, orders, and invariants.
 
 use core::f64::consts::TAU;
-use dvi_core::FrequencyIn;
 use dvi_core::prelude::*;
+use dvi_core::{FrequencyIn, Method};
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -75,8 +75,17 @@ fn order<F: FrequencyIn<f64> + Copy>(
     method: Variational<F>,
     e: f64,
 ) -> Result<f64, Box<dyn core::error::Error>> {
+    order_from(method, e, 100)
+}
+
+/// The same with `steps` steps, and twice and four times as many.
+fn order_from<M: Method<Kepler, f64> + Copy>(
+    method: M,
+    e: f64,
+    steps: u64,
+) -> Result<f64, Box<dyn core::error::Error>> {
     let ([x, y], mut errors) = (exact(e, 2.0), Vec::new());
-    for steps in [100, 200, 400] {
+    for steps in [steps, 2 * steps, 4 * steps] {
         let h = 2.0 / steps as f64;
         let mut run = Integrator::new(&SYSTEM, method, h, pericentre(e))?;
         run.advance_by(steps)?;
@@ -143,6 +152,23 @@ fn angular_momentum_is_conserved_by_every_reading() -> Outcome {
         drift(simpson.phase_fitted(Radial(Reading::Variational)))?,
     ] {
         assert!(found < 2e-10, "{found:e}");
+    }
+    Ok(())
+}
+
+#[test]
+fn compositions_of_verlet_have_orders_four_six_and_eight() -> Outcome {
+    let verlet = Variational::trapezoid();
+    for (method, steps, expected) in [
+        (Composition::triple_jump(verlet), 100, 4.0),
+        (Composition::suzuki(verlet), 50, 4.0),
+        (Composition::yoshida(verlet), 50, 6.0),
+        (Composition::kahan_li_6(verlet), 20, 6.0),
+        (Composition::suzuki_umeno(verlet), 12, 8.0),
+        (Composition::kahan_li_8(verlet), 10, 8.0),
+    ] {
+        let found = order_from(method, 0.2, steps)?;
+        assert!((found - expected).abs() < 0.2, "{}: {found}", method.name());
     }
     Ok(())
 }
