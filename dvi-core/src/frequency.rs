@@ -125,8 +125,11 @@ impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
 }
 
 fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
-    let allowed = value >= 0.0 && value < f64::INFINITY;
-    if allowed { Ok(()) } else { Err(StartError::Parameter { name, value, range: "0 <= omega, finite" }) }
+    if (0.0..f64::INFINITY).contains(&value) {
+        Ok(())
+    } else {
+        Err(StartError::Parameter { name, value, range: "0 <= omega, finite" })
+    }
 }
 
 /// ω = |v × a|/|v|², the angular velocity of the osculating circle (Kosmas & Vlachos, eq. 19), in any number

@@ -183,10 +183,10 @@ fn correct<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     }
     match (&mut motion.newton, &motion.mass, interpolation) {
         (Some([matrix, _]), _, Interpolation::Uniform(uniform)) => {
-            newton_matrix(uniform, step, matrix, work, q)
+            newton_matrix(uniform, step, matrix, work, q);
         }
         (Some(storage), _, Interpolation::Each(each)) => {
-            newton_matrix_by_coordinates(each, step, storage, work, q)
+            newton_matrix_by_coordinates(each, step, storage, work, q);
         }
         (None, Some(mass), Interpolation::Uniform(uniform)) => {
             let Work { trial, velocity, .. } = work;
