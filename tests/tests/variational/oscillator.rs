@@ -89,7 +89,7 @@ fn a_fitted_phase_has_the_momentum_of_the_paper_and_fitted_weights_the_right_one
     {
         let start: OscillatorState = OscillatorState { x: 0.0, dot_x: 1.0 };
         let phase = Variational::new(rule).phase_fitted(Constant(1.0));
-        let mut run = Integrator::new(&system, phase, 1.0, start.clone())?;
+        let mut run = Integrator::new(&system, phase, 1.0, start)?;
         run.advance()?;
         // The solution with p0 = 1 is sin t / s.
         assert!((run.q()[0] * s - 1.0_f64.sin()).abs() < 1e-12, "{rule:?}");
@@ -110,7 +110,7 @@ fn each_coordinate_can_have_its_own_frequency() -> Outcome {
     let start: PairState = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
     let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 2.3]));
     for solver in [Solver::FixedPoint, Solver::Newton] {
-        let mut run = Integrator::new(&system, Variational { solver, ..method }, 0.9, start.clone())?;
+        let mut run = Integrator::new(&system, Variational { solver, ..method }, 0.9, start)?;
         for k in 1..1000_u32 {
             run.advance()?;
             let t = 0.9 * f64::from(k);
@@ -127,10 +127,10 @@ fn small_frequencies_lose_no_digits() -> Outcome {
     let start: OscillatorState = OscillatorState { x: 0.3, dot_x: 0.8 };
     for rule in rules()? {
         let linear = Variational::new(rule);
-        let mut reference = Integrator::new(&system, linear, 0.1, start.clone())?;
+        let mut reference = Integrator::new(&system, linear, 0.1, start)?;
         reference.advance_by(50)?;
         for omega in [0.0, 1e-300, 1e-160, 1e-12, 1e-8] {
-            let mut run = Integrator::new(&system, linear.phase_fitted(Constant(omega)), 0.1, start.clone())?;
+            let mut run = Integrator::new(&system, linear.phase_fitted(Constant(omega)), 0.1, start)?;
             run.advance_by(50)?;
             let error = (run.q()[0] - reference.q()[0]).abs();
             assert!(error < 1e-13, "{rule:?}, ω = {omega:e}: {error:e}");
@@ -151,7 +151,7 @@ fn a_resonance_is_an_error_and_not_a_number() -> Outcome {
         (Quadrature::lobatto(4)?, 2.0 * core::f64::consts::PI),
     ] {
         let method = Variational::new(rule).phase_fitted(Constant(1.0));
-        let error = Integrator::new(&system, method, u, start.clone()).err();
+        let error = Integrator::new(&system, method, u, start).err();
         assert!(
             matches!(error, Some(StartError::Starter(StepFailure::Resonance { u: found, .. })) if (found - u).abs() < 1e-12),
             "{rule:?}: {error:?}"
