@@ -68,6 +68,14 @@ impl<S: Lagrangian, T: Real> History<S, T> {
         self.len = 0;
     }
 
+    /// Forgets all increments; the next guess is `seed`.
+    pub(crate) fn restart(&mut self, seed: &[T]) {
+        self.clear();
+        if let Some(known) = &mut self.seed {
+            known.copy_from_slice(seed);
+        }
+    }
+
     /// Remembers the increment of a completed step.
     #[inline(always)]
     pub(crate) fn push(&mut self, increment: &[T]) {

@@ -146,6 +146,24 @@ pub(crate) fn one_by_one<S: Lagrangian, T: Real, M: Method<S, T> + ?Sized>(
 /// follow one another.
 pub trait VariableStep {}
 
+/// A method whose run can be put to another point on the way: to undo a step that a control rejects, or after
+/// an impact.
+pub trait Restart<S: Lagrangian, T: Real>: Method<S, T> {
+    /// Makes `memory` that of a run from (`q`, `v`) at time `t`, as [`begin`](Method::begin) does but without
+    /// allocation; the options and the arrays of the system are those that the run began with.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotFinite`] if a formula left its domain; `memory` is then not to be used.
+    fn restart(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &Vector<S, T>,
+        v: &Vector<S, T>,
+        t: T,
+    ) -> Result<(), StepFailure>;
+}
+
 /// A method whose run is determined by two consecutive points.
 pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {
     /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.

@@ -14,7 +14,7 @@ mod verlet;
 
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{Frequency, FrequencyIn, Reading, Unfitted};
-use crate::method::{Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::method::{Clock, Method, PreservedForm, Restart, Scheme, VariableStep, one_by_one};
 use crate::quadrature::Quadrature;
 use crate::solver::{Solver, Stopping};
 use crate::statistics::Statistics;
@@ -260,3 +260,16 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T> for Variatio
 }
 
 impl<F> VariableStep for Variational<F> {}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Restart<S, T> for Variational<F> {
+    fn restart(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &Vector<S, T>,
+        v: &Vector<S, T>,
+        t: T,
+    ) -> Result<(), StepFailure> {
+        memory.motion.restart(system, q, v, t)
+    }
+}

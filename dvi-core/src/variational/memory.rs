@@ -186,6 +186,14 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
         history.push(&work.velocity);
     }
 
+    /// Begins anew at (`q`, `v`).
+    pub(super) fn restart(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<(), StepFailure> {
+        system.gradient(q, v, t, &mut self.force, &mut self.p);
+        self.history.restart(v);
+        self.last_step = T::lift(0.0);
+        norm::finite(&self.p).and(norm::finite(&self.force))
+    }
+
     /// Sets `v` to the velocity with ∂L/∂v = p.
     pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         match &self.mass {
