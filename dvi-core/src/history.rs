@@ -68,12 +68,12 @@ impl<S: Lagrangian, T: Real> History<S, T> {
         self.len = 0;
     }
 
-    /// Forgets all increments; the next guess is `seed`.
-    pub(crate) fn restart(&mut self, seed: &[T]) {
-        self.clear();
-        if let Some(known) = &mut self.seed {
-            known.copy_from_slice(seed);
+    /// Takes over the increments of another history.
+    pub(crate) fn restore(&mut self, from: &Self) {
+        for (increment, other) in self.ring.iter_mut().zip(&from.ring) {
+            increment.copy_from_slice(other);
         }
+        (self.len, self.next) = (from.len, from.next);
     }
 
     /// Remembers the increment of a completed step.

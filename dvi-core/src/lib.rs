@@ -55,6 +55,7 @@ extern crate alloc;
 #[path = "private.rs"]
 pub mod __private;
 mod basis;
+mod composition;
 pub mod diagnostics;
 mod elimination;
 mod error;
@@ -83,6 +84,7 @@ mod variational;
 mod vector_field;
 mod walk;
 
+pub use composition::{Composition, CompositionMemory};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};
@@ -90,7 +92,7 @@ pub use frequency::{Constant, Curvature, Frequency, FrequencyIn, PerCoordinate, 
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
-pub use method::{Clock, Method, PreservedForm, Restart, Scheme, TwoPoint, VariableStep};
+pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
 pub use quadrature::Quadrature;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use run::Run;

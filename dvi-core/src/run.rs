@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::error::{StartError, StepError, StepFailure};
-use crate::method::{Method, Restart};
+use crate::method::{Method, VariableStep};
 use crate::norm::reported;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Space, State, Vector};
@@ -17,11 +17,13 @@ pub struct Run<'a, S: Lagrangian, M: Method<S, T>, T: Real> {
     pub(crate) q: Vector<S, T>,
     pub(crate) statistics: Statistics,
     pub(crate) failed: bool,
+    /// What can be gone back to; for controls that reject steps.
+    pub(crate) checkpoint: Option<(M::Memory, Vector<S, T>)>,
 }
 
 impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Run<'a, S, M, T> {
     pub(crate) fn new(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
-        Self { system, method, memory, q, statistics: Statistics::default(), failed: false }
+        Self { system, method, memory, q, statistics: Statistics::default(), failed: false, checkpoint: None }
     }
 
     /// The system.
@@ -57,17 +59,27 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Run<'a, S, M, T> {
         self.method.step(self.system, &mut self.memory, &mut self.q, t, h, &mut self.statistics)
     }
 
-    /// Goes on from (`q`, `v`) at time `t` instead, without allocation.
-    ///
-    /// # Errors
-    /// As [`Restart::restart`].
-    pub fn restart(&mut self, q: &Vector<S, T>, v: &Vector<S, T>, t: T) -> Result<(), StepFailure>
+    /// Keeps the present point, to [go back](Self::go_back) to it; nothing happens if the control does not
+    /// [reject](crate::StepControl::REJECTS) steps.
+    pub fn keep(&mut self)
     where
-        M: Restart<S, T>,
+        M: VariableStep<S, T>,
     {
-        self.method.restart(self.system, &mut self.memory, q, v, t)?;
-        self.q.copy_from_slice(q);
-        Ok(())
+        if let Some((memory, q)) = &mut self.checkpoint {
+            self.method.restore(&self.memory, memory);
+            q.copy_from_slice(&self.q);
+        }
+    }
+
+    /// Goes back to the point that was kept.
+    pub fn go_back(&mut self)
+    where
+        M: VariableStep<S, T>,
+    {
+        if let Some((memory, q)) = &self.checkpoint {
+            self.method.restore(memory, &mut self.memory);
+            self.q.copy_from_slice(q);
+        }
     }
 
     #[cold]

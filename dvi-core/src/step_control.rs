@@ -12,7 +12,7 @@ mod reversible;
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
-use crate::method::Method;
+use crate::method::VariableStep;
 use crate::run::Run;
 use crate::{Lagrangian, Real};
 
@@ -20,11 +20,12 @@ pub use integrator::ControlledIntegrator;
 pub use osculating::{CentreSpeed, Osculating, OsculatingMemory};
 pub use reversible::{Density, Power, Reversible, ReversibleMemory};
 
-/// A rule for the length of each step of a run of `M` on `S`.
+/// A rule for the length of each step of a run on `S`.
 ///
-/// The control takes the steps itself, so that one that has to undo a step can ask for a method that allows it
-/// ([`Restart`](crate::Restart)), and one that does not, does not.
-pub trait StepControl<S: Lagrangian, M: Method<S, T>, T: Real>: Debug {
+/// The control takes the steps itself, so that it sees the run before and after each, and may take one back.
+pub trait StepControl<S: Lagrangian, T: Real>: Debug {
+    /// Whether steps may be taken back, so that the run has to keep what it takes.
+    const REJECTS: bool = false;
     /// What is carried from step to step.
     type Memory;
 
@@ -39,7 +40,11 @@ pub trait StepControl<S: Lagrangian, M: Method<S, T>, T: Real>: Debug {
     /// Takes `run` one step on from time `t`, without allocation, and returns the length of the step.
     ///
     /// # Errors
-    /// Any [`StepFailure`]; `run` and `memory` are then as they were before, but for rounding errors of a step
-    /// that was undone.
-    fn step(&self, memory: &mut Self::Memory, run: &mut Run<'_, S, M, T>, t: T) -> Result<T, StepFailure>;
+    /// Any [`StepFailure`]; `run` and `memory` are then as they were before.
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut Run<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure>;
 }

@@ -14,7 +14,7 @@ use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
 /// It has the verbs of [`Integrator`](crate::Integrator): as an iterator it yields the state after each step, up
 /// to the first failure; [`state`](Self::state) is always the last good one. The velocity is taken along, so that
 /// a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-pub struct ControlledIntegrator<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, M, T>, T: Real = f64> {
+pub struct ControlledIntegrator<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, T>, T: Real = f64> {
     run: Run<'a, S, M, T>,
     control: C,
     control_memory: C::Memory,
@@ -25,8 +25,8 @@ pub struct ControlledIntegrator<'a, S: Lagrangian, M: Method<S, T>, C: StepContr
 
 impl<'a, S: Lagrangian, M, C, T: Real> ControlledIntegrator<'a, S, M, C, T>
 where
-    M: Method<S, T> + VariableStep,
-    C: StepControl<S, M, T>,
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
 {
     /// A run from `start` at time 0.
     ///
@@ -53,7 +53,9 @@ where
         let v = &v[..velocities(system)];
         let (control_memory, h) = control.begin(system, &q, v, t)?;
         let memory = method.begin(system, &q, v, t, h)?;
-        let run = Run::new(system, method, memory, q);
+        let checkpoint = C::REJECTS.then(|| method.begin(system, &q, v, t, h)).transpose()?;
+        let mut run = Run::new(system, method, memory, q);
+        run.checkpoint = checkpoint.map(|memory| (memory, run.q.clone()));
         Ok(Self { run, control, control_memory, clock: VariableClock::new(t), h })
     }
 
@@ -84,9 +86,7 @@ where
     }
 }
 
-impl<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, M, T>, T: Real>
-    ControlledIntegrator<'a, S, M, C, T>
-{
+impl<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, T>, T: Real> ControlledIntegrator<'a, S, M, C, T> {
     /// The current state. The velocities of a regular system are not a number where the mass matrix is
     /// singular and the momenta have no velocity; an iterator yields an error there.
     pub fn state(&self) -> S::State<T> {
@@ -164,7 +164,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, M, T>, T: Real>
 
 impl<S: RegularLagrangian, M, D, T: Real> ControlledIntegrator<'_, S, M, Reversible<D>, T>
 where
-    M: Method<S, T> + VariableStep,
+    M: VariableStep<S, T>,
     D: reversible::Density<T>,
 {
     /// ρ at the current point, as the control has carried it along: a run from here with
@@ -181,8 +181,8 @@ where
 
 impl<S: Lagrangian, M, C, T: Real> Iterator for ControlledIntegrator<'_, S, M, C, T>
 where
-    M: Method<S, T> + VariableStep,
-    C: StepControl<S, M, T>,
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
 {
     type Item = Result<S::State<T>, StepError>;
 
@@ -204,15 +204,15 @@ where
 
 impl<S: Lagrangian, M, C, T: Real> core::iter::FusedIterator for ControlledIntegrator<'_, S, M, C, T>
 where
-    M: Method<S, T> + VariableStep,
-    C: StepControl<S, M, T>,
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
 {
 }
 
 impl<S: Lagrangian, M, C, T: Real> fmt::Debug for ControlledIntegrator<'_, S, M, C, T>
 where
     M: Method<S, T> + fmt::Debug,
-    C: StepControl<S, M, T>,
+    C: StepControl<S, T>,
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ControlledIntegrator")

@@ -12,7 +12,7 @@
 use super::StepControl;
 use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
-use crate::method::{Restart, VariableStep};
+use crate::method::VariableStep;
 use crate::norm::larger;
 use crate::run::Run;
 use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination};
@@ -78,12 +78,7 @@ pub struct OsculatingMemory<S: RegularLagrangian, T: Real> {
     h: T,
     circle: Circle<T>,
     mass: Mass<S, T>,
-    /// At the start of a step.
-    q: Vector<S, T>,
-    /// At the start of a step.
     v: Vector<S, T>,
-    /// At the end of a step.
-    next_v: Vector<S, T>,
     work: Work<S, T>,
 }
 
@@ -136,10 +131,8 @@ impl Osculating {
     }
 }
 
-impl<S: RegularLagrangian, M, T: Real> StepControl<S, M, T> for Osculating
-where
-    M: Restart<S, T> + VariableStep,
-{
+impl<S: RegularLagrangian, T: Real> StepControl<S, T> for Osculating {
+    const REJECTS: bool = true;
     type Memory = OsculatingMemory<S, T>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
@@ -171,13 +164,17 @@ where
             return Err(StartError::Unsupported { option: "Osculating", reason });
         }
         let h = T::lift(self.first_step);
-        let memory = OsculatingMemory { h, circle, mass, q: vector(), v: vector(), next_v: vector(), work };
+        let memory = OsculatingMemory { h, circle, mass, v: vector(), work };
         Ok((memory, h))
     }
 
-    fn step(&self, memory: &mut Self::Memory, run: &mut Run<'_, S, M, T>, t: T) -> Result<T, StepFailure> {
-        memory.q.copy_from_slice(&run.q);
-        run.velocity(t, &mut memory.v)?;
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut Run<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure> {
+        run.keep();
         let (mut h, mut failed) = (memory.h, None);
         loop {
             match attempt(memory, run, t, h) {
@@ -189,7 +186,7 @@ where
                         memory.h = h * factor;
                         return Ok(h);
                     }
-                    run.restart(&memory.q, &memory.v, t)?;
+                    run.go_back();
                     h *= factor;
                 }
                 // The failure of a longer step tells more than that the steps became too short.
@@ -204,18 +201,18 @@ where
 }
 
 /// Takes a step of length `h` and returns the circle at its end; goes back if there is none.
-fn attempt<S: RegularLagrangian, M: Restart<S, T>, T: Real>(
+fn attempt<S: RegularLagrangian, M: VariableStep<S, T>, T: Real>(
     memory: &mut OsculatingMemory<S, T>,
     run: &mut Run<'_, S, M, T>,
     t: T,
     h: T,
 ) -> Result<Circle<T>, StepFailure> {
     run.step(t, h)?;
-    let OsculatingMemory { mass, work, q, v, next_v, .. } = memory;
-    if let Err(failure) = run.velocity(t + h, next_v) {
-        run.restart(q, v, t)?;
+    let OsculatingMemory { mass, work, v, .. } = memory;
+    if let Err(failure) = run.velocity(t + h, v) {
+        run.go_back();
         return Err(failure);
     }
     run.statistics.linearizations += 1;
-    Ok(work.circle(run.system, mass, &run.q, next_v, t + h))
+    Ok(work.circle(run.system, mass, &run.q, v, t + h))
 }

@@ -12,7 +12,7 @@ use core::fmt::Debug;
 
 use super::StepControl;
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, VariableStep};
+use crate::method::VariableStep;
 use crate::norm::reported;
 use crate::run::Run;
 use crate::{Real, RegularLagrangian, Space, Vector};
@@ -104,10 +104,7 @@ pub struct ReversibleMemory<S: RegularLagrangian, T: Real> {
     v: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian, M, D: Density<T>, T: Real> StepControl<S, M, T> for Reversible<D>
-where
-    M: Method<S, T> + VariableStep,
-{
+impl<S: RegularLagrangian, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
     type Memory = ReversibleMemory<S, T>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
@@ -133,7 +130,12 @@ where
     }
 
     #[inline]
-    fn step(&self, memory: &mut Self::Memory, run: &mut Run<'_, S, M, T>, t: T) -> Result<T, StepFailure> {
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut Run<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure> {
         run.velocity(t, &mut memory.v)?;
         let epsilon = T::lift(self.epsilon);
         let density = memory.density + epsilon * self.density.growth(&run.q, &memory.v);
