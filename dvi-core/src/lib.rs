@@ -93,7 +93,7 @@ pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
 pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
-pub use quadrature::Quadrature;
+pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use run::Run;
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
