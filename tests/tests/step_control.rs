@@ -3,7 +3,7 @@
 
 use core::f64::consts::{PI, TAU};
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, StepControl, VariableStep};
+use dvi_core::{Method, StepControl, VariableStep};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, Relativistic, RelativisticState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -20,7 +20,7 @@ fn lobatto4() -> Result<Variational<Radial>, StartError> {
 }
 
 /// Steps a period and max |ΔE| of 100 periods at e = 0.95 with ε = 0.02.
-fn hundred_periods<F: FrequencyIn<f64>>(method: Variational<F>) -> Result<[f64; 2], StepError> {
+fn hundred_periods<M: VariableStep<Kepler, f64>>(method: M) -> Result<[f64; 2], StepError> {
     let mut run = ControlledIntegrator::new(&SYSTEM, method, Reversible::power(0.02, 1.5), pericentre(0.95))
         .expect("starts");
     let (initial, mut largest) = (run.energy(), 0.0_f64);
@@ -77,7 +77,7 @@ fn the_number_of_steps_is_the_integral_of_the_density() -> Outcome {
 
 #[test]
 fn angular_momentum_is_kept_to_rounding_by_fixed_steps() -> Outcome {
-    fn error<F: FrequencyIn<f64>>(method: Variational<F>) -> Result<f64, Box<dyn core::error::Error>> {
+    fn error<M: Method<Kepler, f64>>(method: M) -> Result<f64, Box<dyn core::error::Error>> {
         let mut run = Integrator::new(&SYSTEM, method, TAU / 4000.0, pericentre(0.5))?;
         let (initial, mut largest) = (run.momentum(0).ok_or("declared")?, 0.0_f64);
         for _ in 0..400_000 {
