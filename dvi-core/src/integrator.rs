@@ -66,10 +66,12 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     pub fn advance_by(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.run.statistics.steps);
         let Run { system, method, memory, q, statistics, .. } = &mut self.run;
-        match method.steps(system, memory, q, clock, count, statistics) {
-            Ok(()) => Ok(()),
-            Err(failure) => Err(self.run.error(self.time(), failure)),
-        }
+        method.steps(system, memory, q, clock, count, statistics).map_err(|failure| self.error(failure))
+    }
+
+    #[cold]
+    fn error(&mut self, failure: StepFailure) -> StepError {
+        self.run.error(self.time(), failure)
     }
 
     /// The current state. The velocities of a regular system are not a number where the mass matrix is

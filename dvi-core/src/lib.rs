@@ -95,7 +95,6 @@ pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State,
 pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
-pub use run::Run;
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};
 pub use sigma_family::{Sigma, SigmaMemory, Start};
@@ -105,8 +104,8 @@ pub use space::RunTime;
 pub use space::{Fixed, FixedMatrix, FixedVector, Space};
 pub use statistics::Statistics;
 pub use step_control::{
-    CentreSpeed, ControlledIntegrator, Density, Osculating, OsculatingMemory, Power, Reversible,
-    ReversibleMemory, StepControl,
+    CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
+    Reversible, ReversibleMemory, StepControl,
 };
 pub use variational::{Fitting, Variational, VariationalMemory};
 pub use vector_field::VectorField;

@@ -5,6 +5,7 @@
 //! (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind, [`Osculating`] of the
 //! other.
 
+mod controlled;
 mod integrator;
 mod osculating;
 mod reversible;
@@ -13,9 +14,9 @@ use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
 use crate::method::VariableStep;
-use crate::run::Run;
 use crate::{Lagrangian, Real};
 
+pub use controlled::ControlledRun;
 pub use integrator::ControlledIntegrator;
 pub use osculating::{CentreSpeed, Osculating, OsculatingMemory};
 pub use reversible::{Density, Power, Reversible, ReversibleMemory};
@@ -44,7 +45,7 @@ pub trait StepControl<S: Lagrangian, T: Real>: Debug {
     fn step<M: VariableStep<S, T>>(
         &self,
         memory: &mut Self::Memory,
-        run: &mut Run<'_, S, M, T>,
+        run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure>;
 }

@@ -2,10 +2,10 @@
 
 use core::fmt;
 
-use super::{Reversible, StepControl, reversible};
+use super::{ControlledRun, Reversible, StepControl, reversible};
 use crate::error::{StartError, StepError};
-use crate::method::{Method, VariableStep};
-use crate::run::{Run, flatten, validate, velocities};
+use crate::method::VariableStep;
+use crate::run::{flatten, validate, velocities};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
 
@@ -14,8 +14,9 @@ use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
 /// It has the verbs of [`Integrator`](crate::Integrator): as an iterator it yields the state after each step, up
 /// to the first failure; [`state`](Self::state) is always the last good one. The velocity is taken along, so that
 /// a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-pub struct ControlledIntegrator<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, T>, T: Real = f64> {
-    run: Run<'a, S, M, T>,
+pub struct ControlledIntegrator<'a, S: Lagrangian, M: VariableStep<S, T>, C: StepControl<S, T>, T: Real = f64>
+{
+    controlled: ControlledRun<'a, S, M, T>,
     control: C,
     control_memory: C::Memory,
     clock: VariableClock<T>,
@@ -52,11 +53,8 @@ where
         let [q, v] = flatten(system, &start)?;
         let v = &v[..velocities(system)];
         let (control_memory, h) = control.begin(system, &q, v, t)?;
-        let memory = method.begin(system, &q, v, t, h)?;
-        let checkpoint = C::REJECTS.then(|| method.begin(system, &q, v, t, h)).transpose()?;
-        let mut run = Run::new(system, method, memory, q);
-        run.checkpoint = checkpoint.map(|memory| (memory, run.q.clone()));
-        Ok(Self { run, control, control_memory, clock: VariableClock::new(t), h })
+        let controlled = ControlledRun::new(system, method, q, v, [t, h], C::REJECTS)?;
+        Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
     }
 
     /// Takes one step. Nothing is allocated.
@@ -66,14 +64,14 @@ where
     #[inline]
     pub fn advance(&mut self) -> Result<(), StepError> {
         let t = self.clock.time();
-        match self.control.step(&mut self.control_memory, &mut self.run, t) {
+        match self.control.step(&mut self.control_memory, &mut self.controlled, t) {
             Ok(h) => {
                 self.h = h;
                 self.clock.advance(h);
-                self.run.statistics.steps += 1;
+                self.controlled.run.statistics.steps += 1;
                 Ok(())
             }
-            Err(failure) => Err(self.run.error(t, failure)),
+            Err(failure) => Err(self.controlled.run.error(t, failure)),
         }
     }
 
@@ -86,21 +84,23 @@ where
     }
 }
 
-impl<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, T>, T: Real> ControlledIntegrator<'a, S, M, C, T> {
+impl<'a, S: Lagrangian, M: VariableStep<S, T>, C: StepControl<S, T>, T: Real>
+    ControlledIntegrator<'a, S, M, C, T>
+{
     /// The current state. The velocities of a regular system are not a number where the mass matrix is
     /// singular and the momenta have no velocity; an iterator yields an error there.
     pub fn state(&self) -> S::State<T> {
-        self.run.state(self.time())
+        self.controlled.run.state(self.time())
     }
 
     /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.
     pub fn energy(&self) -> T {
-        self.run.energy(self.time())
+        self.controlled.run.energy(self.time())
     }
 
     /// The current coordinates, flat, in the order of declaration.
     pub fn q(&self) -> &[T] {
-        &self.run.q
+        &self.controlled.run.q
     }
 
     /// The current time: the sum of all steps, compensated, so that its error does not grow with their number.
@@ -111,7 +111,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, T>, T: Real> Controll
 
     /// The number of completed steps.
     pub fn steps(&self) -> u64 {
-        self.run.statistics.steps
+        self.controlled.run.statistics.steps
     }
 
     /// The length h of the latest step; before the first, the one that it will have or, if the control may
@@ -122,17 +122,17 @@ impl<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, T>, T: Real> Controll
 
     /// The system.
     pub fn system(&self) -> &'a S {
-        self.run.system
+        self.controlled.run.system
     }
 
     /// The method.
     pub fn method(&self) -> &M {
-        &self.run.method
+        &self.controlled.run.method
     }
 
     /// What the method carries from step to step.
     pub fn memory(&self) -> &M::Memory {
-        &self.run.memory
+        &self.controlled.run.memory
     }
 
     /// The step control.
@@ -147,18 +147,18 @@ impl<'a, S: Lagrangian, M: Method<S, T>, C: StepControl<S, T>, T: Real> Controll
 
     /// What the run has cost so far.
     pub fn statistics(&self) -> Statistics {
-        self.run.statistics
+        self.controlled.run.statistics
     }
 
     /// The value of declared momentum `index`, in the order of
     /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
     pub fn momentum(&self, index: usize) -> Option<T> {
-        self.run.momentum(index, self.time())
+        self.controlled.run.momentum(index, self.time())
     }
 
     /// The names and values of all declared momenta.
     pub fn momenta(&self) -> impl Iterator<Item = (&'static str, T)> + '_ {
-        self.run.momenta(self.time())
+        self.controlled.run.momenta(self.time())
     }
 }
 
@@ -171,9 +171,9 @@ where
     /// [`Reversible::start`] at this value goes on with the same steps, and with the velocity reversed it
     /// comes back by the same steps. Not a number where the momenta have no velocity.
     pub fn density(&self) -> T {
-        let mut v = crate::Space::vector(self.run.system.space());
-        match self.run.velocity(self.time(), &mut v) {
-            Ok(()) => self.control.density_at(&self.control_memory, &self.run.q, &v),
+        let mut v = crate::Space::vector(self.controlled.run.system.space());
+        match self.controlled.run.velocity(self.time(), &mut v) {
+            Ok(()) => self.control.density_at(&self.control_memory, &self.controlled.run.q, &v),
             Err(_) => T::lift(f64::NAN),
         }
     }
@@ -195,10 +195,10 @@ where
     /// not skipped but yielded.
     #[inline]
     fn nth(&mut self, n: usize) -> Option<Self::Item> {
-        if self.run.failed {
+        if self.controlled.run.failed {
             return None;
         }
-        Some(self.advance_by(n as u64 + 1).and_then(|()| self.run.try_state(self.clock.time())))
+        Some(self.advance_by(n as u64 + 1).and_then(|()| self.controlled.run.try_state(self.clock.time())))
     }
 }
 
@@ -211,13 +211,13 @@ where
 
 impl<S: Lagrangian, M, C, T: Real> fmt::Debug for ControlledIntegrator<'_, S, M, C, T>
 where
-    M: Method<S, T> + fmt::Debug,
+    M: VariableStep<S, T> + fmt::Debug,
     C: StepControl<S, T>,
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ControlledIntegrator")
             .field("system", &S::REPORT.system)
-            .field("method", &self.run.method)
+            .field("method", &self.controlled.run.method)
             .field("control", &self.control)
             .field("time", &self.time())
             .field("step_size", &self.step_size())

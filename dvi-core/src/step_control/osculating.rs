@@ -9,12 +9,11 @@
 //! moves is v_o |v| h; with d = |v| h, e is the remainder of a Taylor series, of second order. Neither bounds the
 //! error of a step: on a circle e = 0 whatever the method does.
 
-use super::StepControl;
+use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
 use crate::method::VariableStep;
 use crate::norm::larger;
-use crate::run::Run;
 use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination};
 
 /// How far the centre of the osculating circle moves in a step.
@@ -171,7 +170,7 @@ impl<S: RegularLagrangian, T: Real> StepControl<S, T> for Osculating {
     fn step<M: VariableStep<S, T>>(
         &self,
         memory: &mut Self::Memory,
-        run: &mut Run<'_, S, M, T>,
+        run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
         run.keep();
@@ -203,7 +202,7 @@ impl<S: RegularLagrangian, T: Real> StepControl<S, T> for Osculating {
 /// Takes a step of length `h` and returns the circle at its end; goes back if there is none.
 fn attempt<S: RegularLagrangian, M: VariableStep<S, T>, T: Real>(
     memory: &mut OsculatingMemory<S, T>,
-    run: &mut Run<'_, S, M, T>,
+    run: &mut ControlledRun<'_, S, M, T>,
     t: T,
     h: T,
 ) -> Result<Circle<T>, StepFailure> {
@@ -213,6 +212,6 @@ fn attempt<S: RegularLagrangian, M: VariableStep<S, T>, T: Real>(
         run.go_back();
         return Err(failure);
     }
-    run.statistics.linearizations += 1;
-    Ok(work.circle(run.system, mass, &run.q, v, t + h))
+    run.run.statistics.linearizations += 1;
+    Ok(work.circle(run.system(), mass, run.q(), v, t + h))
 }

@@ -10,11 +10,10 @@
 
 use core::fmt::Debug;
 
-use super::StepControl;
+use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::method::VariableStep;
 use crate::norm::reported;
-use crate::run::Run;
 use crate::{Real, RegularLagrangian, Space, Vector};
 
 /// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position alone:
@@ -133,12 +132,12 @@ impl<S: RegularLagrangian, D: Density<T>, T: Real> StepControl<S, T> for Reversi
     fn step<M: VariableStep<S, T>>(
         &self,
         memory: &mut Self::Memory,
-        run: &mut Run<'_, S, M, T>,
+        run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
         run.velocity(t, &mut memory.v)?;
         let epsilon = T::lift(self.epsilon);
-        let density = memory.density + epsilon * self.density.growth(&run.q, &memory.v);
+        let density = memory.density + epsilon * self.density.growth(run.q(), &memory.v);
         if !is_density(density) {
             return Err(StepFailure::Density { density: reported(density) });
         }
