@@ -65,8 +65,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     #[inline]
     pub fn advance_by(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.run.statistics.steps);
-        let Run { system, method, memory, q, statistics, .. } = &mut self.run;
-        method.steps(system, memory, q, clock, count, statistics).map_err(|failure| self.error(failure))
+        self.run.steps(clock, count).map_err(|failure| self.error(failure))
     }
 
     #[cold]

@@ -1,7 +1,7 @@
 //! What runs with fixed and with controlled steps have in common: a system, a method, and where they are.
 
 use crate::error::{StartError, StepError, StepFailure};
-use crate::method::Method;
+use crate::method::{Clock, Method};
 use crate::norm::reported;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Space, State, Vector};
@@ -26,6 +26,12 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Run<'a, S, M, T> {
     #[inline]
     pub(crate) fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
         self.method.velocity(self.system, &self.memory, &self.q, t, v)
+    }
+
+    /// Takes `count` steps from the present time of `clock`, or as many as succeed.
+    #[inline]
+    pub(crate) fn steps(&mut self, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
+        self.method.steps(self.system, &mut self.memory, &mut self.q, clock, count, &mut self.statistics)
     }
 
     #[cold]
