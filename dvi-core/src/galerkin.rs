@@ -32,8 +32,9 @@ pub use memory::GalerkinMemory;
 /// n coordinates, with all second derivatives of L.
 ///
 /// The interpolation may be [fitted](Self::phase_fitted) to a frequency that is [`Constant`](crate::Constant) or
-/// read from the motion as [`Reading::Averaged`]. That makes errors on oscillators smaller by a power of ωh, but
-/// not zero as without displacements: the polynomials aⱼₖ are not fitted. Neither is it translation invariant.
+/// read from the motion as [`Reading::Averaged`]. On the oscillator of that frequency the phase error of a step is
+/// then of order 2`S` + 1 in ωh, not 2`S` − 1; it is not zero as without displacements, because the polynomials
+/// behind aⱼₖ are not fitted. The fitted interpolation is not translation invariant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Galerkin<const S: usize, F = Unfitted> {
     /// What the interpolation between the ends is fitted to.
