@@ -173,4 +173,11 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Metho
     }
 }
 
-impl<const S: usize, F> VariableStep for Galerkin<S, F> {}
+impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> VariableStep<S, T>
+    for Galerkin<NODES, F>
+{
+    #[inline]
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.restore(from);
+    }
+}

@@ -10,7 +10,7 @@
 use crate::error::{StartError, StepFailure};
 use crate::history::History;
 use crate::mass::Mass;
-use crate::method::{Method, PreservedForm, Scheme, VariableStep};
+use crate::method::{Method, PreservedForm, Scheme};
 use crate::norm::{self, reported};
 use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Stopping, Verdict};
 use crate::statistics::Statistics;
@@ -22,9 +22,9 @@ use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, 
 /// oscillators at every step; other β > 0 are implicit too and stable on them for (¼ − β)(ωh)² < 1. One ∂L/∂q an
 /// iteration.
 ///
-/// Preserves d(q − βh² a(q)) ∧ dp, which depends on h: steps of different lengths may follow one another, but
-/// then nothing is preserved, except by β = 0. Momenta of symmetries that act linearly are preserved in the form
-/// that they have at q − βh² a(q).
+/// Preserves d(q − βh² a(q)) ∧ dp, which depends on h: steps of different lengths would preserve nothing, so the
+/// method is no [`VariableStep`](crate::VariableStep) and cannot be composed. Momenta of symmetries that act
+/// linearly are preserved in the form that they have at q − βh² a(q).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newmark<T = f64> {
     /// β, from 0 to ½.
@@ -320,8 +320,6 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
         Ok(())
     }
 }
-
-impl<T> VariableStep for Newmark<T> {}
 
 impl<S: Lagrangian, T: Real> Work<S, T> {
     fn new(system: &S) -> Self {

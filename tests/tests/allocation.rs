@@ -3,6 +3,7 @@
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
 use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};
+use dvi_tests::zoo::regular::{RunTimeChain, RunTimeChainState};
 
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;
@@ -39,4 +40,17 @@ fn steps_do_not_allocate() {
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let prey_start = LotkaVolterraState { x: 1.0, y: 1.0 };
     assert_none!(prey, prey_start, Sigma::midpoint(), newton(0.5), RungeKutta::heun(), Gauss::<2>::new());
+
+    let chain = RunTimeChain { mass: vec![1.0, 1.5, 0.7], coupling: 0.2 };
+    let zero = || vec![0.0; 3];
+    let chain_start = RunTimeChainState { q: vec![0.1, -0.2, 0.4], wall: 0.3, dot_q: zero(), dot_wall: 0.2 };
+    assert_none!(
+        chain,
+        chain_start,
+        Galerkin::<4>::new(),
+        Galerkin { solver: Solver::Newton, ..Galerkin::<5>::new() },
+        Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged)),
+        Newmark::new(0.25),
+        Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },
+    );
 }

@@ -323,7 +323,7 @@ fn check_symplectic<S: RegularLagrangian>((system, start): (S, S::State<f64>)) -
             defect(&system, &start, Galerkin { solver, ..Galerkin::<3>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<4>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<5>::new() })?,
-            defect(&system, &start, Galerkin::<4>::new().phase_fitted(Constant(Dual64::from_re(1.3))))?,
+            defect(&system, &start, Galerkin::<4>::new().phase_fitted(Constant(1.3)))?,
         ];
         assert!(
             defects.iter().all(|&defect| defect < 1e-11),

@@ -128,6 +128,12 @@ fn newmark_is_conjugate_to_verlet_in_the_modified_potential() -> Outcome {
                 assert!(error < 1e-14, "beta = {beta}, step {step}: {error:e}");
             }
         }
+        // So the momentum map of rotations is preserved at q, not at x.
+        let angular = |x: &[f64], p: &[f64]| x[0] * p[1] - x[1] * p[0];
+        let start = [1.0, 0.1];
+        let kept = angular(&conjugate(run.q()), run.memory().p()) - angular(&conjugate(&start), &[-0.2, 1.1]);
+        let moved = angular(run.q(), run.memory().p()) - angular(&start, &[-0.2, 1.1]);
+        assert!(kept.abs() < 1e-13 && moved.abs() > 1e-7, "beta = {beta}: {kept:e} {moved:e}");
         // −∂Ṽ/∂q = F(x), where Ṽ(q) = V(x) + ½βh² F·F: along any curve x(s), dṼ/ds = −F(x)·dq/ds.
         let x = [Dual64::new(0.7, 0.3), Dual64::new(-0.4, 1.1)];
         let r3 = x[0].hypot(x[1]).powi(3);

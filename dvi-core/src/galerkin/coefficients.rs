@@ -7,17 +7,17 @@
 //! The equations of a step are the derivatives of L_d in the directions (φ̂ⱼᵣ, ψ̂ⱼᵣ): that of δʳ for each interior
 //! node, and that of q0, (b, B), for p0 + D₁L_d. Direction 0 moves both ends and gives (D₁ + D₂)L_d.
 
-use crate::basis;
+use crate::basis::Bases;
 use crate::error::StepFailure;
 use crate::norm::reported;
-use crate::quadrature::Quadrature;
+use crate::quadrature::{self, Quadrature};
 use crate::{Real, Scalar, elimination};
 
 /// sin u and what multiplies the new point count as zero below this.
 const RESONANCE: f64 = 1e-4;
 
 /// How many unknowns there are at most.
-const UNKNOWNS: usize = 4;
+const UNKNOWNS: usize = quadrature::NODES - 1;
 
 /// Entry (j, k): the derivative at node j of the Lagrange polynomial of node k.
 pub(super) fn differentiation<const NODES: usize>(rule: &Quadrature) -> [[f64; NODES]; NODES] {
@@ -38,8 +38,8 @@ pub(super) fn differentiation<const NODES: usize>(rule: &Quadrature) -> [[f64; N
 /// The coefficients for one frequency and step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coefficients<const NODES: usize, T> {
-    /// (ωh)²
-    z: T,
+    /// ωh
+    u: T,
     pub(super) weights: [T; NODES],
     /// φ
     pub(super) point: [[T; NODES]; NODES],
@@ -49,18 +49,18 @@ pub(super) struct Coefficients<const NODES: usize, T> {
     left: [[T; 2]; NODES],
     /// Entry (r, k): Σⱼ wⱼ ψ̂ⱼᵣ ψⱼₖ, which M/h multiplies.
     pub(super) kinetic: [[T; NODES]; NODES],
-    /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ), r and k from 1.
+    /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − u² φ̂ⱼᵣ φⱼₖ), r and k from 1.
     pub(super) inverse: [[T; NODES]; NODES],
 }
 
 impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
-    /// For z = (ωh)², where `a` is the [`differentiation`] matrix of `rule`.
+    /// For u = ωh, where `a` is the [`differentiation`] matrix of `rule`.
     #[inline]
-    pub(super) fn new(rule: &Quadrature, a: &[[f64; NODES]; NODES], z: T) -> Result<Self, StepFailure> {
+    pub(super) fn new(rule: &Quadrature, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
         let (zero, one, last) = (T::lift(0.0), T::lift(1.0), NODES - 1);
         let none = [[zero; NODES]; NODES];
         let mut new = Self {
-            z,
+            u,
             weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
             point: none,
             velocity: none,
@@ -68,7 +68,9 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
             kinetic: none,
             inverse: none,
         };
-        for (j, basis) in basis::table(rule, z).iter().enumerate().take(NODES) {
+        let nodes = Bases::new(u);
+        for (j, &c) in rule.nodes().iter().enumerate().take(NODES) {
+            let basis = nodes.at(c);
             new.left[j] = [basis.b, basis.d];
             new.point[j][0] = basis.b + basis.b_bar;
             new.velocity[j][0] = basis.d + basis.d_bar;
@@ -84,22 +86,20 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
                 new.kinetic[r][k] = new.sum(r, k, zero);
             }
         }
-        let (sinc, multiplier) = (basis::sinc(z), new.invert());
-        let small = T::lift(RESONANCE);
-        let resonant = Scalar::abs(sinc) * Scalar::sqrt(z) < small && z > one;
-        let kernel = multiplier.map_or(zero, |multiplier| multiplier * sinc);
-        let determined = Scalar::abs(kernel) > small;
-        if resonant || !determined || !z.is_finite() {
-            let u = reported(Scalar::sqrt(z));
+        let (sinc, small) = (nodes.sinc(), T::lift(RESONANCE));
+        let kernel = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
+        let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
+        if !determined {
+            let u = reported(u);
             return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
         }
         Ok(new)
     }
 
-    /// Whether these are the coefficients for `z`.
+    /// Whether these are the coefficients for u = ωh.
     #[inline(always)]
-    pub(super) fn is_for(&self, z: T) -> bool {
-        self.z == z
+    pub(super) fn is_for(&self, u: T) -> bool {
+        self.u == u
     }
 
     /// φ̂ and ψ̂ of direction `r` at node `j`.
@@ -117,13 +117,13 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
     }
 
     /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the displacements
-    /// are eliminated: without them uS/sin u; `None` if there is no inverse.
+    /// are eliminated: without them S/(sin u/u)²; `None` if there is no inverse.
     fn invert(&mut self) -> Option<T> {
         let (zero, n) = (T::lift(0.0), NODES - 1);
         let (mut matrix, mut permutation) = ([zero; UNKNOWNS * UNKNOWNS], [0; UNKNOWNS]);
         for r in 0..n {
             for k in 0..n {
-                matrix[r * n + k] = self.sum(r + 1, k + 1, self.z);
+                matrix[r * n + k] = self.sum(r + 1, k + 1, self.u * self.u);
             }
         }
         let (matrix, permutation) = (&mut matrix[..n * n], &mut permutation[..n]);
@@ -181,7 +181,7 @@ mod tests {
         let rule = Quadrature::lobatto(5)?;
         let a = differentiation::<5>(&rule);
         for u in [0.1_f64, 0.5, 1.0, 1.5] {
-            let Ok(mut coefficients) = Coefficients::<5, f64>::new(&rule, &a, u * u) else {
+            let Ok(mut coefficients) = Coefficients::<5, f64>::new(&rule, &a, u) else {
                 panic!("u = {u} is not resonant")
             };
             let found = coefficients.invert().unwrap_or(f64::NAN);
@@ -194,8 +194,8 @@ mod tests {
     fn half_periods_are_resonant() -> Result<(), crate::StartError> {
         let rule = Quadrature::lobatto(4)?;
         let a = differentiation::<4>(&rule);
-        for z in [core::f64::consts::PI.powi(2), f64::NAN] {
-            let failure = Coefficients::<4, f64>::new(&rule, &a, z).err();
+        for u in [core::f64::consts::PI, f64::NAN] {
+            let failure = Coefficients::<4, f64>::new(&rule, &a, u).err();
             assert!(matches!(failure, Some(StepFailure::Resonance { .. })), "{failure:?}");
         }
         Ok(())

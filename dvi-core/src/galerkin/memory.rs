@@ -172,8 +172,8 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
     /// Makes the coefficients those for `u` = ωh, if they are not.
     #[inline(always)]
     fn fit(&mut self, u: T) -> Result<(), StepFailure> {
-        if !self.coefficients.is_for(u * u) {
-            self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u * u)?;
+        if !self.coefficients.is_for(u) {
+            self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u)?;
         }
         Ok(())
     }
@@ -201,6 +201,16 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
             self.histories[k].push(unknown);
         }
         Ok(())
+    }
+
+    /// Takes over all that the next step can depend on.
+    pub(super) fn restore(&mut self, from: &Self) {
+        self.p.copy_from_slice(&from.p);
+        self.force.copy_from_slice(&from.force);
+        for (history, from) in self.histories.iter_mut().zip(&from.histories) {
+            history.restore(from);
+        }
+        (self.last_step, self.newton_steps) = (from.last_step, from.newton_steps);
     }
 
     /// Sets `v` to the velocity with ∂L/∂v = p.
