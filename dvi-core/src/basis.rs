@@ -7,7 +7,7 @@
 //! where κ(z) = cos √z and σ(z) = sin √z/√z are entire functions of z. So z = 0, linear interpolation, is no
 //! special case, and nothing cancels near it; only the derivative σ' = (κ − σ)/(2z) needs its series there.
 
-use crate::quadrature::{NODES, Quadrature};
+use crate::quadrature::{NODES, Rule};
 use crate::{Real, Scalar};
 
 /// The coefficients of one node.
@@ -21,9 +21,9 @@ pub(crate) struct Basis<T> {
 
 /// κ and σ at one point.
 #[derive(Clone, Copy, Debug)]
-struct Pair<T> {
-    cosine: T,
-    sinc: T,
+pub(crate) struct Pair<T> {
+    pub(crate) cosine: T,
+    pub(crate) sinc: T,
 }
 
 impl<T: Real> Pair<T> {
@@ -71,28 +71,35 @@ impl<T: Real> Bases<T> {
         self.whole.sinc
     }
 
-    /// The coefficients of a node.
+    /// 1/σ.
     #[inline(always)]
-    pub(crate) fn at(&self, c: f64) -> Basis<T> {
-        let (left, right) = (self.pair(1.0 - c), self.pair(c));
+    pub(crate) fn reciprocal(&self) -> T {
+        self.reciprocal
+    }
+
+    /// κ and σ at (1 − c)u and at cu.
+    #[inline(always)]
+    pub(crate) fn pairs(&self, c: f64) -> [Pair<T>; 2] {
+        let one = Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) };
+        if c == 0.5 {
+            [self.half, self.half]
+        } else if c == 0.0 {
+            [self.whole, one]
+        } else if c == 1.0 {
+            [one, self.whole]
+        } else {
+            [Pair::at(T::lift(1.0 - c) * self.u), Pair::at(T::lift(c) * self.u)]
+        }
+    }
+
+    /// The coefficients of a node with these pairs.
+    #[inline(always)]
+    pub(crate) fn basis(&self, c: f64, [left, right]: [Pair<T>; 2]) -> Basis<T> {
         Basis {
             b: T::lift(1.0 - c) * left.sinc * self.reciprocal,
             b_bar: T::lift(c) * right.sinc * self.reciprocal,
             d: -left.cosine * self.reciprocal,
             d_bar: right.cosine * self.reciprocal,
-        }
-    }
-
-    #[inline(always)]
-    fn pair(&self, c: f64) -> Pair<T> {
-        if c == 0.0 {
-            Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) }
-        } else if c == 0.5 {
-            self.half
-        } else if c == 1.0 {
-            self.whole
-        } else {
-            Pair::at(T::lift(c) * self.u)
         }
     }
 }
@@ -103,7 +110,7 @@ fn pair<T: Real>(z: T) -> Pair<T> {
 }
 
 /// The derivatives with respect to z of the coefficients of all nodes of `rule`.
-pub(crate) fn table_slope<T: Real>(rule: &Quadrature, z: T) -> [Basis<T>; NODES] {
+pub(crate) fn table_slope<T: Real>(rule: &impl Rule, z: T) -> [Basis<T>; NODES] {
     let (whole, slope) = (pair(z).sinc, sinc_slope(z));
     // (f/σ)' for f' = `df`.
     let ratio = |f: T, df: T| (df - f * slope / whole) / whole;
@@ -123,7 +130,7 @@ pub(crate) fn table_slope<T: Real>(rule: &Quadrature, z: T) -> [Basis<T>; NODES]
 }
 
 /// The derivative with respect to z of σ(z)/S(z), S = Σ w cos((1 − 2c)u).
-pub(crate) fn weight_factor_slope<T: Real>(rule: &Quadrature, z: T) -> T {
+pub(crate) fn weight_factor_slope<T: Real>(rule: &impl Rule, z: T) -> T {
     let (mut kernel, mut kernel_slope) = (T::lift(0.0), T::lift(0.0));
     for (&c, &w) in rule.nodes().iter().zip(rule.weights()) {
         let square = T::lift((1.0 - 2.0 * c) * (1.0 - 2.0 * c));
@@ -154,7 +161,7 @@ fn sinc_slope<T: Real>(z: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::{Bases, Basis, pair, sinc_slope, table_slope, weight_factor_slope};
-    use crate::quadrature::Quadrature;
+    use crate::quadrature::{Quadrature, Rule};
     use crate::{Real, Scalar};
     use num_dual::Dual64;
 
@@ -165,13 +172,13 @@ mod tests {
     }
 
     /// The bases of all nodes for z = u².
-    fn table<T: Real>(rule: &Quadrature, z: T) -> alloc::vec::Vec<Basis<T>> {
+    fn table<T: Real>(rule: &impl Rule, z: T) -> alloc::vec::Vec<Basis<T>> {
         let bases = Bases::new(Scalar::sqrt(z));
-        rule.nodes().iter().map(|&c| bases.at(c)).collect()
+        rule.nodes().iter().map(|&c| bases.basis(c, bases.pairs(c))).collect()
     }
 
     /// S = Σ w cos((1 − 2c)u).
-    fn kernel<T: Real>(rule: &Quadrature, z: T) -> T {
+    fn kernel<T: Real>(rule: &impl Rule, z: T) -> T {
         let term =
             |(&c, &w): (&f64, &f64)| T::lift(w) * Scalar::cos(T::lift(1.0 - 2.0 * c) * Scalar::sqrt(z));
         rule.nodes().iter().zip(rule.weights()).map(term).fold(T::lift(0.0), |sum, term| sum + term)

@@ -125,7 +125,7 @@ impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
 }
 
 fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
-    let allowed = value >= 0.0 && value < f64::INFINITY;
+    let allowed = (0.0..f64::INFINITY).contains(&value);
     if allowed { Ok(()) } else { Err(StartError::Parameter { name, value, range: "0 <= omega, finite" }) }
 }
 

@@ -94,7 +94,7 @@ pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
 pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
 pub use newmark::{Newmark, NewmarkMemory};
-pub use quadrature::Quadrature;
+pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};

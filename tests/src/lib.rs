@@ -28,7 +28,7 @@ pub mod configurations {
 
 /// Oracles that do not use the integrators.
 pub mod oracle {
-    use dvi_core::{Lagrangian, Real};
+    use dvi_core::{Lagrangian, Real, Rule};
 
     /// L_d(q0, q1) = h L(q_σ, (q1 − q0)/h, t + σh).
     pub fn discrete_lagrangian<S: Lagrangian, T: Real>(

@@ -10,7 +10,7 @@
 use crate::basis::Bases;
 use crate::error::StepFailure;
 use crate::norm::reported;
-use crate::quadrature::{self, Quadrature};
+use crate::quadrature::{self, Quadrature, Rule};
 use crate::{Real, Scalar, elimination};
 
 /// sin u and what multiplies the new point count as zero below this.
@@ -70,7 +70,7 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         };
         let nodes = Bases::new(u);
         for (j, &c) in rule.nodes().iter().enumerate().take(NODES) {
-            let basis = nodes.at(c);
+            let basis = nodes.basis(c, nodes.pairs(c));
             new.left[j] = [basis.b, basis.d];
             new.point[j][0] = basis.b + basis.b_bar;
             new.velocity[j][0] = basis.d + basis.d_bar;
@@ -145,7 +145,7 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
 mod tests {
     use super::{Coefficients, differentiation};
     use crate::error::StepFailure;
-    use crate::quadrature::Quadrature;
+    use crate::quadrature::{Quadrature, Rule};
 
     fn check<const NODES: usize>() -> Result<(), crate::StartError> {
         let rule = Quadrature::lobatto(NODES)?;

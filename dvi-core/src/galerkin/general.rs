@@ -11,6 +11,7 @@ use super::blocks;
 use super::memory::{GalerkinMemory, Newton, Work};
 use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn};
+use crate::quadrature::Rule;
 use crate::solver::{Convergence, Verdict};
 use crate::statistics::Statistics;
 use crate::{Real, RegularLagrangian, Vector, Weights, norm};

@@ -10,6 +10,7 @@ use super::memory::{GalerkinMemory, Work};
 use super::{Step, general};
 use crate::error::StepFailure;
 use crate::frequency::FrequencyIn;
+use crate::quadrature::Rule;
 use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
 use crate::statistics::Statistics;
 use crate::{Real, RegularLagrangian, Scalar, Vector, norm};

@@ -11,7 +11,7 @@ use crate::basis::{self, Bases, Basis};
 use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn};
 use crate::norm::reported;
-use crate::quadrature::{NODES, Quadrature};
+use crate::quadrature::{NODES, Rule};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector};
 
 /// sin u and S count as zero below this.
@@ -51,34 +51,37 @@ pub(super) struct Uniform<T> {
 
 impl<T: Real> Uniform<T> {
     /// For u = 0, linear interpolation.
-    pub(super) fn linear(rule: &Quadrature) -> Self {
+    pub(super) fn linear(rule: &impl Rule) -> Self {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let nodes = Bases::new(zero);
         let mut weights = [zero; NODES];
-        let mut bases = [nodes.at(0.0); NODES];
+        let mut bases = [nodes.basis(0.0, nodes.pairs(0.0)); NODES];
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
-            (weights[j], bases[j]) = (T::lift(w), nodes.at(c));
+            (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
         }
         Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, stiffness: one } }
     }
 
     /// Makes these the coefficients for u = ωh.
     #[inline]
-    pub(super) fn set(&mut self, rule: &Quadrature, fitting: Fitting, u: T) -> Result<(), StepFailure> {
-        let (zero, nodes, z) = (T::lift(0.0), Bases::new(u), u * u);
-        let mut sums = Sums { mixed: zero, left: zero, right: zero, stiffness: zero };
-        for (j, (&c, &weight)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
-            let (w, basis) = (T::lift(weight), nodes.at(c));
-            let Basis { b, b_bar, d, d_bar } = basis;
-            sums.mixed -= w * d * d_bar;
-            sums.left += w * d * (d + d_bar);
-            sums.right += w * d_bar * (d + d_bar);
-            sums.stiffness += z * w * b * b_bar;
-            (self.weights[j], self.bases[j]) = (w, basis);
+    pub(super) fn set(&mut self, rule: &impl Rule, fitting: Fitting, u: T) -> Result<(), StepFailure> {
+        let (zero, nodes) = (T::lift(0.0), Bases::new(u));
+        // The sums times σ².
+        let (mut mixed, mut left, mut right, mut inner) = (zero, zero, zero, zero);
+        let entries = self.bases.iter_mut().zip(rule.nodes()).zip(rule.weights());
+        for ((basis, &c), &w) in entries {
+            let pairs = nodes.pairs(c);
+            *basis = nodes.basis(c, pairs);
+            let [l, r] = pairs;
+            let (weight, difference) = (T::lift(w), l.cosine - r.cosine);
+            let (at_left, at_right) = (weight * l.cosine, weight * r.cosine);
+            mixed += at_left * r.cosine;
+            left += at_left * difference;
+            right -= at_right * difference;
+            inner += T::lift(w * c * (1.0 - c)) * (l.sinc * r.sinc);
         }
-        sums.stiffness += sums.mixed;
         let sinc = nodes.sinc();
-        let kernel = sums.stiffness * sinc * sinc;
+        let kernel = mixed + u * u * inner;
         let small = T::lift(RESONANCE);
         let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
         if !determined {
@@ -87,14 +90,16 @@ impl<T: Real> Uniform<T> {
             let u = reported(u);
             return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
         }
+        let mut factor = nodes.reciprocal() * nodes.reciprocal();
         if fitting == Fitting::PhaseAndMomentum {
-            let factor = sinc / kernel;
-            self.weights.iter_mut().for_each(|weight| *weight *= factor);
-            for sum in [&mut sums.mixed, &mut sums.left, &mut sums.right, &mut sums.stiffness] {
-                *sum *= factor;
+            let fitted = sinc / kernel;
+            factor *= fitted;
+            for (weight, &w) in self.weights.iter_mut().zip(rule.weights()) {
+                *weight = T::lift(w) * fitted;
             }
         }
-        (self.u, self.sums) = (u, sums);
+        let [mixed, left, right, stiffness] = [mixed, left, right, kernel].map(|sum| sum * factor);
+        (self.u, self.sums) = (u, Sums { mixed, left, right, stiffness });
         Ok(())
     }
 
@@ -155,7 +160,10 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
     }
 
     /// Makes these the coefficients of `step`.
-    pub(super) fn fix<F: FrequencyIn<T>>(&mut self, step: &Step<'_, S, F, T>) -> Result<(), StepFailure> {
+    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+    ) -> Result<(), StepFailure> {
         if self.h == step.h {
             return Ok(());
         }
@@ -202,9 +210,9 @@ impl<S: RegularLagrangian, T: Real> Coefficients<T> for Each<S, T> {
 
 impl<T: Real> Uniform<T> {
     /// ∂ℓ/∂ω, for ω = `twice_omega`/2, at the current Δ.
-    pub(super) fn slope<S: RegularLagrangian, F: Frequency>(
+    pub(super) fn slope<S: RegularLagrangian, F: Frequency, R: Rule>(
         &self,
-        step: &Step<'_, S, F, T>,
+        step: &Step<'_, S, F, R, T>,
         motion: &mut Motion<S, T>,
         q: &[T],
         twice_omega: T,

@@ -13,12 +13,13 @@ use super::memory::{Interpolation, Motion, VariationalMemory, Work};
 use crate::basis::Basis;
 use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn, Reading};
+use crate::quadrature::Rule;
 use crate::solver::{Convergence, Verdict};
 use crate::statistics::Statistics;
 use crate::{Real, RegularLagrangian, Vector, Weights, elimination, norm};
 
-pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
@@ -35,8 +36,8 @@ pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 }
 
 /// Δ, in `work.increment`.
-fn solve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn solve<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
@@ -65,8 +66,8 @@ fn solve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 }
 
 /// Sets `work.d1` and `work.d2` to D₁L_d and D₁L_d + D₂L_d at the current Δ, and the coefficients.
-fn differentiate<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn differentiate<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
@@ -94,8 +95,8 @@ fn differentiate<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 }
 
 /// The coefficients for the frequency at the current Δ.
-fn read_frequency<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn read_frequency<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
 ) -> Result<(), StepFailure> {
@@ -129,9 +130,9 @@ fn read_frequency<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 }
 
 /// ∂ℓ/∂q0 and ∂ℓ/∂q0 + ∂ℓ/∂q1.
-fn sum_derivatives<S: RegularLagrangian, F: Frequency, T: Real>(
+fn sum_derivatives<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
+    step: &Step<'_, S, F, R, T>,
     motion: &mut Motion<S, T>,
     q: &[T],
     statistics: &mut Statistics,
@@ -153,10 +154,10 @@ fn sum_derivatives<S: RegularLagrangian, F: Frequency, T: Real>(
 }
 
 /// Sets `point` to qʲ and `velocity` to q̇ʲ.
-pub(super) fn place<S: RegularLagrangian, F, T: Real>(
+pub(super) fn place<S: RegularLagrangian, F, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
     node: usize,
-    step: &Step<'_, S, F, T>,
+    step: &Step<'_, S, F, R, T>,
     work: &mut Work<S, T>,
     q: &[T],
 ) {
@@ -169,8 +170,8 @@ pub(super) fn place<S: RegularLagrangian, F, T: Real>(
 }
 
 /// Sets `work.trial` to the correction (∂r/∂q1)⁻¹r.
-fn correct<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn correct<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
@@ -201,9 +202,9 @@ fn correct<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 }
 
 /// Sets the first matrix to D₁D₂L_d.
-fn newton_matrix<S: RegularLagrangian, F, T: Real>(
+fn newton_matrix<S: RegularLagrangian, F, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
+    step: &Step<'_, S, F, R, T>,
     motion: &mut Motion<S, T>,
     q: &[T],
 ) where
@@ -226,9 +227,9 @@ fn newton_matrix<S: RegularLagrangian, F, T: Real>(
 }
 
 /// The same with coefficients that differ from coordinate to coordinate: block by block.
-fn newton_matrix_by_coordinates<S: RegularLagrangian, F: Frequency, T: Real>(
+fn newton_matrix_by_coordinates<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
+    step: &Step<'_, S, F, R, T>,
     motion: &mut Motion<S, T>,
     q: &[T],
 ) {
@@ -258,8 +259,8 @@ fn newton_matrix_by_coordinates<S: RegularLagrangian, F: Frequency, T: Real>(
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1 = p0 + (D₁ + D₂)L_d.
-fn finish<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,

@@ -7,6 +7,7 @@ use crate::frequency::{Frequency, FrequencyIn, Local};
 use crate::history::History;
 use crate::legendre::Legendre;
 use crate::mass::Mass;
+use crate::quadrature::Rule;
 use crate::solver::Solver;
 use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector, norm};
 
@@ -69,9 +70,9 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         &self.motion.p
     }
 
-    pub(super) fn new<F: FrequencyIn<T>>(
+    pub(super) fn new<F: FrequencyIn<T>, R: Rule>(
         system: &S,
-        method: &Variational<F>,
+        method: &Variational<F, R>,
         q: &Vector<S, T>,
         v: &[T],
         t: T,
@@ -131,7 +132,10 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
 impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
     /// Where the frequency does not depend on the motion: makes the coefficients those of this step.
     #[inline(always)]
-    pub(super) fn fix<F: FrequencyIn<T>>(&mut self, step: &Step<'_, S, F, T>) -> Result<(), StepFailure> {
+    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+    ) -> Result<(), StepFailure> {
         match self {
             Self::Each(each) => each.fix(step),
             Self::Uniform(_) => self.set(step, step.method.frequency.fixed(0)),
@@ -140,7 +144,11 @@ impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
 
     /// Makes the coefficients those for one frequency `omega`, if they are not.
     #[inline(always)]
-    pub(super) fn set<F>(&mut self, step: &Step<'_, S, F, T>, omega: T) -> Result<(), StepFailure> {
+    pub(super) fn set<F, R: Rule>(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+        omega: T,
+    ) -> Result<(), StepFailure> {
         let u = omega * step.h;
         match self {
             Self::Uniform(known) if !known.is_for(u) => known.set(&step.method.rule, step.method.fitting, u),
@@ -153,7 +161,7 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
     /// Sets `work.increment` to the guess of Δ: extrapolated from the steps before if they had about this
     /// length, and from the momentum elsewhere.
     #[inline(always)]
-    pub(super) fn guess<F: Frequency>(&mut self, step: &Step<'_, S, F, T>) {
+    pub(super) fn guess<F: Frequency, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) {
         let Self { p, mass, history, last_step, work, .. } = self;
         let ratio = step.h / *last_step;
         let similar = ratio > T::lift(0.5) && ratio < T::lift(2.0);

@@ -14,12 +14,13 @@ use crate::basis::Basis;
 use crate::error::StepFailure;
 use crate::frequency::{FrequencyIn, Reading};
 use crate::norm;
+use crate::quadrature::Rule;
 use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
 use crate::statistics::Statistics;
 use crate::{Real, RegularLagrangian, Scalar, Vector};
 
-pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
@@ -42,8 +43,8 @@ pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 
 /// The coefficients, as far as the start of the step decides them.
 #[inline(always)]
-fn read_start<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn read_start<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
 ) -> Result<(), StepFailure> {
@@ -57,8 +58,8 @@ fn read_start<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 
 /// Δ, in `work.increment`.
 #[inline(always)]
-fn solve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn solve<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
@@ -90,8 +91,8 @@ fn solve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 /// Sets `work.next` to q1, `work.trial` to F(q1), and the coefficients to those for the mean of the
 /// frequencies at both ends.
 #[inline(always)]
-fn read_both_ends<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn read_both_ends<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
@@ -114,8 +115,8 @@ fn read_both_ends<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 
 /// One iteration with M times the factor that `divisor` picks; returns the size of its correction.
 #[inline(always)]
-fn improve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn improve<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     divisor: impl Fn(Sums<T>) -> T,
@@ -129,9 +130,9 @@ fn improve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 }
 
 #[inline(always)]
-fn improve_by<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+fn improve_by<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
+    step: &Step<'_, S, F, R, T>,
     motion: &mut Motion<S, T>,
     q: &[T],
     divisor: impl Fn(Sums<T>) -> T,
@@ -187,8 +188,8 @@ fn place<T: Real>(
 
 /// Moves to q1 = q0 + Δ and evaluates p1.
 #[inline(always)]
-fn finish<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
@@ -219,9 +220,9 @@ fn finish<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 
 /// p1, in `work.d2`, from F(q0) in `force` and F(q1) in `work.trial`.
 #[inline(always)]
-fn next_momentum<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+fn next_momentum<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
+    step: &Step<'_, S, F, R, T>,
     motion: &mut Motion<S, T>,
     q: &[T],
     statistics: &mut Statistics,

@@ -3,8 +3,8 @@
 mod kepler_by_hand;
 mod vortices_by_hand;
 
-use dvi_core::FrequencyIn;
 use dvi_core::prelude::*;
+use dvi_core::{FrequencyIn, Rule};
 use dvi_tests::configurations;
 use dvi_tests::systems::PointVortices;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
@@ -100,7 +100,7 @@ fn stopping() -> Stopping {
 const KEPLER_H: f64 = core::f64::consts::TAU / 200.0;
 
 #[inline(always)]
-fn kepler<F: FrequencyIn<f64>>(method: Variational<F>, steps: u64) -> f64 {
+fn kepler<F: FrequencyIn<f64>, R: Rule>(method: Variational<F, R>, steps: u64) -> f64 {
     let system = black_box(Kepler { mu: 1.0 });
     let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
     let Ok(mut run) = Integrator::new(&system, method, KEPLER_H, start) else { return f64::NAN };
