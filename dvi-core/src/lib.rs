@@ -35,6 +35,7 @@
 //! | the run: stepping, state, energy, momenta, errors | [`Integrator`] |
 //! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
 //! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
+//! | order 4, 6 and 8 for regular systems; Newmark's method | [`Galerkin`], [`Newmark`] |
 //! | sections, exponents, preserved forms, orders | [`diagnostics`] |
 //! | what the macros implement, to be implemented by hand if need be | [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`] |
 //!

@@ -160,10 +160,7 @@ impl<S: RegularLagrangian, T: Real> NewmarkMemory<S, T> {
         }
         self.last_step = h;
         let per_h = T::lift(1.0) / h;
-        for delta in increment.iter_mut() {
-            *delta *= per_h;
-        }
-        self.history.push(increment);
+        self.history.push(increment.iter().map(|&delta| delta * per_h));
         Ok(())
     }
 }

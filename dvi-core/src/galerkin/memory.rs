@@ -196,9 +196,8 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
             if !similar {
                 self.histories[k].clear();
             }
-            let unknown = &mut self.work.unknowns[k];
-            scale(unknown, if k == NODES - 1 { per_h } else { per_h * per_h });
-            self.histories[k].push(unknown);
+            let factor = if k == NODES - 1 { per_h } else { per_h * per_h };
+            self.histories[k].push(self.work.unknowns[k].iter().map(|&x| x * factor));
         }
         Ok(())
     }

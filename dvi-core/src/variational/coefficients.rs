@@ -5,7 +5,7 @@
 //! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
 
 use super::general::place;
-use super::memory::{Motion, Work};
+use super::memory::Work;
 use super::{Fitting, Step};
 use crate::basis::{self, Bases, Basis};
 use crate::error::StepFailure;
@@ -25,6 +25,15 @@ pub(super) trait Coefficients<T> {
     fn basis(&self, node: usize, coordinate: usize) -> Basis<T>;
     /// The sums of the kinetic part.
     fn sums(&self, coordinate: usize) -> Sums<T>;
+}
+
+/// Coefficients that follow a frequency.
+pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
+    /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure>;
+
+    /// Makes these the coefficients of `step` for one frequency `omega`.
+    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure>;
 }
 
 /// Sums over the nodes.
@@ -64,7 +73,7 @@ impl<T: Real> Uniform<T> {
 
     /// Makes these the coefficients for u = ωh.
     #[inline]
-    pub(super) fn set(&mut self, rule: &impl Rule, fitting: Fitting, u: T) -> Result<(), StepFailure> {
+    fn fit(&mut self, rule: &impl Rule, fitting: Fitting, u: T) -> Result<(), StepFailure> {
         let (zero, nodes) = (T::lift(0.0), Bases::new(u));
         // The sums times σ².
         let (mut mixed, mut left, mut right, mut inner) = (zero, zero, zero, zero);
@@ -102,11 +111,18 @@ impl<T: Real> Uniform<T> {
         (self.u, self.sums) = (u, Sums { mixed, left, right, stiffness });
         Ok(())
     }
+}
 
-    /// Whether these are the coefficients for u = ωh.
+impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
     #[inline(always)]
-    pub(super) fn is_for(&self, u: T) -> bool {
-        self.u == u
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
+        let u = step.method.frequency.fixed(0) * step.h;
+        if self.u == u { Ok(()) } else { self.fit(&step.method.rule, step.method.fitting, u) }
+    }
+
+    #[inline(always)]
+    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
+        self.fit(&step.method.rule, step.method.fitting, omega * step.h)
     }
 }
 
@@ -158,19 +174,17 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
             stiffness: space.vector(),
         }
     }
+}
 
-    /// Makes these the coefficients of `step`.
-    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
-        &mut self,
-        step: &Step<'_, S, F, R, T>,
-    ) -> Result<(), StepFailure> {
+impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
         if self.h == step.h {
             return Ok(());
         }
         for i in 0..self.mixed.len() {
             let u = step.method.frequency.fixed(i) * step.h;
             let mut uniform = Uniform::linear(&step.method.rule);
-            uniform.set(&step.method.rule, step.method.fitting, u)?;
+            uniform.fit(&step.method.rule, step.method.fitting, u)?;
             let Uniform { weights, bases, sums, .. } = uniform;
             // The same for all coordinates, as only the phase is fitted.
             self.weights = weights;
@@ -186,6 +200,11 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
             self.stiffness[i] = sums.stiffness;
         }
         self.h = step.h;
+        Ok(())
+    }
+
+    /// There is no such frequency.
+    fn set<F, R: Rule>(&mut self, _step: &Step<'_, S, F, R, T>, _omega: T) -> Result<(), StepFailure> {
         Ok(())
     }
 }
@@ -213,7 +232,7 @@ impl<T: Real> Uniform<T> {
     pub(super) fn slope<S: RegularLagrangian, F: Frequency, R: Rule>(
         &self,
         step: &Step<'_, S, F, R, T>,
-        motion: &mut Motion<S, T>,
+        work: &mut Work<S, T>,
         q: &[T],
         twice_omega: T,
     ) -> T {
@@ -224,8 +243,8 @@ impl<T: Real> Uniform<T> {
         let per_h = T::lift(1.0) / step.h;
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
-            place(self, node, step, &mut motion.work, q);
-            let Work { point, velocity, gradient, momentum, increment, .. } = &mut motion.work;
+            place(self, node, step, work, q);
+            let Work { point, velocity, gradient, momentum, increment, .. } = &mut *work;
             let t = step.node_time(c);
             step.system.gradient(point, velocity, t, gradient, momentum);
             let Basis { b, b_bar, d, d_bar } = slopes[node];
