@@ -191,7 +191,8 @@ impl Frequency for Radial {
 impl<T: Real> FrequencyIn<T> for Radial {
     #[inline]
     fn at(&self, q: &[T], _v: &[T], a: &[T]) -> T {
-        Scalar::sqrt(Scalar::sqrt(dot(a, a) / dot(q, q)))
+        // The reciprocal does not wait for the acceleration.
+        Scalar::sqrt(Scalar::sqrt(dot(a, a) * (T::lift(1.0) / dot(q, q))))
     }
 
     fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {

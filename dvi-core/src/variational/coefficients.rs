@@ -45,8 +45,8 @@ pub(super) struct Sums<T> {
     pub(super) left: T,
     /// C − K = Σ w B̄(B + B̄)
     pub(super) right: T,
-    /// S/(sin u/u)²
-    pub(super) stiffness: T,
+    /// (sin u/u)²/S, one over the stiffness K + z Σ w b b̄
+    pub(super) compliance: T,
 }
 
 /// One frequency for all coordinates.
@@ -60,6 +60,7 @@ pub(super) struct Uniform<T> {
 
 impl<T: Real> Uniform<T> {
     /// For u = 0, linear interpolation.
+    #[inline(always)]
     pub(super) fn linear(rule: &impl Rule) -> Self {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let nodes = Bases::new(zero);
@@ -68,11 +69,11 @@ impl<T: Real> Uniform<T> {
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
             (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
         }
-        Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, stiffness: one } }
+        Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, compliance: one } }
     }
 
     /// Makes these the coefficients for u = ωh.
-    #[inline]
+    #[inline(always)]
     fn fit(&mut self, rule: &impl Rule, fitting: Fitting, u: T) -> Result<(), StepFailure> {
         let (zero, nodes) = (T::lift(0.0), Bases::new(u));
         // The sums times σ².
@@ -107,8 +108,9 @@ impl<T: Real> Uniform<T> {
                 *weight = T::lift(w) * fitted;
             }
         }
-        let [mixed, left, right, stiffness] = [mixed, left, right, kernel].map(|sum| sum * factor);
-        (self.u, self.sums) = (u, Sums { mixed, left, right, stiffness });
+        let compliance = T::lift(1.0) / (kernel * factor);
+        let [mixed, left, right] = [mixed, left, right].map(|sum| sum * factor);
+        (self.u, self.sums) = (u, Sums { mixed, left, right, compliance });
         Ok(())
     }
 }
@@ -154,7 +156,7 @@ pub(super) struct Each<S: Lagrangian, T: Real> {
     mixed: Vector<S, T>,
     left: Vector<S, T>,
     right: Vector<S, T>,
-    stiffness: Vector<S, T>,
+    compliance: Vector<S, T>,
 }
 
 impl<S: RegularLagrangian, T: Real> Each<S, T> {
@@ -171,7 +173,7 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
             mixed: space.vector(),
             left: space.vector(),
             right: space.vector(),
-            stiffness: space.vector(),
+            compliance: space.vector(),
         }
     }
 }
@@ -197,7 +199,7 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
             self.mixed[i] = sums.mixed;
             self.left[i] = sums.left;
             self.right[i] = sums.right;
-            self.stiffness[i] = sums.stiffness;
+            self.compliance[i] = sums.compliance;
         }
         self.h = step.h;
         Ok(())
@@ -223,7 +225,7 @@ impl<S: RegularLagrangian, T: Real> Coefficients<T> for Each<S, T> {
     }
     fn sums(&self, i: usize) -> Sums<T> {
         let (left, right) = (self.left[i], self.right[i]);
-        Sums { mixed: self.mixed[i], left, right, stiffness: self.stiffness[i] }
+        Sums { mixed: self.mixed[i], left, right, compliance: self.compliance[i] }
     }
 }
 

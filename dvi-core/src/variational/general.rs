@@ -190,7 +190,7 @@ fn correct<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
         }
         (None, Some(mass), Interpolation::Uniform(uniform)) => {
             let Work { trial, velocity, .. } = work;
-            let factor = -step.h / uniform.sums(0).stiffness;
+            let factor = -step.h * uniform.sums(0).compliance;
             mass.solve(trial, velocity);
             for (trial, &velocity) in trial.iter_mut().zip(velocity.iter()) {
                 *trial = factor * velocity;

@@ -7,7 +7,7 @@
 //! node lies between the ends and the frequency does not depend on q1, r is linear in q1: with K in place of κ
 //! the first iterate is the solution, and the step is explicit.
 
-use super::coefficients::{Adjustable, Sums};
+use super::coefficients::{Adjustable, Sums, Uniform};
 use super::memory::{Interpolation, Motion, VariationalMemory, Work};
 use super::{Step, general};
 use crate::basis::Basis;
@@ -38,13 +38,12 @@ pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
         work
     };
     let result = match interpolation {
-        // A copy can stay in registers.
-        Interpolation::Uniform(uniform) => {
-            let mut copy = *uniform;
-            let result = advance(step, &mut copy, motion, work, q, statistics);
-            *uniform = copy;
-            result
+        // Coefficients that change in each iteration belong into registers.
+        Interpolation::Uniform(_) if step.method.frequency.reading().is_some() => {
+            let mut uniform = Uniform::linear(&step.method.rule);
+            advance(step, &mut uniform, motion, work, q, statistics)
         }
+        Interpolation::Uniform(uniform) => advance(step, uniform, motion, work, q, statistics),
         Interpolation::Each(each) => advance(step, each, motion, work, q, statistics),
     };
     match result {
@@ -120,7 +119,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     #[inline(always)]
     fn solve(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         if self.step.method.is_explicit() {
-            self.improve(|sums| sums.mixed);
+            self.improve(|sums| T::lift(1.0) / sums.mixed);
             return norm::finite(&self.work.increment);
         }
         let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
@@ -130,7 +129,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
             if self.step.method.reads_both_ends() {
                 self.read_both_ends()?;
             }
-            let correction = self.improve(|sums| sums.stiffness);
+            let correction = self.improve(|sums| sums.compliance);
             match convergence.judge(correction) {
                 Verdict::Continue => {}
                 verdict => break verdict,
@@ -173,9 +172,9 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         self.coefficients.set(self.step, T::lift(0.5) * (self.start + end))
     }
 
-    /// One iteration with M times the factor that `divisor` picks; returns the size of its correction.
+    /// One iteration with M⁻¹ times the factor that `inverse` picks; returns the size of its correction.
     #[inline(always)]
-    fn improve(&mut self, divisor: impl Fn(Sums<T>) -> T) -> T {
+    fn improve(&mut self, inverse: impl Fn(Sums<T>) -> T) -> T {
         let h = self.step.h;
         self.work.momentum.copy_from_slice(self.p);
         for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
@@ -190,7 +189,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         for i in 0..self.q.len() {
             let sums = self.coefficients.sums(i);
             let residual = h * velocity[i] + sums.left * self.q[i] - sums.mixed * increment[i];
-            let change = residual / divisor(sums);
+            let change = residual * inverse(sums);
             increment[i] += change;
             correction = norm::larger(correction, Scalar::abs(change));
         }
