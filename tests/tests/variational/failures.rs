@@ -83,18 +83,41 @@ fn a_step_without_a_solution_is_an_error() -> Outcome {
     Ok(())
 }
 
-/// At θ = 0 the angle φ has no mass.
+/// A mass that is zero at x = 0.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = (x * x + rest) * dot(x).powi(2) / 2.0 - x,
+)]
+#[derive(Clone, Debug)]
+struct Rising {
+    rest: f64,
+}
+
+/// A mass that is a parameter.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (m[0] * dot(x).powi(2) + m[1] * dot(y).powi(2)) / 2.0 - x * y,
+)]
+#[derive(Clone, Debug)]
+struct Weighed {
+    m: [f64; 2],
+}
+
 #[test]
 fn a_singular_mass_matrix_is_found() -> Outcome {
-    let pendulum = SphericalPendulum { g: 1.0 };
-    let start: SphericalPendulumState =
-        SphericalPendulumState { theta: 0.0, phi: 0.3, dot_theta: 0.5, dot_phi: 0.0 };
-    let run = Integrator::new(&pendulum, Variational::trapezoid(), 0.1, start)?;
-    assert!(run.state().dot_phi.is_nan());
-    let start: SphericalPendulumState =
-        SphericalPendulumState { theta: -0.05, phi: 0.3, dot_theta: 1.0, dot_phi: 0.0 };
-    let mut run = Integrator::new(&pendulum, Variational::midpoint(), 0.1, start)?;
-    let error = run.advance().err();
-    assert!(matches!(error, None | Some(StepError { step: 0, .. })));
+    let start: RisingState = RisingState { x: 0.0, dot_x: 0.0 };
+    for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?] {
+        let mut run = Integrator::new(&Rising { rest: 0.0 }, Variational::new(rule), 0.1, start)?;
+        assert!(run.state().dot_x.is_nan());
+        let error = run.advance().err();
+        let singular = StepFailure::Singular { column: 0, pivot: 0.0 };
+        assert_eq!(error, Some(StepError { step: 0, time: 0.0, failure: singular }), "{rule:?}");
+        assert_eq!(run.q(), [0.0]);
+    }
+    let mut run = Integrator::new(&Rising { rest: 1.0 }, Variational::midpoint(), 0.1, start)?;
+    assert!(matches!(run.next(), Some(Ok(_))));
+    let start = WeighedState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 1.0 };
+    let error = Integrator::new(&Weighed { m: [1.0, 0.0] }, Variational::trapezoid(), 0.1, start).err();
+    assert_eq!(error, Some(StartError::Starter(StepFailure::Singular { column: 1, pivot: 0.0 })));
     Ok(())
 }

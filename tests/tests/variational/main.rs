@@ -1,5 +1,6 @@
 //! The quadrature family for regular Lagrangians.
 
+mod barnes;
 mod equations;
 mod failures;
 mod kepler;
