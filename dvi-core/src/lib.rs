@@ -1,4 +1,4 @@
-//! Variational integrators for degenerate Lagrangians, generated at compile time.
+//! Variational integrators from Lagrangians, generated at compile time.
 //!
 //! A degenerate Lagrangian is affine in the velocities, L(q, v, t) = α(q, t)·v − H(q, t). Its
 //! Euler–Lagrange equations are of first order, Ω q' = ∇H with Ω = (Dα)ᵀ − Dα. Declare α and H on the
@@ -26,8 +26,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A regular Lagrangian L(q, v, t) is declared in the same language by [`lagrangian`](macro@lagrangian);
-//! its derivatives, energy and force are those of [`RegularLagrangian`].
+//! A regular Lagrangian L(q, v, t) is declared in the same language by [`lagrangian`](macro@lagrangian), and
+//! its states carry velocities:
+//!
+//! ```
+//! use dvi_core::prelude::*;
+//!
+//! /// A plane pendulum.
+//! #[lagrangian(coordinates(a), lagrangian = dot(a).powi(2) / 2.0 + g * a.cos())]
+//! pub struct Pendulum { g: f64 }
+//!
+//! let system = Pendulum { g: 9.81 };
+//! let start: PendulumState = PendulumState { a: 1.0, dot_a: 0.0 };
+//! let mut run = Integrator::new(&system, Variational::trapezoid(), 0.01, start)?;
+//! let energy = run.energy();
+//! run.advance_by(1_000_000)?;
+//! assert!((run.energy() - energy).abs() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! | to find | look at |
 //! |---|---|
@@ -36,7 +52,8 @@
 //! | steps of variable length | [`ControlledIntegrator`], [`Reversible`] |
 //! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
 //! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
-//! | order 4, 6 and 8 for regular systems; Newmark's method | [`Galerkin`], [`Newmark`] |
+//! | regular systems: Störmer–Verlet, quadrature rules, phase fitting | [`Variational`], [`Frequency`] |
+//! | order 4, 6 and 8 for regular systems; Newmark's method | [`Galerkin`], [`Composition`], [`Newmark`] |
 //! | sections, exponents, preserved forms, orders | [`diagnostics`] |
 //! | what the macros implement, to be implemented by hand if need be | [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`] |
 //!
