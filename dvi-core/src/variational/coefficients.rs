@@ -33,6 +33,9 @@ pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure>;
 
     /// Makes these the coefficients of `step` for one frequency `omega`.
+    ///
+    /// # Errors
+    /// [`StepFailure::Resonance`], also if ωh is π or more.
     fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure>;
 }
 
@@ -124,7 +127,19 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
 
     #[inline(always)]
     fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
-        self.fit(&step.method.rule, step.method.fitting, omega * step.h)
+        let u = omega * step.h;
+        self.fit(&step.method.rule, step.method.fitting, u)?;
+        // A step over half a turn or more of a motion sees nothing of it.
+        if Scalar::abs(u) < T::lift(core::f64::consts::PI) {
+            return Ok(());
+        }
+        self.u = T::lift(f64::NAN);
+        let (u, sine) = (reported(u), reported(Scalar::sin(u)));
+        Err(StepFailure::Resonance {
+            u,
+            sine,
+            kernel: sine * sine / (u * u * reported(self.sums.compliance)),
+        })
     }
 }
 

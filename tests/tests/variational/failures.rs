@@ -121,3 +121,21 @@ fn a_singular_mass_matrix_is_found() -> Outcome {
     assert_eq!(error, Some(StartError::Starter(StepFailure::Singular { column: 1, pivot: 0.0 })));
     Ok(())
 }
+
+#[test]
+fn a_step_over_half_a_turn_of_the_motion_is_refused() -> Outcome {
+    for (reading, rule) in
+        [(Reading::LeftFrozen, Quadrature::lobatto(3)?), (Reading::Averaged, Quadrature::lobatto(4)?)]
+    {
+        let method = Variational::new(rule).phase_fitted(Radial(reading));
+        // The frequency of the circular orbit is one.
+        let mut run = Integrator::new(&KEPLER, method, 3.5, state(1.0, 1.0))?;
+        let error = run.advance().err();
+        let Some(StepError { step: 0, failure: StepFailure::Resonance { u, .. }, .. }) = error else {
+            return Err(format!("{reading:?}: {error:?}").into());
+        };
+        assert!(u >= core::f64::consts::PI, "{u}");
+        assert_eq!(run.q(), [1.0, 0.0]);
+    }
+    Ok(())
+}
