@@ -1,10 +1,14 @@
 //! The experiments, a file each: one model and one picture.
 
+mod barnes;
 mod chaotic;
+mod double_pendulum;
 mod energy;
+mod kepler_frequency;
 mod leapfrogging;
 mod momenta;
 mod order;
+mod oscillator;
 mod parasitic;
 mod quasi_periodic;
 mod sections;
@@ -12,7 +16,7 @@ mod stability;
 
 use crate::gallery::Experiment;
 
-/// All experiments, in the order of the paper.
+/// All experiments, in the order of the papers: Rowley & Marsden, Kosmas & Vlachos, and what goes beyond.
 pub const ALL: &[Experiment] = &[
     order::EXPERIMENT,
     stability::EXPERIMENT,
@@ -22,4 +26,8 @@ pub const ALL: &[Experiment] = &[
     chaotic::EXPERIMENT,
     momenta::EXPERIMENT,
     parasitic::EXPERIMENT,
+    oscillator::EXPERIMENT,
+    kepler_frequency::EXPERIMENT,
+    barnes::EXPERIMENT,
+    double_pendulum::EXPERIMENT,
 ];
