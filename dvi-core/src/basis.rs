@@ -7,7 +7,7 @@
 //! where κ(z) = cos √z and σ(z) = sin √z/√z are entire functions of z. So z = 0, linear interpolation, is no
 //! special case, and nothing cancels near it; only the derivative σ' = (κ − σ)/(2z) needs its series there.
 
-use crate::quadrature::Quadrature;
+use crate::quadrature::{NODES, Quadrature};
 use crate::{Real, Scalar};
 
 /// The coefficients of one node.
@@ -19,7 +19,7 @@ pub(crate) struct Basis<T> {
     pub(crate) d_bar: T,
 }
 
-/// κ(z) and σ(z).
+/// κ and σ at one point.
 #[derive(Clone, Copy, Debug)]
 struct Pair<T> {
     cosine: T,
@@ -27,42 +27,64 @@ struct Pair<T> {
 }
 
 impl<T: Real> Pair<T> {
+    /// cos u and sin u/u.
     #[inline(always)]
-    fn at(z: T) -> Self {
-        if z == T::lift(0.0) {
+    fn at(u: T) -> Self {
+        if u == T::lift(0.0) {
             return Self { cosine: T::lift(1.0), sinc: T::lift(1.0) };
         }
-        let u = Scalar::sqrt(z);
         let (sine, cosine) = nalgebra::ComplexField::sin_cos(u);
         Self { cosine, sinc: sine / u }
     }
 
-    /// The pair at 4z.
+    /// The pair at 2u.
     #[inline(always)]
-    fn doubled(self, z: T) -> Self {
-        let square = z * self.sinc * self.sinc;
-        Self { cosine: T::lift(1.0) - (square + square), sinc: self.sinc * self.cosine }
+    fn doubled(self, u: T) -> Self {
+        let sine = u * self.sinc;
+        Self { cosine: T::lift(1.0) - T::lift(2.0) * sine * sine, sinc: self.sinc * self.cosine }
     }
 }
 
-/// κ and σ at c²z for the nodes that occur most, and at any other.
+/// The bases of all nodes for one u, with as few sines and cosines as the nodes allow: one of each for 0, ½
+/// and 1.
 #[derive(Clone, Copy, Debug)]
-struct Pairs<T> {
-    z: T,
+pub(crate) struct Bases<T> {
+    u: T,
     half: Pair<T>,
     whole: Pair<T>,
+    reciprocal: T,
 }
 
-impl<T: Real> Pairs<T> {
+impl<T: Real> Bases<T> {
+    /// For u = ωh.
     #[inline(always)]
-    fn new(z: T) -> Self {
-        let quarter = z * T::lift(0.25);
-        let half = Pair::at(quarter);
-        Self { z, half, whole: half.doubled(quarter) }
+    pub(crate) fn new(u: T) -> Self {
+        let middle = u * T::lift(0.5);
+        let half = Pair::at(middle);
+        let whole = half.doubled(middle);
+        Self { u, half, whole, reciprocal: T::lift(1.0) / whole.sinc }
+    }
+
+    /// σ = sin u/u.
+    #[inline(always)]
+    pub(crate) fn sinc(&self) -> T {
+        self.whole.sinc
+    }
+
+    /// The coefficients of a node.
+    #[inline(always)]
+    pub(crate) fn at(&self, c: f64) -> Basis<T> {
+        let (left, right) = (self.pair(1.0 - c), self.pair(c));
+        Basis {
+            b: T::lift(1.0 - c) * left.sinc * self.reciprocal,
+            b_bar: T::lift(c) * right.sinc * self.reciprocal,
+            d: -left.cosine * self.reciprocal,
+            d_bar: right.cosine * self.reciprocal,
+        }
     }
 
     #[inline(always)]
-    fn at(&self, c: f64) -> Pair<T> {
+    fn pair(&self, c: f64) -> Pair<T> {
         if c == 0.0 {
             Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) }
         } else if c == 0.5 {
@@ -70,77 +92,46 @@ impl<T: Real> Pairs<T> {
         } else if c == 1.0 {
             self.whole
         } else {
-            Pair::at(T::lift(c * c) * self.z)
+            Pair::at(T::lift(c) * self.u)
         }
     }
 }
 
-/// σ(z).
-pub(crate) fn sinc<T: Real>(z: T) -> T {
-    Pair::at(z).sinc
-}
-
-/// S = Σ w cos((1 − 2c)u).
-pub(crate) fn kernel<T: Real>(rule: &Quadrature, z: T) -> T {
-    let terms = rule.nodes().iter().zip(rule.weights());
-    terms.fold(T::lift(0.0), |sum, (&c, &w)| {
-        let angle = (1.0 - 2.0 * c) * (1.0 - 2.0 * c);
-        sum + T::lift(w) * Pair::at(T::lift(angle) * z).cosine
-    })
-}
-
-/// The coefficients of all nodes of `rule`; what lies beyond them is of no use.
-#[inline]
-pub(crate) fn table<T: Real>(rule: &Quadrature, z: T) -> [Basis<T>; 5] {
-    let pairs = Pairs::new(z);
-    let reciprocal = T::lift(1.0) / pairs.whole.sinc;
-    per_node(rule, |c| {
-        let (left, right) = (pairs.at(1.0 - c), pairs.at(c));
-        Basis {
-            b: T::lift(1.0 - c) * left.sinc * reciprocal,
-            b_bar: T::lift(c) * right.sinc * reciprocal,
-            d: -left.cosine * reciprocal,
-            d_bar: right.cosine * reciprocal,
-        }
-    })
+/// κ(z) and σ(z).
+fn pair<T: Real>(z: T) -> Pair<T> {
+    Pair::at(Scalar::sqrt(z))
 }
 
 /// The derivatives with respect to z of the coefficients of all nodes of `rule`.
-pub(crate) fn table_slope<T: Real>(rule: &Quadrature, z: T) -> [Basis<T>; 5] {
-    let (whole, slope) = (sinc(z), sinc_slope(z));
+pub(crate) fn table_slope<T: Real>(rule: &Quadrature, z: T) -> [Basis<T>; NODES] {
+    let (whole, slope) = (pair(z).sinc, sinc_slope(z));
     // (f/σ)' for f' = `df`.
     let ratio = |f: T, df: T| (df - f * slope / whole) / whole;
     let half = T::lift(0.5);
     let parts = |c: f64| {
         let (c, square) = (T::lift(c), T::lift(c * c));
-        let Pair { cosine, sinc } = Pair::at(square * z);
+        let Pair { cosine, sinc } = pair(square * z);
         (ratio(c * sinc, c * square * sinc_slope(square * z)), ratio(cosine, -half * square * sinc))
     };
-    per_node(rule, |c| {
-        let ((b, d), (b_bar, d_bar)) = (parts(1.0 - c), parts(c));
-        Basis { b, b_bar, d: -d, d_bar }
-    })
-}
-
-/// The derivative with respect to z of σ(z)/S(z).
-pub(crate) fn weight_factor_slope<T: Real>(rule: &Quadrature, z: T) -> T {
-    let terms = rule.nodes().iter().zip(rule.weights());
-    let kernel_slope = terms.fold(T::lift(0.0), |sum, (&c, &w)| {
-        let angle = T::lift((1.0 - 2.0 * c) * (1.0 - 2.0 * c));
-        sum - T::lift(0.5 * w) * angle * sinc(angle * z)
-    });
-    let kernel = kernel(rule, z);
-    (sinc_slope(z) - sinc(z) * kernel_slope / kernel) / kernel
-}
-
-#[inline(always)]
-fn per_node<T: Real>(rule: &Quadrature, basis: impl Fn(f64) -> Basis<T>) -> [Basis<T>; 5] {
     let zero = T::lift(0.0);
-    let mut table = [Basis { b: zero, b_bar: zero, d: zero, d_bar: zero }; 5];
+    let mut table = [Basis { b: zero, b_bar: zero, d: zero, d_bar: zero }; NODES];
     for (entry, &c) in table.iter_mut().zip(rule.nodes()) {
-        *entry = basis(c);
+        let ((b, d), (b_bar, d_bar)) = (parts(1.0 - c), parts(c));
+        *entry = Basis { b, b_bar, d: -d, d_bar };
     }
     table
+}
+
+/// The derivative with respect to z of σ(z)/S(z), S = Σ w cos((1 − 2c)u).
+pub(crate) fn weight_factor_slope<T: Real>(rule: &Quadrature, z: T) -> T {
+    let (mut kernel, mut kernel_slope) = (T::lift(0.0), T::lift(0.0));
+    for (&c, &w) in rule.nodes().iter().zip(rule.weights()) {
+        let square = T::lift((1.0 - 2.0 * c) * (1.0 - 2.0 * c));
+        let Pair { cosine, sinc } = pair(square * z);
+        kernel += T::lift(w) * cosine;
+        kernel_slope -= T::lift(0.5 * w) * square * sinc;
+    }
+    (sinc_slope(z) - pair(z).sinc * kernel_slope / kernel) / kernel
 }
 
 /// Below this, (κ − σ)/(2z) has lost too many digits.
@@ -149,7 +140,7 @@ const SERIES: f64 = 1.0;
 /// σ'(z) = Σₖ (−1)ᵏ k zᵏ⁻¹/(2k + 1)!.
 fn sinc_slope<T: Real>(z: T) -> T {
     if z > T::lift(SERIES) {
-        let Pair { cosine, sinc } = Pair::at(z);
+        let Pair { cosine, sinc } = pair(z);
         return (cosine - sinc) / (z + z);
     }
     let (mut sum, mut term) = (T::lift(0.0), T::lift(-1.0 / 6.0));
@@ -162,7 +153,7 @@ fn sinc_slope<T: Real>(z: T) -> T {
 
 #[cfg(test)]
 mod tests {
-    use super::{Basis, kernel, sinc, sinc_slope, table, table_slope, weight_factor_slope};
+    use super::{Bases, Basis, pair, sinc_slope, table_slope, weight_factor_slope};
     use crate::quadrature::Quadrature;
     use crate::{Real, Scalar};
     use num_dual::Dual64;
@@ -171,6 +162,19 @@ mod tests {
         let own = Quadrature::new(&[0.1, 0.4, 0.95], &[0.3, 0.5, 0.2]).ok();
         let gauss = (1..=5).filter_map(|s| Quadrature::gauss(s).ok());
         gauss.chain((2..=5).filter_map(|s| Quadrature::lobatto(s).ok())).chain(own)
+    }
+
+    /// The bases of all nodes for z = u².
+    fn table<T: Real>(rule: &Quadrature, z: T) -> alloc::vec::Vec<Basis<T>> {
+        let bases = Bases::new(Scalar::sqrt(z));
+        rule.nodes().iter().map(|&c| bases.at(c)).collect()
+    }
+
+    /// S = Σ w cos((1 − 2c)u).
+    fn kernel<T: Real>(rule: &Quadrature, z: T) -> T {
+        let term =
+            |(&c, &w): (&f64, &f64)| T::lift(w) * Scalar::cos(T::lift(1.0 - 2.0 * c) * Scalar::sqrt(z));
+        rule.nodes().iter().zip(rule.weights()).map(term).fold(T::lift(0.0), |sum, term| sum + term)
     }
 
     fn entries<T: Real>(Basis { b, b_bar, d, d_bar }: Basis<T>) -> [T; 4] {
@@ -240,7 +244,7 @@ mod tests {
                         assert!((slope - expected.eps).abs() < 1e-13, "z = {z}: {slope} {}", expected.eps);
                     }
                 }
-                let factor = sinc(dual) / kernel(&rule, dual);
+                let factor = pair(dual).sinc / kernel(&rule, dual);
                 let found = weight_factor_slope(&rule, z);
                 let size = factor.re.abs().max(1.0) / kernel(&rule, z).abs().min(1.0);
                 assert!((found - factor.eps).abs() < 1e-13 * size * size, "z = {z}: {found} {}", factor.eps);
@@ -252,10 +256,10 @@ mod tests {
     fn series_and_closed_form_of_the_slope_meet() {
         for z in [0.999_999_f64, 1.000_001] {
             let u: f64 = Scalar::sqrt(z);
-            let closed = (Scalar::cos(u) - sinc(z)) / (2.0 * z);
+            let closed = (Scalar::cos(u) - pair(z).sinc) / (2.0 * z);
             assert!(Scalar::abs(sinc_slope(z) - closed) < 1e-15);
         }
         assert_eq!(sinc_slope(0.0), -1.0 / 6.0);
-        assert!(Scalar::abs(sinc(1e-300_f64) - 1.0) < 1e-16);
+        assert!(Scalar::abs(pair(1e-300_f64).sinc - 1.0) < 1e-16);
     }
 }

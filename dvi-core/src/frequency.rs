@@ -8,7 +8,7 @@ use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
-use crate::norm::{self, reported};
+use crate::norm;
 use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 
 /// How a frequency that depends on the motion enters a step from q0 to q1.
@@ -81,16 +81,16 @@ impl<T: Real> FrequencyIn<T> for Unfitted {}
 
 /// One frequency for all coordinates and all times. Symplectic, and exact on oscillators of that frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Constant<T = f64>(
+pub struct Constant(
     /// ω ≥ 0.
-    pub T,
+    pub f64,
 );
 
-impl<T: Debug> Frequency for Constant<T> {}
+impl Frequency for Constant {}
 
-impl<T: Real> FrequencyIn<T> for Constant<T> {
+impl<T: Real> FrequencyIn<T> for Constant {
     fn fixed(&self, _coordinate: usize) -> T {
-        self.0
+        T::lift(self.0)
     }
     fn validate(&self, _dimension: usize) -> Result<(), StartError> {
         in_range("omega", self.0)
@@ -110,9 +110,9 @@ impl<A: Debug> Frequency for PerCoordinate<A> {
     const PER_COORDINATE: bool = true;
 }
 
-impl<T: Real, A: AsRef<[T]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
+impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
     fn fixed(&self, coordinate: usize) -> T {
-        self.0.as_ref().get(coordinate).copied().unwrap_or_else(|| T::lift(f64::NAN))
+        T::lift(self.0.as_ref().get(coordinate).copied().unwrap_or(f64::NAN))
     }
     fn validate(&self, dimension: usize) -> Result<(), StartError> {
         let omega = self.0.as_ref();
@@ -124,12 +124,9 @@ impl<T: Real, A: AsRef<[T]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
     }
 }
 
-fn in_range<T: Real>(name: &'static str, omega: T) -> Result<(), StartError> {
-    if omega >= T::lift(0.0) && omega.is_finite() {
-        Ok(())
-    } else {
-        Err(StartError::Parameter { name, value: reported(omega), range: "0 <= omega, finite" })
-    }
+fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
+    let allowed = value >= 0.0 && value < f64::INFINITY;
+    if allowed { Ok(()) } else { Err(StartError::Parameter { name, value, range: "0 <= omega, finite" }) }
 }
 
 /// ω = |v × a|/|v|², the angular velocity of the osculating circle (Kosmas & Vlachos, eq. 19), in any number

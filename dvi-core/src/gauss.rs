@@ -5,7 +5,7 @@
 //! down to rounding errors, from the collocation polynomial of the last step, continued.
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, PreservedForm, Scheme};
+use crate::method::{Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
 use crate::solver::{Convergence, Stopping, Verdict};
 use crate::statistics::Statistics;
@@ -170,6 +170,16 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
             completed.copy_from_slice(slope);
         }
         Ok(())
+    }
+}
+
+impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> VariableStep<S, T> for Gauss<STAGES> {
+    /// The slopes of the last step, from which the next is guessed.
+    #[inline]
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        for (to, from) in to.completed.iter_mut().zip(&from.completed) {
+            to.copy_from_slice(from);
+        }
     }
 }
 

@@ -68,6 +68,14 @@ impl<S: Lagrangian, T: Real> History<S, T> {
         self.len = 0;
     }
 
+    /// Takes over the increments of another history.
+    pub(crate) fn restore(&mut self, from: &Self) {
+        for (increment, other) in self.ring.iter_mut().zip(&from.ring) {
+            increment.copy_from_slice(other);
+        }
+        (self.len, self.next) = (from.len, from.next);
+    }
+
     /// Remembers the increment of a completed step.
     #[inline(always)]
     pub(crate) fn push(&mut self, increment: &[T]) {

@@ -54,6 +54,7 @@ extern crate alloc;
 #[path = "private.rs"]
 pub mod __private;
 mod basis;
+mod composition;
 pub mod diagnostics;
 mod elimination;
 mod error;
@@ -80,6 +81,7 @@ mod variational;
 mod vector_field;
 mod walk;
 
+pub use composition::{Composition, CompositionMemory};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};

@@ -142,10 +142,6 @@ pub(crate) fn one_by_one<S: Lagrangian, T: Real, M: Method<S, T> + ?Sized>(
     Ok(())
 }
 
-/// A method whose memory does not depend on the step, so that steps of different lengths, also negative, may
-/// follow one another.
-pub trait VariableStep {}
-
 /// A method whose run is determined by two consecutive points.
 pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {
     /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
@@ -160,4 +156,12 @@ pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {
         t: T,
         h: T,
     ) -> Result<Self::Memory, StartError>;
+}
+
+/// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
+/// may follow one another.
+pub trait VariableStep<S: Lagrangian, T: Real>: Method<S, T> {
+    /// Sets the dynamical part of `to`, all that the result of the next step can depend on, to that of
+    /// `from`, without allocation. Both were made by [`begin`](Method::begin) of this method on one system.
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory);
 }

@@ -5,9 +5,9 @@ pub use crate::diagnostics::{
     convergence_order,
 };
 pub use crate::{
-    Constant, Curvature, DegenerateLagrangian, Fitting, Gauss, Integrator, Lagrangian, PerCoordinate,
-    Quadrature, Radial, Reading, RegularLagrangian, RungeKutta, Scheme, Sigma, Solver, Start, StartError,
-    StepError, StepFailure, Stopping, Variational,
+    Composition, Constant, Curvature, DegenerateLagrangian, Fitting, Gauss, Integrator, Lagrangian,
+    PerCoordinate, Quadrature, Radial, Reading, RegularLagrangian, RungeKutta, Scheme, Sigma, Solver, Start,
+    StartError, StepError, StepFailure, Stopping, Variational,
 };
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

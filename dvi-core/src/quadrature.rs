@@ -7,7 +7,7 @@
 use crate::error::StartError;
 
 /// How many nodes a rule has at most.
-const NODES: usize = 5;
+pub(crate) const NODES: usize = 5;
 
 /// Nodes and weights of a rule on \[0, 1\], up to five of them.
 #[derive(Clone, Copy, Debug, PartialEq)]

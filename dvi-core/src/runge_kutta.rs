@@ -3,7 +3,7 @@
 //! kᵢ = X(q + h Σⱼ aᵢⱼ kⱼ, t + cᵢh),   q⁺ = q + h Σᵢ bᵢ kᵢ
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, PreservedForm, Scheme};
+use crate::method::{Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
 use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
@@ -141,6 +141,12 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
         q.copy_from_slice(point);
         Ok(())
     }
+}
+
+impl<S: DegenerateLagrangian, T: Real> VariableStep<S, T> for RungeKutta {
+    /// Nothing: a step depends on q only.
+    #[inline]
+    fn restore(&self, _from: &Self::Memory, _to: &mut Self::Memory) {}
 }
 
 /// Sets `out` to q + h Σ wⱼ kⱼ.

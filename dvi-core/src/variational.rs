@@ -144,11 +144,11 @@ impl<F: Frequency> Variational<F> {
         !self.rule.has_interior_nodes() && !self.reads_both_ends()
     }
 
-    /// Whether forces are all that a step needs, for separable systems.
+    /// Whether forces are all that a step needs: L is separable, and the interpolation does not mix with M.
     #[inline(always)]
-    fn is_separable<S: RegularLagrangian>(&self) -> bool {
-        let couples = F::PER_COORDINATE && !S::DIAGONAL_MASS;
-        !couples && self.frequency.reading() != Some(Reading::Variational)
+    fn needs_forces_only<S: RegularLagrangian>(&self) -> bool {
+        let mixes = F::PER_COORDINATE && !S::DIAGONAL_MASS;
+        S::SEPARABLE && !mixes && self.frequency.reading() != Some(Reading::Variational)
     }
 
     #[inline(always)]
@@ -169,6 +169,12 @@ impl<F: Frequency> Variational<F> {
             return unsupported(
                 "a frequency read from the motion",
                 "it needs L = ½ v·M v − V(q, t) with a constant matrix M",
+            );
+        }
+        if F::PER_COORDINATE && !S::DIAGONAL_MASS && self.solver == Solver::FixedPoint {
+            return unsupported(
+                "Solver::FixedPoint",
+                "frequencies per coordinate need a diagonal mass matrix for it",
             );
         }
         if !S::SEPARABLE && self.solver == Solver::FixedPoint {
@@ -220,7 +226,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T> for Variatio
             let (taken, result) = verlet::steps(system, memory, q, Clock::new(t, h), 1);
             statistics.gradients += taken;
             result
-        } else if S::SEPARABLE && self.is_separable::<S>() {
+        } else if self.needs_forces_only::<S>() {
             separable::step(&step, memory, q, statistics)
         } else {
             general::step(&step, memory, q, statistics)
@@ -259,4 +265,9 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T> for Variatio
     }
 }
 
-impl<F> VariableStep for Variational<F> {}
+impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> VariableStep<S, T> for Variational<F> {
+    #[inline]
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.motion.restore(&from.motion);
+    }
+}

@@ -2,20 +2,17 @@
 //!
 //! With the coefficients bⱼ, b̄ⱼ, Bⱼ, B̄ⱼ of the nodes, the kinetic part of D₁L_d is M(A q0 − K q1)/h and that of
 //! D₂L_d is M(C q1 − K q0)/h, A = Σ w B², C = Σ w B̄², K = −Σ w B B̄. On the oscillator of frequency ω,
-//! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = uS/sin u.
+//! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
 
 use super::general::place;
 use super::memory::{Motion, Work};
 use super::{Fitting, Step};
-use crate::basis::{self, Basis};
+use crate::basis::{self, Bases, Basis};
 use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn};
 use crate::norm::reported;
-use crate::quadrature::Quadrature;
+use crate::quadrature::{NODES, Quadrature};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector};
-
-/// How many nodes a rule has at most.
-pub(super) const NODES: usize = 5;
 
 /// sin u and S count as zero below this.
 const RESONANCE: f64 = 1e-4;
@@ -39,63 +36,72 @@ pub(super) struct Sums<T> {
     pub(super) left: T,
     /// C − K = Σ w B̄(B + B̄)
     pub(super) right: T,
-    /// uS/sin u
+    /// S/(sin u/u)²
     pub(super) stiffness: T,
-}
-
-impl<T: Real> Sums<T> {
-    fn new(weights: &[T; NODES], bases: &[Basis<T>; NODES], len: usize, z: T) -> Self {
-        let zero = T::lift(0.0);
-        let mut sums = Self { mixed: zero, left: zero, right: zero, stiffness: zero };
-        for (&w, basis) in weights.iter().zip(bases).take(len) {
-            let Basis { b, b_bar, d, d_bar } = *basis;
-            sums.mixed -= w * d * d_bar;
-            sums.left += w * d * (d + d_bar);
-            sums.right += w * d_bar * (d + d_bar);
-            sums.stiffness += z * w * b * b_bar;
-        }
-        sums.stiffness += sums.mixed;
-        sums
-    }
 }
 
 /// One frequency for all coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Uniform<T> {
-    z: T,
+    u: T,
     weights: [T; NODES],
     bases: [Basis<T>; NODES],
     sums: Sums<T>,
 }
 
 impl<T: Real> Uniform<T> {
-    /// For z = (ωh)².
-    #[inline]
-    pub(super) fn new(rule: &Quadrature, fitting: Fitting, z: T) -> Result<Self, StepFailure> {
-        let (sinc, kernel) = (basis::sinc(z), basis::kernel(rule, z));
-        let small = T::lift(RESONANCE);
-        let resonant = Scalar::abs(sinc) * Scalar::sqrt(z) < small && z > T::lift(1.0);
-        let determined = Scalar::abs(kernel) > small;
-        if resonant || !determined || !z.is_finite() {
-            let u = reported(Scalar::sqrt(z));
-            return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
+    /// For u = 0, linear interpolation.
+    pub(super) fn linear(rule: &Quadrature) -> Self {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let nodes = Bases::new(zero);
+        let mut weights = [zero; NODES];
+        let mut bases = [nodes.at(0.0); NODES];
+        for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
+            (weights[j], bases[j]) = (T::lift(w), nodes.at(c));
         }
-        let mut weights = [T::lift(0.0); NODES];
-        let factor = match fitting {
-            Fitting::Phase => T::lift(1.0),
-            Fitting::PhaseAndMomentum => sinc / kernel,
-        };
-        for (weight, &w) in weights.iter_mut().zip(rule.weights()) {
-            *weight = T::lift(w) * factor;
-        }
-        let bases = basis::table(rule, z);
-        Ok(Self { z, weights, bases, sums: Sums::new(&weights, &bases, rule.nodes().len(), z) })
+        Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, stiffness: one } }
     }
 
-    /// Whether these are the coefficients for `z`.
+    /// Makes these the coefficients for u = ωh.
+    #[inline]
+    pub(super) fn set(&mut self, rule: &Quadrature, fitting: Fitting, u: T) -> Result<(), StepFailure> {
+        let (zero, nodes, z) = (T::lift(0.0), Bases::new(u), u * u);
+        let mut sums = Sums { mixed: zero, left: zero, right: zero, stiffness: zero };
+        for (j, (&c, &weight)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
+            let (w, basis) = (T::lift(weight), nodes.at(c));
+            let Basis { b, b_bar, d, d_bar } = basis;
+            sums.mixed -= w * d * d_bar;
+            sums.left += w * d * (d + d_bar);
+            sums.right += w * d_bar * (d + d_bar);
+            sums.stiffness += z * w * b * b_bar;
+            (self.weights[j], self.bases[j]) = (w, basis);
+        }
+        sums.stiffness += sums.mixed;
+        let sinc = nodes.sinc();
+        let kernel = sums.stiffness * sinc * sinc;
+        let small = T::lift(RESONANCE);
+        let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
+        if !determined {
+            // Not the coefficients of any step.
+            self.u = T::lift(f64::NAN);
+            let u = reported(u);
+            return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
+        }
+        if fitting == Fitting::PhaseAndMomentum {
+            let factor = sinc / kernel;
+            self.weights.iter_mut().for_each(|weight| *weight *= factor);
+            for sum in [&mut sums.mixed, &mut sums.left, &mut sums.right, &mut sums.stiffness] {
+                *sum *= factor;
+            }
+        }
+        (self.u, self.sums) = (u, sums);
+        Ok(())
+    }
+
+    /// Whether these are the coefficients for u = ωh.
     #[inline(always)]
-    pub(super) fn is_for(&self, z: T) -> bool {
-        self.z == z
+    pub(super) fn is_for(&self, u: T) -> bool {
+        self.u == u
     }
 }
 
@@ -155,8 +161,9 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
         }
         for i in 0..self.mixed.len() {
             let u = step.method.frequency.fixed(i) * step.h;
-            let Uniform { weights, bases, sums, .. } =
-                Uniform::new(&step.method.rule, step.method.fitting, u * u)?;
+            let mut uniform = Uniform::linear(&step.method.rule);
+            uniform.set(&step.method.rule, step.method.fitting, u)?;
+            let Uniform { weights, bases, sums, .. } = uniform;
             // The same for all coordinates, as only the phase is fitted.
             self.weights = weights;
             for (node, basis) in bases.iter().enumerate() {
@@ -202,10 +209,10 @@ impl<T: Real> Uniform<T> {
         q: &[T],
         twice_omega: T,
     ) -> T {
-        let rule = &step.method.rule;
-        let slopes = basis::table_slope(rule, self.z);
+        let (z, rule) = (self.u * self.u, &step.method.rule);
+        let slopes = basis::table_slope(rule, z);
         let fitted = step.method.fitting == Fitting::PhaseAndMomentum;
-        let factor_slope = if fitted { basis::weight_factor_slope(rule, self.z) } else { T::lift(0.0) };
+        let factor_slope = if fitted { basis::weight_factor_slope(rule, z) } else { T::lift(0.0) };
         let per_h = T::lift(1.0) / step.h;
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {

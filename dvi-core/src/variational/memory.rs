@@ -83,7 +83,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         system.gradient(q, v, t, &mut force, &mut p);
         norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
         let mass = S::SEPARABLE.then(|| Mass::new(system, q, t)).transpose().map_err(StartError::Starter)?;
-        let explicit = S::SEPARABLE && method.is_explicit();
+        let explicit = method.needs_forces_only::<S>() && method.is_explicit();
         let newton =
             (!explicit && method.solver != Solver::FixedPoint).then(|| [space.matrix(), space.matrix()]);
         let reading = method.frequency.reading();
@@ -92,8 +92,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         let mut interpolation = if F::PER_COORDINATE {
             Interpolation::Each(Each::new(system))
         } else {
-            let unfitted = Uniform::new(&method.rule, method.fitting, T::lift(0.0));
-            Interpolation::Uniform(unfitted.map_err(StartError::Starter)?)
+            Interpolation::Uniform(Uniform::linear(&method.rule))
         };
         if reading.is_none() {
             interpolation.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
@@ -144,12 +143,9 @@ impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
     pub(super) fn set<F>(&mut self, step: &Step<'_, S, F, T>, omega: T) -> Result<(), StepFailure> {
         let u = omega * step.h;
         match self {
-            Self::Uniform(known) if !known.is_for(u * u) => {
-                *known = Uniform::new(&step.method.rule, step.method.fitting, u * u)?;
-            }
-            _ => {}
+            Self::Uniform(known) if !known.is_for(u) => known.set(&step.method.rule, step.method.fitting, u),
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
@@ -184,6 +180,14 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
             *mean = delta * per_h;
         }
         history.push(&work.velocity);
+    }
+
+    /// Takes over all that the next step can depend on.
+    pub(super) fn restore(&mut self, from: &Self) {
+        self.p.copy_from_slice(&from.p);
+        self.force.copy_from_slice(&from.force);
+        self.history.restore(&from.history);
+        (self.last_step, self.newton_steps) = (from.last_step, from.newton_steps);
     }
 
     /// Sets `v` to the velocity with ∂L/∂v = p.

@@ -1,6 +1,6 @@
 //! L = ½ v·M v − V(q, t): the fixed point that needs forces only.
 //!
-//! r(q1) = p0 + D₁L_d = p0 + M(A q0 − K q1)/h + h Σ w b F(qʲ),     q1 ← q1 + (h/κ) M⁻¹r,   κ = uS/sin u
+//! r(q1) = p0 + D₁L_d = p0 + M(A q0 − K q1)/h + h Σ w b F(qʲ),     q1 ← q1 + (h/κ) M⁻¹r,   κ = S/(sin u/u)²
 //! p1 = p0 + (D₁ + D₂)L_d = p0 + M((A − K) q0 + (C − K) q1)/h + h Σ w (b + b̄) F(qʲ)
 //!
 //! κ contains the oscillator of the fitted frequency, so that only what differs from it is iterated. Where no

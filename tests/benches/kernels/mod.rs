@@ -1,24 +1,29 @@
 //! The steps that are measured: generated, and beside each the same scheme by hand.
 
-pub(crate) mod by_hand;
+mod kepler_by_hand;
+mod vortices_by_hand;
 
+use dvi_core::FrequencyIn;
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
 use dvi_tests::systems::PointVortices;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 4] = [
+pub(crate) const KERNELS: [[&str; 2]; 6] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["fixed point/generated", "fixed point/by hand"],
     ["newton/generated", "newton/by hand"],
+    ["Kepler, Verlet/generated", "Kepler, Verlet/by hand"],
+    ["Kepler, fitted Simpson/generated", "Kepler, fitted Simpson/by hand"],
 ];
 
 const H: f64 = 0.1;
 const GAMMA: [f64; 4] = [1.0; 4];
 
-fn start() -> by_hand::State {
+fn start() -> vortices_by_hand::State {
     let (_, state) = configurations::quasi_periodic();
     std::array::from_fn(|i| if i < 4 { state.x[i] } else { state.y[i - 4] })
 }
@@ -27,7 +32,7 @@ fn start() -> by_hand::State {
 ///
 /// Each call begins anew: the explicit scheme does not stay on an orbit for ever.
 pub(crate) fn run(name: &str, steps: u64) -> f64 {
-    let field = by_hand::Field::new(GAMMA);
+    let field = vortices_by_hand::Field::new(GAMMA);
     match name {
         "explicit/generated" => generated(explicit(), |run| run.advance_by(steps)),
         "explicit, each state read/generated" => generated(explicit(), |run| {
@@ -40,12 +45,12 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
         "fixed point/generated" => generated(implicit(Solver::FixedPoint), |run| run.advance_by(steps)),
         "newton/generated" => generated(implicit(Solver::Newton), |run| run.advance_by(steps)),
         "explicit/by hand" => {
-            let mut leapfrog = by_hand::Leapfrog::new(field, H, start());
+            let mut leapfrog = vortices_by_hand::Leapfrog::new(field, H, start());
             (0..steps).for_each(|_| leapfrog.step());
             leapfrog.z[0]
         }
         "explicit, each state read/by hand" => {
-            let mut leapfrog = by_hand::Leapfrog::new(field, H, start());
+            let mut leapfrog = vortices_by_hand::Leapfrog::new(field, H, start());
             (0..steps).for_each(|_| {
                 leapfrog.step();
                 black_box(&leapfrog.z);
@@ -53,12 +58,29 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
             leapfrog.z[0]
         }
         "fixed point/by hand" => {
-            let mut midpoint = by_hand::Midpoint::new(field, H, start());
+            let mut midpoint = vortices_by_hand::Midpoint::new(field, H, start());
             (0..steps).for_each(|_| midpoint.step_by_fixed_point());
             midpoint.z[0]
         }
+        "Kepler, Verlet/generated" => kepler(Variational::trapezoid(), steps),
+        "Kepler, fitted Simpson/generated" => {
+            let rule =
+                Variational { solver: Solver::FixedPoint, stopping: stopping(), ..Variational::simpson() };
+            kepler(rule.phase_fitted(Radial(Reading::Averaged)), steps)
+        }
+        "Kepler, Verlet/by hand" => {
+            let mut verlet = kepler_by_hand::Verlet::new(KEPLER_H, [0.8, 0.0], [0.0, 1.5_f64.sqrt()]);
+            (0..steps).for_each(|_| verlet.step());
+            verlet.q[0]
+        }
+        "Kepler, fitted Simpson/by hand" => {
+            let start = ([0.8, 0.0], [0.0, 1.5_f64.sqrt()]);
+            let mut simpson = kepler_by_hand::FittedSimpson::new(KEPLER_H, 1e-12, start.0, start.1);
+            (0..steps).for_each(|_| simpson.step());
+            simpson.q[0]
+        }
         "newton/by hand" => {
-            let mut midpoint = by_hand::Midpoint::new(field, H, start());
+            let mut midpoint = vortices_by_hand::Midpoint::new(field, H, start());
             (0..steps).for_each(|_| midpoint.step_by_newton());
             midpoint.z[0]
         }
@@ -67,7 +89,25 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
 }
 
 fn implicit(solver: Solver) -> Sigma {
-    Sigma { solver, stopping: Stopping { tolerance: 1e-12, ..Stopping::default() }, ..Sigma::midpoint() }
+    Sigma { solver, stopping: stopping(), ..Sigma::midpoint() }
+}
+
+fn stopping() -> Stopping {
+    Stopping { tolerance: 1e-12, ..Stopping::default() }
+}
+
+/// e = 0.2, 200 steps a period.
+const KEPLER_H: f64 = core::f64::consts::TAU / 200.0;
+
+#[inline(always)]
+fn kepler<F: FrequencyIn<f64>>(method: Variational<F>, steps: u64) -> f64 {
+    let system = black_box(Kepler { mu: 1.0 });
+    let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
+    let Ok(mut run) = Integrator::new(&system, method, KEPLER_H, start) else { return f64::NAN };
+    match run.advance_by(steps) {
+        Ok(()) => run.q()[0],
+        Err(_) => f64::NAN,
+    }
 }
 
 fn explicit() -> Sigma {

@@ -1,0 +1,157 @@
+//! The oscillator of the fitted frequency is solved exactly, at any step.
+
+use super::Outcome;
+use dvi_core::lagrangian;
+use dvi_core::prelude::*;
+
+/// A harmonic oscillator.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - omega.powi(2) * x.powi(2) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Oscillator {
+    omega: f64,
+}
+
+/// Two uncoupled oscillators with a diagonal mass matrix.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) - (omega[0] * x).powi(2)) / 2.0 + 2.0 * (dot(y).powi(2) - (omega[1] * y).powi(2)),
+)]
+#[derive(Clone, Debug)]
+struct Pair {
+    omega: [f64; 2],
+}
+
+fn rules() -> Result<Vec<Quadrature>, StartError> {
+    let mut rules = vec![Quadrature::new(&[0.1, 0.4, 0.95], &[0.3, 0.5, 0.2])?, Quadrature::sigma(0.3)];
+    for s in 1..=5 {
+        rules.push(Quadrature::gauss(s)?);
+    }
+    for s in 2..=5 {
+        rules.push(Quadrature::lobatto(s)?);
+    }
+    Ok(rules)
+}
+
+/// S = Σ w cos((1 − 2c)u).
+fn kernel(rule: &Quadrature, u: f64) -> f64 {
+    rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
+}
+
+/// The largest error of a run against the solution of q'' = −q that starts like it.
+fn worst(method: Variational<Constant>, u: f64, steps: u64) -> Result<f64, Box<dyn core::error::Error>> {
+    let system = Oscillator { omega: 1.0 };
+    let mut run = Integrator::new(&system, method, u, OscillatorState { x: 0.3, dot_x: 0.8 })?;
+    run.advance()?;
+    let (x0, x1) = (0.3, run.q()[0]);
+    // A cos(ku) + B sin(ku) through the first two points.
+    let b = (x1 - x0 * u.cos()) / u.sin();
+    let mut worst: f64 = 0.0;
+    while run.steps() < steps {
+        run.advance()?;
+        let angle = run.steps() as f64 * u;
+        worst = worst.max((run.q()[0] - x0 * angle.cos() - b * angle.sin()).abs());
+    }
+    Ok(worst)
+}
+
+#[test]
+fn the_recursion_is_exact_for_every_rule_and_step() -> Outcome {
+    for rule in rules()? {
+        for u in (1..=30).map(|k| 0.1 * f64::from(k)) {
+            if kernel(&rule, u).abs() < 0.05 {
+                continue;
+            }
+            let method = Variational::new(rule).phase_fitted(Constant(1.0));
+            let error = worst(method, u, 1000)?;
+            assert!(error < 1e-9, "{rule:?}, u = {u}: {error:e}");
+        }
+    }
+    for u in [0.1, 1.0, 2.0, 3.0] {
+        let error = worst(Variational::simpson().phase_fitted(Constant(1.0)), u, 100_000)?;
+        assert!(error < 1e-9, "u = {u}: {error:e}");
+    }
+    Ok(())
+}
+
+/// p = s v with s = uS/sin u.
+#[test]
+fn a_fitted_phase_has_the_momentum_of_the_paper_and_fitted_weights_the_right_one() -> Outcome {
+    let system = Oscillator { omega: 1.0 };
+    for (rule, s) in [(Quadrature::midpoint(), 1.188_395_105_778), (Quadrature::simpson(), 1.006_294_275_830)]
+    {
+        let start: OscillatorState = OscillatorState { x: 0.0, dot_x: 1.0 };
+        let phase = Variational::new(rule).phase_fitted(Constant(1.0));
+        let mut run = Integrator::new(&system, phase, 1.0, start.clone())?;
+        run.advance()?;
+        // The solution with p0 = 1 is sin t / s.
+        assert!((run.q()[0] * s - 1.0_f64.sin()).abs() < 1e-12, "{rule:?}");
+        let both = Variational { fitting: Fitting::PhaseAndMomentum, ..phase };
+        let mut run = Integrator::new(&system, both, 1.0, start)?;
+        for k in 1..100_u32 {
+            let state = run.next().ok_or("a state")??;
+            let t = f64::from(k);
+            assert!((state.x - t.sin()).abs().max((state.dot_x - t.cos()).abs()) < 1e-12, "{rule:?}, {t}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn each_coordinate_can_have_its_own_frequency() -> Outcome {
+    let system = Pair { omega: [1.0, 2.3] };
+    let start: PairState = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
+    let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 2.3]));
+    for solver in [Solver::FixedPoint, Solver::Newton] {
+        let mut run = Integrator::new(&system, Variational { solver, ..method }, 0.9, start.clone())?;
+        for k in 1..1000_u32 {
+            run.advance()?;
+            let t = 0.9 * f64::from(k);
+            assert!((run.q()[0] - t.cos()).abs() < 1e-11, "{solver:?}, x at {t}");
+            assert!((run.q()[1] - 0.5 * (2.3 * t).cos()).abs() < 1e-11, "{solver:?}, y at {t}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn small_frequencies_lose_no_digits() -> Outcome {
+    let system = Oscillator { omega: 1.0 };
+    let start: OscillatorState = OscillatorState { x: 0.3, dot_x: 0.8 };
+    for rule in rules()? {
+        let linear = Variational::new(rule);
+        let mut reference = Integrator::new(&system, linear, 0.1, start.clone())?;
+        reference.advance_by(50)?;
+        for omega in [0.0, 1e-300, 1e-160, 1e-12, 1e-8] {
+            let mut run = Integrator::new(&system, linear.phase_fitted(Constant(omega)), 0.1, start.clone())?;
+            run.advance_by(50)?;
+            let error = (run.q()[0] - reference.q()[0]).abs();
+            assert!(error < 1e-13, "{rule:?}, ω = {omega:e}: {error:e}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_resonance_is_an_error_and_not_a_number() -> Outcome {
+    let system = Oscillator { omega: 1.0 };
+    let start: OscillatorState = OscillatorState { x: 0.3, dot_x: 0.8 };
+    let two_point_gauss = 2.720_699_046_35;
+    for (rule, u) in [
+        (Quadrature::gauss(2)?, two_point_gauss),
+        (Quadrature::trapezoid(), core::f64::consts::FRAC_PI_2),
+        (Quadrature::simpson(), core::f64::consts::PI),
+        (Quadrature::lobatto(4)?, 2.0 * core::f64::consts::PI),
+    ] {
+        let method = Variational::new(rule).phase_fitted(Constant(1.0));
+        let error = Integrator::new(&system, method, u, start.clone()).err();
+        assert!(
+            matches!(error, Some(StartError::Starter(StepFailure::Resonance { u: found, .. })) if (found - u).abs() < 1e-12),
+            "{rule:?}: {error:?}"
+        );
+        assert!(kernel(&rule, u).abs() < 1e-9 || u.sin().abs() < 1e-9);
+    }
+    Ok(())
+}
