@@ -7,7 +7,7 @@
 //! where κ(z) = cos √z and σ(z) = sin √z/√z are entire functions of z. So z = 0, linear interpolation, is no
 //! special case, and nothing cancels near it; only the derivative σ' = (κ − σ)/(2z) needs its series there.
 
-use crate::quadrature::{NODES, Quadrature};
+use crate::quadrature::{NODES, Rule};
 use crate::{Real, Scalar};
 
 /// The coefficients of one node.
@@ -21,17 +21,46 @@ pub(crate) struct Basis<T> {
 
 /// κ and σ at one point.
 #[derive(Clone, Copy, Debug)]
-struct Pair<T> {
-    cosine: T,
-    sinc: T,
+pub(crate) struct Pair<T> {
+    pub(crate) cosine: T,
+    pub(crate) sinc: T,
+}
+
+/// Up to here the series are as accurate as the functions, and faster.
+const SERIES_TO: f64 = 2.5;
+
+/// (−1)ᵏ/(2k)! and (−1)ᵏ/(2k + 1)!.
+#[rustfmt::skip]
+const SERIES: [[f64; 12]; 2] = {
+    let mut table = [[0.0; 12]; 2];
+    let (mut even, mut k) = (1.0, 0);
+    while k < 12 {
+        let odd = even / (2 * k + 1) as f64;
+        table[0][k] = even;
+        table[1][k] = odd;
+        even = -odd / (2 * k + 2) as f64;
+        k += 1;
+    }
+    table
+};
+
+/// Σ cₖ zᵏ, by pairs of pairs, so that the terms do not wait for one another.
+#[inline(always)]
+fn sum_series<T: Real>(c: &[f64; 12], z: T) -> T {
+    let (square, c) = (z * z, |k: usize| T::lift(c[k]));
+    let fourth = square * square;
+    let pair = |k: usize| c(k) + c(k + 1) * z;
+    let four = |k: usize| pair(k) + pair(k + 2) * square;
+    four(0) + (four(4) + four(8) * fourth) * fourth
 }
 
 impl<T: Real> Pair<T> {
-    /// cos u and sin u/u.
+    /// κ(z) and σ(z), z = u².
     #[inline(always)]
     fn at(u: T) -> Self {
-        if u == T::lift(0.0) {
-            return Self { cosine: T::lift(1.0), sinc: T::lift(1.0) };
+        let z = u * u;
+        if z <= T::lift(SERIES_TO) {
+            return Self { cosine: sum_series(&SERIES[0], z), sinc: sum_series(&SERIES[1], z) };
         }
         let (sine, cosine) = nalgebra::ComplexField::sin_cos(u);
         Self { cosine, sinc: sine / u }
@@ -71,28 +100,35 @@ impl<T: Real> Bases<T> {
         self.whole.sinc
     }
 
-    /// The coefficients of a node.
+    /// 1/σ.
     #[inline(always)]
-    pub(crate) fn at(&self, c: f64) -> Basis<T> {
-        let (left, right) = (self.pair(1.0 - c), self.pair(c));
+    pub(crate) fn reciprocal(&self) -> T {
+        self.reciprocal
+    }
+
+    /// κ and σ at (1 − c)u and at cu.
+    #[inline(always)]
+    pub(crate) fn pairs(&self, c: f64) -> [Pair<T>; 2] {
+        let one = Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) };
+        if c == 0.5 {
+            [self.half, self.half]
+        } else if c == 0.0 {
+            [self.whole, one]
+        } else if c == 1.0 {
+            [one, self.whole]
+        } else {
+            [Pair::at(T::lift(1.0 - c) * self.u), Pair::at(T::lift(c) * self.u)]
+        }
+    }
+
+    /// The coefficients of a node with these pairs.
+    #[inline(always)]
+    pub(crate) fn basis(&self, c: f64, [left, right]: [Pair<T>; 2]) -> Basis<T> {
         Basis {
             b: T::lift(1.0 - c) * left.sinc * self.reciprocal,
             b_bar: T::lift(c) * right.sinc * self.reciprocal,
             d: -left.cosine * self.reciprocal,
             d_bar: right.cosine * self.reciprocal,
-        }
-    }
-
-    #[inline(always)]
-    fn pair(&self, c: f64) -> Pair<T> {
-        if c == 0.0 {
-            Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) }
-        } else if c == 0.5 {
-            self.half
-        } else if c == 1.0 {
-            self.whole
-        } else {
-            Pair::at(T::lift(c) * self.u)
         }
     }
 }
@@ -103,7 +139,7 @@ fn pair<T: Real>(z: T) -> Pair<T> {
 }
 
 /// The derivatives with respect to z of the coefficients of all nodes of `rule`.
-pub(crate) fn table_slope<T: Real>(rule: &Quadrature, z: T) -> [Basis<T>; NODES] {
+pub(crate) fn table_slope<T: Real>(rule: &impl Rule, z: T) -> [Basis<T>; NODES] {
     let (whole, slope) = (pair(z).sinc, sinc_slope(z));
     // (f/σ)' for f' = `df`.
     let ratio = |f: T, df: T| (df - f * slope / whole) / whole;
@@ -123,7 +159,7 @@ pub(crate) fn table_slope<T: Real>(rule: &Quadrature, z: T) -> [Basis<T>; NODES]
 }
 
 /// The derivative with respect to z of σ(z)/S(z), S = Σ w cos((1 − 2c)u).
-pub(crate) fn weight_factor_slope<T: Real>(rule: &Quadrature, z: T) -> T {
+pub(crate) fn weight_factor_slope<T: Real>(rule: &impl Rule, z: T) -> T {
     let (mut kernel, mut kernel_slope) = (T::lift(0.0), T::lift(0.0));
     for (&c, &w) in rule.nodes().iter().zip(rule.weights()) {
         let square = T::lift((1.0 - 2.0 * c) * (1.0 - 2.0 * c));
@@ -134,12 +170,10 @@ pub(crate) fn weight_factor_slope<T: Real>(rule: &Quadrature, z: T) -> T {
     (sinc_slope(z) - pair(z).sinc * kernel_slope / kernel) / kernel
 }
 
-/// Below this, (κ − σ)/(2z) has lost too many digits.
-const SERIES: f64 = 1.0;
-
 /// σ'(z) = Σₖ (−1)ᵏ k zᵏ⁻¹/(2k + 1)!.
 fn sinc_slope<T: Real>(z: T) -> T {
-    if z > T::lift(SERIES) {
+    // Below this, the closed form has lost too many digits.
+    if z > T::lift(1.0) {
         let Pair { cosine, sinc } = pair(z);
         return (cosine - sinc) / (z + z);
     }
@@ -154,7 +188,7 @@ fn sinc_slope<T: Real>(z: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::{Bases, Basis, pair, sinc_slope, table_slope, weight_factor_slope};
-    use crate::quadrature::Quadrature;
+    use crate::quadrature::{Quadrature, Rule};
     use crate::{Real, Scalar};
     use num_dual::Dual64;
 
@@ -165,13 +199,13 @@ mod tests {
     }
 
     /// The bases of all nodes for z = u².
-    fn table<T: Real>(rule: &Quadrature, z: T) -> alloc::vec::Vec<Basis<T>> {
+    fn table<T: Real>(rule: &impl Rule, z: T) -> alloc::vec::Vec<Basis<T>> {
         let bases = Bases::new(Scalar::sqrt(z));
-        rule.nodes().iter().map(|&c| bases.at(c)).collect()
+        rule.nodes().iter().map(|&c| bases.basis(c, bases.pairs(c))).collect()
     }
 
     /// S = Σ w cos((1 − 2c)u).
-    fn kernel<T: Real>(rule: &Quadrature, z: T) -> T {
+    fn kernel<T: Real>(rule: &impl Rule, z: T) -> T {
         let term =
             |(&c, &w): (&f64, &f64)| T::lift(w) * Scalar::cos(T::lift(1.0 - 2.0 * c) * Scalar::sqrt(z));
         rule.nodes().iter().zip(rule.weights()).map(term).fold(T::lift(0.0), |sum, term| sum + term)

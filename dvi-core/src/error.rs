@@ -113,6 +113,22 @@ pub enum StepFailure {
         /// The largest candidate.
         pivot: f64,
     },
+    /// The density of steps that a step control carries along is no density any more.
+    #[error(
+        "the density of steps became {density:e}; it must be positive and finite: a smaller epsilon helps"
+    )]
+    Density {
+        /// Its value.
+        density: f64,
+    },
+    /// A step control asks for a step that does not advance the time.
+    #[error(
+        "the step control asks for h = {h:e}, which does not advance the time: a collision, or a demand out of reach"
+    )]
+    StepLength {
+        /// The step, perhaps not finite.
+        h: f64,
+    },
     /// A coordinate became infinite or not a number: a collision, or a formula left its domain.
     #[error("coordinate {coordinate} became {value}: a collision, or a formula left its domain")]
     NotFinite {

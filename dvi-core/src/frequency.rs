@@ -125,8 +125,11 @@ impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
 }
 
 fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
-    let allowed = value >= 0.0 && value < f64::INFINITY;
-    if allowed { Ok(()) } else { Err(StartError::Parameter { name, value, range: "0 <= omega, finite" }) }
+    if (0.0..f64::INFINITY).contains(&value) {
+        Ok(())
+    } else {
+        Err(StartError::Parameter { name, value, range: "0 <= omega, finite" })
+    }
 }
 
 /// ω = |v × a|/|v|², the angular velocity of the osculating circle (Kosmas & Vlachos, eq. 19), in any number
@@ -191,7 +194,8 @@ impl Frequency for Radial {
 impl<T: Real> FrequencyIn<T> for Radial {
     #[inline]
     fn at(&self, q: &[T], _v: &[T], a: &[T]) -> T {
-        Scalar::sqrt(Scalar::sqrt(dot(a, a) / dot(q, q)))
+        // The reciprocal does not wait for the acceleration.
+        Scalar::sqrt(Scalar::sqrt(dot(a, a) * (T::lift(1.0) / dot(q, q))))
     }
 
     fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {

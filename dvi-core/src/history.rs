@@ -78,8 +78,10 @@ impl<S: Lagrangian, T: Real> History<S, T> {
 
     /// Remembers the increment of a completed step.
     #[inline(always)]
-    pub(crate) fn push(&mut self, increment: &[T]) {
-        self.ring[self.next].copy_from_slice(increment);
+    pub(crate) fn push(&mut self, increment: impl IntoIterator<Item = T>) {
+        for (kept, x) in self.ring[self.next].iter_mut().zip(increment) {
+            *kept = x;
+        }
         self.next = if self.next + 1 < DEPTH { self.next + 1 } else { 0 };
         if self.len < DEPTH {
             self.len += 1;

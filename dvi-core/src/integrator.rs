@@ -5,10 +5,11 @@ use core::fmt;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::method::{Clock, Method, TwoPoint};
 use crate::norm::reported;
+use crate::run::{Run, flatten, velocities};
 use crate::sigma_family::{Sigma, SigmaMemory};
 use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, State, Vector};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
 
 /// A run of a method on a system with a fixed step.
 ///
@@ -16,14 +17,9 @@ use crate::{DegenerateLagrangian, Lagrangian, Real, Space, State, Vector};
 /// it yields `None`, and [`state`](Self::state) is the last good one. [`advance`](Self::advance) takes a
 /// step without building a state.
 pub struct Integrator<'a, S: Lagrangian, M: Method<S, T>, T: Real = f64> {
-    system: &'a S,
-    method: M,
-    memory: M::Memory,
-    q: Vector<S, T>,
+    run: Run<'a, S, M, T>,
     /// At the start of the run.
     clock: Clock<T>,
-    failed: bool,
-    statistics: Statistics,
 }
 
 impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
@@ -49,15 +45,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     }
 
     fn assemble(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>, t: T, h: T) -> Self {
-        Self {
-            system,
-            method,
-            memory,
-            q,
-            clock: Clock::new(t, h),
-            failed: false,
-            statistics: Statistics::default(),
-        }
+        Self { run: Run::new(system, method, memory, q), clock: Clock::new(t, h) }
     }
 
     /// Takes one step. Nothing is allocated.
@@ -76,76 +64,45 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
     #[inline]
     pub fn advance_by(&mut self, count: u64) -> Result<(), StepError> {
-        let clock = self.clock.after(self.statistics.steps);
-        self.method
-            .steps(self.system, &mut self.memory, &mut self.q, clock, count, &mut self.statistics)
-            .map_err(|failure| self.error(failure))
+        let clock = self.clock.after(self.run.statistics.steps);
+        self.run.steps(clock, count).map_err(|failure| self.error(failure))
     }
 
     #[cold]
     fn error(&mut self, failure: StepFailure) -> StepError {
-        self.failed = true;
-        StepError { step: self.statistics.steps, time: reported(self.time()), failure }
+        self.run.error(self.time(), failure)
     }
 
     /// The current state. The velocities of a regular system are not a number where the mass matrix is
     /// singular and the momenta have no velocity; an iterator yields an error there.
     pub fn state(&self) -> S::State<T> {
-        self.with_velocity(|v| S::State::read(|block| self.system.block_len(block), &self.q, v))
+        self.run.state(self.time())
     }
 
     /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.
     pub fn energy(&self) -> T {
-        self.with_velocity(|v| self.system.energy(&self.q, v, self.time()))
-    }
-
-    /// Passes the velocity on, or nothing if the system is degenerate.
-    fn with_velocity<R>(&self, read: impl FnOnce(&[T]) -> R) -> R {
-        if !S::REGULAR {
-            return read(&[]);
-        }
-        let mut v = self.system.space().vector();
-        if self.velocity(&mut v).is_err() {
-            v.fill(T::lift(f64::NAN));
-        }
-        read(&v)
-    }
-
-    fn try_state(&mut self) -> Result<S::State<T>, StepError> {
-        let system = self.system;
-        if !S::REGULAR {
-            return Ok(self.state());
-        }
-        let mut v = system.space().vector();
-        match self.velocity(&mut v) {
-            Ok(()) => Ok(S::State::read(|block| system.block_len(block), &self.q, &v)),
-            Err(failure) => Err(self.error(failure)),
-        }
-    }
-
-    fn velocity(&self, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
-        self.method.velocity(self.system, &self.memory, &self.q, self.time(), v)
+        self.run.energy(self.time())
     }
 
     /// The current coordinates, flat, in the order of declaration.
     pub fn q(&self) -> &[T] {
-        &self.q
+        &self.run.q
     }
 
     /// The current coordinates in the storage of their space.
     pub(crate) fn vector(&self) -> &Vector<S, T> {
-        &self.q
+        &self.run.q
     }
 
     /// The current time, t₀ + steps · h, which does not accumulate rounding errors.
     #[inline]
     pub fn time(&self) -> T {
-        self.clock.after(self.statistics.steps).time()
+        self.clock.after(self.run.statistics.steps).time()
     }
 
     /// The number of completed steps.
     pub fn steps(&self) -> u64 {
-        self.statistics.steps
+        self.run.statistics.steps
     }
 
     /// The step h.
@@ -155,37 +112,33 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
 
     /// The system.
     pub fn system(&self) -> &'a S {
-        self.system
+        self.run.system
     }
 
     /// The method.
     pub fn method(&self) -> &M {
-        &self.method
+        &self.run.method
     }
 
     /// What the method carries from step to step.
     pub fn memory(&self) -> &M::Memory {
-        &self.memory
+        &self.run.memory
     }
 
     /// What the run has cost so far.
     pub fn statistics(&self) -> Statistics {
-        self.statistics
+        self.run.statistics
     }
 
     /// The value of declared momentum `index`, in the order of
     /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
     pub fn momentum(&self, index: usize) -> Option<T> {
-        let declared = index < S::REPORT.momenta.len();
-        declared.then(|| self.with_velocity(|v| self.system.momentum(index, &self.q, v, self.time())))
+        self.run.momentum(index, self.time())
     }
 
     /// The names and values of all declared momenta.
     pub fn momenta(&self) -> impl Iterator<Item = (&'static str, T)> + '_ {
-        let names = S::REPORT.momenta.iter().enumerate();
-        names.map(|(index, &name)| {
-            (name, self.with_velocity(|v| self.system.momentum(index, &self.q, v, self.time())))
-        })
+        self.run.momenta(self.time())
     }
 }
 
@@ -221,16 +174,16 @@ impl<S: DegenerateLagrangian, T: Real> Integrator<'_, S, Sigma<T>, T> {
     /// momentum.
     pub fn discrete_momentum(&self, index: usize) -> Result<Option<T>, StepFailure> {
         let Some(momentum) = self.momentum(index) else { return Ok(None) };
-        let mut field = VectorField::new(self.system, &self.q, self.time())?;
-        let mut xi = self.system.space().vector();
-        field.generator(self.system, index, &self.q, self.time(), &mut xi)?;
-        let along = self.memory.defect().iter().zip(xi.iter());
+        let mut field = VectorField::new(self.run.system, &self.run.q, self.time())?;
+        let mut xi = self.run.system.space().vector();
+        field.generator(self.run.system, index, &self.run.q, self.time(), &mut xi)?;
+        let along = self.run.memory.defect().iter().zip(xi.iter());
         Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
     }
 
     /// max |p − α(q)|, the amplitude of the parasitic mode in p.
     pub fn parasitic_amplitude(&self) -> T {
-        SigmaMemory::parasitic_amplitude(&self.memory)
+        SigmaMemory::parasitic_amplitude(&self.run.memory)
     }
 }
 
@@ -246,10 +199,10 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, 
     /// not skipped but yielded.
     #[inline]
     fn nth(&mut self, n: usize) -> Option<Self::Item> {
-        if self.failed {
+        if self.run.failed {
             return None;
         }
-        Some(self.advance_by(n as u64 + 1).and_then(|()| self.try_state()))
+        Some(self.advance_by(n as u64 + 1).and_then(|()| self.run.try_state(self.time())))
     }
 }
 
@@ -259,11 +212,11 @@ impl<S: Lagrangian, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integr
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator")
             .field("system", &S::REPORT.system)
-            .field("method", &self.method)
+            .field("method", &self.run.method)
             .field("time", &self.time())
             .field("step_size", &self.step_size())
             .field("state", &self.state())
-            .field("statistics", &self.statistics)
+            .field("statistics", &self.run.statistics)
             .finish_non_exhaustive()
     }
 }
@@ -272,26 +225,5 @@ fn validate<S: Lagrangian, T: Real>(system: &S, t: T, h: T) -> Result<(), StartE
     if !h.is_finite() || h == T::lift(0.0) {
         return Err(StartError::Step { h: reported(h) });
     }
-    if !t.is_finite() {
-        return Err(StartError::Parameter { name: "t", value: reported(t), range: "finite" });
-    }
-    Ok(system.check()?)
-}
-
-/// The number of velocities that a state carries.
-fn velocities<S: Lagrangian>(system: &S) -> usize {
-    if S::REGULAR { system.space().dimension() } else { 0 }
-}
-
-/// The coordinates and, if the system is regular, the velocities of a state.
-fn flatten<S: Lagrangian, T: Real>(system: &S, state: &S::State<T>) -> Result<[Vector<S, T>; 2], StartError> {
-    let (mut q, mut v) = (system.space().vector(), system.space().vector());
-    state.write(|block| system.block_len(block), &mut q, &mut v)?;
-    match q.iter().chain(v.iter()).position(|x| !x.is_finite()) {
-        Some(coordinate) => {
-            let value = if coordinate < q.len() { q[coordinate] } else { v[coordinate - q.len()] };
-            Err(StartError::NotFinite { coordinate, value: reported(value) })
-        }
-        None => Ok([q, v]),
-    }
+    crate::run::validate(system, t)
 }

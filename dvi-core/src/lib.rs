@@ -33,6 +33,7 @@
 //! |---|---|
 //! | what the attributes understand | [`degenerate_lagrangian`], [`lagrangian`](macro@lagrangian) |
 //! | the run: stepping, state, energy, momenta, errors | [`Integrator`] |
+//! | steps of variable length | [`ControlledIntegrator`], [`Reversible`] |
 //! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
 //! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
 //! | sections, exponents, preserved forms, orders | [`diagnostics`] |
@@ -71,12 +72,14 @@ mod norm;
 pub mod prelude;
 mod quadrature;
 mod report;
+mod run;
 mod runge_kutta;
 mod scalar;
 mod sigma_family;
 mod solver;
 mod space;
 mod statistics;
+mod step_control;
 mod variational;
 mod vector_field;
 mod walk;
@@ -90,7 +93,7 @@ pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
 pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
-pub use quadrature::Quadrature;
+pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};
@@ -100,6 +103,10 @@ pub use solver::{Solver, Stopping};
 pub use space::RunTime;
 pub use space::{Fixed, FixedMatrix, FixedVector, Space};
 pub use statistics::Statistics;
+pub use step_control::{
+    CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
+    Reversible, ReversibleMemory, StepControl,
+};
 pub use variational::{Fitting, Variational, VariationalMemory};
 pub use vector_field::VectorField;
 

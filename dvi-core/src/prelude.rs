@@ -5,9 +5,10 @@ pub use crate::diagnostics::{
     convergence_order,
 };
 pub use crate::{
-    Composition, Constant, Curvature, DegenerateLagrangian, Fitting, Gauss, Integrator, Lagrangian,
-    PerCoordinate, Quadrature, Radial, Reading, RegularLagrangian, RungeKutta, Scheme, Sigma, Solver, Start,
-    StartError, StepError, StepFailure, Stopping, Variational,
+    CentreSpeed, Composition, Constant, ControlledIntegrator, Curvature, DegenerateLagrangian, Density,
+    Fitting, Gauss, Integrator, Lagrangian, Osculating, PerCoordinate, Power, Quadrature, Radial, Reading,
+    RegularLagrangian, Reversible, RungeKutta, Scheme, Sigma, Solver, Start, StartError, StepError,
+    StepFailure, Stopping, Variational,
 };
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

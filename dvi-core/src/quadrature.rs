@@ -9,7 +9,68 @@ use crate::error::StartError;
 /// How many nodes a rule has at most.
 pub(crate) const NODES: usize = 5;
 
-/// Nodes and weights of a rule on \[0, 1\], up to five of them.
+/// A rule of one to five nodes in \[0, 1\] whose weights sum to one.
+///
+/// [`Midpoint`], [`Trapezoid`] and [`Simpson`] are known at compile time: their steps are straight code. A
+/// [`Quadrature`] is any rule, chosen at run time.
+pub trait Rule: Copy + core::fmt::Debug {
+    /// The nodes cⱼ.
+    fn nodes(&self) -> &[f64];
+    /// The weights wⱼ.
+    fn weights(&self) -> &[f64];
+
+    /// Whether c and 1 − c are nodes of the same weight, for every node c, up to rounding.
+    fn is_symmetric(&self) -> bool {
+        let near = |a: f64, b: f64| a - b <= 1e-15 && b - a <= 1e-15;
+        let entries = || self.nodes().iter().zip(self.weights());
+        entries().all(|(&c, &w)| entries().any(|(&d, &v)| near(c + d, 1.0) && near(v, w)))
+    }
+
+    /// Whether a node is neither 0 nor 1.
+    #[inline(always)]
+    fn has_interior_nodes(&self) -> bool {
+        self.nodes().iter().any(|&c| c != 0.0 && c != 1.0)
+    }
+}
+
+macro_rules! rules {
+    ($($(#[$doc:meta])* $name:ident = $nodes:expr, $weights:expr;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct $name;
+
+        impl Rule for $name {
+            #[inline(always)]
+            fn nodes(&self) -> &[f64] {
+                &$nodes
+            }
+            #[inline(always)]
+            fn weights(&self) -> &[f64] {
+                &$weights
+            }
+        }
+
+        impl From<$name> for Quadrature {
+            fn from(rule: $name) -> Self {
+                let mut own = Self { nodes: [0.0; NODES], weights: [0.0; NODES], len: rule.nodes().len() };
+                own.nodes[..own.len].copy_from_slice(rule.nodes());
+                own.weights[..own.len].copy_from_slice(rule.weights());
+                own
+            }
+        }
+    )*};
+}
+
+rules! {
+    /// ½.
+    Midpoint = [0.5], [1.0];
+    /// 0 and 1, with weights ½.
+    Trapezoid = [0.0, 1.0], [0.5, 0.5];
+    /// 0, ½ and 1, with weights 1/6, 2/3, 1/6.
+    Simpson = [0.0, 0.5, 1.0], [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
+}
+
+/// Any rule, as data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadrature {
     nodes: [f64; NODES],
@@ -130,42 +191,22 @@ impl Quadrature {
             range: "2 to 5",
         })
     }
+}
 
-    /// The nodes cⱼ.
+impl Rule for Quadrature {
     #[inline(always)]
-    pub fn nodes(&self) -> &[f64] {
+    fn nodes(&self) -> &[f64] {
         &self.nodes[..self.len]
     }
-
-    /// The weights wⱼ.
     #[inline(always)]
-    pub fn weights(&self) -> &[f64] {
+    fn weights(&self) -> &[f64] {
         &self.weights[..self.len]
-    }
-
-    /// Whether c and 1 − c are nodes of the same weight, for every node c, up to rounding.
-    pub fn is_symmetric(&self) -> bool {
-        let near = |a: f64, b: f64| a - b <= 1e-15 && b - a <= 1e-15;
-        (0..self.len).all(|j| {
-            (0..self.len)
-                .any(|k| near(self.nodes[j] + self.nodes[k], 1.0) && near(self.weights[j], self.weights[k]))
-        })
-    }
-
-    /// Whether a node is neither 0 nor 1.
-    #[inline(always)]
-    pub fn has_interior_nodes(&self) -> bool {
-        self.nodes().iter().any(|&c| c != 0.0 && c != 1.0)
-    }
-
-    pub(crate) fn validate(&self) -> Result<(), StartError> {
-        Self::new(self.nodes(), self.weights()).map(drop)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Quadrature;
+    use super::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
     use crate::StartError;
 
     fn moment(rule: &Quadrature, degree: i32) -> f64 {
@@ -193,9 +234,9 @@ mod tests {
             check(&rule, 2 * s as i32 - 3);
             assert_eq!((rule.nodes()[0], rule.nodes()[s - 1]), (0.0, 1.0));
         }
-        assert_eq!(Quadrature::gauss(1)?, Quadrature::midpoint());
-        assert_eq!(Quadrature::lobatto(2)?, Quadrature::trapezoid());
-        assert_eq!(Quadrature::lobatto(3)?, Quadrature::simpson());
+        assert_eq!(Quadrature::gauss(1)?, Midpoint.into());
+        assert_eq!(Quadrature::lobatto(2)?, Trapezoid.into());
+        assert_eq!(Quadrature::lobatto(3)?, Simpson.into());
         Ok(())
     }
 

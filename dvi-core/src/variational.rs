@@ -15,7 +15,7 @@ mod verlet;
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{Frequency, FrequencyIn, Reading, Unfitted};
 use crate::method::{Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
-use crate::quadrature::Quadrature;
+use crate::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::solver::{Solver, Stopping};
 use crate::statistics::Statistics;
 use crate::{Real, RegularLagrangian, Vector};
@@ -53,9 +53,9 @@ pub enum Fitting {
 /// S ≠ 0, u = ωh; near a zero of either it ends with [`StepFailure::Resonance`]. It is not translation
 /// invariant: constants are not among the functions that it interpolates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Variational<F = Unfitted> {
+pub struct Variational<F = Unfitted, R = Quadrature> {
     /// Nodes and weights.
-    pub rule: Quadrature,
+    pub rule: R,
     /// What the interpolation is fitted to.
     pub frequency: F,
     /// Whether momenta are fitted too. Default: [`Fitting::Phase`].
@@ -66,9 +66,9 @@ pub struct Variational<F = Unfitted> {
     pub stopping: Stopping,
 }
 
-impl Variational {
+impl<R> Variational<Unfitted, R> {
     /// Any rule, with linear interpolation.
-    pub fn new(rule: Quadrature) -> Self {
+    pub fn new(rule: R) -> Self {
         Self {
             rule,
             frequency: Unfitted,
@@ -77,31 +77,39 @@ impl Variational {
             stopping: Stopping::default(),
         }
     }
+}
 
+impl Variational<Unfitted, Midpoint> {
     /// L_d = h L((q0 + q1)/2, Δ/h): the implicit midpoint rule.
     pub fn midpoint() -> Self {
-        Self::new(Quadrature::midpoint())
+        Self::new(Midpoint)
     }
+}
 
+impl Variational<Unfitted, Trapezoid> {
     /// L_d = (h/2)[L(q0, Δ/h) + L(q1, Δ/h)]: Störmer–Verlet, in the form kick–drift–kick, if L is separable.
     pub fn trapezoid() -> Self {
-        Self::new(Quadrature::trapezoid())
+        Self::new(Trapezoid)
     }
+}
 
+impl Variational<Unfitted, Quadrature> {
     /// L_d = h L((1 − σ)q0 + σq1, Δ/h).
     pub fn sigma(sigma: f64) -> Self {
         Self::new(Quadrature::sigma(sigma))
     }
+}
 
+impl Variational<Unfitted, Simpson> {
     /// Nodes 0, ½, 1 with weights 1/6, 2/3, 1/6.
     pub fn simpson() -> Self {
-        Self::new(Quadrature::simpson())
+        Self::new(Simpson)
     }
 }
 
-impl<F> Variational<F> {
+impl<F, R> Variational<F, R> {
     /// The same rule with interpolation fitted to a frequency.
-    pub fn phase_fitted<G>(self, frequency: G) -> Variational<G> {
+    pub fn phase_fitted<G>(self, frequency: G) -> Variational<G, R> {
         let Self { rule, fitting, solver, stopping, .. } = self;
         Variational { rule, frequency, fitting, solver, stopping }
     }
@@ -109,14 +117,14 @@ impl<F> Variational<F> {
 
 /// One step: where it starts, how long it is, and which member of the family takes it.
 #[derive(Debug)]
-struct Step<'a, S, F, T> {
+struct Step<'a, S, F, R, T> {
     system: &'a S,
-    method: &'a Variational<F>,
+    method: &'a Variational<F, R>,
     t: T,
     h: T,
 }
 
-impl<S: RegularLagrangian, F: Frequency, T: Real> Step<'_, S, F, T> {
+impl<S: RegularLagrangian, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
     /// The time of a node.
     #[inline(always)]
     fn node_time(&self, c: f64) -> T {
@@ -131,11 +139,11 @@ impl<S: RegularLagrangian, F: Frequency, T: Real> Step<'_, S, F, T> {
     }
 }
 
-impl<F: Frequency> Variational<F> {
+impl<F: Frequency, R: Rule> Variational<F, R> {
     /// Whether the step is Störmer–Verlet, for separable systems.
     #[inline(always)]
     fn is_verlet(&self) -> bool {
-        F::UNFITTED && self.rule == Quadrature::trapezoid()
+        F::UNFITTED && self.rule.nodes() == Trapezoid.nodes() && self.rule.weights() == Trapezoid.weights()
     }
 
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
@@ -160,7 +168,7 @@ impl<F: Frequency> Variational<F> {
     where
         F: FrequencyIn<T>,
     {
-        self.rule.validate()?;
+        Quadrature::new(self.rule.nodes(), self.rule.weights())?;
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         if F::PER_COORDINATE && self.fitting == Fitting::PhaseAndMomentum {
             return unsupported("Fitting::PhaseAndMomentum", "frequencies per coordinate fit the phase only");
@@ -188,7 +196,7 @@ impl<F: Frequency> Variational<F> {
     }
 }
 
-impl<F: Frequency> Scheme for Variational<F> {
+impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
     fn order(&self) -> usize {
         if self.rule.is_symmetric() { 2 } else { 1 }
     }
@@ -203,7 +211,7 @@ impl<F: Frequency> Scheme for Variational<F> {
     }
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T> for Variational<F> {
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
     type Memory = VariationalMemory<S, T>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
@@ -265,7 +273,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T> for Variatio
     }
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, T: Real> VariableStep<S, T> for Variational<F> {
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
     #[inline]
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
         to.motion.restore(&from.motion);

@@ -19,14 +19,14 @@ fn main() -> ExitCode {
         std::hint::black_box(kernels::run(kernel, steps));
         return ExitCode::SUCCESS;
     }
-    println!("{:<28} {:>10} {:>10} {:>7}", "step", "generated", "by hand", "ratio");
+    println!("{:<36} {:>10} {:>10} {:>7}", "step", "generated", "by hand", "ratio");
     for [generated, by_hand] in kernels::KERNELS {
         let (Some(ours), Some(theirs)) = (count(generated), count(by_hand)) else {
             println!("valgrind is needed to count instructions");
             return ExitCode::SUCCESS;
         };
         let name = generated.split('/').next().unwrap_or_default();
-        println!("{name:<28} {ours:>10.1} {theirs:>10.1} {:>7.3}", ours / theirs);
+        println!("{name:<36} {ours:>10.1} {theirs:>10.1} {:>7.3}", ours / theirs);
     }
     ExitCode::SUCCESS
 }

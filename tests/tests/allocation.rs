@@ -3,6 +3,7 @@
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
 use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};
+use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;
@@ -19,6 +20,15 @@ macro_rules! assert_none {
         let mut run = Integrator::new(&$system, $method, 0.05, $start.clone()).expect("starts");
         let blocks = of_steps(|| run.advance().expect("steps"));
         assert_eq!(blocks, 0, "{}", stringify!($method));
+    )+};
+}
+
+macro_rules! assert_none_controlled {
+    ($system:expr, $start:expr, $control:expr, $($method:expr),+ $(,)?) => {$(
+        let mut run =
+            ControlledIntegrator::new(&$system, $method, $control, $start.clone()).expect("starts");
+        let blocks = of_steps(|| run.advance().expect("steps"));
+        assert_eq!(blocks, 0, "{} by {:?}", stringify!($method), $control);
     )+};
 }
 
@@ -39,4 +49,17 @@ fn steps_do_not_allocate() {
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let prey_start = LotkaVolterraState { x: 1.0, y: 1.0 };
     assert_none!(prey, prey_start, Sigma::midpoint(), newton(0.5), RungeKutta::heun(), Gauss::<2>::new());
+
+    // Of variable length, on the stack and on the heap, with steps that are undone.
+    let fitted = || Variational::simpson().phase_fitted(Radial(Reading::Averaged));
+    let kepler = Kepler { mu: 1.0 };
+    let kepler_start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
+    let chain_start =
+        RunTimeChainState { q: vec![0.1, 0.5, -0.2], wall: 0.3, dot_q: vec![0.3, 0.1, -0.4], dot_wall: 0.2 };
+    let (reversible, osculating) = (Reversible::power(0.02, 1.0), Osculating::new(1e-3, 10.0));
+    assert_none_controlled!(kepler, kepler_start, reversible, Variational::trapezoid(), fitted());
+    assert_none_controlled!(kepler, kepler_start, osculating, Variational::trapezoid(), fitted());
+    assert_none_controlled!(chain, chain_start, reversible, Variational::trapezoid(), fitted());
+    assert_none_controlled!(chain, chain_start, osculating, Variational::trapezoid(), fitted());
 }

@@ -5,13 +5,13 @@
 //! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
 
 use super::general::place;
-use super::memory::{Motion, Work};
+use super::memory::Work;
 use super::{Fitting, Step};
 use crate::basis::{self, Bases, Basis};
 use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn};
 use crate::norm::reported;
-use crate::quadrature::{NODES, Quadrature};
+use crate::quadrature::{NODES, Rule};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector};
 
 /// sin u and S count as zero below this.
@@ -27,6 +27,15 @@ pub(super) trait Coefficients<T> {
     fn sums(&self, coordinate: usize) -> Sums<T>;
 }
 
+/// Coefficients that follow a frequency.
+pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
+    /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure>;
+
+    /// Makes these the coefficients of `step` for one frequency `omega`.
+    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure>;
+}
+
 /// Sums over the nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sums<T> {
@@ -36,8 +45,8 @@ pub(super) struct Sums<T> {
     pub(super) left: T,
     /// C − K = Σ w B̄(B + B̄)
     pub(super) right: T,
-    /// S/(sin u/u)²
-    pub(super) stiffness: T,
+    /// (sin u/u)²/S, one over the stiffness K + z Σ w b b̄
+    pub(super) compliance: T,
 }
 
 /// One frequency for all coordinates.
@@ -51,34 +60,38 @@ pub(super) struct Uniform<T> {
 
 impl<T: Real> Uniform<T> {
     /// For u = 0, linear interpolation.
-    pub(super) fn linear(rule: &Quadrature) -> Self {
+    #[inline(always)]
+    pub(super) fn linear(rule: &impl Rule) -> Self {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let nodes = Bases::new(zero);
         let mut weights = [zero; NODES];
-        let mut bases = [nodes.at(0.0); NODES];
+        let mut bases = [nodes.basis(0.0, nodes.pairs(0.0)); NODES];
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
-            (weights[j], bases[j]) = (T::lift(w), nodes.at(c));
+            (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
         }
-        Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, stiffness: one } }
+        Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, compliance: one } }
     }
 
     /// Makes these the coefficients for u = ωh.
-    #[inline]
-    pub(super) fn set(&mut self, rule: &Quadrature, fitting: Fitting, u: T) -> Result<(), StepFailure> {
-        let (zero, nodes, z) = (T::lift(0.0), Bases::new(u), u * u);
-        let mut sums = Sums { mixed: zero, left: zero, right: zero, stiffness: zero };
-        for (j, (&c, &weight)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
-            let (w, basis) = (T::lift(weight), nodes.at(c));
-            let Basis { b, b_bar, d, d_bar } = basis;
-            sums.mixed -= w * d * d_bar;
-            sums.left += w * d * (d + d_bar);
-            sums.right += w * d_bar * (d + d_bar);
-            sums.stiffness += z * w * b * b_bar;
-            (self.weights[j], self.bases[j]) = (w, basis);
+    #[inline(always)]
+    fn fit(&mut self, rule: &impl Rule, fitting: Fitting, u: T) -> Result<(), StepFailure> {
+        let (zero, nodes) = (T::lift(0.0), Bases::new(u));
+        // The sums times σ².
+        let (mut mixed, mut left, mut right, mut inner) = (zero, zero, zero, zero);
+        let entries = self.bases.iter_mut().zip(rule.nodes()).zip(rule.weights());
+        for ((basis, &c), &w) in entries {
+            let pairs = nodes.pairs(c);
+            *basis = nodes.basis(c, pairs);
+            let [l, r] = pairs;
+            let (weight, difference) = (T::lift(w), l.cosine - r.cosine);
+            let (at_left, at_right) = (weight * l.cosine, weight * r.cosine);
+            mixed += at_left * r.cosine;
+            left += at_left * difference;
+            right -= at_right * difference;
+            inner += T::lift(w * c * (1.0 - c)) * (l.sinc * r.sinc);
         }
-        sums.stiffness += sums.mixed;
         let sinc = nodes.sinc();
-        let kernel = sums.stiffness * sinc * sinc;
+        let kernel = mixed + u * u * inner;
         let small = T::lift(RESONANCE);
         let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
         if !determined {
@@ -87,21 +100,31 @@ impl<T: Real> Uniform<T> {
             let u = reported(u);
             return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
         }
+        let mut factor = nodes.reciprocal() * nodes.reciprocal();
         if fitting == Fitting::PhaseAndMomentum {
-            let factor = sinc / kernel;
-            self.weights.iter_mut().for_each(|weight| *weight *= factor);
-            for sum in [&mut sums.mixed, &mut sums.left, &mut sums.right, &mut sums.stiffness] {
-                *sum *= factor;
+            let fitted = sinc / kernel;
+            factor *= fitted;
+            for (weight, &w) in self.weights.iter_mut().zip(rule.weights()) {
+                *weight = T::lift(w) * fitted;
             }
         }
-        (self.u, self.sums) = (u, sums);
+        let compliance = T::lift(1.0) / (kernel * factor);
+        let [mixed, left, right] = [mixed, left, right].map(|sum| sum * factor);
+        (self.u, self.sums) = (u, Sums { mixed, left, right, compliance });
         Ok(())
     }
+}
 
-    /// Whether these are the coefficients for u = ωh.
+impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
     #[inline(always)]
-    pub(super) fn is_for(&self, u: T) -> bool {
-        self.u == u
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
+        let u = step.method.frequency.fixed(0) * step.h;
+        if self.u == u { Ok(()) } else { self.fit(&step.method.rule, step.method.fitting, u) }
+    }
+
+    #[inline(always)]
+    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
+        self.fit(&step.method.rule, step.method.fitting, omega * step.h)
     }
 }
 
@@ -133,7 +156,7 @@ pub(super) struct Each<S: Lagrangian, T: Real> {
     mixed: Vector<S, T>,
     left: Vector<S, T>,
     right: Vector<S, T>,
-    stiffness: Vector<S, T>,
+    compliance: Vector<S, T>,
 }
 
 impl<S: RegularLagrangian, T: Real> Each<S, T> {
@@ -150,19 +173,20 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
             mixed: space.vector(),
             left: space.vector(),
             right: space.vector(),
-            stiffness: space.vector(),
+            compliance: space.vector(),
         }
     }
+}
 
-    /// Makes these the coefficients of `step`.
-    pub(super) fn fix<F: FrequencyIn<T>>(&mut self, step: &Step<'_, S, F, T>) -> Result<(), StepFailure> {
+impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
         if self.h == step.h {
             return Ok(());
         }
         for i in 0..self.mixed.len() {
             let u = step.method.frequency.fixed(i) * step.h;
             let mut uniform = Uniform::linear(&step.method.rule);
-            uniform.set(&step.method.rule, step.method.fitting, u)?;
+            uniform.fit(&step.method.rule, step.method.fitting, u)?;
             let Uniform { weights, bases, sums, .. } = uniform;
             // The same for all coordinates, as only the phase is fitted.
             self.weights = weights;
@@ -175,9 +199,14 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
             self.mixed[i] = sums.mixed;
             self.left[i] = sums.left;
             self.right[i] = sums.right;
-            self.stiffness[i] = sums.stiffness;
+            self.compliance[i] = sums.compliance;
         }
         self.h = step.h;
+        Ok(())
+    }
+
+    /// There is no such frequency.
+    fn set<F, R: Rule>(&mut self, _step: &Step<'_, S, F, R, T>, _omega: T) -> Result<(), StepFailure> {
         Ok(())
     }
 }
@@ -196,16 +225,16 @@ impl<S: RegularLagrangian, T: Real> Coefficients<T> for Each<S, T> {
     }
     fn sums(&self, i: usize) -> Sums<T> {
         let (left, right) = (self.left[i], self.right[i]);
-        Sums { mixed: self.mixed[i], left, right, stiffness: self.stiffness[i] }
+        Sums { mixed: self.mixed[i], left, right, compliance: self.compliance[i] }
     }
 }
 
 impl<T: Real> Uniform<T> {
     /// ∂ℓ/∂ω, for ω = `twice_omega`/2, at the current Δ.
-    pub(super) fn slope<S: RegularLagrangian, F: Frequency>(
+    pub(super) fn slope<S: RegularLagrangian, F: Frequency, R: Rule>(
         &self,
-        step: &Step<'_, S, F, T>,
-        motion: &mut Motion<S, T>,
+        step: &Step<'_, S, F, R, T>,
+        work: &mut Work<S, T>,
         q: &[T],
         twice_omega: T,
     ) -> T {
@@ -216,8 +245,8 @@ impl<T: Real> Uniform<T> {
         let per_h = T::lift(1.0) / step.h;
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
-            place(self, node, step, &mut motion.work, q);
-            let Work { point, velocity, gradient, momentum, increment, .. } = &mut motion.work;
+            place(self, node, step, work, q);
+            let Work { point, velocity, gradient, momentum, increment, .. } = &mut *work;
             let t = step.node_time(c);
             step.system.gradient(point, velocity, t, gradient, momentum);
             let Basis { b, b_bar, d, d_bar } = slopes[node];

@@ -8,46 +8,47 @@
 //! close enough for the iteration to contract.
 
 use super::Step;
-use super::coefficients::Coefficients;
+use super::coefficients::{Adjustable, Coefficients};
 use super::memory::{Interpolation, Motion, VariationalMemory, Work};
 use crate::basis::Basis;
 use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn, Reading};
+use crate::quadrature::Rule;
 use crate::solver::{Convergence, Verdict};
 use crate::statistics::Statistics;
-use crate::{Real, RegularLagrangian, Vector, Weights, elimination, norm};
+use crate::{Matrix, Real, RegularLagrangian, Vector, Weights, elimination, norm};
 
-pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    memory.motion.guess(step);
+    memory.motion.guess(step.h, &mut memory.work.increment);
     if let Err(failure) = solve(step, memory, q, statistics) {
         if memory.motion.newton.is_none() {
             return Err(failure);
         }
-        memory.motion.work.increment.fill(T::lift(0.0));
+        memory.work.increment.fill(T::lift(0.0));
         solve(step, memory, q, statistics)?;
     }
     finish(step, memory, q, statistics)
 }
 
 /// Δ, in `work.increment`.
-fn solve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn solve<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let stopping = step.method.stopping;
-    let scale = norm::largest(q) + norm::largest(&memory.motion.work.increment);
+    let scale = norm::largest(q) + norm::largest(&memory.work.increment);
     let mut convergence = Convergence::new(stopping, scale, stopping.max_iterations);
     let verdict = loop {
         differentiate(step, memory, q, statistics)?;
         correct(step, memory, q, statistics)?;
-        let Work { increment, trial, .. } = &mut memory.motion.work;
+        let Work { increment, trial, .. } = &mut memory.work;
         for (delta, &correction) in increment.iter_mut().zip(trial.iter()) {
             *delta -= correction;
         }
@@ -60,29 +61,29 @@ fn solve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     memory.motion.newton_steps = memory.motion.newton_steps.saturating_sub(1);
     match verdict {
         Verdict::GiveUp => Err(convergence.failure()),
-        _ => norm::finite(&memory.motion.work.increment),
+        _ => norm::finite(&memory.work.increment),
     }
 }
 
 /// Sets `work.d1` and `work.d2` to D₁L_d and D₁L_d + D₂L_d at the current Δ, and the coefficients.
-fn differentiate<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn differentiate<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     read_frequency(step, memory, q)?;
-    let VariationalMemory { interpolation, ends, motion } = memory;
+    let VariationalMemory { interpolation, ends, work, .. } = memory;
     match interpolation {
-        Interpolation::Uniform(uniform) => sum_derivatives(uniform, step, motion, q, statistics),
-        Interpolation::Each(each) => sum_derivatives(each, step, motion, q, statistics),
+        Interpolation::Uniform(uniform) => sum_derivatives(uniform, step, work, q, statistics),
+        Interpolation::Each(each) => sum_derivatives(each, step, work, q, statistics),
     }
     if step.method.frequency.reading() == Some(Reading::Variational)
         && let Interpolation::Uniform(uniform) = interpolation
     {
-        let by_omega = uniform.slope(step, motion, q, ends[0].omega + ends[1].omega);
+        let by_omega = uniform.slope(step, work, q, ends[0].omega + ends[1].omega);
         let half = T::lift(0.5) * by_omega;
-        let Work { d1, d2, .. } = &mut motion.work;
+        let Work { d1, d2, .. } = work;
         let [start, end] = ends;
         for i in 0..q.len() {
             let by_velocity = (start.dv[i] + end.dv[i]) / step.h;
@@ -90,18 +91,19 @@ fn differentiate<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
             d2[i] += half * (start.dq[i] + end.dq[i]);
         }
     }
-    norm::finite(&motion.work.d1)
+    norm::finite(&memory.work.d1)
 }
 
 /// The coefficients for the frequency at the current Δ.
-fn read_frequency<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn read_frequency<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
 ) -> Result<(), StepFailure> {
-    let VariationalMemory { interpolation, ends: [start, end], motion } = memory;
+    let VariationalMemory { interpolation, ends: [start, end], motion, work } = memory;
     let Some(reading) = step.method.frequency.reading() else { return interpolation.fix(step) };
-    let Motion { p, force, mass: Some(mass), work, .. } = motion else { return Ok(()) };
+    let Motion { p, force, mass: Some(mass), .. } = motion else { return Ok(()) };
+    let Interpolation::Uniform(coefficients) = interpolation else { return Ok(()) };
     let (frequency, per_h) = (&step.method.frequency, T::lift(1.0) / step.h);
     let Work { next, velocity, increment, gradient, .. } = work;
     for i in 0..q.len() {
@@ -113,7 +115,7 @@ fn read_frequency<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
         Reading::LeftFrozen => {
             mass.solve(p, velocity);
             start.evaluate(frequency, mass, q, velocity, force)?;
-            return interpolation.set(step, start.omega);
+            return coefficients.set(step, start.omega);
         }
         Reading::Averaged => {
             start.evaluate(frequency, mass, q, velocity, force)?;
@@ -125,22 +127,22 @@ fn read_frequency<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
             end.differentiate(frequency, mass, step.system, next, velocity, t1)?;
         }
     }
-    interpolation.set(step, T::lift(0.5) * (start.omega + end.omega))
+    coefficients.set(step, T::lift(0.5) * (start.omega + end.omega))
 }
 
 /// ∂ℓ/∂q0 and ∂ℓ/∂q0 + ∂ℓ/∂q1.
-fn sum_derivatives<S: RegularLagrangian, F: Frequency, T: Real>(
+fn sum_derivatives<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
-    motion: &mut Motion<S, T>,
+    step: &Step<'_, S, F, R, T>,
+    work: &mut Work<S, T>,
     q: &[T],
     statistics: &mut Statistics,
 ) {
-    motion.work.d1.fill(T::lift(0.0));
-    motion.work.d2.fill(T::lift(0.0));
+    work.d1.fill(T::lift(0.0));
+    work.d2.fill(T::lift(0.0));
     for (node, &c) in step.method.rule.nodes().iter().enumerate() {
-        place(coefficients, node, step, &mut motion.work, q);
-        let Work { point, velocity, gradient, momentum, d1, d2, .. } = &mut motion.work;
+        place(coefficients, node, step, work, q);
+        let Work { point, velocity, gradient, momentum, d1, d2, .. } = &mut *work;
         step.system.gradient(point, velocity, step.node_time(c), gradient, momentum);
         statistics.gradients += 1;
         let weight = coefficients.weight(node);
@@ -153,10 +155,10 @@ fn sum_derivatives<S: RegularLagrangian, F: Frequency, T: Real>(
 }
 
 /// Sets `point` to qʲ and `velocity` to q̇ʲ.
-pub(super) fn place<S: RegularLagrangian, F, T: Real>(
+pub(super) fn place<S: RegularLagrangian, F, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
     node: usize,
-    step: &Step<'_, S, F, T>,
+    step: &Step<'_, S, F, R, T>,
     work: &mut Work<S, T>,
     q: &[T],
 ) {
@@ -169,22 +171,26 @@ pub(super) fn place<S: RegularLagrangian, F, T: Real>(
 }
 
 /// Sets `work.trial` to the correction (∂r/∂q1)⁻¹r.
-fn correct<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn correct<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &[T],
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let VariationalMemory { interpolation, motion, .. } = memory;
+    let VariationalMemory { interpolation, motion, work, .. } = memory;
     for i in 0..q.len() {
-        motion.work.trial[i] = motion.p[i] + motion.work.d1[i];
+        work.trial[i] = motion.p[i] + work.d1[i];
     }
     match (&mut motion.newton, &motion.mass, interpolation) {
-        (Some(_), _, Interpolation::Uniform(uniform)) => newton_matrix(uniform, step, motion, q),
-        (Some(_), _, Interpolation::Each(each)) => newton_matrix_by_coordinates(each, step, motion, q),
+        (Some([matrix, _]), _, Interpolation::Uniform(uniform)) => {
+            newton_matrix(uniform, step, matrix, work, q);
+        }
+        (Some(storage), _, Interpolation::Each(each)) => {
+            newton_matrix_by_coordinates(each, step, storage, work, q);
+        }
         (None, Some(mass), Interpolation::Uniform(uniform)) => {
-            let Work { trial, velocity, .. } = &mut motion.work;
-            let factor = -step.h / uniform.sums(0).stiffness;
+            let Work { trial, velocity, .. } = work;
+            let factor = -step.h * uniform.sums(0).compliance;
             mass.solve(trial, velocity);
             for (trial, &velocity) in trial.iter_mut().zip(velocity.iter()) {
                 *trial = factor * velocity;
@@ -194,22 +200,20 @@ fn correct<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
         // Such options have been refused at the start.
         (None, ..) => {}
     }
-    let Motion { newton: Some([matrix, _]), work, .. } = motion else { return Ok(()) };
+    let Motion { newton: Some([matrix, _]), .. } = motion else { return Ok(()) };
     statistics.linearizations += 1;
     statistics.factorisations += 1;
     elimination::eliminate(matrix, &mut work.trial)
 }
 
 /// Sets the first matrix to D₁D₂L_d.
-fn newton_matrix<S: RegularLagrangian, F, T: Real>(
+fn newton_matrix<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
-    motion: &mut Motion<S, T>,
+    step: &Step<'_, S, F, R, T>,
+    matrix: &mut Matrix<S, T>,
+    work: &mut Work<S, T>,
     q: &[T],
-) where
-    F: Frequency,
-{
-    let Motion { newton: Some([matrix, _]), work, .. } = motion else { return };
+) {
     matrix.fill(T::lift(0.0));
     for (node, &c) in step.method.rule.nodes().iter().enumerate() {
         place(coefficients, node, step, work, q);
@@ -226,13 +230,13 @@ fn newton_matrix<S: RegularLagrangian, F, T: Real>(
 }
 
 /// The same with coefficients that differ from coordinate to coordinate: block by block.
-fn newton_matrix_by_coordinates<S: RegularLagrangian, F: Frequency, T: Real>(
+fn newton_matrix_by_coordinates<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
     coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
-    motion: &mut Motion<S, T>,
+    step: &Step<'_, S, F, R, T>,
+    [matrix, block]: &mut [Matrix<S, T>; 2],
+    work: &mut Work<S, T>,
     q: &[T],
 ) {
-    let Motion { newton: Some([matrix, block]), work, .. } = motion else { return };
     let (zero, one, n) = (T::lift(0.0), T::lift(1.0), q.len());
     let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
     matrix.fill(zero);
@@ -258,14 +262,15 @@ fn newton_matrix_by_coordinates<S: RegularLagrangian, F: Frequency, T: Real>(
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1 = p0 + (D₁ + D₂)L_d.
-fn finish<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     differentiate(step, memory, q, statistics)?;
-    let Motion { p, force, work, .. } = &mut memory.motion;
+    let VariationalMemory { motion, work, .. } = memory;
+    let Motion { p, force, .. } = motion;
     for i in 0..q.len() {
         work.next[i] = q[i] + work.increment[i];
         work.d2[i] += p[i];
@@ -279,6 +284,6 @@ fn finish<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     }
     q.copy_from_slice(&work.next);
     p.copy_from_slice(&work.d2);
-    memory.motion.remember(step.h);
+    motion.remember(step.h, &work.increment);
     Ok(())
 }

@@ -1,14 +1,15 @@
 //! What a run of the quadrature family carries from step to step.
 
-use super::coefficients::{Each, Uniform};
+use super::coefficients::{Adjustable, Each, Uniform};
 use super::{Step, Variational};
 use crate::error::{StartError, StepFailure};
-use crate::frequency::{Frequency, FrequencyIn, Local};
+use crate::frequency::{FrequencyIn, Local};
 use crate::history::History;
 use crate::legendre::Legendre;
 use crate::mass::Mass;
+use crate::quadrature::Rule;
 use crate::solver::Solver;
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector, norm};
+use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, norm};
 
 /// The momentum of a run of the quadrature family, its guesses and its work space.
 #[derive(Debug)]
@@ -17,6 +18,7 @@ pub struct VariationalMemory<S: RegularLagrangian, T: Real> {
     /// The frequencies at both ends of the step.
     pub(super) ends: [Local<S, T>; 2],
     pub(super) motion: Motion<S, T>,
+    pub(super) work: Work<S, T>,
 }
 
 /// The latest coefficients of the interpolation.
@@ -43,7 +45,6 @@ pub(super) struct Motion<S: RegularLagrangian, T: Real> {
     pub(super) newton: Option<[Matrix<S, T>; 2]>,
     /// How many steps Newton takes before the fixed point is tried again.
     pub(super) newton_steps: u32,
-    pub(super) work: Work<S, T>,
 }
 
 /// Vectors that are written before they are read in each step.
@@ -69,9 +70,9 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         &self.motion.p
     }
 
-    pub(super) fn new<F: FrequencyIn<T>>(
+    pub(super) fn new<F: FrequencyIn<T>, R: Rule>(
         system: &S,
-        method: &Variational<F>,
+        method: &Variational<F, R>,
         q: &Vector<S, T>,
         v: &[T],
         t: T,
@@ -105,14 +106,15 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
             last_step: T::lift(0.0),
             newton,
             newton_steps: 0,
-            work: Work::new(system),
         };
-        Ok(Self { interpolation, ends: [Local::new(system, reading), Local::new(system, reading)], motion })
+        let ends = [Local::new(system, reading), Local::new(system, reading)];
+        Ok(Self { interpolation, ends, motion, work: Work::new(system) })
     }
 }
 
 impl<S: Lagrangian, T: Real> Work<S, T> {
-    fn new(system: &S) -> Self {
+    #[inline(always)]
+    pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {
             increment: vector(),
@@ -129,57 +131,51 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
 }
 
 impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
-    /// Where the frequency does not depend on the motion: makes the coefficients those of this step.
-    #[inline(always)]
-    pub(super) fn fix<F: FrequencyIn<T>>(&mut self, step: &Step<'_, S, F, T>) -> Result<(), StepFailure> {
+    /// See [`Adjustable::fix`].
+    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+    ) -> Result<(), StepFailure> {
         match self {
             Self::Each(each) => each.fix(step),
-            Self::Uniform(_) => self.set(step, step.method.frequency.fixed(0)),
-        }
-    }
-
-    /// Makes the coefficients those for one frequency `omega`, if they are not.
-    #[inline(always)]
-    pub(super) fn set<F>(&mut self, step: &Step<'_, S, F, T>, omega: T) -> Result<(), StepFailure> {
-        let u = omega * step.h;
-        match self {
-            Self::Uniform(known) if !known.is_for(u) => known.set(&step.method.rule, step.method.fitting, u),
-            _ => Ok(()),
+            Self::Uniform(uniform) => uniform.fix(step),
         }
     }
 }
 
 impl<S: RegularLagrangian, T: Real> Motion<S, T> {
-    /// Sets `work.increment` to the guess of Δ: extrapolated from the steps before if they had about this
-    /// length, and from the momentum elsewhere.
+    /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if they
+    /// had about this length, and from the momentum elsewhere.
     #[inline(always)]
-    pub(super) fn guess<F: Frequency>(&mut self, step: &Step<'_, S, F, T>) {
-        let Self { p, mass, history, last_step, work, .. } = self;
-        let ratio = step.h / *last_step;
-        let similar = ratio > T::lift(0.5) && ratio < T::lift(2.0);
-        match mass {
-            Some(mass) if !similar => mass.solve(p, &mut work.increment),
-            _ => history.extrapolate(&mut work.increment),
+    pub(super) fn guess(&self, h: T, increment: &mut [T]) {
+        match &self.mass {
+            Some(mass) if !self.is_similar(h) => mass.solve(&self.p, increment),
+            _ => self.history.extrapolate(increment),
         }
-        for delta in work.increment.iter_mut() {
-            *delta *= step.h;
+        for delta in increment {
+            *delta *= h;
         }
     }
 
-    /// Remembers a completed step with increment `work.increment`.
+    /// Whether a step of length `h` is about as long as the step before.
     #[inline(always)]
-    pub(super) fn remember(&mut self, h: T) {
-        let Self { history, last_step, work, .. } = self;
-        let ratio = h / *last_step;
-        if !(ratio > T::lift(0.5) && ratio < T::lift(2.0)) {
-            history.clear();
+    fn is_similar(&self, h: T) -> bool {
+        let (twice, last) = (h + h, self.last_step);
+        // Of the same sign, and less than twice as long either way.
+        h * last > T::lift(0.0)
+            && Scalar::abs(twice) > Scalar::abs(last)
+            && Scalar::abs(h) < Scalar::abs(last + last)
+    }
+
+    /// Remembers a completed step of length `h` with this `increment`.
+    #[inline(always)]
+    pub(super) fn remember(&mut self, h: T, increment: &[T]) {
+        if !self.is_similar(h) {
+            self.history.clear();
         }
-        *last_step = h;
+        self.last_step = h;
         let per_h = T::lift(1.0) / h;
-        for (mean, &delta) in work.velocity.iter_mut().zip(work.increment.iter()) {
-            *mean = delta * per_h;
-        }
-        history.push(&work.velocity);
+        self.history.push(increment.iter().map(|&delta| delta * per_h));
     }
 
     /// Takes over all that the next step can depend on.

@@ -7,19 +7,20 @@
 //! node lies between the ends and the frequency does not depend on q1, r is linear in q1: with K in place of κ
 //! the first iterate is the solution, and the step is explicit.
 
-use super::coefficients::{Coefficients, Sums};
+use super::coefficients::{Adjustable, Sums, Uniform};
 use super::memory::{Interpolation, Motion, VariationalMemory, Work};
 use super::{Step, general};
 use crate::basis::Basis;
 use crate::error::StepFailure;
 use crate::frequency::{FrequencyIn, Reading};
-use crate::norm;
+use crate::mass::Mass;
+use crate::quadrature::Rule;
 use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
 use crate::statistics::Statistics;
-use crate::{Real, RegularLagrangian, Scalar, Vector};
+use crate::{Real, RegularLagrangian, Scalar, Space, Vector, norm};
 
-pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
+pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
     memory: &mut VariationalMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
@@ -28,230 +29,216 @@ pub(super) fn step<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     if by_newton || memory.motion.newton_steps > 0 {
         return general::step(step, memory, q, statistics);
     }
-    match read_start(step, memory, q).and_then(|()| solve(step, memory, q, statistics)) {
-        Ok(()) => finish(step, memory, q, statistics),
-        Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. })
-            if memory.motion.newton.is_some() =>
-        {
-            memory.motion.newton_steps = STEPS_BEFORE_RETRY;
+    let VariationalMemory { interpolation, motion, work, .. } = memory;
+    let mut on_stack;
+    let work = if <S::Space as Space>::ON_STACK {
+        on_stack = Work::new(step.system);
+        &mut on_stack
+    } else {
+        work
+    };
+    let result = match interpolation {
+        // Coefficients that change in each iteration belong into registers.
+        Interpolation::Uniform(_) if step.method.frequency.reading().is_some() => {
+            let mut uniform = Uniform::linear(&step.method.rule);
+            advance(step, &mut uniform, motion, work, q, statistics)
+        }
+        Interpolation::Uniform(uniform) => advance(step, uniform, motion, work, q, statistics),
+        Interpolation::Each(each) => advance(step, each, motion, work, q, statistics),
+    };
+    match result {
+        Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. }) if motion.newton.is_some() => {
+            motion.newton_steps = STEPS_BEFORE_RETRY;
             general::step(step, memory, q, statistics)
         }
-        Err(failure) => Err(failure),
-    }
-}
-
-/// The coefficients, as far as the start of the step decides them.
-#[inline(always)]
-fn read_start<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
-    memory: &mut VariationalMemory<S, T>,
-    q: &[T],
-) -> Result<(), StepFailure> {
-    let VariationalMemory { interpolation, ends: [start, _], motion } = memory;
-    let Some(reading) = step.method.frequency.reading() else { return interpolation.fix(step) };
-    let Motion { p, force, mass: Some(mass), work, .. } = motion else { return Ok(()) };
-    mass.solve(p, &mut work.velocity);
-    start.evaluate(&step.method.frequency, mass, q, &work.velocity, force)?;
-    if reading == Reading::LeftFrozen { interpolation.set(step, start.omega) } else { Ok(()) }
-}
-
-/// Δ, in `work.increment`.
-#[inline(always)]
-fn solve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
-    memory: &mut VariationalMemory<S, T>,
-    q: &[T],
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    memory.motion.guess(step);
-    if step.method.is_explicit() {
-        improve(step, memory, q, |sums| sums.mixed, statistics);
-        return norm::finite(&memory.motion.work.increment);
-    }
-    let scale = norm::largest(q) + norm::largest(&memory.motion.work.increment);
-    let mut convergence = Convergence::new(step.method.stopping, scale, step.budget(q.len()));
-    let verdict = loop {
-        if step.method.reads_both_ends() {
-            read_both_ends(step, memory, q, statistics)?;
-        }
-        let correction = improve(step, memory, q, |sums| sums.stiffness, statistics);
-        match convergence.judge(correction) {
-            Verdict::Continue => {}
-            verdict => break verdict,
-        }
-    };
-    statistics.iterations += convergence.iterations as u64;
-    match verdict {
-        Verdict::GiveUp => Err(convergence.failure()),
-        _ => norm::finite(&memory.motion.work.increment),
-    }
-}
-
-/// Sets `work.next` to q1, `work.trial` to F(q1), and the coefficients to those for the mean of the
-/// frequencies at both ends.
-#[inline(always)]
-fn read_both_ends<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
-    memory: &mut VariationalMemory<S, T>,
-    q: &[T],
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let VariationalMemory { interpolation, ends: [start, end], motion } = memory;
-    let Motion { force, mass: Some(mass), work, .. } = motion else { return Ok(()) };
-    let (frequency, per_h) = (&step.method.frequency, T::lift(1.0) / step.h);
-    for i in 0..q.len() {
-        work.next[i] = q[i] + work.increment[i];
-        work.velocity[i] = work.increment[i] * per_h;
-    }
-    step.system.force(&work.next, &[], step.node_time(1.0), &mut work.trial);
-    statistics.gradients += 1;
-    if F::OF_VELOCITY {
-        start.evaluate(frequency, mass, q, &work.velocity, force)?;
-    }
-    end.evaluate(frequency, mass, &work.next, &work.velocity, &work.trial)?;
-    interpolation.set(step, T::lift(0.5) * (start.omega + end.omega))
-}
-
-/// One iteration with M times the factor that `divisor` picks; returns the size of its correction.
-#[inline(always)]
-fn improve<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
-    memory: &mut VariationalMemory<S, T>,
-    q: &[T],
-    divisor: impl Fn(Sums<T>) -> T,
-    statistics: &mut Statistics,
-) -> T {
-    let motion = &mut memory.motion;
-    match &memory.interpolation {
-        Interpolation::Uniform(uniform) => improve_by(uniform, step, motion, q, divisor, statistics),
-        Interpolation::Each(each) => improve_by(each, step, motion, q, divisor, statistics),
+        result => result,
     }
 }
 
 #[inline(always)]
-fn improve_by<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
+fn advance<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    coefficients: &mut impl Adjustable<S, T>,
     motion: &mut Motion<S, T>,
-    q: &[T],
-    divisor: impl Fn(Sums<T>) -> T,
-    statistics: &mut Statistics,
-) -> T {
-    let Motion { p, force, mass: Some(mass), work, .. } = motion else { return T::lift(0.0) };
-    let Work { increment, point, gradient, d1, velocity, .. } = work;
-    d1.copy_from_slice(p);
-    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
-        let weight = step.h * coefficients.weight(node);
-        if c == 1.0 {
-            // b = 0
-            continue;
-        }
-        let node_force: &[T] = if c == 0.0 {
-            force
-        } else {
-            place(coefficients, node, q, increment, point);
-            step.system.force(point, &[], step.node_time(c), gradient);
-            statistics.gradients += 1;
-            gradient
-        };
-        for i in 0..q.len() {
-            d1[i] += weight * coefficients.basis(node, i).b * node_force[i];
-        }
-    }
-    mass.solve(d1, velocity);
-    let mut correction = T::lift(0.0);
-    for i in 0..q.len() {
-        let sums = coefficients.sums(i);
-        let residual = step.h * velocity[i] + sums.left * q[i] - sums.mixed * increment[i];
-        let change = residual / divisor(sums);
-        increment[i] += change;
-        correction = norm::larger(correction, Scalar::abs(change));
-    }
-    correction
-}
-
-/// Sets `point` to qʲ = b q0 + b̄ q1.
-#[inline(always)]
-fn place<T: Real>(
-    coefficients: &impl Coefficients<T>,
-    node: usize,
-    q: &[T],
-    increment: &[T],
-    point: &mut [T],
-) {
-    for i in 0..q.len() {
-        let Basis { b, b_bar, .. } = coefficients.basis(node, i);
-        point[i] = (b + b_bar) * q[i] + b_bar * increment[i];
-    }
-}
-
-/// Moves to q1 = q0 + Δ and evaluates p1.
-#[inline(always)]
-fn finish<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, S, F, T>,
-    memory: &mut VariationalMemory<S, T>,
+    work: &mut Work<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    if step.method.reads_both_ends() {
-        read_both_ends(step, memory, q, statistics)?;
-    } else {
-        let Work { next, increment, trial, .. } = &mut memory.motion.work;
-        for i in 0..q.len() {
-            next[i] = q[i] + increment[i];
-        }
-        step.system.force(next, &[], step.node_time(1.0), trial);
-        statistics.gradients += 1;
-    }
-    let motion = &mut memory.motion;
-    match &memory.interpolation {
-        Interpolation::Uniform(uniform) => next_momentum(uniform, step, motion, q, statistics),
-        Interpolation::Each(each) => next_momentum(each, step, motion, q, statistics),
-    }
-    let Motion { p, force, work, .. } = motion;
-    norm::finite(&work.next).and(norm::finite(&work.d2)).and(norm::finite(&work.trial))?;
+    motion.guess(step.h, &mut work.increment);
+    // Every run of a separable system has it.
+    let Motion { p, force, mass: Some(mass), .. } = motion else { return Ok(()) };
+    let mut attempt =
+        Attempt { step, coefficients, mass, p, force, q, work, start: T::lift(0.0), gradients: 0 };
+    let result =
+        attempt.read_start().and_then(|()| attempt.solve(statistics)).and_then(|()| attempt.finish());
+    statistics.gradients += attempt.gradients;
+    result?;
+    norm::finite(&work.next).and(norm::finite(&work.momentum)).and(norm::finite(&work.gradient))?;
     q.copy_from_slice(&work.next);
-    p.copy_from_slice(&work.d2);
-    force.copy_from_slice(&work.trial);
-    motion.remember(step.h);
+    motion.p.copy_from_slice(&work.momentum);
+    motion.force.copy_from_slice(&work.gradient);
+    motion.remember(step.h, &work.increment);
     Ok(())
 }
 
-/// p1, in `work.d2`, from F(q0) in `force` and F(q1) in `work.trial`.
-#[inline(always)]
-fn next_momentum<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    coefficients: &impl Coefficients<T>,
-    step: &Step<'_, S, F, T>,
-    motion: &mut Motion<S, T>,
-    q: &[T],
-    statistics: &mut Statistics,
-) {
-    let Motion { p, force, mass: Some(mass), work, .. } = motion else { return };
-    let Work { increment, next, point, gradient, trial, d2, velocity, .. } = work;
-    d2.copy_from_slice(p);
-    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
-        let weight = step.h * coefficients.weight(node);
-        let node_force: &[T] = if c == 0.0 {
-            force
-        } else if c == 1.0 {
-            trial
-        } else {
-            place(coefficients, node, q, increment, point);
-            step.system.force(point, &[], step.node_time(c), gradient);
-            statistics.gradients += 1;
-            gradient
+/// A step as it is being solved. In `work`: `increment` is Δ, `next` is q1 and `gradient` is F(q1) once they have
+/// been asked for, `momentum` is p1 in the end.
+struct Attempt<'a, S: RegularLagrangian, F, R, C, T: Real> {
+    step: &'a Step<'a, S, F, R, T>,
+    coefficients: &'a mut C,
+    mass: &'a Mass<S, T>,
+    p: &'a [T],
+    force: &'a [T],
+    q: &'a [T],
+    work: &'a mut Work<S, T>,
+    /// The frequency at the start of the step.
+    start: T,
+    gradients: u64,
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
+    Attempt<'_, S, F, R, C, T>
+{
+    /// The coefficients, as far as the start of the step decides them.
+    #[inline(always)]
+    fn read_start(&mut self) -> Result<(), StepFailure> {
+        let Some(reading) = self.step.method.frequency.reading() else {
+            return self.coefficients.fix(self.step);
         };
-        for i in 0..q.len() {
-            let Basis { b, b_bar, .. } = coefficients.basis(node, i);
-            d2[i] += weight * (b + b_bar) * node_force[i];
+        let Work { velocity, point, .. } = &mut *self.work;
+        self.mass.solve(self.p, velocity);
+        self.mass.solve(self.force, point);
+        self.start = self.step.method.frequency.at(self.q, velocity, point);
+        match reading {
+            Reading::LeftFrozen => self.coefficients.set(self.step, self.start),
+            _ => Ok(()),
         }
     }
-    if F::UNFITTED {
-        return;
+
+    /// Δ.
+    #[inline(always)]
+    fn solve(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        if self.step.method.is_explicit() {
+            self.improve(|sums| T::lift(1.0) / sums.mixed);
+            return norm::finite(&self.work.increment);
+        }
+        let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
+        let stopping = self.step.method.stopping;
+        let mut convergence = Convergence::new(stopping, scale, self.step.budget(self.q.len()));
+        let verdict = loop {
+            if self.step.method.reads_both_ends() {
+                self.read_both_ends()?;
+            }
+            let correction = self.improve(|sums| sums.compliance);
+            match convergence.judge(correction) {
+                Verdict::Continue => {}
+                verdict => break verdict,
+            }
+        };
+        statistics.iterations += convergence.iterations as u64;
+        match verdict {
+            Verdict::GiveUp => Err(convergence.failure()),
+            _ => norm::finite(&self.work.increment),
+        }
     }
-    for i in 0..q.len() {
-        let sums = coefficients.sums(i);
-        velocity[i] = sums.left * q[i] + sums.right * next[i];
+
+    /// q1 and F(q1).
+    #[inline(always)]
+    fn reach(&mut self) {
+        let Work { next, increment, gradient, .. } = &mut *self.work;
+        for ((next, &q), &delta) in next.iter_mut().zip(self.q).zip(increment.iter()) {
+            *next = q + delta;
+        }
+        self.step.system.force(next, &[], self.step.node_time(1.0), gradient);
+        self.gradients += 1;
     }
-    mass.multiply_add(T::lift(1.0) / step.h, velocity, d2);
+
+    /// The coefficients for the mean of the frequencies at both ends.
+    #[inline(always)]
+    fn read_both_ends(&mut self) -> Result<(), StepFailure> {
+        self.reach();
+        let frequency = &self.step.method.frequency;
+        let Work { next, increment, gradient, velocity, point, .. } = &mut *self.work;
+        if F::OF_VELOCITY {
+            let per_h = T::lift(1.0) / self.step.h;
+            for (v, &delta) in velocity.iter_mut().zip(increment.iter()) {
+                *v = delta * per_h;
+            }
+            self.mass.solve(self.force, point);
+            self.start = frequency.at(self.q, velocity, point);
+        }
+        self.mass.solve(gradient, point);
+        let end = frequency.at(next, velocity, point);
+        self.coefficients.set(self.step, T::lift(0.5) * (self.start + end))
+    }
+
+    /// One iteration with M⁻¹ times the factor that `inverse` picks; returns the size of its correction.
+    #[inline(always)]
+    fn improve(&mut self, inverse: impl Fn(Sums<T>) -> T) -> T {
+        let h = self.step.h;
+        self.work.momentum.copy_from_slice(self.p);
+        for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
+            // At the end of the step b = 0.
+            if c != 1.0 {
+                self.kick(node, c, |basis| basis.b);
+            }
+        }
+        let Work { increment, momentum, velocity, .. } = &mut *self.work;
+        self.mass.solve(momentum, velocity);
+        let mut correction = T::lift(0.0);
+        for i in 0..self.q.len() {
+            let sums = self.coefficients.sums(i);
+            let residual = h * velocity[i] + sums.left * self.q[i] - sums.mixed * increment[i];
+            let change = residual * inverse(sums);
+            increment[i] += change;
+            correction = norm::larger(correction, Scalar::abs(change));
+        }
+        correction
+    }
+
+    /// Adds the impulse h w F(qʲ) of a node to `momentum`, times the factor that `share` picks.
+    #[inline(always)]
+    fn kick(&mut self, node: usize, c: f64, share: impl Fn(Basis<T>) -> T) {
+        let weight = self.step.h * self.coefficients.weight(node);
+        let Work { increment, momentum, point, gradient, trial, .. } = &mut *self.work;
+        let force: &[T] = if c == 0.0 {
+            self.force
+        } else if c == 1.0 {
+            gradient
+        } else {
+            for i in 0..self.q.len() {
+                let Basis { b, b_bar, .. } = self.coefficients.basis(node, i);
+                point[i] = (b + b_bar) * self.q[i] + b_bar * increment[i];
+            }
+            self.step.system.force(point, &[], self.step.node_time(c), trial);
+            self.gradients += 1;
+            trial
+        };
+        for (i, (p, &f)) in momentum.iter_mut().zip(force).enumerate() {
+            *p += weight * share(self.coefficients.basis(node, i)) * f;
+        }
+    }
+
+    /// q1, F(q1) and p1.
+    #[inline(always)]
+    fn finish(&mut self) -> Result<(), StepFailure> {
+        if self.step.method.reads_both_ends() {
+            self.read_both_ends()?;
+        } else {
+            self.reach();
+        }
+        self.work.momentum.copy_from_slice(self.p);
+        for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
+            self.kick(node, c, |basis| basis.b + basis.b_bar);
+        }
+        if !F::UNFITTED {
+            let Work { next, momentum, velocity, .. } = &mut *self.work;
+            for i in 0..self.q.len() {
+                let sums = self.coefficients.sums(i);
+                velocity[i] = sums.left * self.q[i] + sums.right * next[i];
+            }
+            self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
+        }
+        Ok(())
+    }
 }

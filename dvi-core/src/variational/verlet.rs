@@ -24,7 +24,7 @@ pub(super) fn steps<S: RegularLagrangian, T: Real>(
     clock: Clock<T>,
     count: u64,
 ) -> (u64, Result<(), StepFailure>) {
-    let Motion { p, force, mass, work, .. } = &mut memory.motion;
+    let VariationalMemory { motion: Motion { p, force, mass, .. }, work, .. } = memory;
     // Every run of a separable system has it.
     let Some(mass) = mass else { return (0, Ok(())) };
     scratch!(q1 = system, work.point);

@@ -38,8 +38,18 @@ impl Verlet {
 const DEPTH: usize = 7;
 const EXTRAPOLATION: [f64; DEPTH] = [7.0, -21.0, 35.0, -35.0, 21.0, -7.0, 1.0];
 
-/// Simpson's rule with the interpolation fitted to the mean of r^(−3/2) at both ends.
+/// The rule for the frequency at a point.
+#[derive(Clone, Copy)]
+pub(crate) enum Frequency {
+    /// √(|a|/|q|), from the acceleration.
+    Radial,
+    /// r^(−3/2), which is what it comes to.
+    Power,
+}
+
+/// Simpson's rule with the interpolation fitted to the mean of the frequencies at both ends.
 pub(crate) struct FittedSimpson {
+    frequency: Frequency,
     h: f64,
     tolerance: f64,
     pub(crate) q: Point,
@@ -58,10 +68,15 @@ struct End {
 
 impl End {
     #[inline(always)]
-    fn at([x, y]: Point) -> Self {
+    fn at([x, y]: Point, frequency: Frequency) -> Self {
         let square = x * x + y * y;
         let cube = 1.0 / (square * square.sqrt());
-        Self { force: [-cube * x, -cube * y], omega: cube.sqrt() }
+        let force = [-cube * x, -cube * y];
+        let omega = match frequency {
+            Frequency::Radial => ((force[0] * force[0] + force[1] * force[1]) / square).sqrt().sqrt(),
+            Frequency::Power => cube.sqrt(),
+        };
+        Self { force, omega }
     }
 }
 
@@ -94,8 +109,9 @@ impl Coefficients {
 }
 
 impl FittedSimpson {
-    pub(crate) fn new(h: f64, tolerance: f64, q: Point, p: Point) -> Self {
-        let mut run = Self { h, tolerance, q, p, end: End::at(q), ring: [[0.0; 2]; DEPTH], newest: 0 };
+    pub(crate) fn new(frequency: Frequency, h: f64, tolerance: f64, q: Point, p: Point) -> Self {
+        let end = End::at(q, frequency);
+        let mut run = Self { frequency, h, tolerance, q, p, end, ring: [[0.0; 2]; DEPTH], newest: 0 };
         for _ in 0..DEPTH {
             let guess = [h * run.p[0], h * run.p[1]];
             run.step_from(guess);
@@ -123,7 +139,7 @@ impl FittedSimpson {
         let mut previous = 0.0;
         loop {
             let q1 = [self.q[0] + delta[0], self.q[1] + delta[1]];
-            let end = End::at(q1);
+            let end = End::at(q1, self.frequency);
             let of_step = Coefficients::new(0.5 * (start.omega + end.omega) * h);
             let middle =
                 acceleration([of_step.middle * (self.q[0] + q1[0]), of_step.middle * (self.q[1] + q1[1])]);
@@ -150,7 +166,7 @@ impl FittedSimpson {
     fn finish(&mut self, delta: Point) {
         let (h, start) = (self.h, self.end);
         let q1 = [self.q[0] + delta[0], self.q[1] + delta[1]];
-        let end = End::at(q1);
+        let end = End::at(q1, self.frequency);
         let of_step = Coefficients::new(0.5 * (start.omega + end.omega) * h);
         let middle =
             acceleration([of_step.middle * (self.q[0] + q1[0]), of_step.middle * (self.q[1] + q1[1])]);

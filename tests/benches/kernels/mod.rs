@@ -3,21 +3,22 @@
 mod kepler_by_hand;
 mod vortices_by_hand;
 
-use dvi_core::FrequencyIn;
 use dvi_core::prelude::*;
+use dvi_core::{Frequency, FrequencyIn, Rule};
 use dvi_tests::configurations;
 use dvi_tests::systems::PointVortices;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 6] = [
+pub(crate) const KERNELS: [[&str; 2]; 7] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["fixed point/generated", "fixed point/by hand"],
     ["newton/generated", "newton/by hand"],
     ["Kepler, Verlet/generated", "Kepler, Verlet/by hand"],
-    ["Kepler, fitted Simpson/generated", "Kepler, fitted Simpson/by hand"],
+    ["Kepler, Simpson fitted to √(|a|÷|q|)/generated", "Kepler, Simpson fitted to √(|a|÷|q|)/by hand"],
+    ["Kepler, Simpson fitted to r^(−3÷2)/generated", "Kepler, Simpson fitted to r^(−3÷2)/by hand"],
 ];
 
 const H: f64 = 0.1;
@@ -63,21 +64,20 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
             midpoint.z[0]
         }
         "Kepler, Verlet/generated" => kepler(Variational::trapezoid(), steps),
-        "Kepler, fitted Simpson/generated" => {
-            let rule =
-                Variational { solver: Solver::FixedPoint, stopping: stopping(), ..Variational::simpson() };
-            kepler(rule.phase_fitted(Radial(Reading::Averaged)), steps)
+        "Kepler, Simpson fitted to √(|a|÷|q|)/generated" => {
+            fitted_simpson(Radial(Reading::Averaged), steps)
+        }
+        "Kepler, Simpson fitted to r^(−3÷2)/generated" => fitted_simpson(Power, steps),
+        "Kepler, Simpson fitted to √(|a|÷|q|)/by hand" => {
+            fitted_simpson_by_hand(kepler_by_hand::Frequency::Radial, steps)
+        }
+        "Kepler, Simpson fitted to r^(−3÷2)/by hand" => {
+            fitted_simpson_by_hand(kepler_by_hand::Frequency::Power, steps)
         }
         "Kepler, Verlet/by hand" => {
             let mut verlet = kepler_by_hand::Verlet::new(KEPLER_H, [0.8, 0.0], [0.0, 1.5_f64.sqrt()]);
             (0..steps).for_each(|_| verlet.step());
             verlet.q[0]
-        }
-        "Kepler, fitted Simpson/by hand" => {
-            let start = ([0.8, 0.0], [0.0, 1.5_f64.sqrt()]);
-            let mut simpson = kepler_by_hand::FittedSimpson::new(KEPLER_H, 1e-12, start.0, start.1);
-            (0..steps).for_each(|_| simpson.step());
-            simpson.q[0]
         }
         "newton/by hand" => {
             let mut midpoint = vortices_by_hand::Midpoint::new(field, H, start());
@@ -100,7 +100,7 @@ fn stopping() -> Stopping {
 const KEPLER_H: f64 = core::f64::consts::TAU / 200.0;
 
 #[inline(always)]
-fn kepler<F: FrequencyIn<f64>>(method: Variational<F>, steps: u64) -> f64 {
+fn kepler<F: FrequencyIn<f64>, R: Rule>(method: Variational<F, R>, steps: u64) -> f64 {
     let system = black_box(Kepler { mu: 1.0 });
     let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
     let Ok(mut run) = Integrator::new(&system, method, KEPLER_H, start) else { return f64::NAN };
@@ -124,5 +124,36 @@ fn generated(method: Sigma, take: impl FnOnce(&mut Run<'_>) -> Result<(), StepEr
     match take(&mut run) {
         Ok(()) => run.q()[0],
         Err(_) => f64::NAN,
+    }
+}
+
+fn fitted_simpson<F: FrequencyIn<f64>>(frequency: F, steps: u64) -> f64 {
+    let rule = Variational { solver: Solver::FixedPoint, stopping: stopping(), ..Variational::simpson() };
+    kepler(rule.phase_fitted(frequency), steps)
+}
+
+#[inline(always)]
+fn fitted_simpson_by_hand(frequency: kepler_by_hand::Frequency, steps: u64) -> f64 {
+    let (q, p) = ([0.8, 0.0], [0.0, 1.5_f64.sqrt()]);
+    let mut simpson = kepler_by_hand::FittedSimpson::new(frequency, KEPLER_H, 1e-12, q, p);
+    (0..steps).for_each(|_| simpson.step());
+    simpson.q[0]
+}
+
+/// r^(−3/2), a frequency of the user's own.
+#[derive(Debug)]
+struct Power;
+
+impl Frequency for Power {
+    fn reading(&self) -> Option<Reading> {
+        Some(Reading::Averaged)
+    }
+}
+
+impl FrequencyIn<f64> for Power {
+    #[inline(always)]
+    fn at(&self, q: &[f64], _v: &[f64], _a: &[f64]) -> f64 {
+        let square = q[0] * q[0] + q[1] * q[1];
+        (1.0 / (square * square.sqrt())).sqrt()
     }
 }

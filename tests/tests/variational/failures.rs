@@ -41,7 +41,7 @@ fn options_that_do_not_go_together_are_refused() {
     let start: DoublePendulumState = DoublePendulumState { a: 1.0, b: 0.5, dot_a: 0.0, dot_b: 0.0 };
     let unsupported = |error: Option<StartError>| matches!(error, Some(StartError::Unsupported { .. }));
     let fitted = Variational::simpson().phase_fitted(Radial(Reading::Averaged));
-    assert!(unsupported(Integrator::new(&pendulums, fitted, 0.1, start.clone()).err()));
+    assert!(unsupported(Integrator::new(&pendulums, fitted, 0.1, start).err()));
     let fixed = Variational { solver: Solver::FixedPoint, ..Variational::simpson() };
     assert!(unsupported(Integrator::new(&pendulums, fixed, 0.1, start).err()));
     let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 1.0]));
@@ -55,7 +55,7 @@ fn a_collision_ends_the_run_at_the_last_good_state() -> Outcome {
     // x = 1, F = −1: p½ = −½ + p, and with p = −½ the first step arrives at 0.
     let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: -0.5, dot_y: 0.0 };
     for count in [1, 10] {
-        let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 1.0, start.clone())?;
+        let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 1.0, start)?;
         let error = run.advance_by(count).err();
         assert!(
             matches!(error, Some(StepError { step: 0, failure: StepFailure::NotFinite { .. }, .. })),

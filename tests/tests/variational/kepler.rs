@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, Method};
+use dvi_core::{FrequencyIn, Method, Rule};
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -16,8 +16,8 @@ fn pericentre(e: f64) -> KeplerState {
 }
 
 /// The state after one period of `steps` steps, and max |ΔE| on the way.
-fn period<F: FrequencyIn<f64>>(
-    method: Variational<F>,
+fn period<F: FrequencyIn<f64>, R: Rule>(
+    method: Variational<F, R>,
     e: f64,
     steps: u64,
 ) -> Result<Run, Box<dyn core::error::Error>> {
@@ -48,7 +48,7 @@ fn one_period_has_the_reference_values() -> Outcome {
 #[test]
 fn fixed_point_and_newton_find_the_same_steps() -> Outcome {
     for reading in [Reading::LeftFrozen, Reading::Averaged, Reading::Variational] {
-        for rule in [Quadrature::midpoint(), Quadrature::simpson(), Quadrature::gauss(2)?] {
+        for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?, Quadrature::gauss(2)?] {
             let method = |solver| {
                 let rule = Variational { solver, ..Variational::new(rule) };
                 rule.phase_fitted(Radial(reading))
@@ -71,8 +71,8 @@ fn exact(e: f64, t: f64) -> [f64; 2] {
 }
 
 /// The observed order of the position after two units of time.
-fn order<F: FrequencyIn<f64> + Copy>(
-    method: Variational<F>,
+fn order<F: FrequencyIn<f64> + Copy, R: Rule>(
+    method: Variational<F, R>,
     e: f64,
 ) -> Result<f64, Box<dyn core::error::Error>> {
     order_from(method, e, 100)
@@ -97,9 +97,9 @@ fn order_from<M: Method<Kepler, f64> + Copy>(
 #[test]
 fn the_order_is_that_of_the_interpolation_whatever_the_rule() -> Outcome {
     for rule in [
-        Quadrature::midpoint(),
-        Quadrature::trapezoid(),
-        Quadrature::simpson(),
+        Quadrature::gauss(1)?,
+        Quadrature::lobatto(2)?,
+        Quadrature::lobatto(3)?,
         Quadrature::lobatto(5)?,
         Quadrature::gauss(5)?,
     ] {
@@ -118,7 +118,7 @@ fn a_radial_frequency_has_order_three_if_frozen_and_else_four() -> Outcome {
     for (reading, expected) in
         [(Reading::LeftFrozen, 3.0), (Reading::Averaged, 4.0), (Reading::Variational, 4.0)]
     {
-        for rule in [Quadrature::simpson(), Quadrature::lobatto(4)?, Quadrature::gauss(3)?] {
+        for rule in [Quadrature::lobatto(3)?, Quadrature::lobatto(4)?, Quadrature::gauss(3)?] {
             let found = order(Variational::new(rule).phase_fitted(Radial(reading)), 0.2)?;
             assert!((found - expected).abs() < 0.1, "{reading:?}, {rule:?}: {found}");
         }
@@ -132,7 +132,9 @@ fn a_radial_frequency_has_order_three_if_frozen_and_else_four() -> Outcome {
 
 #[test]
 fn angular_momentum_is_conserved_by_every_reading() -> Outcome {
-    fn drift<F: FrequencyIn<f64>>(method: Variational<F>) -> Result<f64, Box<dyn core::error::Error>> {
+    fn drift<F: FrequencyIn<f64>, R: Rule>(
+        method: Variational<F, R>,
+    ) -> Result<f64, Box<dyn core::error::Error>> {
         let mut run = Integrator::new(&SYSTEM, method, TAU / 4000.0, pericentre(0.5))?;
         let initial = run.momentum(0).ok_or("declared")?;
         let mut largest: f64 = 0.0;

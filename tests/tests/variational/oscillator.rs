@@ -1,8 +1,8 @@
 //! The oscillator of the fitted frequency is solved exactly, at any step.
 
 use super::Outcome;
-use dvi_core::lagrangian;
 use dvi_core::prelude::*;
+use dvi_core::{Rule, lagrangian};
 
 /// A harmonic oscillator.
 #[lagrangian(
@@ -36,12 +36,16 @@ fn rules() -> Result<Vec<Quadrature>, StartError> {
 }
 
 /// S = Σ w cos((1 − 2c)u).
-fn kernel(rule: &Quadrature, u: f64) -> f64 {
+fn kernel(rule: &impl Rule, u: f64) -> f64 {
     rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
 }
 
 /// The largest error of a run against the solution of q'' = −q that starts like it.
-fn worst(method: Variational<Constant>, u: f64, steps: u64) -> Result<f64, Box<dyn core::error::Error>> {
+fn worst<R: Rule>(
+    method: Variational<Constant, R>,
+    u: f64,
+    steps: u64,
+) -> Result<f64, Box<dyn core::error::Error>> {
     let system = Oscillator { omega: 1.0 };
     let mut run = Integrator::new(&system, method, u, OscillatorState { x: 0.3, dot_x: 0.8 })?;
     run.advance()?;
@@ -80,11 +84,12 @@ fn the_recursion_is_exact_for_every_rule_and_step() -> Outcome {
 #[test]
 fn a_fitted_phase_has_the_momentum_of_the_paper_and_fitted_weights_the_right_one() -> Outcome {
     let system = Oscillator { omega: 1.0 };
-    for (rule, s) in [(Quadrature::midpoint(), 1.188_395_105_778), (Quadrature::simpson(), 1.006_294_275_830)]
+    for (rule, s) in
+        [(Quadrature::gauss(1)?, 1.188_395_105_778), (Quadrature::lobatto(3)?, 1.006_294_275_830)]
     {
         let start: OscillatorState = OscillatorState { x: 0.0, dot_x: 1.0 };
         let phase = Variational::new(rule).phase_fitted(Constant(1.0));
-        let mut run = Integrator::new(&system, phase, 1.0, start.clone())?;
+        let mut run = Integrator::new(&system, phase, 1.0, start)?;
         run.advance()?;
         // The solution with p0 = 1 is sin t / s.
         assert!((run.q()[0] * s - 1.0_f64.sin()).abs() < 1e-12, "{rule:?}");
@@ -105,7 +110,7 @@ fn each_coordinate_can_have_its_own_frequency() -> Outcome {
     let start: PairState = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
     let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 2.3]));
     for solver in [Solver::FixedPoint, Solver::Newton] {
-        let mut run = Integrator::new(&system, Variational { solver, ..method }, 0.9, start.clone())?;
+        let mut run = Integrator::new(&system, Variational { solver, ..method }, 0.9, start)?;
         for k in 1..1000_u32 {
             run.advance()?;
             let t = 0.9 * f64::from(k);
@@ -122,10 +127,10 @@ fn small_frequencies_lose_no_digits() -> Outcome {
     let start: OscillatorState = OscillatorState { x: 0.3, dot_x: 0.8 };
     for rule in rules()? {
         let linear = Variational::new(rule);
-        let mut reference = Integrator::new(&system, linear, 0.1, start.clone())?;
+        let mut reference = Integrator::new(&system, linear, 0.1, start)?;
         reference.advance_by(50)?;
         for omega in [0.0, 1e-300, 1e-160, 1e-12, 1e-8] {
-            let mut run = Integrator::new(&system, linear.phase_fitted(Constant(omega)), 0.1, start.clone())?;
+            let mut run = Integrator::new(&system, linear.phase_fitted(Constant(omega)), 0.1, start)?;
             run.advance_by(50)?;
             let error = (run.q()[0] - reference.q()[0]).abs();
             assert!(error < 1e-13, "{rule:?}, ω = {omega:e}: {error:e}");
@@ -141,12 +146,12 @@ fn a_resonance_is_an_error_and_not_a_number() -> Outcome {
     let two_point_gauss = 2.720_699_046_35;
     for (rule, u) in [
         (Quadrature::gauss(2)?, two_point_gauss),
-        (Quadrature::trapezoid(), core::f64::consts::FRAC_PI_2),
-        (Quadrature::simpson(), core::f64::consts::PI),
+        (Quadrature::lobatto(2)?, core::f64::consts::FRAC_PI_2),
+        (Quadrature::lobatto(3)?, core::f64::consts::PI),
         (Quadrature::lobatto(4)?, 2.0 * core::f64::consts::PI),
     ] {
         let method = Variational::new(rule).phase_fitted(Constant(1.0));
-        let error = Integrator::new(&system, method, u, start.clone()).err();
+        let error = Integrator::new(&system, method, u, start).err();
         assert!(
             matches!(error, Some(StartError::Starter(StepFailure::Resonance { u: found, .. })) if (found - u).abs() < 1e-12),
             "{rule:?}: {error:?}"
