@@ -132,7 +132,7 @@ fn claims(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>])
         .check("a = −sin x: max|ΔE|/x(0)²", contours(2), Bound::AtMost(2e-4));
     let ends = [
         (0, 0, [-0.145_822_118_200_617_4, -0.989_190_052_844_622]),
-        (1, 0, [1489.994_111_581_187, 1490.175_648_915_25]),
+        (1, 0, [1_489.994_111_581_187, 1_490.175_648_915_25]),
         (2, 1, [1.944_208_266_518_613, 0.320_490_725_558_128_6]),
     ];
     let values = Claim::new(BEYOND, "leapfrog at t = 8 agrees with independent programs to 1e-12");
@@ -164,8 +164,8 @@ fn figure(curves: &[Vec<Curve>], circles: &[Vec<Curve>]) -> Figure {
         let panel = plane(format!("{}: phase curves", FLOWS[flow].name), x, v);
         curves[flow].iter().zip(STARTS).fold(panel, |panel, (curve, (x, colour))| {
             panel.line(curve.clone(), Stroke::solid(colour)).dots(vec![[x, 0.0]], 3.5, colour).note(
-                [x, -0.42],
-                Anchor::Middle,
+                [x - 0.12, 0.2],
+                Anchor::End,
                 colour,
                 format!("({x}, 0)"),
             )

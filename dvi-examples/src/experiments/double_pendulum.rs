@@ -4,6 +4,7 @@
 //! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
 
 use anyhow::Result;
+use dvi_core::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim};
@@ -49,7 +50,10 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     Ok(Outcome { claims: claims(&all), notes: vec![] })
 }
 
-fn variational(job: &Job<'_>, name: &'static str, method: Variational, steps: u64) -> Result<Series> {
+fn variational<M>(job: &Job<'_>, name: &'static str, method: M, steps: u64) -> Result<Series>
+where
+    M: Method<DoublePendulum, f64>,
+{
     let [a, b] = START;
     let start = DoublePendulumState { a, b, dot_a: 0.0, dot_b: 0.0 };
     let mut run = Integrator::new(&SYSTEM, method, H, start)?;

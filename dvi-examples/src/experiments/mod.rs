@@ -4,13 +4,18 @@ mod barnes;
 mod chaotic;
 mod double_pendulum;
 mod energy;
+mod kepler;
 mod kepler_frequency;
+mod kepler_long;
+mod kepler_steps;
+mod kepler_work;
 mod leapfrogging;
 mod momenta;
 mod order;
 mod oscillator;
 mod parasitic;
 mod quasi_periodic;
+mod rivals;
 mod sections;
 mod stability;
 
@@ -27,7 +32,10 @@ pub const ALL: &[Experiment] = &[
     momenta::EXPERIMENT,
     parasitic::EXPERIMENT,
     oscillator::EXPERIMENT,
+    kepler_steps::EXPERIMENT,
+    kepler_long::EXPERIMENT,
     kepler_frequency::EXPERIMENT,
+    kepler_work::EXPERIMENT,
     barnes::EXPERIMENT,
     double_pendulum::EXPERIMENT,
 ];

@@ -14,6 +14,15 @@ use dvi_core::prelude::*;
 #[derive(Clone, Copy, Debug)]
 pub struct Kepler {}
 
+/// Kepler's problem with q = u² as complex numbers and dt = |u|² ds (Levi-Civita 1920): at energy −½ an
+/// oscillator of frequency ½, also through a collision.
+#[lagrangian(
+    coordinates(u[2]),
+    lagrangian = (dot(u[0]).powi(2) + dot(u[1]).powi(2)) / 2.0 - (u[0].powi(2) + u[1].powi(2)) / 8.0,
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct LeviCivita {}
+
 /// An orbit of semi-major axis 1 that is at its pericentre, on the positive x axis, at t = 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Orbit {
@@ -52,9 +61,9 @@ impl Orbit {
         for _ in 0..60 {
             let excess = anomaly - e * anomaly.sin() - m;
             if excess > 0.0 {
-                high = anomaly
+                high = anomaly;
             } else {
-                low = anomaly
+                low = anomaly;
             }
             let newton = anomaly - excess / (1.0 - e * anomaly.cos());
             let next = if (low..=high).contains(&newton) { newton } else { 0.5 * (low + high) };
