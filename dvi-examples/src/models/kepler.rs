@@ -89,7 +89,8 @@ mod tests {
                 let t = anomaly - e * anomaly.sin();
                 let q = [anomaly.cos() - e, (1.0 - e * e).sqrt() * anomaly.sin()];
                 assert!(orbit.error(t, &q) < 2e-14 / (1.0 - e), "e = {e}, t = {t}");
-                assert!(orbit.error(t + 1000.0 * TAU, &q) < 1e-12 / (1.0 - e), "e = {e}, t = {t}");
+                // Times of this size are rounded to 1e-12.
+                assert!(orbit.error(t + 1000.0 * TAU, &q) < 1e-11 / (1.0 - e), "e = {e}, t = {t}");
             }
         }
     }
