@@ -100,7 +100,8 @@ pub enum StepFailure {
         u: f64,
         /// sin u, by which the interpolation divides.
         sine: f64,
-        /// S = Σ w cos((1 − 2c)u), which multiplies the new point.
+        /// S = Σ w cos((1 − 2c)u), which multiplies the new point; with interior displacements, what multiplies
+        /// it in place of S.
         kernel: f64,
     },
     /// A matrix that must be solved with is singular to working precision.

@@ -36,6 +36,7 @@
 //! | steps of variable length | [`ControlledIntegrator`], [`Reversible`] |
 //! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
 //! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
+//! | order 4, 6 and 8 for regular systems; Newmark's method | [`Galerkin`], [`Newmark`] |
 //! | sections, exponents, preserved forms, orders | [`diagnostics`] |
 //! | what the macros implement, to be implemented by hand if need be | [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`] |
 //!
@@ -61,6 +62,7 @@ mod elimination;
 mod error;
 mod form;
 mod frequency;
+mod galerkin;
 mod gauss;
 mod history;
 mod integrator;
@@ -68,6 +70,7 @@ mod lagrangian;
 mod legendre;
 mod mass;
 mod method;
+mod newmark;
 mod norm;
 pub mod prelude;
 mod quadrature;
@@ -89,10 +92,12 @@ pub use composition::{Composition, CompositionMemory};
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};
 pub use frequency::{Constant, Curvature, Frequency, FrequencyIn, PerCoordinate, Radial, Reading, Unfitted};
+pub use galerkin::{Galerkin, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
 pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
+pub use newmark::{Newmark, NewmarkMemory};
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};

@@ -16,6 +16,9 @@ pub enum PreservedForm {
     Discrete,
     /// dq ∧ dp on T*Q.
     Canonical,
+    /// dq' ∧ dp on T*Q, where q' differs from q by a term of order h² that the method documents: its orbits
+    /// are those of a symplectic map in other coordinates.
+    Conjugate,
 }
 
 /// What is known of a method before it meets a system.

@@ -28,7 +28,7 @@ pub mod configurations {
 
 /// Oracles that do not use the integrators.
 pub mod oracle {
-    use dvi_core::{Lagrangian, Real};
+    use dvi_core::{Lagrangian, Real, Rule};
 
     /// L_d(q0, q1) = h L(q_σ, (q1 − q0)/h, t + σh).
     pub fn discrete_lagrangian<S: Lagrangian, T: Real>(
@@ -43,6 +43,50 @@ pub mod oracle {
         let point: Vec<T> = q0.iter().zip(q1).map(|(&q0, &q1)| b * q0 + b_bar * q1).collect();
         let velocity: Vec<T> = q0.iter().zip(q1).map(|(&q0, &q1)| (q1 - q0) / step).collect();
         step * system.lagrangian(&point, &velocity, T::lift(t + sigma * h))
+    }
+
+    /// L_d(q0, q1, δ) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh) on the Lobatto nodes, with interpolation by sin u and cos u and
+    /// displacements of the interior nodes, node by node. The derivatives of the Lagrange polynomials are those of
+    /// their factors.
+    pub fn displaced_lagrangian<S: Lagrangian, T: Real, const NODES: usize>(
+        system: &S,
+        u: f64,
+        [t, h]: [f64; 2],
+        [q0, q1]: [&[T]; 2],
+        displacements: &[T],
+    ) -> T {
+        let Ok(rule) = dvi_core::Quadrature::lobatto(NODES) else { return T::lift(f64::NAN) };
+        let (c, n) = (rule.nodes(), q0.len());
+        let derivative = |k: usize, at: f64| {
+            let others = || (0..NODES).filter(move |&m| m != k);
+            let product = |without: usize| {
+                others().filter(|&m| m != without).map(|m| (at - c[m]) / (c[k] - c[m])).product::<f64>()
+            };
+            others().map(|m| product(m) / (c[k] - c[m])).sum::<f64>()
+        };
+        let mut sum = T::lift(0.0);
+        for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
+            let [b, b_bar, d, d_bar] = if u == 0.0 {
+                [1.0 - c, c, -1.0, 1.0]
+            } else {
+                let (left, right, sine) = ((1.0 - c) * u, c * u, u.sin());
+                [left.sin() / sine, right.sin() / sine, -u * left.cos() / sine, u * right.cos() / sine]
+            };
+            let combine = |x: f64, y: f64, i: usize| T::lift(x) * q0[i] + T::lift(y) * q1[i];
+            let (mut point, mut velocity): (Vec<T>, Vec<T>) =
+                (0..n).map(|i| (combine(b, b_bar, i), combine(d, d_bar, i))).unzip();
+            for (k, displacement) in displacements.chunks(n).enumerate().map(|(k, x)| (k + 1, x)) {
+                for i in 0..n {
+                    velocity[i] += T::lift(derivative(k, c)) * displacement[i];
+                    if k == j {
+                        point[i] += displacement[i];
+                    }
+                }
+            }
+            velocity.iter_mut().for_each(|v| *v *= T::lift(1.0 / h));
+            sum += T::lift(w) * system.lagrangian(&point, &velocity, T::lift(t + c * h));
+        }
+        T::lift(h) * sum
     }
 }
 

@@ -18,8 +18,9 @@ fn of_steps(mut advance: impl FnMut()) -> u64 {
 macro_rules! assert_none {
     ($system:expr, $start:expr, $($method:expr),+ $(,)?) => {$(
         let mut run = Integrator::new(&$system, $method, 0.05, $start.clone()).expect("starts");
-        let blocks = of_steps(|| run.advance().expect("steps"));
-        assert_eq!(blocks, 0, "{}", stringify!($method));
+        // The thread of the test harness allocates now and then; steps that allocate do so every time.
+        let blocks = (0..3).map(|_| of_steps(|| run.advance().expect("steps"))).min();
+        assert_eq!(blocks, Some(0), "{}", stringify!($method));
     )+};
 }
 
@@ -62,4 +63,13 @@ fn steps_do_not_allocate() {
     assert_none_controlled!(kepler, kepler_start, osculating, Variational::trapezoid(), fitted());
     assert_none_controlled!(chain, chain_start, reversible, Variational::trapezoid(), fitted());
     assert_none_controlled!(chain, chain_start, osculating, Variational::trapezoid(), fitted());
+    assert_none!(
+        chain,
+        chain_start,
+        Galerkin::<4>::new(),
+        Galerkin { solver: Solver::Newton, ..Galerkin::<5>::new() },
+        Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged)),
+        Newmark::new(0.25),
+        Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },
+    );
 }

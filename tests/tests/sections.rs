@@ -115,3 +115,30 @@ fn a_saddle_has_its_own_exponent() -> Outcome {
     assert!((rate - exact).abs() < 1e-12, "{rate} and {exact}");
     Ok(())
 }
+
+/// A regular oscillator, whose exact steps are known between points.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - x * x - y * y) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Planar;
+
+#[test]
+fn crossings_of_a_regular_system_have_velocities() -> Outcome {
+    let method = Variational::simpson().phase_fitted(Constant(1.0));
+    let method = Variational { fitting: Fitting::PhaseAndMomentum, ..method };
+    // x = cos t, y = 2 sin t: x rises through zero at 3π/2.
+    let start = PlanarState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
+    let mut run = Integrator::new(&Planar, method, 0.05, start)?;
+    let section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0]);
+    for (k, crossing) in section.take(5).enumerate() {
+        let Crossing { time, state, .. } = crossing?;
+        let exact = 3.0 * FRAC_PI_2 + TAU * k as f64;
+        assert!((time - exact).abs() < 1e-10, "{time}");
+        for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {
+            assert!((found - exact).abs() < 1e-9, "{state:?}");
+        }
+    }
+    Ok(())
+}

@@ -32,7 +32,7 @@ pub enum Direction {
 pub struct Crossing<S, T> {
     /// When.
     pub time: T,
-    /// Where, with named coordinates.
+    /// Where, with named coordinates. The velocities of a regular system are those of the interpolant.
     pub state: S,
 }
 
@@ -53,6 +53,8 @@ pub struct Section<'r, 'a, S: Lagrangian, M: Method<S, T>, T: Real, G> {
     /// The next interval to search; past the centre, a step is due.
     interval: usize,
     probe: Vector<S, T>,
+    /// The velocity at `probe`, if the system is regular.
+    velocity: Vector<S, T>,
     failed: bool,
 }
 
@@ -92,6 +94,7 @@ where
             filled: 0,
             interval: 0,
             probe: space.vector(),
+            velocity: space.vector(),
             failed: false,
             run,
         }
@@ -174,6 +177,27 @@ where
         }
     }
 
+    /// Sets `velocity` to the time derivative of the interpolant at `x`, in steps from the oldest point.
+    fn differentiate(&mut self, x: T) {
+        let node = |k: usize| x - T::lift(k as f64);
+        // The product of the distances to all nodes but two.
+        let without = |j: usize, m: usize| {
+            let others = (0..WINDOW).filter(|&k| k != j && k != m);
+            others.fold(T::lift(1.0), |product, k| product * node(k))
+        };
+        // The barycentric weights are those of the Lagrange polynomials times −7!.
+        let scale = T::lift(-1.0 / 5040.0) / self.run.step_size();
+        self.velocity.fill(T::lift(0.0));
+        for (j, &weight) in WEIGHTS.iter().enumerate() {
+            let others = (0..WINDOW).filter(|&m| m != j);
+            let slope = others.fold(T::lift(0.0), |sum, m| sum + without(j, m));
+            let (factor, point) = (scale * T::lift(weight) * slope, &self.points[(self.oldest + j) % WINDOW]);
+            for (sum, &q) in self.velocity.iter_mut().zip(point.iter()) {
+                *sum += factor * q;
+            }
+        }
+    }
+
     /// The crossing in `interval`, by regula falsi with the damping of Anderson & Björck (1973), and by
     /// bisection where that is slow.
     fn locate(&mut self, interval: usize) -> Crossing<S::State<T>, T> {
@@ -201,11 +225,14 @@ where
             }
             (b, g_b) = (c, g_c);
         }
+        if S::REGULAR {
+            self.differentiate(b);
+        }
         let system = self.run.system();
         let to_newest = T::lift((WINDOW - 1) as f64) - b;
         Crossing {
             time: self.run.time() - to_newest * self.run.step_size(),
-            state: S::State::read(|block| system.block_len(block), &self.probe, &[]),
+            state: S::State::read(|block| system.block_len(block), &self.probe, &self.velocity),
         }
     }
 }

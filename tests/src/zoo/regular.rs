@@ -184,3 +184,14 @@ pub struct Tangled {
     /// Strength of what is least simple.
     pub g: f64,
 }
+
+/// A particle on a spring.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - stiffness * x * x / 2.0,
+)]
+#[derive(Clone, Debug)]
+pub struct Spring {
+    /// The square of the frequency.
+    pub stiffness: f64,
+}

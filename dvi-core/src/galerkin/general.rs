@@ -1,0 +1,197 @@
+//! Any L: derivatives of L at every node.
+//!
+//! rᵣ = Σⱼ wⱼ (h φ̂ⱼᵣ ∂L/∂q + ψ̂ⱼᵣ ∂L/∂v), for Δ with p0 added
+//! ∂rᵣ/∂xₖ = Σⱼ wⱼ (h φ̂ⱼᵣφⱼₖ L_qq + φ̂ⱼᵣψⱼₖ L_qv + ψ̂ⱼᵣφⱼₖ L_vq + ψ̂ⱼᵣψⱼₖ L_vv/h)
+//!
+//! solved by Newton, [block by block](super::blocks). Where the frequency is read from the motion, the residual is
+//! exact, and the matrix is that of ω held constant, which is close enough for the iteration to contract.
+
+use super::Step;
+use super::blocks;
+use super::memory::{GalerkinMemory, Newton, Work};
+use crate::error::StepFailure;
+use crate::frequency::{Frequency, FrequencyIn};
+use crate::quadrature::Rule;
+use crate::solver::{Convergence, Verdict};
+use crate::statistics::Statistics;
+use crate::{Real, RegularLagrangian, Vector, Weights, norm};
+
+pub(super) fn step<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    memory.newton_steps = memory.newton_steps.saturating_sub(1);
+    memory.guess(step, q);
+    if solve(step, memory, statistics).is_err() {
+        // A guess that was extrapolated too far is worse than none.
+        for unknown in &mut memory.work.unknowns[1..] {
+            unknown.fill(T::lift(0.0));
+        }
+        solve(step, memory, statistics)?;
+    }
+    finish(step, memory, q, statistics)
+}
+
+fn solve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let stopping = step.method.stopping;
+    let mut convergence = Convergence::new(stopping, memory.scale(), stopping.max_iterations);
+    let verdict = loop {
+        memory.read_frequency(step, statistics)?;
+        differentiate(step, memory, statistics)?;
+        linearize(step, memory, statistics);
+        let GalerkinMemory { newton: Some(Newton { blocks, permutation }), work, .. } = memory else {
+            return Ok(());
+        };
+        blocks::eliminate(blocks, permutation, &mut work.residuals)?;
+        let mut correction = T::lift(0.0);
+        for (unknown, change) in work.unknowns.iter_mut().zip(&work.residuals).skip(1) {
+            for (x, &change) in unknown.iter_mut().zip(change.iter()) {
+                *x -= change;
+            }
+            correction = norm::larger(correction, norm::largest(change));
+        }
+        match convergence.judge(correction) {
+            Verdict::Continue => {}
+            verdict => break verdict,
+        }
+    };
+    statistics.iterations += convergence.iterations as u64;
+    match verdict {
+        Verdict::GiveUp => Err(convergence.failure()),
+        _ => memory.work.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown)),
+    }
+}
+
+/// Sets `point` to qʲ and `velocity` to q̇ʲ of node `j`.
+fn place<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
+    j: usize,
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+) {
+    let GalerkinMemory { coefficients, work, .. } = memory;
+    let Work { unknowns, point, velocity, .. } = work;
+    let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / step.h);
+    let sum = |row: &[T; NODES], i: usize| {
+        row.iter().zip(unknowns.iter()).fold(zero, |sum, (&factor, x)| sum + factor * x[i])
+    };
+    for i in 0..point.len() {
+        point[i] = sum(&coefficients.point[j], i);
+        velocity[i] = per_h * sum(&coefficients.velocity[j], i);
+    }
+}
+
+/// Sets `work.residuals` at the current unknowns.
+fn differentiate<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    for residual in &mut memory.work.residuals {
+        residual.fill(T::lift(0.0));
+    }
+    for j in 0..NODES {
+        place(j, step, memory);
+        let GalerkinMemory { rule, coefficients, work, .. } = &mut *memory;
+        let Work { residuals, point, velocity, gradient, momentum, .. } = work;
+        step.system.gradient(point, velocity, step.node_time(rule.nodes()[j]), gradient, momentum);
+        statistics.gradients += 1;
+        for (r, residual) in residuals.iter_mut().enumerate() {
+            let [by_point, by_velocity] = coefficients.direction(j, r).map(|x| coefficients.weights[j] * x);
+            for i in 0..residual.len() {
+                residual[i] += step.h * by_point * gradient[i] + by_velocity * momentum[i];
+            }
+        }
+    }
+    let GalerkinMemory { p, work, .. } = memory;
+    for (residual, &p) in work.residuals[NODES - 1].iter_mut().zip(p.iter()) {
+        *residual += p;
+    }
+    work.residuals.iter().try_for_each(|residual| norm::finite(residual))
+}
+
+/// Sets the blocks of the Newton matrix at the current unknowns.
+fn linearize<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    statistics: &mut Statistics,
+) {
+    let (zero, one) = (T::lift(0.0), T::lift(1.0));
+    let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+    let kinds = [Weights { qq: one, ..none }, Weights { qv: one, ..none }, Weights { vv: one, ..none }];
+    if let Some(newton) = &mut memory.newton {
+        newton.blocks[1..].iter_mut().flatten().for_each(|block| block.fill(zero));
+    }
+    for j in 0..NODES {
+        place(j, step, memory);
+        let GalerkinMemory { rule, coefficients, newton: Some(newton), work, .. } = &mut *memory else {
+            return;
+        };
+        let Work { point, velocity, gradient, momentum, .. } = work;
+        let (second, rows) = newton.blocks.split_at_mut(1);
+        for (matrix, weights) in second[0].iter_mut().zip(kinds) {
+            matrix.fill(zero);
+            let t = step.node_time(rule.nodes()[j]);
+            step.system.linearize(point, velocity, t, weights, gradient, momentum, matrix);
+        }
+        let weight = coefficients.weights[j];
+        for (r, row) in rows.iter_mut().enumerate().map(|(r, row)| (r + 1, row)) {
+            let [by_point, by_velocity] = coefficients.direction(j, r).map(|x| weight * x);
+            for (k, block) in row.iter_mut().enumerate().skip(1) {
+                let (phi, psi) = (coefficients.point[j][k], coefficients.velocity[j][k]);
+                let weights = Weights {
+                    qq: step.h * by_point * phi,
+                    qv: by_point * psi,
+                    vq: by_velocity * phi,
+                    vv: by_velocity * psi / step.h,
+                };
+                add_transposed(weights, &second[0], point.len(), block);
+            }
+        }
+    }
+    statistics.linearizations += 1;
+    statistics.factorisations += 1;
+}
+
+/// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq = (L_qv)ᵀ.
+#[inline]
+fn add_transposed<T: Real, M: core::ops::Deref<Target = [T]>>(
+    w: Weights<T>,
+    second: &[M],
+    n: usize,
+    block: &mut [T],
+) {
+    let [qq, qv, vv, ..] = second else { return };
+    for i in 0..n {
+        for j in 0..n {
+            let (here, across) = (i * n + j, j * n + i);
+            block[here] += w.qq * qq[here] + w.qv * qv[across] + w.vq * qv[here] + w.vv * vv[here];
+        }
+    }
+}
+
+/// Moves to q1 = q0 + Δ and evaluates p1 = p0 + (D₁ + D₂)L_d.
+fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    memory.read_frequency(step, statistics)?;
+    differentiate(step, memory, statistics)?;
+    let Work { unknowns, residuals, momentum, next, next_force, .. } = &mut memory.work;
+    for i in 0..next.len() {
+        next[i] = unknowns[0][i] + unknowns[NODES - 1][i];
+        momentum[i] = memory.p[i] + residuals[0][i];
+    }
+    if S::SEPARABLE {
+        step.system.force(next, &[], step.node_time(1.0), next_force);
+        statistics.gradients += 1;
+    }
+    memory.complete(step.h, q)
+}

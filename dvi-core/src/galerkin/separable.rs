@@ -1,0 +1,163 @@
+//! L = ½ v·M v − V(q, t): the fixed point that needs forces only.
+//!
+//! rᵣ = h Gᵣ + M Σₖ Kᵣₖ xₖ/h      Gᵣ = wᵣ F(qʳ) for displacements,   G_{s−1} = p0/h + Σⱼ wⱼ bⱼ F(qʲ) for Δ
+//! x ← x − A⁻¹(h M⁻¹ r),   A = Σⱼ wⱼ (ψ̂ⱼ ψⱼᵀ − z φ̂ⱼ φⱼᵀ)
+//!
+//! A contains the oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0 at
+//! the end and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
+
+use super::memory::{GalerkinMemory, Work};
+use super::{Step, general};
+use crate::error::StepFailure;
+use crate::frequency::FrequencyIn;
+use crate::quadrature::Rule;
+use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
+use crate::statistics::Statistics;
+use crate::{Real, RegularLagrangian, Scalar, Vector, norm};
+
+#[inline]
+pub(super) fn step<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    if step.method.solver == Solver::Newton || memory.newton_steps > 0 {
+        return general::step(step, memory, q, statistics);
+    }
+    match solve(step, memory, q, statistics) {
+        Ok(()) => finish(step, memory, q, statistics),
+        Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. }) if memory.newton.is_some() => {
+            memory.newton_steps = STEPS_BEFORE_RETRY;
+            general::step(step, memory, q, statistics)
+        }
+        Err(failure) => Err(failure),
+    }
+}
+
+#[inline(always)]
+fn solve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    q: &[T],
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    memory.guess(step, q);
+    let mut convergence = Convergence::new(step.method.stopping, memory.scale(), step.budget(q.len()));
+    let verdict = loop {
+        memory.read_frequency(step, statistics)?;
+        let correction = improve(step, memory, statistics);
+        match convergence.judge(correction) {
+            Verdict::Continue => {}
+            verdict => break verdict,
+        }
+    };
+    statistics.iterations += convergence.iterations as u64;
+    match verdict {
+        Verdict::GiveUp => Err(convergence.failure()),
+        _ => memory.work.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown)),
+    }
+}
+
+/// One iteration; returns the size of its correction.
+#[inline(always)]
+fn improve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    statistics: &mut Statistics,
+) -> T {
+    let last = NODES - 1;
+    let (weights, zero) = (memory.coefficients.weights, T::lift(0.0));
+    for i in 0..memory.p.len() {
+        memory.work.residuals[last][i] = memory.p[i] + step.h * weights[0] * memory.force[i];
+    }
+    for j in 1..last {
+        node_force(j, step, memory, statistics);
+        let Work { residuals, gradient, .. } = &mut memory.work;
+        let [b, _] = memory.coefficients.direction(j, last);
+        for i in 0..gradient.len() {
+            let impulse = step.h * weights[j] * gradient[i];
+            residuals[j][i] = impulse;
+            residuals[last][i] += b * impulse;
+        }
+    }
+    let GalerkinMemory { coefficients, mass: Some(mass), work, .. } = memory else { return zero };
+    let Work { unknowns, residuals, velocity, .. } = work;
+    for (residual, kinetic) in residuals.iter_mut().zip(&coefficients.kinetic).skip(1) {
+        mass.solve(residual, velocity);
+        for i in 0..residual.len() {
+            let terms = kinetic.iter().zip(unknowns.iter());
+            residual[i] = terms.fold(step.h * velocity[i], |sum, (&k, x)| sum + k * x[i]);
+        }
+    }
+    let mut correction = zero;
+    for (unknown, inverse) in unknowns.iter_mut().zip(&coefficients.inverse).skip(1) {
+        for i in 0..unknown.len() {
+            let terms = inverse.iter().zip(residuals.iter()).skip(1);
+            let change = terms.fold(zero, |sum, (&a, r)| sum + a * r[i]);
+            unknown[i] -= change;
+            correction = norm::larger(correction, Scalar::abs(change));
+        }
+    }
+    correction
+}
+
+/// Sets `work.gradient` to the force at interior node `j`.
+#[inline(always)]
+fn node_force<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    j: usize,
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    statistics: &mut Statistics,
+) {
+    let Work { unknowns, point, gradient, .. } = &mut memory.work;
+    let (row, last) = (&memory.coefficients.point[j], NODES - 1);
+    for i in 0..point.len() {
+        point[i] = row[0] * unknowns[0][i] + row[last] * unknowns[last][i] + unknowns[j][i];
+    }
+    step.system.force(point, &[], step.node_time(memory.rule.nodes()[j]), gradient);
+    statistics.gradients += 1;
+}
+
+/// Moves to q1 = q0 + Δ and evaluates p1.
+#[inline(always)]
+fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    step: &Step<'_, NODES, S, F, T>,
+    memory: &mut GalerkinMemory<NODES, S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    memory.read_frequency(step, statistics)?;
+    let last = NODES - 1;
+    let Work { unknowns, next, next_force, .. } = &mut memory.work;
+    for i in 0..next.len() {
+        next[i] = unknowns[0][i] + unknowns[last][i];
+    }
+    step.system.force(next, &[], step.node_time(1.0), next_force);
+    statistics.gradients += 1;
+    let Work { momentum, .. } = &mut memory.work;
+    let weights = memory.coefficients.weights;
+    for i in 0..momentum.len() {
+        momentum[i] = memory.p[i] + step.h * weights[0] * memory.force[i];
+    }
+    for j in 1..last {
+        node_force(j, step, memory, statistics);
+        let Work { momentum, gradient, .. } = &mut memory.work;
+        let weight = step.h * weights[j] * memory.coefficients.point[j][0];
+        for (p, &f) in momentum.iter_mut().zip(gradient.iter()) {
+            *p += weight * f;
+        }
+    }
+    let Work { momentum, next_force, unknowns, velocity, .. } = &mut memory.work;
+    for (p, &f) in momentum.iter_mut().zip(next_force.iter()) {
+        *p += step.h * weights[last] * f;
+    }
+    if let (false, Some(mass)) = (F::UNFITTED, &memory.mass) {
+        for i in 0..velocity.len() {
+            let terms = memory.coefficients.kinetic[0].iter().zip(unknowns.iter());
+            velocity[i] = terms.fold(T::lift(0.0), |sum, (&k, x)| sum + k * x[i]);
+        }
+        mass.multiply_add(T::lift(1.0) / step.h, velocity, momentum);
+    }
+    memory.complete(step.h, q)
+}

@@ -1,0 +1,149 @@
+//! A step solves the equations that define it, whose derivatives are taken here by dual numbers from the value
+//! of L alone, however it solves them.
+
+use dvi_core::prelude::*;
+use dvi_core::{FrequencyIn, Unfitted};
+use dvi_tests::oracle::displaced_lagrangian;
+use dvi_tests::zoo::regular::*;
+use num_dual::Dual64;
+
+use crate::systems::{
+    KEPLER, Outcome, apart, chain, double_pendulum, driven, dual, growing, magnetic, pericentre,
+    relativistic, run, spherical,
+};
+
+/// The displacements of the interior nodes that make L_d(q0, q1) stationary, by Newton with differences of
+/// derivatives that dual numbers give.
+fn stationary<S: Lagrangian, const NODES: usize>(
+    system: &S,
+    u: f64,
+    [t, h]: [f64; 2],
+    ends: [&[f64]; 2],
+) -> Vec<f64> {
+    let [q0, q1] = ends.map(|q| dual(q, None));
+    let size = q0.len() * (NODES - 2);
+    let gradient = |x: &[f64]| -> nalgebra::DVector<f64> {
+        nalgebra::DVector::from_fn(size, |i, _| {
+            displaced_lagrangian::<S, Dual64, NODES>(system, u, [t, h], [&q0, &q1], &dual(x, Some(i))).eps
+        })
+    };
+    let mut x = vec![0.0; size];
+    for _ in 0..20 {
+        let jacobian = nalgebra::DMatrix::from_fn(size, size, |i, j| {
+            let shifted = |by: f64| {
+                let mut x = x.clone();
+                x[j] += by;
+                gradient(&x)[i]
+            };
+            (shifted(1e-4) - shifted(-1e-4)) / 2e-4
+        });
+        let Some(change) = jacobian.lu().solve(&gradient(&x)) else { return x };
+        x.iter_mut().zip(change.iter()).for_each(|(x, change)| *x -= change);
+    }
+    x
+}
+
+/// The largest residual of p0 = −D₁L_d and p1 = D₂L_d, from the value of L alone.
+fn check_equations<S: RegularLagrangian, const NODES: usize>(
+    (system, start): (S, S::State<f64>),
+    omega: f64,
+) -> Outcome {
+    let h = 0.1;
+    for solver in [Solver::Automatic, Solver::Newton] {
+        let method = Galerkin { solver, ..Galerkin::<NODES>::new() }.phase_fitted(Constant(omega));
+        let mut run = Integrator::new(&system, method, h, start.clone())?;
+        for step in 0..4 {
+            let (q0, p0, t) = (run.q().to_vec(), run.memory().p().to_vec(), run.time());
+            run.advance()?;
+            let (q1, p1) = (run.q().to_vec(), run.memory().p().to_vec());
+            let x = stationary::<S, NODES>(&system, omega * h, [t, h], [&q0, &q1]);
+            let value = |a: Option<usize>, b: Option<usize>| {
+                let ends = [&dual(&q0, a)[..], &dual(&q1, b)];
+                displaced_lagrangian::<S, Dual64, NODES>(&system, omega * h, [t, h], ends, &dual(&x, None))
+                    .eps
+            };
+            for i in 0..q0.len() {
+                let residual = (p0[i] + value(Some(i), None)).abs().max((p1[i] - value(None, Some(i))).abs());
+                let size = p0.iter().chain(&p1).fold(1.0, |m: f64, p| m.max(p.abs()));
+                let name = S::REPORT.system;
+                assert!(
+                    residual < 4e-14 * size / h,
+                    "{name}, {NODES} nodes, {solver:?}, step {step}: {residual:e}"
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_all_nodes<S: RegularLagrangian + Clone>((system, start): (S, S::State<f64>)) -> Outcome {
+    for omega in [0.0, 1.3] {
+        check_equations::<S, 3>((system.clone(), start.clone()), omega)?;
+        check_equations::<S, 4>((system.clone(), start.clone()), omega)?;
+        check_equations::<S, 5>((system.clone(), start.clone()), omega)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn steps_of_separable_systems_solve_their_equations() -> Outcome {
+    check_all_nodes((KEPLER, pericentre(0.3)))?;
+    check_all_nodes(driven())?;
+    check_all_nodes(chain())
+}
+
+#[test]
+fn steps_of_other_systems_solve_their_equations() -> Outcome {
+    check_all_nodes(double_pendulum())?;
+    check_all_nodes(spherical())?;
+    check_all_nodes(magnetic())?;
+    check_all_nodes(relativistic())?;
+    check_all_nodes(growing())
+}
+
+#[test]
+fn all_solvers_find_the_same_steps() -> Outcome {
+    fn check<F: FrequencyIn<f64> + Copy>(frequency: F) -> Outcome {
+        let by = |solver| {
+            let method = Galerkin { solver, ..Galerkin::<4>::new() }.phase_fitted(frequency);
+            run(&KEPLER, method, pericentre(0.3), 6.0, 60)
+        };
+        let automatic = by(Solver::Automatic)?;
+        assert!(apart(&automatic, &by(Solver::FixedPoint)?) < 1e-12, "{frequency:?}");
+        assert!(apart(&automatic, &by(Solver::Newton)?) < 1e-12, "{frequency:?}");
+        Ok(())
+    }
+    check(Unfitted)?;
+    check(Constant(1.1))?;
+    check(Radial(Reading::Averaged))?;
+    check(Curvature(Reading::Averaged))
+}
+
+#[test]
+fn a_fixed_point_step_needs_forces_only_and_newton_stands_by() -> Outcome {
+    let mut run = Integrator::new(&KEPLER, Galerkin::<4>::new(), 0.05, pericentre(0.3))?;
+    run.advance_by(200)?;
+    let statistics = run.statistics();
+    // Two interior nodes an iteration; to finish, the same two and the end.
+    assert_eq!(statistics.gradients, 2 * statistics.iterations + 3 * statistics.steps);
+    assert_eq!((statistics.linearizations, statistics.factorisations), (0, 0));
+    let (system, start) = (Spring { stiffness: 100.0 }, SpringState { x: 1.0, dot_x: 0.0 });
+    let mut stiff = Integrator::new(&system, Galerkin::<4>::new(), 0.5, start)?;
+    stiff.advance_by(20)?;
+    assert!(stiff.statistics().factorisations > 0);
+    Ok(())
+}
+
+#[test]
+fn single_precision_steps_to_its_own_rounding() -> Outcome {
+    let start = KeplerState { x: 1.0, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
+    let narrow = KeplerState { x: 1.0_f32, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
+    let mut single = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1_f32, narrow)?;
+    let mut double = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1, start)?;
+    single.advance_by(50)?;
+    double.advance_by(50)?;
+    for (a, b) in single.q().iter().zip(double.q()) {
+        assert!((f64::from(*a) - b).abs() < 1e-4, "{a} and {b}");
+    }
+    Ok(())
+}

@@ -1,0 +1,82 @@
+//! Failures are values, and the last good state is kept.
+
+use core::f64::consts::PI;
+use dvi_core::FrequencyIn;
+use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::*;
+
+use crate::systems::{KEPLER, Outcome, double_pendulum, pericentre, relativistic};
+
+#[test]
+fn what_cannot_be_done_is_refused() {
+    fn refused<S: RegularLagrangian, F: FrequencyIn<f64>>(
+        (system, start): (S, S::State<f64>),
+        method: Galerkin<3, F>,
+        expected: &str,
+    ) {
+        let failure = Integrator::new(&system, method, 0.1, start).err();
+        assert!(
+            matches!(failure, Some(StartError::Unsupported { option, .. }) if option == expected),
+            "{expected}: {failure:?}"
+        );
+    }
+    let method = Galerkin::<3>::new();
+    let kepler = || (KEPLER, pericentre(0.3));
+    refused(kepler(), method.phase_fitted(PerCoordinate([1.0, 2.0])), "PerCoordinate");
+    for reading in [Reading::LeftFrozen, Reading::Variational] {
+        refused(kepler(), method.phase_fitted(Radial(reading)), "this reading of the frequency");
+    }
+    refused(
+        double_pendulum(),
+        method.phase_fitted(Radial(Reading::Averaged)),
+        "a frequency read from the motion",
+    );
+    refused(double_pendulum(), Galerkin { solver: Solver::FixedPoint, ..method }, "Solver::FixedPoint");
+    let resonant = method.phase_fitted(Constant(PI));
+    let failure = Integrator::new(&KEPLER, resonant, 1.0, pericentre(0.3)).err();
+    assert!(matches!(failure, Some(StartError::Starter(StepFailure::Resonance { .. }))), "{failure:?}");
+    let failure = Integrator::new(&KEPLER, method.phase_fitted(Constant(-1.0)), 1.0, pericentre(0.3)).err();
+    assert!(matches!(failure, Some(StartError::Parameter { name: "omega", .. })), "{failure:?}");
+    let collision = KeplerState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 0.0 };
+    let failure = Integrator::new(&KEPLER, method, 0.1, collision).err();
+    assert!(matches!(failure, Some(StartError::Starter(StepFailure::NotFinite { .. }))), "{failure:?}");
+}
+
+/// The failure of a run that must fail, which keeps its last good state.
+fn failure<S: RegularLagrangian>(
+    (system, start): (S, S::State<f64>),
+    method: Galerkin<4>,
+    h: f64,
+) -> Result<StepFailure, Box<dyn core::error::Error>> {
+    let mut run = Integrator::new(&system, method, h, start)?;
+    for _ in 0..1000 {
+        let before = (run.q().to_vec(), run.memory().p().to_vec(), run.steps());
+        if let Err(error) = run.advance() {
+            assert_eq!((run.q().to_vec(), run.memory().p().to_vec(), run.steps()), before);
+            assert_eq!(error.step, before.2);
+            assert!(run.next().is_none());
+            return Ok(error.failure);
+        }
+    }
+    Err("it did not fail".into())
+}
+
+#[test]
+fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
+    let method = Galerkin::<4>::new();
+    // At the pole the angle φ has no momentum.
+    let pole = SphericalPendulumState { theta: 0.0, phi: 0.3, dot_theta: 0.0, dot_phi: 0.8 };
+    let found = failure((SphericalPendulum { g: 1.0 }, pole), method, 0.1)?;
+    assert!(matches!(found, StepFailure::Singular { column: 1, .. }), "{found:?}");
+    // Far beyond the speed of light in the first iterate.
+    let found = failure(relativistic(), method, 50.0)?;
+    assert!(matches!(found, StepFailure::NotFinite { .. }), "{found:?}");
+    let stopping = Stopping { max_iterations: 2, ..Stopping::default() };
+    for solver in [Solver::FixedPoint, Solver::Automatic] {
+        let found = failure((KEPLER, pericentre(0.3)), Galerkin { solver, stopping, ..method }, 0.5)?;
+        assert!(matches!(found, StepFailure::NotConverged { iterations: 2, .. }), "{solver:?}: {found:?}");
+    }
+    let found = failure(double_pendulum(), Galerkin { stopping, ..method }, 0.1)?;
+    assert!(matches!(found, StepFailure::NotConverged { iterations: 2, .. }), "{found:?}");
+    Ok(())
+}

@@ -1,0 +1,8 @@
+//! Interior displacements: orders, the equations that a step solves, and what it preserves.
+
+mod equations;
+mod failures;
+mod orders;
+mod oscillator;
+mod structure;
+mod systems;

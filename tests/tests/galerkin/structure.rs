@@ -1,0 +1,176 @@
+//! What the steps preserve, and that they can be undone.
+
+use dvi_core::prelude::*;
+use dvi_core::{FrequencyIn, Method, PreservedForm, Space, State, Statistics};
+use num_dual::Dual64;
+
+use crate::systems::{
+    KEPLER, Outcome, apart, chain, double_pendulum, driven, dual, growing, magnetic, pericentre, spherical,
+};
+
+/// Entry by entry, (q, p) and its derivative in the direction of entry `direction` of (q, v), at the start and
+/// after some steps.
+fn tangents<S: RegularLagrangian, M: Method<S, Dual64> + Copy>(
+    system: &S,
+    start: &S::State<f64>,
+    method: M,
+    momentum: impl Fn(&M::Memory) -> &[Dual64],
+) -> Result<[Vec<Vec<f64>>; 2], Box<dyn core::error::Error>> {
+    let n = Space::dimension(system.space());
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    let len = |block| system.block_len(block);
+    start.write(len, &mut q, &mut v)?;
+    let start = [q, v].concat();
+    let [mut first, mut last] = [Vec::new(), Vec::new()];
+    for direction in 0..2 * n {
+        let varied = dual(&start, Some(direction));
+        let state = S::State::<Dual64>::read(len, &varied[..n], &varied[n..]);
+        let mut run = Integrator::new(system, method, Dual64::from_re(0.1), state)?;
+        let column = |run: &Integrator<'_, S, M, Dual64>| {
+            run.q().iter().chain(momentum(run.memory())).map(|x| x.eps).collect::<Vec<_>>()
+        };
+        first.push(column(&run));
+        run.advance_by(3)?;
+        last.push(column(&run));
+    }
+    Ok([first, last])
+}
+
+/// The largest change of dq ∧ dp, evaluated on the variations of the start.
+fn defect<S: RegularLagrangian, F: FrequencyIn<Dual64> + Copy, const NODES: usize>(
+    system: &S,
+    start: &S::State<f64>,
+    method: Galerkin<NODES, F>,
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let [first, last] = tangents(system, start, method, |memory| memory.p())?;
+    let two_form = |a: &[f64], b: &[f64]| {
+        let n = a.len() / 2;
+        (0..n).map(|i| a[i] * b[n + i] - a[n + i] * b[i]).sum::<f64>()
+    };
+    let mut largest: f64 = 0.0;
+    for i in 0..first.len() {
+        for j in 0..i {
+            largest = largest.max((two_form(&last[i], &last[j]) - two_form(&first[i], &first[j])).abs());
+        }
+    }
+    Ok(largest)
+}
+
+fn check_symplectic<S: RegularLagrangian>((system, start): (S, S::State<f64>)) -> Outcome {
+    for solver in [Solver::Automatic, Solver::Newton] {
+        let defects = [
+            defect(&system, &start, Galerkin { solver, ..Galerkin::<3>::new() })?,
+            defect(&system, &start, Galerkin { solver, ..Galerkin::<4>::new() })?,
+            defect(&system, &start, Galerkin { solver, ..Galerkin::<5>::new() })?,
+            defect(&system, &start, Galerkin::<4>::new().phase_fitted(Constant(1.3)))?,
+        ];
+        assert!(
+            defects.iter().all(|&defect| defect < 1e-11),
+            "{}, {solver:?}: {defects:?}",
+            S::REPORT.system
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn the_canonical_two_form_is_preserved() -> Outcome {
+    assert_eq!(Galerkin::<3>::new().preserved_form(), PreservedForm::Canonical);
+    check_symplectic((KEPLER, pericentre(0.3)))?;
+    check_symplectic(driven())?;
+    check_symplectic(chain())?;
+    check_symplectic(double_pendulum())?;
+    check_symplectic(spherical())?;
+    check_symplectic(magnetic())
+}
+
+#[test]
+fn a_frequency_held_constant_does_not_preserve_it() -> Outcome {
+    let method = Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged));
+    assert_eq!(method.preserved_form(), PreservedForm::Nothing);
+    let found = defect(&KEPLER, &pericentre(0.3), method)?;
+    assert!(found > 1e-9, "{found:e}");
+    Ok(())
+}
+
+fn check_reversal<S: RegularLagrangian, F, const NODES: usize>(
+    (system, start): (S, S::State<f64>),
+    method: Galerkin<NODES, F>,
+) -> Outcome
+where
+    F: FrequencyIn<f64> + Copy,
+{
+    let mut forth = Integrator::new(&system, method, 0.1, start)?;
+    for _ in 0..5 {
+        let first = forth.q().to_vec();
+        let momentum = forth.memory().p().to_vec();
+        forth.advance()?;
+        let mut back = Integrator::new_at(&system, method, forth.time(), -0.1, forth.state())?;
+        back.advance()?;
+        let error = apart(back.q(), &first).max(apart(back.memory().p(), &momentum));
+        assert!(error < 1e-12, "{}, {method:?}: {error:e}", S::REPORT.system);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_step_back_undoes_a_step() -> Outcome {
+    check_reversal((KEPLER, pericentre(0.3)), Galerkin::<3>::new())?;
+    check_reversal((KEPLER, pericentre(0.3)), Galerkin::<5>::new().phase_fitted(Radial(Reading::Averaged)))?;
+    check_reversal(
+        (KEPLER, pericentre(0.3)),
+        Galerkin::<4>::new().phase_fitted(Curvature(Reading::Averaged)),
+    )?;
+    check_reversal(driven(), Galerkin::<4>::new().phase_fitted(Constant(1.3)))?;
+    check_reversal(double_pendulum(), Galerkin::<3>::new())?;
+    check_reversal(spherical(), Galerkin::<4>::new())?;
+    check_reversal(growing(), Galerkin::<5>::new())
+}
+
+#[test]
+fn momentum_maps_are_preserved() -> Outcome {
+    fn check<S: RegularLagrangian, F: FrequencyIn<f64>, const NODES: usize>(
+        (system, start): (S, S::State<f64>),
+        method: Galerkin<NODES, F>,
+    ) -> Outcome {
+        let mut run = Integrator::new(&system, method, 0.05, start)?;
+        let first = run.momentum(0).ok_or("no momentum")?;
+        for _ in 0..500 {
+            run.advance()?;
+            let drift = (run.momentum(0).ok_or("no momentum")? - first).abs();
+            assert!(drift < 1e-12, "{}: {drift:e}", S::REPORT.system);
+        }
+        Ok(())
+    }
+    check((KEPLER, pericentre(0.3)), Galerkin::<3>::new())?;
+    check((KEPLER, pericentre(0.3)), Galerkin::<4>::new().phase_fitted(Constant(1.1)))?;
+    check((KEPLER, pericentre(0.3)), Galerkin::<5>::new().phase_fitted(Radial(Reading::Averaged)))?;
+    check(spherical(), Galerkin::<3>::new())?;
+    check(spherical(), Galerkin::<4>::new())
+}
+
+/// Steps of these lengths there, and of their negatives back.
+fn check_variable_steps<S: RegularLagrangian>(system: &S, [q, v]: [&[f64]; 2]) -> Outcome {
+    let method = Galerkin::<4>::new();
+    let mut point = Space::vector(system.space());
+    point.copy_from_slice(q);
+    let mut memory = method.begin(system, &point, v, 0.0, 0.1)?;
+    let momentum = memory.p().to_vec();
+    let mut statistics = Statistics::default();
+    let (lengths, mut t) = ([0.1, 0.09, 0.1, 0.03, 0.2, 0.01], 0.0);
+    let back = lengths.iter().rev().map(|h| -h);
+    for h in lengths.iter().copied().chain(back) {
+        method.step(system, &mut memory, &mut point, t, h, &mut statistics)?;
+        t += h;
+    }
+    let error = apart(&point, q).max(apart(memory.p(), &momentum));
+    assert!(error < 1e-12, "{}: {error:e}", S::REPORT.system);
+    Ok(())
+}
+
+#[test]
+fn steps_of_different_lengths_may_follow_one_another() -> Outcome {
+    check_variable_steps(&KEPLER, [&[1.0, 0.1], &[-0.2, 1.1]])?;
+    check_variable_steps(&double_pendulum().0, [&[1.1, -0.4], &[0.3, 0.9]])?;
+    check_variable_steps(&chain().0, [&[0.1, -0.2, 0.4, 0.3], &[0.5, 0.0, -0.1, 0.2]])
+}

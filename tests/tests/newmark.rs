@@ -1,0 +1,264 @@
+//! Newmark's method: order, closed form, the potential of its own coordinates, and failures.
+
+use dvi_core::prelude::*;
+use dvi_core::{Method, PreservedForm, Scalar};
+use dvi_tests::zoo::regular::*;
+use num_dual::Dual64;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+const KEPLER: Kepler = Kepler { mu: 1.0 };
+const BETAS: [f64; 4] = [1.0 / 12.0, 1.0 / 6.0, 0.25, 0.5];
+
+fn planet() -> KeplerState {
+    KeplerState { x: 1.0, y: 0.1, dot_x: -0.2, dot_y: 1.1 }
+}
+
+fn driven() -> (DrivenOscillator, DrivenOscillatorState) {
+    (DrivenOscillator { depth: 0.3, omega: 1.7 }, DrivenOscillatorState { x: 0.8, dot_x: 0.3 })
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The coordinates at `time`.
+fn run<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    start: S::State<f64>,
+    time: f64,
+    steps: u64,
+) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
+    run.advance_by(steps)?;
+    Ok(run.q().to_vec())
+}
+
+fn check_order<S: RegularLagrangian>(system: &S, start: S::State<f64>) -> Outcome {
+    let reference = run(system, Galerkin::<5>::new(), start.clone(), 2.0, 256)?;
+    for beta in BETAS {
+        let mut errors = Vec::new();
+        for steps in [64, 128, 256, 512] {
+            let found = run(system, Newmark::new(beta), start.clone(), 2.0, steps)?;
+            errors.push((2.0 / steps as f64, apart(&found, &reference)));
+        }
+        let order = convergence_order(&errors).ok_or("no slope")?;
+        assert!((order - 2.0).abs() < 0.1, "{}, beta = {beta}: {order}", S::REPORT.system);
+    }
+    Ok(())
+}
+
+#[test]
+fn newmark_is_of_second_order() -> Outcome {
+    check_order(&KEPLER, planet())?;
+    let (system, start) = driven();
+    check_order(&system, start)
+}
+
+#[test]
+fn newmark_with_beta_zero_is_verlet() -> Outcome {
+    let newmark = Newmark::new(0.0);
+    assert_eq!((newmark.order(), newmark.preserved_form()), (2, PreservedForm::Canonical));
+    let mut a = Integrator::new(&KEPLER, newmark, 0.01, planet())?;
+    let mut b = Integrator::new(&KEPLER, Variational::trapezoid(), 0.01, planet())?;
+    a.advance_by(1000)?;
+    b.advance_by(1000)?;
+    assert!(apart(a.q(), b.q()) < 1e-14 && apart(a.memory().p(), b.memory().p()) < 1e-14);
+    assert_eq!((a.statistics().gradients, a.statistics().iterations), (1000, 0));
+    Ok(())
+}
+
+/// x1 = x0 + h v0 − h²ω²[(½ − β)x0 + βx1] and v1 = v0 − (h/2)ω²(x0 + x1), solved for x1.
+#[test]
+fn newmark_on_the_oscillator_has_its_closed_form() -> Outcome {
+    let (system, start) = (Spring { stiffness: 9.0 }, SpringState { x: 0.7, dot_x: -0.4 });
+    for beta in [0.25, 1.0 / 12.0, 0.5] {
+        // Unstable for β < ¼ beyond (¼ − β)(ωh)² = 1; the fixed point fails for β(ωh)² > 1.
+        for h in [0.05, 0.5, 0.7] {
+            let mut run = Integrator::new(&system, Newmark::new(beta), h, start)?;
+            let (mut x, mut v, z): (f64, f64, f64) = (start.x, start.dot_x, 9.0 * h * h);
+            for step in 0..50 {
+                let x1 = (x + h * v - z * (0.5 - beta) * x) / (1.0 + beta * z);
+                v -= 0.5 * z / h * (x + x1);
+                x = x1;
+                run.advance()?;
+                let state = run.state();
+                let error = (state.x - x).abs().max((state.dot_x - v).abs());
+                assert!(error < 1e-12, "beta = {beta}, h = {h}, step {step}: {error:e}");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn average_acceleration_is_stable_at_every_step() -> Outcome {
+    let (system, start) = (Spring { stiffness: 1.0 }, SpringState { x: 1.0, dot_x: 0.0 });
+    let mut run = Integrator::new(&system, Newmark::new(0.25), 50.0, start)?;
+    for _ in 0..1000 {
+        run.advance()?;
+        assert!((run.energy() - 0.5).abs() < 1e-11, "{}", run.energy());
+    }
+    Ok(())
+}
+
+/// One Störmer–Verlet step for the potential Ṽ in q = x − βh² a, by its force, which at q is that at x.
+#[test]
+fn newmark_is_conjugate_to_verlet_in_the_modified_potential() -> Outcome {
+    let h = 0.1;
+    let force = |x: &[f64]| {
+        let r3 = x[0].hypot(x[1]).powi(3);
+        [-x[0] / r3, -x[1] / r3]
+    };
+    for beta in BETAS {
+        let mut run = Integrator::new(&KEPLER, Newmark::new(beta), h, planet())?;
+        let conjugate = |x: &[f64]| {
+            let a = force(x);
+            [x[0] - beta * h * h * a[0], x[1] - beta * h * h * a[1]]
+        };
+        for step in 0..50 {
+            let (x0, p0) = (run.q().to_vec(), run.memory().p().to_vec());
+            run.advance()?;
+            let (a0, a1) = (force(&x0), force(run.q()));
+            let (q0, q1, p1) = (conjugate(&x0), conjugate(run.q()), run.memory().p());
+            for i in 0..2 {
+                let half = p0[i] + 0.5 * h * a0[i];
+                let error = (q0[i] + h * half - q1[i]).abs().max((half + 0.5 * h * a1[i] - p1[i]).abs());
+                assert!(error < 1e-14, "beta = {beta}, step {step}: {error:e}");
+            }
+        }
+        // So the momentum map of rotations is preserved at q, not at x.
+        let angular = |x: &[f64], p: &[f64]| x[0] * p[1] - x[1] * p[0];
+        let start = [1.0, 0.1];
+        let kept = angular(&conjugate(run.q()), run.memory().p()) - angular(&conjugate(&start), &[-0.2, 1.1]);
+        let moved = angular(run.q(), run.memory().p()) - angular(&start, &[-0.2, 1.1]);
+        assert!(kept.abs() < 1e-13 && moved.abs() > 1e-7, "beta = {beta}: {kept:e} {moved:e}");
+        // −∂Ṽ/∂q = F(x), where Ṽ(q) = V(x) + ½βh² F·F: along any curve x(s), dṼ/ds = −F(x)·dq/ds.
+        let x = [Dual64::new(0.7, 0.3), Dual64::new(-0.4, 1.1)];
+        let r3 = x[0].hypot(x[1]).powi(3);
+        let f = [-x[0] / r3, -x[1] / r3];
+        let scale = Dual64::from_re(beta * h * h);
+        let potential = -Dual64::from_re(1.0) / x[0].hypot(x[1]) + scale * 0.5 * (f[0] * f[0] + f[1] * f[1]);
+        let along: f64 = (0..2).map(|i| -f[i].re * (x[i] - scale * f[i]).eps).sum();
+        assert!((potential.eps - along).abs() < 1e-14);
+    }
+    Ok(())
+}
+
+/// The derivative of (q(x1), p1) in the direction of entry `direction` of (x0, p0), for q = x − βh² a(x).
+fn tangent(beta: f64, h: f64, direction: usize) -> Result<[[f64; 4]; 2], Box<dyn core::error::Error>> {
+    let planet = planet();
+    let start = [planet.x, planet.y, planet.dot_x, planet.dot_y];
+    let [x, y, dot_x, dot_y] =
+        core::array::from_fn(|i| Dual64::new(start[i], if i == direction { 1.0 } else { 0.0 }));
+    let method = Newmark { solver: Solver::Newton, ..Newmark::new(Dual64::from_re(beta)) };
+    let mut run = Integrator::new(&KEPLER, method, Dual64::from_re(h), KeplerState { x, y, dot_x, dot_y })?;
+    let column = |q: &[Dual64], p: &[Dual64]| {
+        let r3 = q[0].hypot(q[1]).powi(3);
+        let conjugate = |x: Dual64| (x + Dual64::from_re(beta * h * h) * x / r3).eps;
+        [conjugate(q[0]), conjugate(q[1]), p[0].eps, p[1].eps]
+    };
+    let before = column(run.q(), run.memory().p());
+    run.advance_by(5)?;
+    Ok([before, column(run.q(), run.memory().p())])
+}
+
+fn two_form(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a[0] * b[2] - a[2] * b[0] + a[1] * b[3] - a[3] * b[1]
+}
+
+#[test]
+fn the_conjugate_two_form_is_preserved() -> Outcome {
+    assert_eq!(Newmark::new(0.25).preserved_form(), PreservedForm::Conjugate);
+    for beta in BETAS {
+        let mut columns = Vec::new();
+        for direction in 0..4 {
+            columns.push(tangent(beta, 0.2, direction)?);
+        }
+        for a in &columns {
+            for b in &columns {
+                let change = two_form(&a[1], &b[1]) - two_form(&a[0], &b[0]);
+                assert!(change.abs() < 1e-11, "beta = {beta}: {change:e}");
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_reversal<S: RegularLagrangian>(system: &S, start: S::State<f64>, h: f64) -> Outcome {
+    for beta in [0.0, 0.25, 0.5] {
+        let mut forth = Integrator::new(system, Newmark::new(beta), h, start.clone())?;
+        let first = forth.q().to_vec();
+        forth.advance_by(10)?;
+        let mut back = Integrator::new_at(system, Newmark::new(beta), forth.time(), -h, forth.state())?;
+        back.advance_by(10)?;
+        let error = apart(back.q(), &first);
+        assert!(error < 1e-12, "{}, beta = {beta}: {error:e}", S::REPORT.system);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_step_back_undoes_a_step() -> Outcome {
+    check_reversal(&KEPLER, planet(), 0.1)?;
+    let (system, start) = driven();
+    check_reversal(&system, start, 0.1)?;
+    check_reversal(&MixedVelocities {}, MixedVelocitiesState { x: 0.4, y: -0.3, dot_x: 0.2, dot_y: 0.5 }, 0.1)
+}
+
+#[test]
+fn all_solvers_find_the_same_steps() -> Outcome {
+    let system = RunTimeChain { mass: vec![1.0, 1.5, 0.7], coupling: 0.2 };
+    let start =
+        RunTimeChainState { q: vec![0.1, -0.2, 0.4], wall: 0.3, dot_q: vec![0.5, 0.0, -0.1], dot_wall: 0.2 };
+    let by = |solver| {
+        let method = Newmark { solver, ..Newmark::new(0.25) };
+        run(&system, method, start.clone(), 5.0, 50)
+    };
+    let automatic = by(Solver::Automatic)?;
+    assert!(apart(&automatic, &by(Solver::FixedPoint)?) < 1e-13);
+    assert!(apart(&automatic, &by(Solver::Newton)?) < 1e-13);
+    Ok(())
+}
+
+#[test]
+fn what_newmark_cannot_do_is_refused() {
+    for beta in [-0.1, 0.6, f64::NAN] {
+        let failure = Integrator::new(&KEPLER, Newmark::new(beta), 0.1, planet()).err();
+        assert!(matches!(failure, Some(StartError::Parameter { name: "beta", .. })), "{failure:?}");
+    }
+    let pendulum = SphericalPendulum { g: 1.0 };
+    let start = SphericalPendulumState { theta: 1.0, phi: 0.0, dot_theta: 0.0, dot_phi: 1.0 };
+    let failure = Integrator::new(&pendulum, Newmark::new(0.25), 0.1, start).err();
+    assert!(matches!(failure, Some(StartError::Unsupported { option: "Newmark", .. })), "{failure:?}");
+}
+
+fn fails(method: Newmark, h: f64, start: KeplerState) -> Result<StepFailure, Box<dyn core::error::Error>> {
+    let mut run = Integrator::new(&KEPLER, method, h, start)?;
+    for _ in 0..100 {
+        let before = (run.q().to_vec(), run.memory().p().to_vec(), run.steps());
+        if let Err(error) = run.advance() {
+            assert_eq!((run.q().to_vec(), run.memory().p().to_vec(), run.steps()), before);
+            return Ok(error.failure);
+        }
+    }
+    Err("it did not fail".into())
+}
+
+#[test]
+fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
+    // Straight into the sun, which a step of length 2 hits exactly: p½ = −¾ − ¼.
+    let fall = KeplerState { x: 2.0, y: 0.0, dot_x: -0.75, dot_y: 0.0 };
+    let failure = fails(Newmark::new(0.0), 2.0, fall)?;
+    assert!(matches!(failure, StepFailure::NotFinite { .. }), "{failure:?}");
+    let stopping = Stopping { max_iterations: 2, ..Stopping::default() };
+    for solver in [Solver::FixedPoint, Solver::Automatic] {
+        let failure = fails(Newmark { solver, stopping, ..Newmark::new(0.25) }, 0.5, planet())?;
+        assert!(
+            matches!(failure, StepFailure::NotConverged { iterations: 2, .. }),
+            "{solver:?}: {failure:?}"
+        );
+    }
+    Ok(())
+}
