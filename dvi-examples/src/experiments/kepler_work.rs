@@ -8,7 +8,9 @@ use rayon::prelude::*;
 use super::kepler::{Course, compare, fixed, osculating, reversible};
 use super::rivals;
 use crate::claim::{BEYOND, Bound, Claim};
-use crate::figure::{AMBER, Axis, BLUE, Corner, Figure, GREEN, INK, Panel, SKY, SLATE, Stroke, VERMILLION};
+use crate::figure::{
+    AMBER, Axis, BLUE, Corner, Figure, GREEN, INK, PURPLE, Panel, SKY, SLATE, Stroke, VERMILLION,
+};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::Orbit;
@@ -102,6 +104,30 @@ fn contenders() -> Vec<Contender> {
             run: |job, orbit, epsilon, periods| {
                 let method = Composition::kahan_li_8(Variational::trapezoid());
                 compare(job, &mut reversible(method, orbit, epsilon)?, orbit, periods)
+            },
+        },
+        Contender {
+            name: "Galerkin, order 4",
+            stroke: Stroke::solid(PURPLE).width(1.2),
+            knobs: LONG_EPSILONS,
+            run: |job, orbit, epsilon, periods| {
+                compare(job, &mut reversible(Galerkin::<3>::new(), orbit, epsilon)?, orbit, periods)
+            },
+        },
+        Contender {
+            name: "Galerkin, order 6",
+            stroke: Stroke::solid(PURPLE),
+            knobs: LONG_EPSILONS,
+            run: |job, orbit, epsilon, periods| {
+                compare(job, &mut reversible(Galerkin::<4>::new(), orbit, epsilon)?, orbit, periods)
+            },
+        },
+        Contender {
+            name: "Galerkin, order 8",
+            stroke: Stroke::dashed(PURPLE),
+            knobs: LONG_EPSILONS,
+            run: |job, orbit, epsilon, periods| {
+                compare(job, &mut reversible(Galerkin::<5>::new(), orbit, epsilon)?, orbit, periods)
             },
         },
         Contender {
