@@ -105,7 +105,7 @@ fn entry(text: &mut String, claim: &Claim, interrupted: bool) {
     let _ = writeln!(text, "      → {}", claim.judgement());
 }
 
-/// Claims of the paper and claims beyond it, counted apart.
+/// Claims of the papers and claims beyond them, counted apart.
 fn tally(results: &Results<'_>) -> String {
     let complete = results.iter().filter_map(|(_, ended)| match ended {
         Ended::Complete(outcome) => Some(&outcome.claims),
@@ -127,7 +127,7 @@ fn tally(results: &Results<'_>) -> String {
     let shown = if shown.is_empty() { "none decided".into() } else { shown.join(", ") };
     let holds = count(&beyond, |v| *v == Verdict::Reproduced);
     let beyond = beyond.len();
-    format!("{} claims of the paper: {shown}; {beyond} beyond it: {holds} hold", printed.len())
+    format!("{} claims of the papers: {shown}; {beyond} beyond them: {holds} hold", printed.len())
 }
 
 #[cfg(test)]
@@ -151,7 +151,7 @@ mod tests {
         let results = [(&experiment, &ended)];
         let page = markdown(&results, Length::Short);
         assert!(
-            page.contains("2 claims of the paper: 1 reproduced, 1 not reproduced; 1 beyond it: 1 hold."),
+            page.contains("2 claims of the papers: 1 reproduced, 1 not reproduced; 1 beyond them: 1 hold."),
             "{page}"
         );
         assert!(
@@ -167,6 +167,6 @@ mod tests {
         let (experiment, ended) = (experiment(), Ended::Interrupted(outcome()));
         let page = markdown(&[(&experiment, &ended)], Length::Full);
         assert!(page.contains("| interrupted |") && !page.contains("| reproduced |"), "{page}");
-        assert!(page.contains("0 claims of the paper: none decided"), "{page}");
+        assert!(page.contains("0 claims of the papers: none decided"), "{page}");
     }
 }

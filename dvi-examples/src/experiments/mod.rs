@@ -1,18 +1,27 @@
 //! The experiments, a file each: one model and one picture.
 
+mod barnes;
 mod chaotic;
+mod double_pendulum;
 mod energy;
+mod kepler;
+mod kepler_frequency;
+mod kepler_long;
+mod kepler_steps;
+mod kepler_work;
 mod leapfrogging;
 mod momenta;
 mod order;
+mod oscillator;
 mod parasitic;
 mod quasi_periodic;
+mod rivals;
 mod sections;
 mod stability;
 
 use crate::gallery::Experiment;
 
-/// All experiments, in the order of the paper.
+/// All experiments, in the order of the papers: Rowley & Marsden, Kosmas & Vlachos, and what goes beyond.
 pub const ALL: &[Experiment] = &[
     order::EXPERIMENT,
     stability::EXPERIMENT,
@@ -22,4 +31,11 @@ pub const ALL: &[Experiment] = &[
     chaotic::EXPERIMENT,
     momenta::EXPERIMENT,
     parasitic::EXPERIMENT,
+    oscillator::EXPERIMENT,
+    kepler_steps::EXPERIMENT,
+    kepler_long::EXPERIMENT,
+    kepler_frequency::EXPERIMENT,
+    kepler_work::EXPERIMENT,
+    barnes::EXPERIMENT,
+    double_pendulum::EXPERIMENT,
 ];

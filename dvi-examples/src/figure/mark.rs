@@ -34,6 +34,11 @@ impl Stroke {
         Self { opacity, ..self }
     }
 
+    /// The colour, for marks that belong to the line.
+    pub fn colour(self) -> Colour {
+        self.colour
+    }
+
     fn pen(self) -> Pen {
         Pen { colour: self.colour, width: self.width, opacity: self.opacity, dash: self.dash }
     }

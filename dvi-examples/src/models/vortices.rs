@@ -1,4 +1,4 @@
-//! The systems of the gallery and the initial data of the papers.
+//! Point vortices, and the initial data of Rowley & Marsden 2002, section 5.
 
 use dvi_core::prelude::*;
 
@@ -18,18 +18,6 @@ use dvi_core::prelude::*;
 pub struct PointVortices<const N: usize> {
     /// The circulations Γ.
     pub gamma: [f64; N],
-}
-
-/// z' = iωz with z = x + iy: the test equation of stability.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = (x * d(y) - y * d(x)) / 2.0,
-    hamiltonian = omega / 2.0 * (x * x + y * y),
-)]
-#[derive(Clone, Debug)]
-pub struct Rotation {
-    /// The frequency ω.
-    pub omega: f64,
 }
 
 /// Four vortices.

@@ -1,0 +1,163 @@
+//! Runs on Kepler orbits, as the experiments on them measure them.
+
+use std::f64::consts::TAU;
+
+use anyhow::{Result, ensure};
+use dvi_core::prelude::*;
+use dvi_core::{Method, Statistics, StepControl, VariableStep};
+
+use crate::job::Job;
+use crate::models::{Kepler, Orbit};
+
+/// A run, with fixed or with controlled steps.
+pub trait Run {
+    fn advance(&mut self) -> Result<(), StepError>;
+    fn time(&self) -> f64;
+    fn q(&self) -> [f64; 2];
+    fn energy(&self) -> f64;
+    fn statistics(&self) -> Statistics;
+}
+
+/// What a run has shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Course {
+    /// Steps per period.
+    pub steps: f64,
+    /// Evaluations of the force per period, those with its derivative included.
+    pub evaluations: f64,
+    /// max |E − E(0)|.
+    pub energy: f64,
+    /// The largest distance from the exact position, where it was asked for.
+    pub position: f64,
+}
+
+/// What is known at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    pub t: f64,
+    /// E − E(0).
+    pub energy: f64,
+    pub q: [f64; 2],
+}
+
+/// A run that takes more steps for one period has left its orbit.
+const MOST_STEPS: u64 = 3_000_000;
+
+/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the end of
+/// each step to `look`.
+pub fn follow(
+    job: &Job<'_>,
+    run: &mut impl Run,
+    periods: u64,
+    mut look: impl FnMut(Sample),
+) -> Result<Course> {
+    let initial = run.energy();
+    let mut course = Course::default();
+    let mut done = 0;
+    while done < periods && !job.is_stopping() {
+        // Half a millionth of a period: what fixed steps may be short of.
+        let end = TAU * (done as f64 + 1.0 - 5e-7);
+        let mut steps = 0;
+        while run.time() < end {
+            ensure!(
+                steps < MOST_STEPS,
+                "more than {MOST_STEPS} steps for a period, at E = {:.3}",
+                run.energy()
+            );
+            steps += 1;
+            run.advance()?;
+            let t = run.time();
+            let sample = Sample { t, energy: run.energy() - initial, q: run.q() };
+            course.energy = course.energy.max(sample.energy.abs());
+            look(sample);
+        }
+        done += 1;
+        job.proceed(1);
+    }
+    if done < periods {
+        job.cut_short();
+    }
+    let statistics = run.statistics();
+    let per_period = |count: u64| count as f64 / done.max(1) as f64;
+    course.steps = per_period(statistics.steps);
+    course.evaluations = per_period(statistics.gradients + statistics.linearizations);
+    Ok(course)
+}
+
+/// Follows a run and compares it with the exact positions as well.
+pub fn compare(job: &Job<'_>, run: &mut impl Run, orbit: Orbit, periods: u64) -> Result<Course> {
+    let mut position = 0.0f64;
+    let course =
+        follow(job, run, periods, |sample| position = position.max(orbit.error(sample.t, &sample.q)))?;
+    Ok(Course { position, ..course })
+}
+
+/// A run with steps by (23), as printed.
+pub fn osculating<M: VariableStep<Kepler, f64>>(
+    method: M,
+    orbit: Orbit,
+    tolerance: f64,
+) -> Result<ControlledIntegrator<'static, Kepler, M, Osculating>, StartError> {
+    let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
+    ControlledIntegrator::new(&Kepler {}, method, control, orbit.pericentre())
+}
+
+impl<M: Method<Kepler, f64>> Run for Integrator<'_, Kepler, M> {
+    fn advance(&mut self) -> Result<(), StepError> {
+        Integrator::advance(self)
+    }
+    fn time(&self) -> f64 {
+        Integrator::time(self)
+    }
+    fn q(&self) -> [f64; 2] {
+        let q = Integrator::q(self);
+        [q[0], q[1]]
+    }
+    fn energy(&self) -> f64 {
+        Integrator::energy(self)
+    }
+    fn statistics(&self) -> Statistics {
+        Integrator::statistics(self)
+    }
+}
+
+impl<M, C> Run for ControlledIntegrator<'_, Kepler, M, C>
+where
+    M: VariableStep<Kepler, f64>,
+    C: StepControl<Kepler, f64>,
+{
+    fn advance(&mut self) -> Result<(), StepError> {
+        ControlledIntegrator::advance(self)
+    }
+    fn time(&self) -> f64 {
+        ControlledIntegrator::time(self)
+    }
+    fn q(&self) -> [f64; 2] {
+        let q = ControlledIntegrator::q(self);
+        [q[0], q[1]]
+    }
+    fn energy(&self) -> f64 {
+        ControlledIntegrator::energy(self)
+    }
+    fn statistics(&self) -> Statistics {
+        ControlledIntegrator::statistics(self)
+    }
+}
+
+/// A run with `steps` steps of the same length per period.
+pub fn fixed<M: Method<Kepler, f64>>(
+    method: M,
+    orbit: Orbit,
+    steps: f64,
+) -> Result<Integrator<'static, Kepler, M>, StartError> {
+    Integrator::new(&Kepler {}, method, TAU / steps, orbit.pericentre())
+}
+
+/// A run with steps in proportion to r^(3/2), about 1/ε of them per radian of the motion in the mean.
+pub fn reversible<M: VariableStep<Kepler, f64>>(
+    method: M,
+    orbit: Orbit,
+    epsilon: f64,
+) -> Result<ControlledIntegrator<'static, Kepler, M, Reversible>, StartError> {
+    ControlledIntegrator::new(&Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())
+}

@@ -1,0 +1,130 @@
+//! The state of the art on pure Kepler orbits, against which general methods must be seen.
+//!
+//! Both methods know that the force is 1/r². The leapfrog on the logarithmic Hamiltonian stays on the exact
+//! orbit and errs in the phase alone; regularisation makes the problem an oscillator, which phase fitting
+//! solves exactly.
+
+use std::f64::consts::TAU;
+
+use dvi_core::prelude::*;
+
+use super::kepler::Course;
+use crate::job::Job;
+use crate::models::{LeviCivita, LeviCivitaState, Orbit};
+
+/// What a rival has shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rival {
+    pub course: Course,
+    /// The largest distance |r + ex − (1 − e²)| from the conic section.
+    pub off_orbit: f64,
+}
+
+/// Physical time, summed with compensation.
+#[derive(Clone, Copy, Debug, Default)]
+struct Clock {
+    sum: f64,
+    rest: f64,
+}
+
+impl Clock {
+    fn advance(&mut self, dt: f64) {
+        let wanted = dt + self.rest;
+        let sum = self.sum + wanted;
+        self.rest = wanted - (sum - self.sum);
+        self.sum = sum;
+    }
+}
+
+impl Rival {
+    fn note(&mut self, orbit: Orbit, t: f64, [x, y]: [f64; 2], energy: f64) {
+        let Orbit { e } = orbit;
+        self.course.energy = self.course.energy.max((energy + 0.5).abs());
+        self.course.position = self.course.position.max(orbit.error(t, &[x, y]));
+        self.off_orbit = self.off_orbit.max((x.hypot(y) + e * x - (1.0 - e * e)).abs());
+    }
+}
+
+/// Takes `steps` steps for each of the periods, each of which counts as one unit of progress.
+fn by_period(
+    job: &Job<'_>,
+    steps: u32,
+    periods: u64,
+    mut step: impl FnMut() -> Result<(), StepError>,
+) -> Result<(), StepError> {
+    for _ in 0..periods {
+        if job.is_stopping() {
+            job.cut_short();
+            break;
+        }
+        (0..steps).try_for_each(|_| step())?;
+        job.proceed(1);
+    }
+    Ok(())
+}
+
+/// Leapfrog on Λ = ln(½p² + B) − ln(1/r), B = −E(0), with `steps` steps per period (Mikkola & Tanikawa 1999;
+/// Preto & Tremaine 1999): drift dq = p ds/(½p² + B), dt = ds/(½p² + B), kick dp = −q ds/r².
+pub fn logarithmic_hamiltonian(
+    job: &Job<'_>,
+    orbit: Orbit,
+    steps: u32,
+    periods: u64,
+) -> Result<Rival, StepError> {
+    let start = orbit.pericentre();
+    let (mut q, mut p) = ([start.x, start.y], [start.dot_x, start.dot_y]);
+    let (binding, ds) = (0.5, TAU / f64::from(steps));
+    let (mut clock, mut rival) = (Clock::default(), Rival::default());
+    // ds = dt/r advances by 2π each period, as the eccentric anomaly does.
+    by_period(job, steps, periods, || {
+        let drift = |q: [f64; 2], p: [f64; 2], clock: &mut Clock| {
+            let dt = 0.5 * ds / (0.5 * (p[0] * p[0] + p[1] * p[1]) + binding);
+            clock.advance(dt);
+            [q[0] + dt * p[0], q[1] + dt * p[1]]
+        };
+        q = drift(q, p, &mut clock);
+        let kick = ds / (q[0] * q[0] + q[1] * q[1]);
+        p = [p[0] - kick * q[0], p[1] - kick * q[1]];
+        q = drift(q, p, &mut clock);
+        let energy = 0.5 * (p[0] * p[0] + p[1] * p[1]) - 1.0 / q[0].hypot(q[1]);
+        rival.note(orbit, clock.sum, q, energy);
+        Ok(())
+    })?;
+    rival.course.steps = f64::from(steps);
+    rival.course.evaluations = f64::from(steps);
+    Ok(rival)
+}
+
+/// Levi-Civita's regularisation with the phase-fitted recursion, `steps` steps per period.
+///
+/// Time is the integral of |u|² over the exact oscillation:
+/// ∫|u|² ds = |u|²(h/2 + sin 2ωh/4ω) + |u'/ω|²(h/2 − sin 2ωh/4ω) + u·u' sin²(ωh)/ω², ω = ½.
+pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> anyhow::Result<Rival> {
+    const OMEGA: f64 = 0.5;
+    let Orbit { e } = orbit;
+    let h = TAU / f64::from(steps);
+    let start = LeviCivitaState { u: [(1.0 - e).sqrt(), 0.0], dot_u: [0.0, OMEGA * (1.0 + e).sqrt()] };
+    let method = Variational { fitting: Fitting::PhaseAndMomentum, ..Variational::trapezoid() };
+    let mut run = Integrator::new(&LeviCivita {}, method.phase_fitted(Constant(OMEGA)), h, start)?;
+    let (mut clock, mut rival) = (Clock::default(), Rival::default());
+    let (sin, half) = ((OMEGA * h).sin(), (2.0 * OMEGA * h).sin() / (4.0 * OMEGA));
+    by_period(job, steps, periods, || {
+        // The mass is one: velocities are momenta.
+        let square = |x: &[f64]| x[0] * x[0] + x[1] * x[1];
+        let (u, du) = (run.q(), run.memory().p());
+        let along = u[0] * du[0] + u[1] * du[1];
+        clock.advance(
+            square(u) * (0.5 * h + half)
+                + square(du) / (OMEGA * OMEGA) * (0.5 * h - half)
+                + along * (sin / OMEGA).powi(2),
+        );
+        run.advance()?;
+        let (u, du) = (run.q(), run.memory().p());
+        let position = [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]];
+        rival.note(orbit, clock.sum, position, (2.0 * square(du) - 1.0) / square(u));
+        Ok(())
+    })?;
+    rival.course.steps = f64::from(steps);
+    rival.course.evaluations = run.statistics().gradients as f64 / periods as f64;
+    Ok(rival)
+}

@@ -1,0 +1,11 @@
+//! The systems of the gallery and the initial data of the papers.
+
+mod double_pendulum;
+mod kepler;
+mod oscillators;
+mod vortices;
+
+pub use double_pendulum::*;
+pub use kepler::*;
+pub use oscillators::*;
+pub use vortices::*;
