@@ -26,15 +26,16 @@ pub(crate) struct Pair<T> {
     pub(crate) sinc: T,
 }
 
-/// Up to here the series are as accurate as the functions, and faster.
-const SERIES_TO: f64 = 2.5;
+/// Up to here the series are as accurate as the functions, and faster; beyond, doubling would lose digits near
+/// the zeros of sin u.
+const SERIES_TO: f64 = 0.25;
 
 /// (−1)ᵏ/(2k)! and (−1)ᵏ/(2k + 1)!.
 #[rustfmt::skip]
-const SERIES: [[f64; 12]; 2] = {
-    let mut table = [[0.0; 12]; 2];
+const SERIES: [[f64; 8]; 2] = {
+    let mut table = [[0.0; 8]; 2];
     let (mut even, mut k) = (1.0, 0);
-    while k < 12 {
+    while k < 8 {
         let odd = even / (2 * k + 1) as f64;
         table[0][k] = even;
         table[1][k] = odd;
@@ -46,12 +47,12 @@ const SERIES: [[f64; 12]; 2] = {
 
 /// Σ cₖ zᵏ, by pairs of pairs, so that the terms do not wait for one another.
 #[inline(always)]
-fn sum_series<T: Real>(c: &[f64; 12], z: T) -> T {
+fn sum_series<T: Real>(c: &[f64; 8], z: T) -> T {
     let (square, c) = (z * z, |k: usize| T::lift(c[k]));
     let fourth = square * square;
     let pair = |k: usize| c(k) + c(k + 1) * z;
     let four = |k: usize| pair(k) + pair(k + 2) * square;
-    four(0) + (four(4) + four(8) * fourth) * fourth
+    four(0) + four(4) * fourth
 }
 
 impl<T: Real> Pair<T> {
@@ -74,8 +75,8 @@ impl<T: Real> Pair<T> {
     }
 }
 
-/// The bases of all nodes for one u, with as few sines and cosines as the nodes allow: one of each for 0, ½
-/// and 1.
+/// The bases of all nodes for one u, with as few sines and cosines as the nodes allow: none for 0, ½ and 1 if u is
+/// small.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bases<T> {
     u: T,
@@ -90,7 +91,7 @@ impl<T: Real> Bases<T> {
     pub(crate) fn new(u: T) -> Self {
         let middle = u * T::lift(0.5);
         let half = Pair::at(middle);
-        let whole = half.doubled(middle);
+        let whole = if middle * middle <= T::lift(SERIES_TO) { half.doubled(middle) } else { Pair::at(u) };
         Self { u, half, whole, reciprocal: T::lift(1.0) / whole.sinc }
     }
 

@@ -64,7 +64,12 @@ fn advance<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    motion.guess(step.h, &mut work.increment);
+    if step.method.is_explicit() {
+        // No guess is needed, and none rounds less.
+        work.increment.fill(T::lift(0.0));
+    } else {
+        motion.guess(step.h, &mut work.increment);
+    }
     // Every run of a separable system has it.
     let Motion { p, force, mass: Some(mass), .. } = motion else { return Ok(()) };
     let mut attempt =
@@ -119,7 +124,8 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     #[inline(always)]
     fn solve(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         if self.step.method.is_explicit() {
-            self.improve(|sums| T::lift(1.0) / sums.mixed);
+            // Divided: this one has no iteration that corrects the rounding of a reciprocal.
+            self.improve(|residual, sums| residual / sums.mixed);
             return norm::finite(&self.work.increment);
         }
         let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
@@ -129,7 +135,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
             if self.step.method.reads_both_ends() {
                 self.read_both_ends()?;
             }
-            let correction = self.improve(|sums| sums.compliance);
+            let correction = self.improve(|residual, sums| residual * sums.compliance);
             match convergence.judge(correction) {
                 Verdict::Continue => {}
                 verdict => break verdict,
@@ -172,9 +178,9 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         self.coefficients.set(self.step, T::lift(0.5) * (self.start + end))
     }
 
-    /// One iteration with M⁻¹ times the factor that `inverse` picks; returns the size of its correction.
+    /// One iteration, with the change that `solve` makes of a residual times M⁻¹; returns the size of its correction.
     #[inline(always)]
-    fn improve(&mut self, inverse: impl Fn(Sums<T>) -> T) -> T {
+    fn improve(&mut self, solve: impl Fn(T, Sums<T>) -> T) -> T {
         let h = self.step.h;
         self.work.momentum.copy_from_slice(self.p);
         for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
@@ -189,7 +195,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         for i in 0..self.q.len() {
             let sums = self.coefficients.sums(i);
             let residual = h * velocity[i] + sums.left * self.q[i] - sums.mixed * increment[i];
-            let change = residual * inverse(sums);
+            let change = solve(residual, sums);
             increment[i] += change;
             correction = norm::larger(correction, Scalar::abs(change));
         }

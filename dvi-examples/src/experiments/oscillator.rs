@@ -180,10 +180,10 @@ fn claims(rows: &[Row], all: &[Errors]) -> Result<Vec<Claim>> {
         let well = row.recursion.iter().filter(|[u, _]| condition(*u) >= 0.1).map(|[_, error]| *error);
         best_placed = well.fold(best_placed, f64::max);
         let quantity = format!("{name}: largest error of the recursion times |S sin u|, u = 0.1 … 3");
-        exact = exact.check(quantity, weighted, Bound::AtMost(1e-8));
+        exact = exact.check(quantity, weighted, Bound::AtMost(1e-9));
     }
     let exact =
-        exact.check("all rules: largest error where |S sin u| ≥ 0.1", best_placed, Bound::AtMost(2e-8));
+        exact.check("all rules: largest error where |S sin u| ≥ 0.1", best_placed, Bound::AtMost(1e-9));
     let at_one = |row: usize| rows[row].defect.iter().find(|[u, _]| *u == 1.0).map(|[_, s]| *s);
     let mut deviation = 0.0f64;
     for (row, (_, rule)) in rows.iter().zip(rules()?) {
