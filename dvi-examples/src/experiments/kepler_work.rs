@@ -108,7 +108,7 @@ fn contenders() -> Vec<Contender> {
         },
         Contender {
             name: "Galerkin, order 4",
-            stroke: Stroke::solid(PURPLE).width(1.2),
+            stroke: Stroke::solid(PURPLE).opacity(0.4),
             knobs: LONG_EPSILONS,
             run: |job, orbit, epsilon, periods| {
                 compare(job, &mut reversible(Galerkin::<3>::new(), orbit, epsilon)?, orbit, periods)
