@@ -1,6 +1,8 @@
 //! What can be measured on a run: parasitic modes, preserved two-forms, sections, Lyapunov exponents.
 //!
-//! Energy and momenta are methods of [`Integrator`](crate::Integrator).
+//! Energy and momenta are methods of [`Integrator`](crate::Integrator). The tangent maps here are those of the
+//! σ-family. The exact tangent map of any other method is its run on numbers that carry a derivative: runs are
+//! generic over [`Real`](crate::Real), which the dual numbers of the crate num-dual are.
 
 mod alternating;
 mod convergence;

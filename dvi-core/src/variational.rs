@@ -41,13 +41,15 @@ pub enum Fitting {
 /// |---|---|---|
 /// | [`trapezoid`](Self::trapezoid), unfitted: Störmer–Verlet | explicit: one ∂L/∂q, no iteration, no factorisation | 2 |
 /// | [`sigma`](Self::sigma) with σ = 0 or 1: symplectic Euler | explicit | 1 |
+/// | the same two, fitted to a frequency that is given or left-frozen | explicit | 2 and 1 |
 /// | symmetric rules | implicit in q1 | 2 |
 /// | others | implicit in q1 | 1 |
 ///
 /// The order is two for every symmetric rule, however many nodes it has, because the interpolation between
 /// two points is; [`Galerkin`](crate::Galerkin) has more. Other Lagrangians take the implicit step. Starts
-/// from p0 = ∂L/∂v(q0, v0). Preserves dq ∧ dp and the momentum maps of symmetries that act linearly,
-/// unless the frequency is read from the motion without being differentiated ([`Reading`]).
+/// from p0 = ∂L/∂v(q0, v0). Preserves the momentum maps of symmetries that act linearly and leave the
+/// frequency as it is, and dq ∧ dp unless the frequency is read from the motion without being differentiated
+/// ([`Reading`]).
 ///
 /// On the oscillator of the fitted frequency each step is exact, whatever the rule, where sin u ≠ 0 and
 /// S ≠ 0, u = ωh; near a zero of either it ends with [`StepFailure::Resonance`]. It is not translation

@@ -93,3 +93,24 @@ fn the_defect_of_a_frozen_frequency_is_of_third_order() -> Outcome {
     assert!((order - 3.0).abs() < 0.2, "{order}: {defects:?}");
     Ok(())
 }
+
+#[test]
+fn compositions_preserve_what_their_method_does() -> Outcome {
+    let (kepler, start) = (Kepler { mu: 1.0 }, (vec![0.7, 0.1], vec![0.2, 1.3]));
+    let pendulums = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
+    let verlet = Variational::trapezoid();
+    for composition in [
+        Composition::triple_jump(verlet),
+        Composition::suzuki(verlet),
+        Composition::yoshida(verlet),
+        Composition::kahan_li_6(verlet),
+        Composition::suzuki_umeno(verlet),
+        Composition::kahan_li_8(verlet),
+    ] {
+        check(&kepler, composition, 0.1, &start)?;
+    }
+    check(&pendulums, Composition::suzuki(Variational::midpoint()), 0.1, &(vec![1.2, -0.4], vec![0.3, 0.9]))?;
+    let fitted = Variational::simpson().phase_fitted(Radial(Reading::Variational));
+    check(&kepler, Composition::suzuki(fitted), 0.1, &start)?;
+    check(&kepler, Composition::suzuki(fitted.phase_fitted(Radial(Reading::Averaged))), 0.1, &start)
+}
