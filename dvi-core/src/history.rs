@@ -3,7 +3,7 @@
 //! The guess is the value at the next step of the polynomial through the last m increments:
 //! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
 
-use crate::{Lagrangian, Real, Space, Vector};
+use crate::{Lagrangian, Real, Scalar, Space, Vector};
 
 /// How many increments are kept.
 ///
@@ -87,6 +87,14 @@ impl<S: Lagrangian, T: Real> History<S, T> {
             self.len += 1;
         }
     }
+}
+
+/// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same
+/// sign, and neither is twice as long as the other.
+#[inline(always)]
+pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
+    let [size, last_size] = [h, last].map(Scalar::abs);
+    h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size
 }
 
 #[cfg(test)]

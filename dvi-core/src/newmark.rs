@@ -8,7 +8,7 @@
 //! p½ = p0 + (h/2)F0,   x1 = x0 + h M⁻¹[p½ + βh(F1 − F0)],   p1 = p½ + (h/2)F1.
 
 use crate::error::{StartError, StepFailure};
-use crate::history::History;
+use crate::history::{History, is_similar};
 use crate::mass::Mass;
 use crate::method::{Method, PreservedForm, Scheme};
 use crate::norm::{self, reported};
@@ -163,11 +163,6 @@ impl<S: RegularLagrangian, T: Real> NewmarkMemory<S, T> {
         self.history.push(increment.iter().map(|&delta| delta * per_h));
         Ok(())
     }
-}
-
-fn is_similar<T: Real>(h: T, last: T) -> bool {
-    let ratio = h / last;
-    ratio > T::lift(0.5) && ratio < T::lift(2.0)
 }
 
 impl<T: Real> Newmark<T> {

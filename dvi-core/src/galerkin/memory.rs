@@ -4,7 +4,7 @@ use super::Step;
 use super::coefficients::{Coefficients, differentiation};
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{FrequencyIn, Local};
-use crate::history::History;
+use crate::history::{History, is_similar};
 use crate::legendre::Legendre;
 use crate::mass::Mass;
 use crate::quadrature::Quadrature;
@@ -114,7 +114,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
     /// the path is straight, and its velocity is taken from the momentum if L is separable.
     #[inline(always)]
     pub(super) fn guess<F>(&mut self, step: &Step<'_, NODES, S, F, T>, q: &[T]) {
-        let similar = self.is_similar(step.h);
+        let similar = is_similar(step.h, self.last_step);
         let [start, interior @ .., increment] = &mut self.work.unknowns[..] else { return };
         start.copy_from_slice(q);
         for (displacement, history) in interior.iter_mut().zip(&self.histories[1..]) {
@@ -130,12 +130,6 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
             _ => self.histories[NODES - 1].extrapolate(increment),
         }
         scale(increment, step.h);
-    }
-
-    #[inline(always)]
-    fn is_similar(&self, h: T) -> bool {
-        let ratio = h / self.last_step;
-        ratio > T::lift(0.5) && ratio < T::lift(2.0)
     }
 
     /// max|q0| + max|Δ|, by which errors are measured.
@@ -189,7 +183,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
         }
         q.copy_from_slice(next);
         self.p.copy_from_slice(momentum);
-        let similar = self.is_similar(h);
+        let similar = is_similar(h, self.last_step);
         self.last_step = h;
         let per_h = T::lift(1.0) / h;
         for k in 1..NODES {

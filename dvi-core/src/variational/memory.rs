@@ -4,12 +4,12 @@ use super::coefficients::{Adjustable, Each, Uniform};
 use super::{Step, Variational};
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{FrequencyIn, Local};
-use crate::history::History;
+use crate::history::{History, is_similar};
 use crate::legendre::Legendre;
 use crate::mass::Mass;
 use crate::quadrature::Rule;
 use crate::solver::Solver;
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, norm};
+use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector, norm};
 
 /// The momentum of a run of the quadrature family, its guesses and its work space.
 #[derive(Debug)]
@@ -149,7 +149,7 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
     #[inline(always)]
     pub(super) fn guess(&self, h: T, increment: &mut [T]) {
         match &self.mass {
-            Some(mass) if !self.is_similar(h) => mass.solve(&self.p, increment),
+            Some(mass) if !is_similar(h, self.last_step) => mass.solve(&self.p, increment),
             _ => self.history.extrapolate(increment),
         }
         for delta in increment {
@@ -157,20 +157,10 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
         }
     }
 
-    /// Whether a step of length `h` is about as long as the step before.
-    #[inline(always)]
-    fn is_similar(&self, h: T) -> bool {
-        let (twice, last) = (h + h, self.last_step);
-        // Of the same sign, and less than twice as long either way.
-        h * last > T::lift(0.0)
-            && Scalar::abs(twice) > Scalar::abs(last)
-            && Scalar::abs(h) < Scalar::abs(last + last)
-    }
-
     /// Remembers a completed step of length `h` with this `increment`.
     #[inline(always)]
     pub(super) fn remember(&mut self, h: T, increment: &[T]) {
-        if !self.is_similar(h) {
+        if !is_similar(h, self.last_step) {
             self.history.clear();
         }
         self.last_step = h;
