@@ -78,10 +78,22 @@ impl<S: Lagrangian, T: Real> History<S, T> {
 
     /// Remembers the increment of a completed step.
     #[inline(always)]
-    pub(crate) fn push(&mut self, increment: impl IntoIterator<Item = T>) {
-        for (kept, x) in self.ring[self.next].iter_mut().zip(increment) {
-            *kept = x;
+    pub(crate) fn push(&mut self, increment: &[T]) {
+        self.ring[self.next].copy_from_slice(increment);
+        self.advance();
+    }
+
+    /// The same, times `factor`.
+    #[inline(always)]
+    pub(crate) fn push_scaled(&mut self, increment: &[T], factor: T) {
+        for (kept, &x) in self.ring[self.next].iter_mut().zip(increment) {
+            *kept = x * factor;
         }
+        self.advance();
+    }
+
+    #[inline(always)]
+    fn advance(&mut self) {
         self.next = if self.next + 1 < DEPTH { self.next + 1 } else { 0 };
         if self.len < DEPTH {
             self.len += 1;

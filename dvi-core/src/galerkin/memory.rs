@@ -191,7 +191,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
                 self.histories[k].clear();
             }
             let factor = if k == NODES - 1 { per_h } else { per_h * per_h };
-            self.histories[k].push(self.work.unknowns[k].iter().map(|&x| x * factor));
+            self.histories[k].push_scaled(&self.work.unknowns[k], factor);
         }
         Ok(())
     }

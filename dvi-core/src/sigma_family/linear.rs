@@ -219,14 +219,14 @@ fn finish<S: DegenerateLagrangian, T: Real>(
     let SigmaMemory { defect, history, product, work, defect_vanishes, .. } = memory;
     if *defect_vanishes {
         advance(step, q, &work.increment, &mut work.next)?;
-        history.push(work.increment.iter().copied());
+        history.push(&work.increment);
         return Ok(());
     }
     for ((delta, &s), &shift) in work.trial.iter_mut().zip(work.increment.iter()).zip(work.shift.iter()) {
         *delta = shift + s;
     }
     advance(step, q, &work.trial, &mut work.next)?;
-    history.push(work.increment.iter().copied());
+    history.push(&work.increment);
     match product {
         None => defect.iter_mut().for_each(|c| *c = -*c),
         Some(product) => {

@@ -165,6 +165,6 @@ fn finish<S: DegenerateLagrangian, T: Real>(
     q.copy_from_slice(next);
     defect.copy_from_slice(momentum);
     one_form.copy_from_slice(trial);
-    history.push(increment.iter().copied());
+    history.push(increment);
     Ok(())
 }

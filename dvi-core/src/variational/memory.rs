@@ -164,8 +164,7 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
             self.history.clear();
         }
         self.last_step = h;
-        let per_h = T::lift(1.0) / h;
-        self.history.push(increment.iter().map(|&delta| delta * per_h));
+        self.history.push_scaled(increment, T::lift(1.0) / h);
     }
 
     /// Takes over all that the next step can depend on.
