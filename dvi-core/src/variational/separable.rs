@@ -4,10 +4,10 @@
 //! p1 = p0 + (D₁ + D₂)L_d = p0 + M((A − K) q0 + (C − K) q1)/h + h Σ w (b + b̄) F(qʲ)
 //!
 //! κ contains the oscillator of the fitted frequency, so that only what differs from it is iterated. Where no
-//! node lies between the ends and the frequency does not depend on q1, r is linear in q1: with K in place of κ
-//! the first iterate is the solution, and the step is explicit.
+//! node lies between the ends and the frequency does not depend on q1, r is linear in q1 and the step explicit:
+//! p½ = p0 + h Σ w F(q0) + M(A − K)q0/h,   q1 = q0 + (h/K) M⁻¹p½,   p1 = p½ + h Σ w F(q1) + M(C − K)q1/h.
 
-use super::coefficients::{Adjustable, Sums, Uniform};
+use super::coefficients::{Adjustable, Uniform};
 use super::memory::{Interpolation, Motion, VariationalMemory, Work};
 use super::{Step, general};
 use crate::basis::Basis;
@@ -64,18 +64,21 @@ fn advance<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    if step.method.is_explicit() {
-        // No guess is needed, and none rounds less.
-        work.increment.fill(T::lift(0.0));
-    } else {
+    if !step.method.is_explicit() {
         motion.guess(step.h, &mut work.increment);
     }
     // Every run of a separable system has it.
     let Motion { p, force, mass: Some(mass), .. } = motion else { return Ok(()) };
     let mut attempt =
         Attempt { step, coefficients, mass, p, force, q, work, start: T::lift(0.0), gradients: 0 };
-    let result =
-        attempt.read_start().and_then(|()| attempt.solve(statistics)).and_then(|()| attempt.finish());
+    let result = attempt.read_start().and_then(|()| {
+        if step.method.is_explicit() {
+            attempt.kick_drift_kick();
+            return Ok(());
+        }
+        attempt.solve(statistics)?;
+        attempt.finish()
+    });
     statistics.gradients += attempt.gradients;
     result?;
     norm::finite(&work.next).and(norm::finite(&work.momentum)).and(norm::finite(&work.gradient))?;
@@ -123,11 +126,6 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     /// Δ.
     #[inline(always)]
     fn solve(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        if self.step.method.is_explicit() {
-            // Divided: this one has no iteration that corrects the rounding of a reciprocal.
-            self.improve(|residual, sums| residual / sums.mixed);
-            return norm::finite(&self.work.increment);
-        }
         let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
         let stopping = self.step.method.stopping;
         let mut convergence = Convergence::new(stopping, scale, self.step.budget(self.q.len()));
@@ -135,7 +133,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
             if self.step.method.reads_both_ends() {
                 self.read_both_ends()?;
             }
-            let correction = self.improve(|residual, sums| residual * sums.compliance);
+            let correction = self.improve();
             match convergence.judge(correction) {
                 Verdict::Continue => {}
                 verdict => break verdict,
@@ -178,9 +176,9 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         self.coefficients.set(self.step, T::lift(0.5) * (self.start + end))
     }
 
-    /// One iteration, with the change that `solve` makes of a residual times M⁻¹; returns the size of its correction.
+    /// One iteration; returns the size of its correction.
     #[inline(always)]
-    fn improve(&mut self, solve: impl Fn(T, Sums<T>) -> T) -> T {
+    fn improve(&mut self) -> T {
         let h = self.step.h;
         self.work.momentum.copy_from_slice(self.p);
         for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
@@ -195,7 +193,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         for i in 0..self.q.len() {
             let sums = self.coefficients.sums(i);
             let residual = h * velocity[i] + sums.left * self.q[i] - sums.mixed * increment[i];
-            let change = solve(residual, sums);
+            let change = residual * sums.compliance;
             increment[i] += change;
             correction = norm::larger(correction, Scalar::abs(change));
         }
@@ -223,6 +221,40 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         for (i, (p, &f)) in momentum.iter_mut().zip(force).enumerate() {
             *p += weight * share(self.coefficients.basis(node, i)) * f;
         }
+    }
+
+    /// q1, F(q1) and p1 without iteration, where no node lies between the ends.
+    #[inline(always)]
+    fn kick_drift_kick(&mut self) {
+        self.work.momentum.copy_from_slice(self.p);
+        self.kick_at(0.0);
+        let Work { momentum, velocity, increment, .. } = &mut *self.work;
+        self.mass.solve(momentum, velocity);
+        for (i, (delta, &v)) in increment.iter_mut().zip(velocity.iter()).enumerate() {
+            *delta = self.step.h * v / self.coefficients.sums(i).mixed;
+        }
+        self.reach();
+        self.kick_at(1.0);
+    }
+
+    /// What the end `c` of the step adds to `momentum`.
+    #[inline(always)]
+    fn kick_at(&mut self, c: f64) {
+        for node in 0..self.step.method.rule.nodes().len() {
+            if self.step.method.rule.nodes()[node] == c {
+                self.kick(node, c, |_| T::lift(1.0));
+            }
+        }
+        if F::UNFITTED {
+            return;
+        }
+        let Work { next, momentum, velocity, .. } = &mut *self.work;
+        let point: &[T] = if c == 0.0 { self.q } else { next };
+        for (i, (v, &q)) in velocity.iter_mut().zip(point).enumerate() {
+            let sums = self.coefficients.sums(i);
+            *v = if c == 0.0 { sums.left } else { sums.right } * q;
+        }
+        self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
     }
 
     /// q1, F(q1) and p1.

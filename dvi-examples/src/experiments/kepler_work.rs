@@ -215,11 +215,8 @@ fn claims(job: &Job<'_>, curves: &[Curve], [leapfrog, regular]: [rivals::Rival; 
             BEYOND,
             "regularised, Kepler's problem is an oscillator, and phase fitting is exact at 8 steps a period",
         )
-        .check("evaluations per period", regular.course.evaluations, Bound::Near(8.0, 1e-9))
-        // At 8 steps a period the points repeat, and so do their rounding errors: they add up, by up to 1e-16 of
-        // the energy in each of 8e5 steps, and the time of an orbit follows the energy.
-        .check("max|ΔE|", regular.course.energy, Bound::AtMost(8e-11))
-        .check("largest position error", regular.course.position, Bound::AtMost(1e-5)),
+        .check("max|ΔE|", regular.course.energy, Bound::AtMost(1e-12))
+        .check("largest position error", regular.course.position, Bound::AtMost(1e-8)),
     ]
 }
 
