@@ -21,40 +21,49 @@ use quote::{format_ident, quote};
 use syn::{Ident, Path};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
+use crate::internal::internal;
 use crate::model::{Model, Shape};
-use crate::program::{Output, Place, Statement};
-use crate::schedule::{Step, schedule};
-use crate::select::select;
-use crate::symbolic::{Atom, Binder, Coordinate, Graph, Index, Node, Parameter, Relation, Weight};
+use crate::program::{Output, Place};
+use crate::routine::Routine;
+use crate::schedule::{Accumulated, Step};
+use crate::symbolic::{
+    Atom, Coordinate, Fold, Graph, Id, Index, Loop, Node, Parameter, Range, Relation, Weight,
+};
 
 pub(crate) struct Emitter<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) model: &'a Model,
 }
 
-/// One function on its way to tokens.
-struct Function<'a> {
+/// One scope of a function on its way to tokens: its body, or that of a loop.
+struct Scope<'a> {
     emitter: &'a Emitter<'a>,
-    code: &'a Instructions,
-    statements: &'a [Statement],
+    routine: &'a Routine,
     /// Registers that are written into the one expression that uses them.
-    inlined: Vec<bool>,
+    inlined: &'a [bool],
+    loops: Vec<Loop>,
+    /// Whether loops run inside. They may be empty, and what stands here for their sake may then reach
+    /// beyond an array.
+    has_loops: bool,
 }
 
 pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
     Ident::new(&format!("__{name}"), Span::mixed_site())
 }
 
-fn bound(level: u32) -> Ident {
-    local(format_args!("i{level}"))
+fn open(depth: u32) -> Ident {
+    local(format_args!("i{depth}"))
 }
 
 fn name(register: Register) -> Ident {
     local(format_args!("r{}", register.0))
 }
 
-fn plain(value: i64) -> Literal {
-    Literal::usize_suffixed(usize::try_from(value).unwrap_or(0))
+fn plain(value: u64) -> Literal {
+    match usize::try_from(value) {
+        Ok(value) => Literal::usize_suffixed(value),
+        Err(_) => internal("an index beyond all sizes"),
+    }
 }
 
 impl Emitter<'_> {
@@ -62,19 +71,19 @@ impl Emitter<'_> {
         &self.model.crate_path
     }
 
-    /// The body of a function that carries out the statements.
-    pub(crate) fn body(&self, statements: &[Statement]) -> TokenStream {
-        let (code, values) = select(self.graph, statements);
-        let steps = schedule(&code, statements, &values);
+    /// The body of a function that carries out its statements.
+    pub(crate) fn body(&self, routine: &Routine) -> TokenStream {
+        let code = &routine.code;
         let mut uses = vec![0_u32; code.len()];
         let mut elsewhere = vec![false; code.len()];
-        count_uses(&code, &steps, &mut uses, &mut elsewhere);
+        count_uses(code, &routine.steps, &mut uses, &mut elsewhere);
         let inlined = (0..code.len()).map(|position| {
             let leaf = matches!(code.get(Register(position as u32)), Instruction::Literal(_));
             leaf || (uses[position] == 1 && !elsewhere[position])
         });
-        let inlined = inlined.collect();
-        Function { emitter: self, code: &code, statements, inlined }.steps(&steps)
+        let inlined: Vec<bool> = inlined.collect();
+        let scope = Scope { emitter: self, routine, inlined: &inlined, loops: Vec::new(), has_loops: false };
+        scope.steps(&routine.steps)
     }
 
     /// An index as an expression of type `usize`; negative intermediate values do not occur.
@@ -91,11 +100,11 @@ impl Emitter<'_> {
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (atom, coefficient) in &index.terms {
             let atom = self.atom(atom);
-            let factor = plain(coefficient.abs());
+            let factor = plain(coefficient.unsigned_abs());
             let term = if coefficient.abs() == 1 { atom } else { quote!(#factor * #atom) };
             if *coefficient > 0 { above.push(term) } else { below.push(term) }
         }
-        let constant = plain(index.constant.abs());
+        let constant = plain(index.constant.unsigned_abs());
         match index.constant {
             0 if !above.is_empty() => {}
             0.. => above.push(quote!(#constant)),
@@ -107,10 +116,11 @@ impl Emitter<'_> {
 
     fn atom(&self, atom: &Atom) -> TokenStream {
         match atom {
-            Atom::Bound(level) => {
-                let bound = bound(*level);
-                quote!(#bound)
+            Atom::Open(depth) => {
+                let open = open(*depth);
+                quote!(#open)
             }
+            Atom::Bound(_) => internal("an index outside of its sum"),
             Atom::Size(size) => self.size(size.0),
             Atom::Remainder(value, modulus) => {
                 let krate = self.krate();
@@ -135,8 +145,8 @@ impl Emitter<'_> {
                     let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
                     quote!(#krate::__private::remainder(#value, #modulus))
                 }
-                other => {
-                    let value = self.atom(other);
+                Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => {
+                    let value = self.atom(atom);
                     quote!((#value as i64))
                 }
             };
@@ -146,18 +156,31 @@ impl Emitter<'_> {
         quote!((#(#terms)+*))
     }
 
-    pub(crate) fn range(&self, binder: &Binder) -> TokenStream {
-        let (lower, upper) = (self.range_bound(&binder.lower), self.range_bound(&binder.upper));
+    pub(crate) fn range(&self, range: &Range) -> TokenStream {
+        let (lower, upper) = (self.range_bound(&range.lower), self.range_bound(&range.upper));
         quote!((#lower)..(#upper))
     }
 
-    pub(crate) fn loop_over(&self, binder: &Binder, body: &TokenStream) -> TokenStream {
-        let (index, range) = (bound(binder.level), self.range(binder));
-        let except = binder.except.as_ref().map(|except| {
+    pub(crate) fn loop_over(&self, over: &Loop, body: &TokenStream) -> TokenStream {
+        let (index, range) = (open(over.depth), self.range(&over.range));
+        let except = over.range.except.iter().map(|except| {
             let except = self.index(except);
             quote!(if #index == #except { continue; })
         });
-        quote!(for #index in #range { #except #body })
+        quote!(for #index in #range { #(#except)* #body })
+    }
+
+    /// Whether an index cannot leave 0..`length`, whatever the sizes are.
+    pub(crate) fn stays_inside(&self, index: &Index, length: &Index, loops: &[Loop]) -> bool {
+        let is_natural = |index: &Index| index.as_literal().is_some_and(|value| value >= 0);
+        match (index.constant, index.terms.as_slice()) {
+            (_, []) => is_natural(index) && length.as_literal().is_some_and(|length| index.constant < length),
+            (0, [(Atom::Open(depth), 1)]) => {
+                loops.iter().any(|over| over.depth == *depth && over.range.upper == *length)
+            }
+            (0, [(Atom::Remainder(_, modulus), 1)]) => **modulus == *length,
+            _ => false,
+        }
     }
 }
 
@@ -177,10 +200,10 @@ fn count_uses(
                 used.extend(code.get(*register).operands());
             }
             Step::Write(_, value) => used.push(value.register),
-            Step::Loop { sums, body, .. } => {
-                defined.extend(sums.iter().map(|(result, _)| *result));
+            Step::Loop { folds, body, .. } => {
+                defined.extend(folds.iter().map(|fold| fold.result));
                 let inner = count_uses(code, body, uses, elsewhere);
-                inner.into_iter().chain(sums.iter().map(|(_, body)| *body)).for_each(|register| {
+                inner.into_iter().chain(folds.iter().map(|fold| fold.body.register)).for_each(|register| {
                     elsewhere[register.0 as usize] = true;
                 });
             }
@@ -191,9 +214,11 @@ fn count_uses(
     used
 }
 
-impl Function<'_> {
+impl Scope<'_> {
     fn steps(&self, steps: &[Step]) -> TokenStream {
-        steps.iter().map(|step| self.step(step)).collect()
+        let has_loops = steps.iter().any(|step| matches!(step, Step::Loop { .. }));
+        let scope = Scope { loops: self.loops.clone(), has_loops, ..*self };
+        steps.iter().map(|step| scope.step(step)).collect()
     }
 
     fn step(&self, step: &Step) -> TokenStream {
@@ -203,38 +228,61 @@ impl Function<'_> {
                 let (name, value) = (name(*register), self.instruction(*register));
                 quote!(let #name = #value;)
             }
-            Step::Loop { binder, sums, body } => {
-                let krate = self.emitter.krate();
-                let names: Vec<Ident> = sums.iter().map(|(result, _)| name(*result)).collect();
-                let bodies = sums.iter().map(|(_, body)| self.register(*body));
-                let inner = self.steps(body);
-                let body = quote!(#inner #(#names += #bodies;)*);
-                let repeated = self.emitter.loop_over(binder, &body);
-                quote! {
-                    #(let mut #names = <__T as #krate::Scalar>::lift(-0.0);)*
-                    #repeated
+            Step::Loop { over, folds, body } => {
+                let loops = self.loops.iter().chain([over]).cloned().collect();
+                let inside = Scope { loops, ..*self };
+                let mut begin = TokenStream::new();
+                let mut accumulate = inside.steps(body);
+                for Accumulated { fold, result, body } in folds {
+                    let (krate, name) = (self.emitter.krate(), name(*result));
+                    let body = inside.signed(*body);
+                    let (neutral, join) = match fold {
+                        Fold::Sum => (quote!(-0.0), quote!(#name += #body;)),
+                        Fold::Product => (quote!(1.0), quote!(#name = #name * #body;)),
+                    };
+                    begin.extend(quote!(let mut #name = <__T as #krate::Scalar>::lift(#neutral);));
+                    accumulate.extend(join);
                 }
+                let repeated = self.emitter.loop_over(over, &accumulate);
+                quote!(#begin #repeated)
             }
-            Step::Write(statement, value) => self.write(&self.statements[*statement].place, *value),
+            Step::Write(statement, value) => self.write(&self.routine.statements[*statement].place, *value),
         }
     }
 
     fn write(&self, place: &Place, value: Signed) -> TokenStream {
-        let target = match place {
+        let (target, conditions) = match place {
             Place::Result => return self.signed(value),
             Place::Entry(output, coordinate) => {
                 let array =
                     format_ident!("{}", output_block(*output, coordinate.block), span = Span::mixed_site());
                 let index = self.emitter.index(&coordinate.index);
-                quote!(#array[#index])
+                (quote!(#array[#index]), vec![self.condition(coordinate)])
             }
             Place::MatrixEntry(row, column) => {
+                let conditions = vec![self.condition(row), self.condition(column)];
                 let (row, column) = (self.flat(row), self.flat(column));
-                quote!(__matrix[(#row) * __dimension + #column])
+                (quote!(__matrix[(#row) * __dimension + #column]), conditions)
             }
         };
         let register = self.register(value.register);
-        if value.negative { quote!(#target -= #register;) } else { quote!(#target += #register;) }
+        let write = match value.negative {
+            true => quote!(#target -= #register;),
+            false => quote!(#target += #register;),
+        };
+        let conditions: Vec<TokenStream> = conditions.into_iter().flatten().collect();
+        if conditions.is_empty() { write } else { quote!(if #(#conditions)&&* { #write }) }
+    }
+
+    /// What must hold for an entry to be there, where that is not certain: this scope may touch it for the
+    /// sake of an inner loop that is empty.
+    fn condition(&self, coordinate: &Coordinate) -> Option<TokenStream> {
+        let length = self.emitter.model.block_size(coordinate.block as usize);
+        if !self.has_loops || self.emitter.stays_inside(&coordinate.index, &length, &self.loops) {
+            return None;
+        }
+        let (index, length) = (self.emitter.index(&coordinate.index), self.emitter.index(&length));
+        Some(quote!((#index) < (#length)))
     }
 
     /// The position of a coordinate in a flat slice.
@@ -247,7 +295,7 @@ impl Function<'_> {
     fn register(&self, register: Register) -> TokenStream {
         if self.inlined[register.0 as usize] {
             let value = self.instruction(register);
-            match self.code.get(register) {
+            match self.routine.code.get(register) {
                 Instruction::Leaf(_) | Instruction::Literal(_) | Instruction::Reduce(..) => value,
                 _ => quote!((#value)),
             }
@@ -265,8 +313,8 @@ impl Function<'_> {
     fn instruction(&self, register: Register) -> TokenStream {
         let krate = self.emitter.krate();
         let scalar = quote!(<__T as #krate::Scalar>);
-        match self.code.get(register) {
-            Instruction::Leaf(id) => self.emitter.leaf(*id),
+        match self.routine.code.get(register) {
+            Instruction::Leaf(id) => self.leaf(*id),
             Instruction::Literal(bits) => {
                 let value = literal(f64::from_bits(*bits));
                 quote!(#scalar::lift(#value))
@@ -328,20 +376,15 @@ impl Function<'_> {
         }
         tokens
     }
-}
 
-impl Emitter<'_> {
-    fn leaf(&self, id: crate::symbolic::Id) -> TokenStream {
-        let krate = self.krate();
-        match self.graph.node(id) {
+    fn leaf(&self, id: Id) -> TokenStream {
+        let krate = self.emitter.krate();
+        match self.emitter.graph.node(id) {
             Node::Coordinate(coordinate) => self.gather("q", coordinate),
             Node::Velocity(coordinate) => self.gather("v", coordinate),
-            Node::Parameter(parameter) => {
-                let place = self.parameter(parameter);
-                quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place)))
-            }
+            Node::Parameter(parameter) => self.parameter(parameter),
             Node::Count(index) => {
-                let index = self.signed_index(index);
+                let index = self.emitter.signed_index(index);
                 quote!(<__T as #krate::Scalar>::lift(#index as f64))
             }
             Node::Weight(weight) => match weight {
@@ -352,26 +395,52 @@ impl Emitter<'_> {
                 Weight::A => quote!(__a),
                 Weight::B => quote!(__b),
             },
-            _ => quote!(__t),
+            Node::Time => quote!(__t),
+            other => internal(format!("{other:?} is not a leaf")),
         }
     }
 
     fn gather(&self, array: &str, coordinate: &Coordinate) -> TokenStream {
         let array = local(format_args!("{array}{}", coordinate.block));
-        let index = self.index(&coordinate.index);
-        quote!(#array[#index])
+        let index = self.emitter.index(&coordinate.index);
+        self.guarded(self.condition(coordinate), &quote!(#array[#index]))
+    }
+
+    /// A value that is read where `condition` holds, and used only there.
+    fn guarded(&self, condition: Option<TokenStream>, value: &TokenStream) -> TokenStream {
+        let krate = self.emitter.krate();
+        match condition {
+            Some(condition) => {
+                quote!((if #condition { #value } else { <__T as #krate::Scalar>::lift(f64::NAN) }))
+            }
+            None => value.clone(),
+        }
     }
 
     fn parameter(&self, parameter: &Parameter) -> TokenStream {
-        let place = &self.model.parameters[parameter.field as usize];
-        let (tokens, indices) = (&place.tokens, parameter.indices.iter().map(|index| self.index(index)));
-        let indexed = quote!(#tokens #([#indices])*);
-        // A place of type `&f64` or `&[f64]` stays one; numbers are `Copy`.
-        if place.shape == Shape::Number || !parameter.indices.is_empty() {
-            quote!(#indexed)
-        } else {
-            quote!(#tokens)
+        let krate = self.emitter.krate();
+        let field = &self.emitter.model.parameters[parameter.field as usize];
+        let mut place = field.tokens.clone();
+        let mut shape = Some(&field.shape);
+        let mut conditions = Vec::new();
+        for index in &parameter.indices {
+            let length = match shape {
+                Some(Shape::Array(length, entry)) => {
+                    shape = Some(entry);
+                    *length
+                }
+                _ => None,
+            };
+            let is_certain = index.as_literal().zip(length).is_some_and(|(index, length)| index < length);
+            let index = self.emitter.index(index);
+            if self.has_loops && !is_certain {
+                conditions.push(quote!((#index) < #place.len()));
+            }
+            place = quote!(#place[#index]);
         }
+        let value = quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place)));
+        let condition = (!conditions.is_empty()).then(|| quote!(#(#conditions)&&*));
+        self.guarded(condition, &value)
     }
 }
 

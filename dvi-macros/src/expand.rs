@@ -1,12 +1,13 @@
 //! The whole story of each attribute: parse, resolve, lower, differentiate, emit.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use syn::{Item, ItemStruct};
 
 use crate::emit::Emitter;
 use crate::errors::Errors;
 use crate::implement;
+use crate::internal::guarded;
 use crate::model::Model;
 use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm};
@@ -24,7 +25,7 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         let formulas = stages.degenerate_formulas()?;
         stages.barrier()?;
         let form_entries = stages.graph.hessian(formulas.one_form);
-        let structure = OneForm::new(&mut stages.graph, &stages.model, &form_entries);
+        let structure = OneForm::new(&mut stages.graph, &stages.model, formulas.one_form, &form_entries);
         structure.check(&stages.model, stages.attribute.symplectic_part(), &mut stages.errors);
         stages.barrier()?;
         let canonical = structure.canonical;
@@ -82,7 +83,11 @@ fn expand(
     let mut attribute = parse_attribute(kind, attribute, &mut errors);
     let model = Model::new(&mut attribute, item, &mut errors);
     let mut stages = Stages { attribute, model, graph: Graph::new(), errors };
-    match ending(&mut stages) {
+    let system = guarded(|| ending(&mut stages)).unwrap_or_else(|mistake| {
+        stages.errors.push_syn(syn::Error::new(Span::call_site(), mistake));
+        None
+    });
+    match system {
         Some(system) if stages.errors.is_empty() => system,
         _ => {
             let errors = std::mem::take(&mut stages.errors);

@@ -15,7 +15,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use crate::emit::{Emitter, local, output_block};
-use crate::program::{Output, Programs, Statement};
+use crate::program::{Output, Programs};
+use crate::routine::Routine;
 use crate::symbolic::Node;
 
 mod check;
@@ -36,9 +37,9 @@ struct Inputs {
 }
 
 impl Emitter<'_> {
-    fn inputs(&self, statements: &[Statement]) -> Inputs {
+    fn inputs(&self, routine: &Routine) -> Inputs {
         let mut inputs = Inputs { q: false, v: false };
-        for id in self.graph.reachable(statements.iter().map(|statement| statement.value.node)) {
+        for id in self.graph.reachable(routine.statements.iter().map(|statement| statement.value.node)) {
             match self.graph.node(id) {
                 Node::Coordinate(_) => inputs.q = true,
                 Node::Velocity(_) => inputs.v = true,
@@ -63,8 +64,8 @@ impl Emitter<'_> {
         quote!(#tokens let _ = #rest;)
     }
 
-    fn read(&self, statements: &[Statement]) -> TokenStream {
-        let inputs = self.inputs(statements);
+    fn read(&self, routine: &Routine) -> TokenStream {
+        let inputs = self.inputs(routine);
         let q = inputs.q.then(|| self.split("q", |block| format!("q{block}"), "split_at"));
         let v = inputs.v.then(|| self.split("v", |block| format!("v{block}"), "split_at"));
         quote!(#q #v)
@@ -90,15 +91,15 @@ impl Emitter<'_> {
     }
 
     /// The body of a function that returns a value.
-    fn value(&self, statements: &[Statement]) -> TokenStream {
-        let (read, body) = (self.read(statements), self.body(statements));
+    fn value(&self, routine: &Routine) -> TokenStream {
+        let (read, body) = (self.read(routine), self.body(routine));
         quote!(#read #body)
     }
 
     /// The body of a function that sets one vector.
-    fn vector(&self, statements: &[Statement]) -> TokenStream {
-        let (read, output) = (self.read(statements), self.output("vector", Output::Vector));
-        let body = self.body(statements);
+    fn vector(&self, routine: &Routine) -> TokenStream {
+        let (read, output) = (self.read(routine), self.output("vector", Output::Vector));
+        let body = self.body(routine);
         quote!(#read #output #body)
     }
 }

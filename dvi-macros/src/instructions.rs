@@ -1,8 +1,12 @@
 //! The instructions of one function: straight values, loops not yet placed.
+//!
+//! A sum stands at the outermost depth at which everything that its terms and its range mention is known.
+//! So no loop over the same depth runs around it, and its index can be mistaken for no other.
 
 use std::collections::HashMap;
 
-use crate::symbolic::{Binary, Binder, Id, Relation, Unary};
+use crate::internal::internal;
+use crate::symbolic::{Binary, Fold, Free, Id, Loop, Relation, Unary};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Register(pub(crate) u32);
@@ -29,14 +33,14 @@ pub(crate) enum Instruction {
     Power(Register, u32),
     Call(u32, u32, Signed),
     Choose(Signed, Relation, Signed, Signed, Signed),
-    Reduce(Binder, Register),
+    Reduce(Fold, Loop, Signed),
 }
 
 /// The instructions of one function, operands before their users.
 #[derive(Debug, Default)]
 pub(crate) struct Instructions {
     list: Vec<Instruction>,
-    free: Vec<u64>,
+    free: Vec<Free>,
     known: HashMap<Instruction, Register>,
 }
 
@@ -46,8 +50,8 @@ impl Instruction {
             Self::Leaf(_) | Self::Literal(_) => Vec::new(),
             Self::Multiply(a, b) | Self::Divide(a, b) => vec![*a, *b],
             Self::Sum(terms) => terms.iter().map(|term| term.register).collect(),
-            Self::Unary(_, a) | Self::Call(_, _, a) => vec![a.register],
-            Self::Power(a, _) | Self::Reduce(_, a) => vec![*a],
+            Self::Unary(_, a) | Self::Call(_, _, a) | Self::Reduce(_, _, a) => vec![a.register],
+            Self::Power(a, _) => vec![*a],
             Self::Binary(_, a, b) => vec![a.register, b.register],
             Self::Choose(a, _, b, c, d) => vec![a.register, b.register, c.register, d.register],
         }
@@ -59,24 +63,46 @@ impl Instructions {
         &self.list[register.0 as usize]
     }
 
-    pub(crate) fn free(&self, register: Register) -> u64 {
-        self.free[register.0 as usize]
+    /// The loops that must run around a register.
+    pub(crate) fn depth(&self, register: Register) -> u32 {
+        self.free[register.0 as usize].depth()
+    }
+
+    /// Whether everything that a register depends on is known inside of `depth` loops.
+    pub(crate) fn is_known(&self, register: Register, depth: u32) -> bool {
+        self.depth(register) <= depth
     }
 
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }
 
-    pub(crate) fn push(&mut self, instruction: Instruction, leaf_free: u64) -> Register {
+    /// A value that depends on indices through its operands alone.
+    pub(crate) fn push(&mut self, instruction: Instruction) -> Register {
+        self.insert(instruction, Free::default())
+    }
+
+    /// A node without operands that depends on these indices.
+    pub(crate) fn push_leaf(&mut self, id: Id, free: Free) -> Register {
+        self.insert(Instruction::Leaf(id), free)
+    }
+
+    fn insert(&mut self, instruction: Instruction, own: Free) -> Register {
         if let Some(register) = self.known.get(&instruction) {
             return *register;
         }
-        let operands =
-            instruction.operands().into_iter().fold(leaf_free, |free, operand| free | self.free(operand));
-        let free = match &instruction {
-            Instruction::Reduce(binder, _) => (operands & !(1 << binder.level)) | binder.free(),
-            _ => operands,
-        };
+        let operands = instruction.operands().into_iter();
+        let mut free = operands.fold(own, |free, operand| free.and(self.free[operand.0 as usize]));
+        if let Instruction::Reduce(_, over, _) = &instruction {
+            free.open &= !(1 << over.depth);
+            free = free.and(over.range.free());
+            if free.depth() != over.depth {
+                internal("a sum does not stand where its terms are known");
+            }
+        }
+        if free.bound != 0 {
+            internal("an index outside of its sum");
+        }
         let register = Register(self.list.len() as u32);
         self.list.push(instruction.clone());
         self.free.push(free);

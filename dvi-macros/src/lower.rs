@@ -11,7 +11,7 @@ use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
 
 use crate::errors::{Errors, listed, nearest};
 use crate::model::{Model, Shape, velocity_name};
-use crate::symbolic::{Binder, Expr, Graph, Id, Index, Node, Parameter};
+use crate::symbolic::{Atom, Expr, Fold, Graph, Id, Index, Loop, Node, Parameter, Range};
 
 mod admit;
 mod blocks;
@@ -48,9 +48,11 @@ impl Role {
 #[derive(Clone, Debug)]
 enum Binding {
     Value(Option<Expr>),
-    /// An index with its largest and smallest value where the range is literal.
+    /// An index: its form in the open index at `depth`, and the smallest and largest value of that open
+    /// index where the range is literal.
     Index {
-        level: u32,
+        form: Index,
+        depth: u32,
         range: Option<(i64, i64)>,
     },
 }
@@ -61,7 +63,8 @@ pub(crate) struct Lowering<'a> {
     pub(crate) errors: &'a mut Errors,
     role: Role,
     scope: Vec<(String, Binding)>,
-    level: u32,
+    /// The number of sums around.
+    loops: u32,
     depth: u32,
     /// Names that some closure of the formula binds, to recognise an index outside of its sum.
     index_names: HashSet<String>,
@@ -100,7 +103,7 @@ impl<'a> Lowering<'a> {
             errors,
             role: Role::Hamiltonian,
             scope: Vec::new(),
-            level: 0,
+            loops: 0,
             depth: 0,
             index_names: HashSet::new(),
             measures: HashMap::new(),
@@ -156,11 +159,11 @@ impl<'a> Lowering<'a> {
             (Some((size, _)), Syntax::Closure(closure)) => {
                 self.role = Role::Component;
                 let [index] = self.closure_indices::<1>(closure)?;
-                let binder = Binder { level: 0, lower: Index::literal(0), upper: size, except: None };
-                let body = self.inside(&[(index, &binder)], &closure.body)?;
-                let velocity = self.velocity_node(block, Index::bound(0));
+                let entries = Loop { depth: 0, range: Range::up_to(size) };
+                let body = self.inside(&[(index, Index::open(0), &entries)], &closure.body)?;
+                let velocity = self.velocity_node(block, Index::open(0));
                 let term = self.graph.multiply(body, velocity);
-                Some(self.graph.reduce(binder, term))
+                Some(self.graph.fold(Fold::Sum, Atom::Open(0), entries.range, term))
             }
             (Some(_), _) => {
                 self.errors.push(

@@ -1,35 +1,31 @@
 //! The operations of a generated body, loop nest by loop nest, for the report.
 
-use crate::emit::Emitter;
 use crate::instructions::{Instruction, Instructions};
-use crate::program::Statement;
-use crate::schedule::{Step, schedule};
-use crate::select::select;
-use crate::symbolic::Binder;
+use crate::routine::Routine;
+use crate::schedule::Step;
+use crate::symbolic::{Fold, Loop};
 
 /// Operations of the innermost body of one loop nest.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Operations {
-    pub(crate) loops: Vec<Binder>,
+    pub(crate) loops: Vec<Loop>,
     pub(crate) additions: usize,
     pub(crate) multiplications: usize,
     pub(crate) divisions: usize,
     pub(crate) calls: usize,
 }
 
-impl Emitter<'_> {
-    /// Operation counts of the same body, loop nest by loop nest.
-    pub(crate) fn operations(&self, statements: &[Statement]) -> Vec<Operations> {
-        let (code, values) = select(self.graph, statements);
-        let steps = schedule(&code, statements, &values);
+impl Routine {
+    /// Operation counts, loop nest by loop nest.
+    pub(crate) fn operations(&self) -> Vec<Operations> {
         let mut counted = vec![Operations::default()];
-        count_operations(&code, &steps, &[], &mut counted);
+        count_operations(&self.code, &self.steps, &[], &mut counted);
         counted.retain(|o| o.additions + o.multiplications + o.divisions + o.calls > 0);
         counted
     }
 }
 
-fn count_operations(code: &Instructions, steps: &[Step], loops: &[Binder], counted: &mut Vec<Operations>) {
+fn count_operations(code: &Instructions, steps: &[Step], loops: &[Loop], counted: &mut Vec<Operations>) {
     let mut here = Operations { loops: loops.to_vec(), ..Operations::default() };
     for step in steps {
         match step {
@@ -43,13 +39,18 @@ fn count_operations(code: &Instructions, steps: &[Step], loops: &[Binder], count
                 | Instruction::Call(..) => {
                     here.calls += 1;
                 }
-                _ => {}
+                Instruction::Leaf(_)
+                | Instruction::Literal(_)
+                | Instruction::Choose(..)
+                | Instruction::Reduce(..) => {}
             },
-            Step::Loop { binder, sums, body } => {
-                let inside: Vec<Binder> = loops.iter().chain([binder]).cloned().collect();
+            Step::Loop { over, folds, body } => {
+                let inside: Vec<Loop> = loops.iter().chain([over]).cloned().collect();
                 count_operations(code, body, &inside, counted);
                 if let Some(inner) = counted.iter_mut().find(|operations| operations.loops == inside) {
-                    inner.additions += sums.len();
+                    let sums = folds.iter().filter(|fold| fold.fold == Fold::Sum).count();
+                    inner.additions += sums;
+                    inner.multiplications += folds.len() - sums;
                 }
             }
             // A scatter adds; a returned value does not.

@@ -4,7 +4,9 @@
 //! list of them here, by differentiation alone: the discrete equations of any scheme are weighted sums of
 //! these, and the schemes supply the weights. `degenerate` and `regular` add what is special to each.
 
-use crate::symbolic::{Binder, Coordinate, Expr, Graph, Node, SecondContribution, Weight};
+use crate::internal::internal;
+use crate::routine::Routine;
+use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution, Weight};
 
 mod degenerate;
 mod regular;
@@ -33,7 +35,7 @@ pub(crate) enum Place {
 
 #[derive(Clone, Debug)]
 pub(crate) struct Statement {
-    pub(crate) loops: Vec<Binder>,
+    pub(crate) loops: Vec<Loop>,
     pub(crate) place: Place,
     pub(crate) value: Expr,
 }
@@ -47,19 +49,20 @@ pub(crate) enum Variable {
 
 /// What is generated for every system.
 pub(crate) struct Programs {
-    pub(crate) lagrangian: Vec<Statement>,
-    pub(crate) gradient: Vec<Statement>,
-    pub(crate) linearize: Vec<Statement>,
-    pub(crate) momenta: Vec<Vec<Statement>>,
+    pub(crate) lagrangian: Routine,
+    pub(crate) gradient: Routine,
+    pub(crate) linearize: Routine,
+    pub(crate) momenta: Vec<Routine>,
     /// The second derivative of L.
     pub(crate) entries: Vec<SecondContribution>,
 }
 
-pub(crate) fn variable(graph: &Graph, id: crate::symbolic::Id) -> Option<(Variable, Coordinate)> {
+/// What a derivative is by.
+pub(crate) fn variable(graph: &Graph, id: Id) -> (Variable, Coordinate) {
     match graph.node(id) {
-        Node::Coordinate(coordinate) => Some((Variable::Position, coordinate.clone())),
-        Node::Velocity(coordinate) => Some((Variable::Velocity, coordinate.clone())),
-        _ => None,
+        Node::Coordinate(coordinate) => (Variable::Position, coordinate.clone()),
+        Node::Velocity(coordinate) => (Variable::Velocity, coordinate.clone()),
+        other => internal(format!("a derivative by {other:?}")),
     }
 }
 
@@ -69,8 +72,13 @@ impl Programs {
         let gradient = first_derivatives(graph, lagrangian, Output::Lq, Output::Lv);
         let mut linearize = gradient.clone();
         linearize.extend(weighted_hessian(graph, &entries));
-        let momenta = momenta.iter().map(|value| result(*value)).collect();
-        Self { lagrangian: result(lagrangian), gradient, linearize, momenta, entries }
+        Self {
+            lagrangian: Routine::new(graph, result(lagrangian)),
+            gradient: Routine::new(graph, gradient),
+            linearize: Routine::new(graph, linearize),
+            momenta: momenta.iter().map(|value| Routine::new(graph, result(*value))).collect(),
+            entries,
+        }
     }
 }
 
@@ -80,13 +88,16 @@ fn result(value: Expr) -> Vec<Statement> {
 
 fn first_derivatives(graph: &mut Graph, of: Expr, position: Output, velocity: Output) -> Vec<Statement> {
     let contributions = graph.gradient(of, &[]);
-    let statement = |contribution: crate::symbolic::Contribution| {
-        let (kind, coordinate) = variable(graph, contribution.target)?;
-        let output = if kind == Variable::Position { position } else { velocity };
+    let statement = |contribution: Contribution| {
+        let (kind, coordinate) = variable(graph, contribution.target);
+        let output = match kind {
+            Variable::Position => position,
+            Variable::Velocity => velocity,
+        };
         let place = Place::Entry(output, coordinate);
-        Some(Statement { loops: contribution.loops, place, value: contribution.value })
+        Statement { loops: contribution.loops, place, value: contribution.value }
     };
-    contributions.into_iter().filter_map(statement).collect()
+    contributions.into_iter().map(statement).collect()
 }
 
 /// `value` on (row, column) and, with the other weight, on (column, row).
@@ -116,10 +127,7 @@ fn mirrored_pair(
 fn weighted_hessian(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Statement> {
     let mut statements = Vec::new();
     for entry in entries {
-        let (Some((row, r)), Some((column, c))) = (variable(graph, entry.row), variable(graph, entry.column))
-        else {
-            continue;
-        };
+        let ((row, r), (column, c)) = (variable(graph, entry.row), variable(graph, entry.column));
         let weights = match (row, column) {
             (Variable::Position, Variable::Position) => [Weight::Qq, Weight::Qq],
             (Variable::Position, Variable::Velocity) => [Weight::Qv, Weight::Vq],

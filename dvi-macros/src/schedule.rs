@@ -5,41 +5,50 @@
 //! range share one loop, unless one needs the result of the other.
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
+use crate::internal::internal;
 use crate::program::Statement;
-use crate::symbolic::Binder;
+use crate::symbolic::{Fold, Loop};
 
 #[derive(Debug)]
 pub(crate) enum Step {
     Let(Register),
-    /// Sums `(result, body)` accumulated, and statements carried out, over one range.
+    /// Sums and products accumulated, and statements carried out, over one range.
     Loop {
-        binder: Binder,
-        sums: Vec<(Register, Register)>,
+        over: Loop,
+        folds: Vec<Accumulated>,
         body: Vec<Step>,
     },
     /// Statement number and its value.
     Write(usize, Signed),
 }
 
+/// A sum or product that a loop accumulates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Accumulated {
+    pub(crate) fold: Fold,
+    pub(crate) result: Register,
+    pub(crate) body: Signed,
+}
+
 #[derive(Clone, Copy)]
 enum Duty<'a> {
-    Write { statement: usize, loops: &'a [Binder], value: Signed },
-    Sum { body: Register },
+    Write { statement: usize, loops: &'a [Loop], value: Signed },
+    Fold { body: Register },
 }
 
 impl Duty<'_> {
     fn register(&self) -> Register {
         match self {
             Self::Write { value, .. } => value.register,
-            Self::Sum { body } => *body,
+            Self::Fold { body } => *body,
         }
     }
 }
 
 struct Group<'a> {
     entry: usize,
-    binder: &'a Binder,
-    sums: Vec<(Register, Register)>,
+    over: &'a Loop,
+    folds: Vec<Accumulated>,
     duties: Vec<Duty<'a>>,
 }
 
@@ -62,11 +71,12 @@ pub(crate) fn schedule(code: &Instructions, statements: &[Statement], values: &[
 }
 
 impl<'a> Scheduler<'a> {
-    fn scope(&self, open: u64, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Step> {
+    /// The steps inside of `depth` loops.
+    fn scope(&self, depth: u32, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Step> {
         let needed: Vec<Register> = self
             .unknown(outside, duties)
             .into_iter()
-            .filter(|register| self.code.free(*register) & !open == 0)
+            .filter(|register| self.code.is_known(*register, depth))
             .collect();
         let stages = self.stages(&needed);
         let mut defined = outside.to_vec();
@@ -85,10 +95,14 @@ impl<'a> Scheduler<'a> {
                 here.filter(|register| !matches!(self.code.get(**register), Instruction::Reduce(..)));
             steps.extend(values.map(|register| Step::Let(*register)));
             for group in groups.iter().filter(|group| group.entry == stage) {
-                let sums = group.sums.iter().map(|(_, body)| Duty::Sum { body: *body });
-                let inside: Vec<Duty<'a>> = sums.chain(group.duties.iter().copied()).collect();
-                let body = self.scope(open | 1 << group.binder.level, &defined, &inside);
-                steps.push(Step::Loop { binder: group.binder.clone(), sums: group.sums.clone(), body });
+                if group.over.depth != depth {
+                    internal("a loop runs at a depth that is not its own");
+                }
+                let folds = group.folds.iter().map(|fold| Duty::Fold { body: fold.body.register });
+                let inside: Vec<Duty<'a>> = folds.chain(group.duties.iter().copied()).collect();
+                let body = self.scope(depth + 1, &defined, &inside);
+                let (over, folds) = (group.over.clone(), group.folds.clone());
+                steps.push(Step::Loop { over, folds, body });
             }
         }
         steps.extend(duties.iter().filter_map(|duty| match duty {
@@ -119,7 +133,7 @@ impl<'a> Scheduler<'a> {
         let mut stages = vec![0; self.code.len()];
         for register in needed {
             stages[register.0 as usize] = match self.code.get(*register) {
-                Instruction::Reduce(_, body) => 1 + self.entry(*body, &stages),
+                Instruction::Reduce(_, _, body) => 1 + self.entry(body.register, &stages),
                 other => other.operands().iter().map(|operand| stages[operand.0 as usize]).max().unwrap_or(0),
             };
         }
@@ -134,22 +148,21 @@ impl<'a> Scheduler<'a> {
     fn groups(&self, needed: &[Register], stages: &[usize], duties: &[Duty<'a>]) -> Vec<Group<'a>> {
         let mut groups: Vec<Group<'a>> = Vec::new();
         for register in needed {
-            let Instruction::Reduce(binder, body) = self.code.get(*register) else { continue };
+            let Instruction::Reduce(fold, over, body) = self.code.get(*register) else { continue };
             let entry = stages[register.0 as usize] - 1;
-            match groups.iter_mut().find(|group| group.entry == entry && group.binder == binder) {
-                Some(group) => group.sums.push((*register, *body)),
-                None => {
-                    groups.push(Group { entry, binder, sums: vec![(*register, *body)], duties: Vec::new() });
-                }
+            let fold = Accumulated { fold: *fold, result: *register, body: *body };
+            match groups.iter_mut().find(|group| group.entry == entry && group.over == over) {
+                Some(group) => group.folds.push(fold),
+                None => groups.push(Group { entry, over, folds: vec![fold], duties: Vec::new() }),
             }
         }
         for duty in duties {
-            let Duty::Write { statement, loops: [binder, inner @ ..], value } = *duty else { continue };
+            let Duty::Write { statement, loops: [over, inner @ ..], value } = *duty else { continue };
             let entry = self.entry(value.register, stages);
             let duty = Duty::Write { statement, loops: inner, value };
-            match groups.iter_mut().find(|group| group.entry >= entry && group.binder == binder) {
+            match groups.iter_mut().find(|group| group.entry >= entry && group.over == over) {
                 Some(group) => group.duties.push(duty),
-                None => groups.push(Group { entry, binder, sums: Vec::new(), duties: vec![duty] }),
+                None => groups.push(Group { entry, over, folds: Vec::new(), duties: vec![duty] }),
             }
         }
         groups

@@ -7,11 +7,12 @@
 //! single use becomes the divisor of a quotient. Factors in front of a sum move into it where the
 //! product inside is computed anyway, as it is when a sum and a scatter share their loop.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
+use crate::internal::internal;
 use crate::program::Statement;
-use crate::symbolic::{Binder, Expr, Graph, Id, Node};
+use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node};
 
 /// Above this exponent a power is a call of `powi`.
 const LARGEST_EXPANDED: u32 = 32;
@@ -28,11 +29,13 @@ enum Factor {
 type Key = (u64, Id);
 
 struct Builder<'a> {
-    graph: &'a Graph,
-    /// Each product as a multiset of factors.
+    graph: &'a mut Graph,
+    /// Products whose factors are shared, as multisets. Every other product is what its node says.
     products: BTreeMap<Key, Vec<Factor>>,
     /// Products of a sum that are sums of this product.
-    absorbed: HashMap<Key, (Binder, Key)>,
+    absorbed: HashMap<Key, (Loop, Key)>,
+    /// Sums and products over a range as loops, each with its body inside of that loop.
+    loops: HashMap<Id, (Fold, Loop, Expr)>,
     pairs: Vec<(Factor, Factor)>,
     /// Reciprocals with a single use.
     divisors: HashSet<Id>,
@@ -41,11 +44,12 @@ struct Builder<'a> {
 }
 
 /// The instructions and, for each statement, its value.
-pub(crate) fn select(graph: &Graph, statements: &[Statement]) -> (Instructions, Vec<Signed>) {
+pub(crate) fn select(graph: &mut Graph, statements: &[Statement]) -> (Instructions, Vec<Signed>) {
     let mut builder = Builder {
         graph,
         products: BTreeMap::new(),
         absorbed: HashMap::new(),
+        loops: HashMap::new(),
         pairs: Vec::new(),
         divisors: HashSet::new(),
         out: Instructions::default(),
@@ -66,24 +70,69 @@ impl Builder<'_> {
         for statement in statements {
             self.note_term(statement.value, &mut terms);
         }
-        for id in self.graph.reachable(statements.iter().map(|statement| statement.value.node)) {
-            match self.graph.node(id) {
+        for id in self.reachable(statements) {
+            match self.graph.node(id).clone() {
                 Node::Sum(parts) => parts.iter().for_each(|part| self.note_term(*part, &mut terms)),
-                Node::Reciprocal(of) => self.note((*of).into()),
-                Node::Reduce(binder, of) => sums.push((id, binder, *of)),
-                Node::Unary(_, of) | Node::Call(_, _, of) => self.note(*of),
-                Node::Binary(_, a, b) => [*a, *b].into_iter().for_each(|part| self.note(part)),
-                Node::Choose { left, right, then, otherwise, .. } => {
-                    [*left, *right, *then, *otherwise].into_iter().for_each(|part| self.note(part));
+                Node::Reciprocal(of) => self.note(of.into()),
+                Node::Reduce { .. } => {
+                    let (fold, over, body) = self.as_loop(id);
+                    match fold {
+                        Fold::Sum => sums.push((id, over, body)),
+                        Fold::Product => self.note(body),
+                    }
                 }
-                _ => {}
+                Node::Unary(_, of) | Node::Call(_, _, of) => self.note(of),
+                Node::Binary(_, a, b) => [a, b].into_iter().for_each(|part| self.note(part)),
+                Node::Choose { left, right, then, otherwise, .. } => {
+                    [left, right, then, otherwise].into_iter().for_each(|part| self.note(part));
+                }
+                Node::One
+                | Node::Coordinate(_)
+                | Node::Velocity(_)
+                | Node::Time
+                | Node::Parameter(_)
+                | Node::Count(_)
+                | Node::Weight(_)
+                | Node::Product(_) => {}
             }
         }
-        for (sum, binder, body) in sums {
-            if !self.absorb(sum, binder, body) || terms.contains(&sum) {
-                self.note(body.into());
+        for (sum, over, body) in sums {
+            if !self.absorb(sum, &over, body) || terms.contains(&sum) {
+                self.note(body);
             }
         }
+    }
+
+    /// The nodes below the values, with the bodies of sums as they stand inside of their loops, in id
+    /// order.
+    fn reachable(&mut self, statements: &[Statement]) -> BTreeSet<Id> {
+        let mut waiting: Vec<Id> = statements.iter().map(|statement| statement.value.node).collect();
+        let mut found = BTreeSet::new();
+        while let Some(id) = waiting.pop() {
+            if found.insert(id) {
+                match self.graph.node(id) {
+                    Node::Reduce { .. } => waiting.push(self.as_loop(id).2.node),
+                    other => waiting.extend(other.operands()),
+                }
+            }
+        }
+        found
+    }
+
+    /// A sum or product over a range as the loop that computes it, at the depth where its range and all
+    /// that its body takes from outside are known.
+    fn as_loop(&mut self, id: Id) -> (Fold, Loop, Expr) {
+        if let Some(known) = self.loops.get(&id) {
+            return known.clone();
+        }
+        let Node::Reduce { fold, height, range, body } = self.graph.node(id).clone() else {
+            internal("a sum was expected")
+        };
+        let depth = self.graph.free(id).depth();
+        let body = self.graph.opened(height, body, depth);
+        let opened = (fold, Loop { depth, range }, body);
+        self.loops.insert(id, opened.clone());
+        opened
     }
 
     fn note_term(&mut self, term: Expr, terms: &mut HashSet<Id>) {
@@ -95,20 +144,20 @@ impl Builder<'_> {
 
     /// Moves the factors in front of a sum into it, wherever the product inside is known already.
     /// Whether that happened to all products with the sum.
-    fn absorb(&mut self, sum: Id, binder: &Binder, body: Id) -> bool {
-        let inner = self.expand((1.0_f64.to_bits(), body));
+    fn absorb(&mut self, sum: Id, over: &Loop, body: Expr) -> bool {
+        let inner = self.expand((body.scale.abs().to_bits(), body.node));
         let outer: Vec<Key> = self
             .products
             .iter()
             .filter(|(_, factors)| factors.contains(&Factor::Node(sum)))
             .map(|(key, _)| *key)
             .collect();
-        let mut all = !outer.is_empty();
-        for key in outer {
+        let mut all = !outer.is_empty() && body.scale > 0.0;
+        for key in outer.into_iter().filter(|_| body.scale > 0.0) {
             let mut merged = self.products[&key].clone();
             remove(&mut merged, Factor::Node(sum));
-            // A factor on an open index of the same level would be captured.
-            if merged.iter().any(|factor| self.free(*factor) & (1 << binder.level) != 0) {
+            // A factor that is known only further inside than the sum cannot enter it.
+            if merged.iter().any(|factor| self.depth(*factor) > over.depth) {
                 all = false;
                 continue;
             }
@@ -117,7 +166,7 @@ impl Builder<'_> {
             match self.products.iter().find(|(_, factors)| **factors == merged).map(|(known, _)| *known) {
                 Some(known) => {
                     self.products.remove(&key);
-                    self.absorbed.insert(key, (binder.clone(), known));
+                    self.absorbed.insert(key, (over.clone(), known));
                 }
                 None => all = false,
             }
@@ -211,19 +260,19 @@ impl Builder<'_> {
         }
     }
 
-    fn free(&self, factor: Factor) -> u64 {
+    fn free(&self, factor: Factor) -> Free {
         match factor {
-            Factor::Literal(_) => 0,
+            Factor::Literal(_) => Free::default(),
             Factor::Node(id) | Factor::Power(id, _) => self.graph.free(id),
             Factor::Pair(pair) => {
                 let (a, b) = self.pairs[pair as usize];
-                self.free(a) | self.free(b)
+                self.free(a).and(self.free(b))
             }
         }
     }
 
     fn depth(&self, factor: Factor) -> u32 {
-        64 - self.free(factor).leading_zeros()
+        self.free(factor).depth()
     }
 
     fn signed(&mut self, expr: Expr) -> Signed {
@@ -239,45 +288,55 @@ impl Builder<'_> {
     }
 
     fn literal(&mut self, value: f64) -> Register {
-        self.out.push(Instruction::Literal(value.to_bits()), 0)
+        self.out.push(Instruction::Literal(value.to_bits()))
     }
 
     fn product(&mut self, key: Key) -> Register {
-        if let Some((binder, body)) = self.absorbed.get(&key).cloned() {
-            let body = self.product(body);
-            return self.out.push(Instruction::Reduce(binder, body), 0);
+        if let Some((over, body)) = self.absorbed.get(&key).cloned() {
+            let body = Signed { negative: false, register: self.product(body) };
+            return self.out.push(Instruction::Reduce(Fold::Sum, over, body));
         }
-        let mut factors = self.products.get(&key).cloned().unwrap_or_default();
+        let mut factors = match self.products.get(&key) {
+            Some(shared) => shared.clone(),
+            None => self.expand(key),
+        };
         factors.sort_by_key(|factor| (self.depth(*factor), *factor));
         self.multiplied(&factors)
     }
 
     /// The product of factors from left to right; a reciprocal that nothing else uses divides it.
     fn multiplied(&mut self, factors: &[Factor]) -> Register {
-        let divisor = factors.iter().position(|factor| match factor {
-            Factor::Node(id) => self.divisors.contains(id),
-            _ => false,
-        });
         let mut product: Option<Register> = None;
-        for (position, factor) in factors.iter().enumerate() {
-            if divisor != Some(position) {
-                let factor = self.factor(*factor);
-                product = Some(match product {
-                    Some(product) => self.out.push(Instruction::Multiply(product, factor), 0),
-                    None => factor,
-                });
+        let mut divisor: Option<Id> = None;
+        for factor in factors {
+            if let (None, Some(of)) = (divisor, self.divided_by(*factor)) {
+                divisor = Some(of);
+                continue;
             }
+            let factor = self.factor(*factor);
+            product = Some(match product {
+                Some(product) => self.out.push(Instruction::Multiply(product, factor)),
+                None => factor,
+            });
         }
         let numerator = product.unwrap_or_else(|| self.literal(1.0));
-        match divisor.map(|position| factors[position]) {
-            Some(Factor::Node(id)) => match self.graph.node(id) {
-                Node::Reciprocal(of) => {
-                    let divisor = self.value(*of);
-                    self.out.push(Instruction::Divide(numerator, divisor), 0)
-                }
-                _ => numerator,
+        match divisor {
+            Some(of) => {
+                let divisor = self.value(of);
+                self.out.push(Instruction::Divide(numerator, divisor))
+            }
+            None => numerator,
+        }
+    }
+
+    /// What to divide by instead of multiplying with this factor.
+    fn divided_by(&self, factor: Factor) -> Option<Id> {
+        match factor {
+            Factor::Node(id) if self.divisors.contains(&id) => match self.graph.node(id) {
+                Node::Reciprocal(of) => Some(*of),
+                _ => None,
             },
-            _ => numerator,
+            _ => None,
         }
     }
 
@@ -287,7 +346,7 @@ impl Builder<'_> {
             Factor::Node(id) => self.value(id),
             Factor::Power(id, exponent) => {
                 let base = self.value(id);
-                self.out.push(Instruction::Power(base, exponent), 0)
+                self.out.push(Instruction::Power(base, exponent))
             }
             Factor::Pair(pair) => {
                 let (a, b) = self.pairs[pair as usize];
@@ -300,32 +359,40 @@ impl Builder<'_> {
         if let Some(known) = self.values.get(&id) {
             return *known;
         }
-        let graph = self.graph;
-        let instruction = match graph.node(id) {
+        let register = self.computed(id);
+        self.values.insert(id, register);
+        register
+    }
+
+    fn computed(&mut self, id: Id) -> Register {
+        let instruction = match self.graph.node(id).clone() {
             Node::Product(_) => return self.product((1.0_f64.to_bits(), id)),
             Node::Reciprocal(of) => {
-                let (one, of) = (self.literal(1.0), self.value(*of));
+                let (one, of) = (self.literal(1.0), self.value(of));
                 Instruction::Divide(one, of)
             }
             Node::Sum(terms) => Instruction::Sum(terms.iter().map(|term| self.signed(*term)).collect()),
-            Node::Unary(function, of) => Instruction::Unary(*function, self.signed(*of)),
-            Node::Binary(function, a, b) => Instruction::Binary(*function, self.signed(*a), self.signed(*b)),
-            Node::Call(function, order, of) => Instruction::Call(*function, *order, self.signed(*of)),
+            Node::Unary(function, of) => Instruction::Unary(function, self.signed(of)),
+            Node::Binary(function, a, b) => Instruction::Binary(function, self.signed(a), self.signed(b)),
+            Node::Call(function, order, of) => Instruction::Call(function, order, self.signed(of)),
             Node::Choose { left, relation, right, then, otherwise } => {
                 let [left, right, then, otherwise] =
-                    [left, right, then, otherwise].map(|part| self.signed(*part));
-                Instruction::Choose(left, *relation, right, then, otherwise)
+                    [left, right, then, otherwise].map(|part| self.signed(part));
+                Instruction::Choose(left, relation, right, then, otherwise)
             }
-            Node::Reduce(binder, body) => {
-                Instruction::Reduce(binder.clone(), self.signed((*body).into()).register)
+            Node::Reduce { .. } => {
+                let (fold, over, body) = self.as_loop(id);
+                Instruction::Reduce(fold, over, self.signed(body))
             }
             Node::One => Instruction::Literal(1.0_f64.to_bits()),
-            _ => Instruction::Leaf(id),
+            Node::Coordinate(_)
+            | Node::Velocity(_)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Count(_)
+            | Node::Weight(_) => return self.out.push_leaf(id, self.graph.free(id)),
         };
-        let leaf_free = if matches!(instruction, Instruction::Leaf(_)) { graph.free(id) } else { 0 };
-        let register = self.out.push(instruction, leaf_free);
-        self.values.insert(id, register);
-        register
+        self.out.push(instruction)
     }
 }
 

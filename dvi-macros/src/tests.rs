@@ -114,9 +114,13 @@ fn vortices() {
                 for __i0 in (0usize)..(N) {
                     let __r0 = __q0[__i0];
                     let __r6 = T::lift(0.15915494309189535f64)
-                        * T::lift(
-                            __private::Number::number(self.gamma[__i0]),
-                        );
+                        * (if (__i0) < self.gamma.len() {
+                            T::lift(
+                                __private::Number::number(self.gamma[__i0]),
+                            )
+                        } else {
+                            T::lift(f64::NAN)
+                        });
                     let __r9 = __q1[__i0];
                     let mut __r16 = T::lift(-0.0);
                     let mut __r18 = T::lift(-0.0);
@@ -199,18 +203,6 @@ fn check_of_indices() {
                         "mass",
                         (0i64 + 1i64 * (__i0 as i64)),
                         self.mass.len(),
-                    )?;
-                }
-                for __i0 in (0usize)..(self.k.len()) {
-                    __private::check_index(
-                        "q",
-                        (0i64
-                            + 1i64
-                                * __private::remainder(
-                                    (1i64 + 1i64 * (__i0 as i64)),
-                                    (0i64 + 1i64 * (self.k.len() as i64)),
-                                )),
-                        self.k.len(),
                     )?;
                 }
                 ::core::result::Result::Ok(())

@@ -126,7 +126,7 @@ fn split(graph: &mut Graph, lagrangian: Expr) -> (Expr, Expr) {
 /// An affine expression as (its value at v = 0, what is linear in v).
 fn split_parts(graph: &mut Graph, value: Expr) -> (Expr, Expr) {
     let at_rest = |graph: &mut Graph, id| matches!(graph.node(id), Node::Velocity(_)).then_some(Expr::ZERO);
-    let rest = graph.rebuild(value.node, at_rest, Clone::clone).scaled(value.scale);
+    let rest = graph.rebuild(value.node, at_rest).scaled(value.scale);
     let linear = match graph.node(value.node).clone() {
         // Term by term, so that what has no velocity disappears instead of being subtracted.
         Node::Sum(terms) => {

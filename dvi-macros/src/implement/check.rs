@@ -10,13 +10,21 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::emit::Emitter;
-use crate::program::{Programs, Statement};
-use crate::symbolic::{Binder, Id, Index, Node};
+use crate::program::Programs;
+use crate::routine::Routine;
+use crate::symbolic::{Atom, Free, Id, Index, Loop, Node, Range, Renaming};
 
-/// An access: the loops around it, the array as text and as a length, the index.
+/// Where the walk is: inside of these loops, with the indices of the sums around as open ones.
+#[derive(Clone, Default, PartialEq, Eq, Hash)]
+struct Place {
+    loops: Vec<Loop>,
+    names: Vec<Renaming>,
+}
+
+/// An access: the loops around it, the array as text, the index.
 #[derive(PartialEq, Eq, Hash)]
 struct Access {
-    loops: Vec<Binder>,
+    loops: Vec<Loop>,
     array: String,
     index: Index,
 }
@@ -24,99 +32,107 @@ struct Access {
 struct Walk<'a> {
     emitter: &'a Emitter<'a>,
     seen: HashSet<Access>,
-    visited: HashSet<(Vec<Binder>, Id)>,
+    visited: HashSet<(Place, Id)>,
     tokens: TokenStream,
 }
 
 pub(super) fn check(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     let mut walk =
         Walk { emitter, seen: HashSet::new(), visited: HashSet::new(), tokens: TokenStream::new() };
-    for statement in [&programs.lagrangian].into_iter().chain(&programs.momenta).flatten() {
-        walk.statement(statement);
+    let routines: Vec<&Routine> = [&programs.lagrangian].into_iter().chain(&programs.momenta).collect();
+    for statement in routines.iter().flat_map(|routine| &routine.statements) {
+        walk.node(&Place { loops: statement.loops.clone(), names: Vec::new() }, statement.value.node);
     }
     let checks = walk.tokens;
     quote!(#checks ::core::result::Result::Ok(()))
 }
 
-impl Walk<'_> {
-    fn statement(&mut self, statement: &Statement) {
-        self.node(&statement.loops, statement.value.node);
+impl Place {
+    fn index(&self, index: &Index) -> Index {
+        self.names.iter().fold(index.clone(), |index, renaming| index.renamed(renaming))
     }
 
-    fn node(&mut self, loops: &[Binder], id: Id) {
-        // Loops that a node does not depend on decide nothing but how often it is visited.
-        let free = self.emitter.graph.free(id);
-        let loops: Vec<Binder> = relevant(loops, free);
-        if !self.visited.insert((loops.clone(), id)) {
+    /// Inside of a sum of this height over this range.
+    fn inside(&self, height: u32, range: &Range) -> Self {
+        let depth = self.loops.last().map_or(0, |innermost| innermost.depth + 1);
+        let range = self.names.iter().fold(range.clone(), |range, renaming| range.renamed(renaming));
+        let mut place = self.clone();
+        place.loops.push(Loop { depth, range });
+        place.names.push(Renaming { from: Atom::Bound(height), to: Atom::Open(depth) });
+        place
+    }
+}
+
+impl Walk<'_> {
+    fn node(&mut self, place: &Place, id: Id) {
+        if !self.visited.insert((place.clone(), id)) {
             return;
         }
+        let model = self.emitter.model;
         match self.emitter.graph.node(id) {
             Node::Coordinate(c) | Node::Velocity(c) => {
-                let block = &self.emitter.model.blocks[c.block as usize];
+                let block = &model.blocks[c.block as usize];
                 if block.array.is_some() {
-                    let length = self.emitter.index(&self.emitter.model.block_size(c.block as usize));
-                    self.access(&relevant(&loops, c.index.free()), block.name.to_string(), &length, &c.index);
+                    let size = model.block_size(c.block as usize);
+                    let index = place.index(&c.index);
+                    if !self.emitter.stays_inside(&index, &size, &place.loops) {
+                        let length = self.emitter.index(&size);
+                        self.access(place, index.free(), block.name.to_string(), &length, &index);
+                    }
                 }
             }
             Node::Parameter(p) => {
-                let mut place = self.emitter.model.parameters[p.field as usize].tokens.clone();
-                let mut free = 0;
+                let parameter = &model.parameters[p.field as usize];
+                let mut tokens = parameter.tokens.clone();
+                let mut free = Free::default();
                 for index in &p.indices {
-                    free |= index.free();
-                    let name = self.emitter.model.parameters[p.field as usize].text.clone();
-                    let length = quote!(#place.len());
-                    self.access(&relevant(&loops, free), name, &length, index);
-                    let index = self.emitter.index(index);
-                    place = quote!(#place[#index]);
+                    let index = place.index(index);
+                    free = free.and(index.free());
+                    self.access(place, free, parameter.text.clone(), &quote!(#tokens.len()), &index);
+                    let index = self.emitter.index(&index);
+                    tokens = quote!(#tokens[#index]);
                 }
             }
-            Node::Reduce(binder, body) => {
-                let inside: Vec<Binder> = loops.iter().chain([binder]).cloned().collect();
-                self.node(&inside, *body);
+            Node::Reduce { height, range, body, .. } => {
+                self.node(&place.inside(*height, range), body.node);
             }
-            other => other.operands().into_iter().for_each(|operand| self.node(&loops, operand)),
+            other => other.operands().into_iter().for_each(|operand| self.node(place, operand)),
         }
     }
 
-    /// The check of one access, inside those of the loops that the index and the array depend on.
-    fn access(&mut self, loops: &[Binder], array: String, length: &TokenStream, index: &Index) {
-        if !self.seen.insert(Access { loops: loops.to_vec(), array: array.clone(), index: index.clone() }) {
-            return;
+    /// The check of one access. A loop around it that nothing in it depends on is no more than the condition
+    /// that it is not empty.
+    fn access(&mut self, place: &Place, free: Free, array: String, length: &TokenStream, index: &Index) {
+        let mut needed = free.open;
+        let mut around: Vec<(&Loop, bool)> = Vec::new();
+        for over in place.loops.iter().rev() {
+            let is_needed = needed & (1 << over.depth) != 0;
+            if is_needed || !self.certainly_runs(&over.range) {
+                needed |= over.range.free().open;
+                around.push((over, is_needed));
+            }
         }
-        if self.is_whole_range(loops, &array, index) {
+        let loops: Vec<Loop> = around.iter().map(|(over, _)| (*over).clone()).collect();
+        if !self.seen.insert(Access { loops, array: array.clone(), index: index.clone() }) {
             return;
         }
         let krate = self.emitter.krate();
         let value = self.emitter.signed_index(index);
         let mut tokens = quote!(#krate::__private::check_index(#array, #value, #length)?;);
-        for binder in loops.iter().rev() {
-            tokens = self.emitter.loop_over(binder, &tokens);
+        for (over, is_needed) in around {
+            let range = self.emitter.range(&over.range);
+            tokens = match (is_needed, over.range.except.is_empty()) {
+                (true, _) => self.emitter.loop_over(over, &tokens),
+                (false, true) => quote!(if !(#range).is_empty() { #tokens }),
+                // The first index that is not left out decides.
+                (false, false) => self.emitter.loop_over(over, &quote!(#tokens break;)),
+            };
         }
         self.tokens.extend(tokens);
     }
 
-    /// `x[j]` for j in 0..(the size of x) needs no check.
-    fn is_whole_range(&self, loops: &[Binder], array: &str, index: &Index) -> bool {
-        let model = self.emitter.model;
-        let Some(block) = model.blocks.iter().position(|block| block.name == array) else { return false };
-        match loops {
-            [.., binder] if *index == Index::bound(binder.level) => binder.upper == model.block_size(block),
-            [] => index.as_literal().zip(model.block_size(block).as_literal()).is_some(),
-            _ => false,
-        }
+    fn certainly_runs(&self, range: &Range) -> bool {
+        let length = range.upper.plus(&range.lower, -1).as_literal();
+        length.is_some_and(|length| length > range.except.len() as i64)
     }
-}
-
-/// The loops that a set of levels depends on, ranges of ranges included.
-fn relevant(loops: &[Binder], free: u64) -> Vec<Binder> {
-    let mut needed = free;
-    let mut kept: Vec<Binder> = Vec::new();
-    for binder in loops.iter().rev() {
-        if needed & (1 << binder.level) != 0 {
-            needed |= binder.free();
-            kept.push(binder.clone());
-        }
-    }
-    kept.reverse();
-    kept
 }

@@ -39,8 +39,10 @@ fn account(
         Account::new("L(q, v, t) = α(q, t)·v − H(q, t) with", declared.to_vec(), structure.sentences());
     account.momenta(emitter, &formulas.momenta);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
-    account.derived(emitter, &programs.one_form, |_, entry| format!("α_{}", coordinate(entry)));
-    account.derived(emitter, &programs.hamiltonian_gradient, |_, entry| format!("∂H/∂{}", coordinate(entry)));
+    account.derived(emitter, &programs.one_form.statements, |_, entry| format!("α_{}", coordinate(entry)));
+    account.derived(emitter, &programs.hamiltonian_gradient.statements, |_, entry| {
+        format!("∂H/∂{}", coordinate(entry))
+    });
     account
 }
 

@@ -6,10 +6,10 @@ use quote::quote;
 use crate::emit::Emitter;
 use crate::operations::Operations;
 use crate::program::{Output, Place, Programs, Statement, variable};
-use crate::symbolic::{Coordinate, Expr, print_binders, print_coordinate, print_expr};
+use crate::symbolic::{Coordinate, Expr, print_coordinate, print_expr, print_loops};
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
-    print_expr(emitter.graph, expr, emitter.model)
+    print_expr(emitter.graph, expr, 0, emitter.model)
 }
 
 /// What a system says about itself.
@@ -47,9 +47,10 @@ impl Account {
     ) {
         for statement in statements {
             if let Place::Entry(output, coordinate) = &statement.place {
-                let mut text = quantity(emitter, statement.value);
+                let mut text =
+                    print_expr(emitter.graph, statement.value, statement.loops.len(), emitter.model);
                 if !statement.loops.is_empty() {
-                    text += &format!("  for {}", print_binders(&statement.loops, emitter.model));
+                    text += &format!("  for {}", print_loops(&statement.loops, emitter.model));
                 }
                 self.formulas.push((name(*output, coordinate), text));
             }
@@ -66,8 +67,8 @@ impl Account {
             quote!(#krate::CoordinateBlock { name: #name, size: #size })
         });
         let lines = formulas.iter().map(|(name, text)| quote!(#krate::Formula { name: #name, text: #text }));
-        let residual = operation_list(emitter, &emitter.operations(&programs.gradient));
-        let jacobian = operation_list(emitter, &emitter.operations(&programs.linearize));
+        let residual = operation_list(emitter, &programs.gradient.operations());
+        let jacobian = operation_list(emitter, &programs.linearize.operations());
         let sparsity = sparsity(emitter, programs);
         quote! {
             #krate::Report::new(
@@ -94,7 +95,7 @@ impl Account {
 fn operation_list(emitter: &Emitter<'_>, operations: &[Operations]) -> TokenStream {
     let krate = emitter.krate();
     let entries = operations.iter().map(|count| {
-        let loops = print_binders(&count.loops, emitter.model);
+        let loops = print_loops(&count.loops, emitter.model);
         let Operations { additions, multiplications, divisions, calls, .. } = count;
         quote! {
             #krate::OperationCount {
@@ -111,12 +112,8 @@ fn sparsity(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     let krate = emitter.krate();
     let mut places: Vec<[String; 3]> = Vec::new();
     for entry in &programs.entries {
-        let (Some((_, row)), Some((_, column))) =
-            (variable(emitter.graph, entry.row), variable(emitter.graph, entry.column))
-        else {
-            continue;
-        };
-        let loops = print_binders(&entry.loops, emitter.model);
+        let [(_, row), (_, column)] = [entry.row, entry.column].map(|id| variable(emitter.graph, id));
+        let loops = print_loops(&entry.loops, emitter.model);
         let [row, column] = [row, column].map(|coordinate| print_coordinate(&coordinate, emitter.model));
         for place in [[row.clone(), column.clone(), loops.clone()], [column, row, loops]] {
             if !places.contains(&place) {

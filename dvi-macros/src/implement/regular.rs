@@ -31,13 +31,13 @@ fn account(
     programs: &RegularPrograms,
     structure: &MassMatrix,
 ) -> Account {
-    let energy = programs.energy.first().map_or(Expr::ZERO, |statement| statement.value);
+    let energy = programs.energy.statements.first().map_or(Expr::ZERO, |statement| statement.value);
     let declared = [("L", formulas.lagrangian), ("E", energy)];
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account =
         Account::new("L(q, v, t) and its energy E = v·∂L/∂v − L:", declared.to_vec(), structure.sentences());
     account.momenta(emitter, &formulas.momenta);
-    account.derived(emitter, &programs.shared.gradient, |output, entry| match output {
+    account.derived(emitter, &programs.shared.gradient.statements, |output, entry| match output {
         Output::Lv => format!("∂L/∂{}", print_velocity(entry, emitter.model)),
         _ => format!("∂L/∂{}", print_coordinate(entry, emitter.model)),
     });

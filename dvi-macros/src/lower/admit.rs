@@ -7,7 +7,7 @@ use quote::ToTokens;
 use syn::Expr as Syntax;
 
 use super::{Lowering, Role};
-use crate::symbolic::{Expr, Graph, Id, Node};
+use crate::symbolic::{Expr, Fold, Graph, Id, Node};
 use crate::syntax::Kind;
 
 /// Far beyond what floating point can tell from 0 or ∞, and far from overflow.
@@ -54,7 +54,7 @@ fn measure_above(graph: &Graph, node: Id, known: &HashMap<Id, Measure>) -> Measu
     let deepest = operands.iter().map(|operand| operand.functions).max().unwrap_or(0);
     let degree = match graph.node(node) {
         Node::Velocity(_) => 1,
-        Node::Sum(_) | Node::Reduce(..) => largest,
+        Node::Sum(_) | Node::Reduce { fold: Fold::Sum, .. } => largest,
         Node::Product(factors) => {
             let degrees = factors.iter().zip(&operands);
             let sum: u32 = degrees.map(|((_, e), of)| e.saturating_mul(u32::from(of.degree))).sum();

@@ -14,7 +14,7 @@ const ARITHMETIC: [(&str, usize); 5] =
     [("powi", 1), ("recip", 0), ("mul_add", 2), ("to_radians", 0), ("to_degrees", 0)];
 
 /// Names that a function of the user's own cannot have.
-pub(crate) const RESERVED: [&str; 5] = ["sum", "sum_pairs", "sum_ordered_pairs", "d", "dot"];
+pub(crate) const RESERVED: [&str; 6] = ["sum", "sum_pairs", "sum_ordered_pairs", "product", "d", "dot"];
 
 impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Expr> {
@@ -95,7 +95,7 @@ impl Lowering<'_> {
             return self.own_function(&name, call);
         }
         match name.as_str() {
-            "sum" | "sum_pairs" | "sum_ordered_pairs" => self.sum(&name, call),
+            "sum" | "sum_pairs" | "sum_ordered_pairs" | "product" => self.sum(&name, call),
             "d" | "dot" => self.velocity(&name, call),
             _ => self.own_function(&name, call),
         }

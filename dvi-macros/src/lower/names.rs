@@ -23,10 +23,8 @@ pub(super) const CONSTANTS: [(&str, f64); 8] = [
 impl Lowering<'_> {
     pub(super) fn path(&mut self, path: &Path) -> Option<Expr> {
         let Some(ident) = path.get_ident() else {
-            let last = path.segments.last()?.ident.to_string();
-            let standard = path.segments.iter().any(|segment| segment.ident == "consts");
-            if let Some((_, value)) = CONSTANTS.iter().find(|(name, _)| *name == last && standard) {
-                return Some(Expr::number(*value));
+            if let Some(value) = standard_constant(path) {
+                return Some(Expr::number(value));
             }
             let field = self.model.path_parameter(path);
             return Some(self.parameter_node(field, Vec::new()));
@@ -218,5 +216,17 @@ impl Lowering<'_> {
         };
         self.errors.push(at, format!("{reached}: {range}"));
         None
+    }
+}
+
+/// The value of `std::f64::consts::PI` and its like, written out in full: a shorter path may lead to a module
+/// of the user's own.
+fn standard_constant(path: &Path) -> Option<f64> {
+    let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+    match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        ["std" | "core", "f64", "consts", name] => {
+            CONSTANTS.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
+        }
+        _ => None,
     }
 }

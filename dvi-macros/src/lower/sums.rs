@@ -4,66 +4,70 @@ use quote::ToTokens;
 use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
 use super::{Binding, DEEPEST_SUM, Lowering, bound_name};
-use crate::symbolic::{Atom, Binder, Expr, Index};
+use crate::internal::internal;
+use crate::symbolic::{Atom, Expr, Fold, Index, Loop, Range};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
 const LARGEST: u64 = 1 << 48;
 
 impl Lowering<'_> {
-    /// `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k, `sum_ordered_pairs` over j ≠ k.
+    /// `sum(0..n, |j| …)`, `product` alike, `sum_pairs(0..n, |j, k| …)` over j < k, `sum_ordered_pairs` over
+    /// j ≠ k.
     pub(super) fn sum(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
-        let pairs = name != "sum";
-        let form = if pairs { format!("{name}(0..n, |j, k| …)") } else { "sum(0..n, |j| …)".to_string() };
+        let pairs = matches!(name, "sum_pairs" | "sum_ordered_pairs");
+        let form = if pairs { format!("{name}(0..n, |j, k| …)") } else { format!("{name}(0..n, |j| …)") };
         let (Some(range), Some(Syntax::Closure(closure)), 2) =
             (call.args.first(), call.args.get(1), call.args.len())
         else {
             self.errors.push(call, format!("write `{form}`"));
             return None;
         };
-        if self.level + 2 > DEEPEST_SUM {
+        if self.loops + 2 > DEEPEST_SUM {
             self.errors.push_once("depth of sums", call, "sums are nested too deeply");
             return None;
         }
         let bounds = self.range(range);
-        let level = self.level;
+        let depth = self.loops;
         if !pairs {
             let indices = self.closure_indices::<1>(closure);
             let ((lower, upper), [index]) = (bounds?, indices?);
-            let binder = Binder { level, lower, upper, except: None };
-            let body = self.inside(&[(index, &binder)], &closure.body)?;
-            return Some(self.graph.reduce(binder, body));
+            let (form, only) = natural(depth, &lower, &upper);
+            let body = self.inside(&[(index, form, &only)], &closure.body)?;
+            let fold = if name == "product" { Fold::Product } else { Fold::Sum };
+            let value = self.graph.fold(fold, Atom::Open(depth), only.range, body);
+            return self.admitted(call, value);
         }
         let indices = self.closure_indices::<2>(closure);
         let ((lower, upper), [first, second]) = (bounds?, indices?);
-        let outer = Binder { level, lower: lower.clone(), upper: upper.clone(), except: None };
-        let inner = if name == "sum_pairs" {
-            Binder {
-                level: level + 1,
-                lower: Index::bound(level).plus(&Index::literal(1), 1),
-                upper,
-                except: None,
-            }
+        let (first_form, outer) = natural(depth, &lower, &upper);
+        let (second_form, inner) = if name == "sum_pairs" {
+            natural(depth + 1, &first_form.plus(&Index::literal(1), 1), &upper)
         } else {
-            Binder { level: level + 1, lower, upper, except: Some(Index::bound(level)) }
+            let (form, all) = natural(depth + 1, &lower, &upper);
+            // Both indices are shifted alike.
+            let range = all.range.without(Index::open(depth));
+            (form, Loop { range, ..all })
         };
-        let body = self.inside(&[(first, &outer), (second, &inner)], &closure.body)?;
-        let body = self.graph.reduce(inner, body);
-        Some(self.graph.reduce(outer, body))
+        let indices = [(first, first_form, &outer), (second, second_form, &inner)];
+        let body = self.inside(&indices, &closure.body)?;
+        let body = self.graph.fold(Fold::Sum, Atom::Open(depth + 1), inner.range, body);
+        Some(self.graph.fold(Fold::Sum, Atom::Open(depth), outer.range, body))
     }
 
-    /// The body of a closure with its indices bound to these ranges.
-    pub(super) fn inside(&mut self, indices: &[(String, &Binder)], body: &Syntax) -> Option<Expr> {
+    /// The body of a closure with its indices bound to these forms in these loops.
+    pub(super) fn inside(&mut self, indices: &[(String, Index, &Loop)], body: &Syntax) -> Option<Expr> {
         let outside = self.scope.len();
-        for (name, binder) in indices {
-            let range = match (self.extent(&binder.lower), self.extent(&binder.upper)) {
+        for (name, form, over) in indices {
+            let range = match (self.extent(&over.range.lower), self.extent(&over.range.upper)) {
                 (Some((least, _)), Some((_, beyond))) if beyond > least => Some((least, beyond - 1)),
                 _ => None,
             };
-            self.scope.push((name.clone(), Binding::Index { level: binder.level, range }));
+            let binding = Binding::Index { form: form.clone(), depth: over.depth, range };
+            self.scope.push((name.clone(), binding));
         }
-        self.level += indices.len() as u32;
+        self.loops += indices.len() as u32;
         let value = self.expr(body);
-        self.level -= indices.len() as u32;
+        self.loops -= indices.len() as u32;
         self.scope.truncate(outside);
         value
     }
@@ -169,8 +173,8 @@ impl Lowering<'_> {
             }
             Syntax::Path(path) => {
                 let name = path.path.get_ident().map(ToString::to_string).unwrap_or_default();
-                if let Some(Binding::Index { level, .. }) = self.binding_of(&name) {
-                    return Some(Index::bound(*level));
+                if let Some(Binding::Index { form, .. }) = self.binding_of(&name) {
+                    return Some(form.clone());
                 }
                 if let Some(size) = self.model.size(syntax) {
                     return Some(size);
@@ -258,10 +262,11 @@ impl Lowering<'_> {
             (index.constant, index.constant),
             |(least, largest), (atom, coefficient)| {
                 let (low, high) = match atom {
-                    Atom::Bound(level) => self.scope.iter().find_map(|(_, binding)| match binding {
-                        Binding::Index { level: known, range } if known == level => *range,
+                    Atom::Open(depth) => self.scope.iter().find_map(|(_, binding)| match binding {
+                        Binding::Index { depth: known, range, .. } if known == depth => *range,
                         _ => None,
                     })?,
+                    Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
                     Atom::Remainder(_, modulus) => (0, modulus.as_literal()? - 1),
                     Atom::Size(_) => return None,
                 };
@@ -270,4 +275,15 @@ impl Lowering<'_> {
             },
         )
     }
+}
+
+/// A loop over `lower..upper` that counts from zero where `lower` might be negative, and the index as a form
+/// in the open index of that loop.
+fn natural(depth: u32, lower: &Index, upper: &Index) -> (Index, Loop) {
+    let open = Index::open(depth);
+    if lower.is_natural() {
+        let range = Range { lower: lower.clone(), upper: upper.clone(), except: Vec::new() };
+        return (open, Loop { depth, range });
+    }
+    (lower.plus(&open, 1), Loop { depth, range: Range::up_to(upper.plus(lower, -1)) })
 }

@@ -3,6 +3,8 @@
 use super::{
     Output, Place, Programs, Statement, Variable, first_derivatives, mirrored_pair, result, variable,
 };
+use crate::internal::internal;
+use crate::routine::Routine;
 use crate::symbolic::{Coordinate, Expr, Graph, Node, SecondContribution, Weight};
 
 /// The formulas of a degenerate system.
@@ -17,14 +19,15 @@ pub(crate) struct DegenerateFormulas {
 /// What is generated for a degenerate system.
 pub(crate) struct DegeneratePrograms {
     pub(crate) shared: Programs,
-    pub(crate) hamiltonian: Vec<Statement>,
-    pub(crate) hamiltonian_gradient: Vec<Statement>,
-    pub(crate) one_form: Vec<Statement>,
+    pub(crate) hamiltonian: Routine,
+    pub(crate) hamiltonian_gradient: Routine,
+    pub(crate) one_form: Routine,
     /// ∇H + ∂α/∂t
-    pub(crate) flow_source: Vec<Statement>,
-    pub(crate) one_form_jacobian: Vec<Statement>,
-    pub(crate) partner_entries: Vec<Statement>,
-    pub(crate) momentum_gradients: Vec<Vec<Statement>>,
+    pub(crate) flow_source: Routine,
+    pub(crate) one_form_jacobian: Routine,
+    /// Where Ω is canonical, one entry a row; else nothing.
+    pub(crate) partner_entries: Routine,
+    pub(crate) momentum_gradients: Vec<Routine>,
 }
 
 impl DegeneratePrograms {
@@ -41,18 +44,23 @@ impl DegeneratePrograms {
         let hamiltonian_gradient = first_derivatives(graph, formulas.hamiltonian, Output::Vector, Output::Lv);
         let one_form = one_form(graph, formulas.one_form);
         let flow_source = flow_source(graph, &hamiltonian_gradient, &one_form);
+        let one_form_jacobian = one_form_jacobian(graph, form_entries);
+        let partner_entries = if canonical { partner_entries(&one_form_jacobian) } else { Vec::new() };
         let momenta = formulas.momenta.iter();
-        let momentum_gradients =
+        let momentum_gradients: Vec<Vec<Statement>> =
             momenta.map(|value| first_derivatives(graph, *value, Output::Vector, Output::Lv)).collect();
         Self {
             shared,
-            hamiltonian: result(formulas.hamiltonian),
-            one_form_jacobian: one_form_jacobian(graph, form_entries),
-            partner_entries: if canonical { partner_entries(graph, form_entries) } else { Vec::new() },
-            hamiltonian_gradient,
-            one_form,
-            flow_source,
-            momentum_gradients,
+            hamiltonian: Routine::new(graph, result(formulas.hamiltonian)),
+            hamiltonian_gradient: Routine::new(graph, hamiltonian_gradient),
+            one_form: Routine::new(graph, one_form),
+            flow_source: Routine::new(graph, flow_source),
+            one_form_jacobian: Routine::new(graph, one_form_jacobian),
+            partner_entries: Routine::new(graph, partner_entries),
+            momentum_gradients: momentum_gradients
+                .into_iter()
+                .map(|gradient| Routine::new(graph, gradient))
+                .collect(),
         }
     }
 }
@@ -83,10 +91,12 @@ pub(crate) fn dalpha<'a>(
     entries: &'a [SecondContribution],
 ) -> Vec<(Coordinate, Coordinate, &'a SecondContribution)> {
     let pair =
-        |entry: &'a SecondContribution| match (variable(graph, entry.row)?, variable(graph, entry.column)?) {
+        |entry: &'a SecondContribution| match (variable(graph, entry.row), variable(graph, entry.column)) {
             ((Variable::Velocity, i), (Variable::Position, j))
             | ((Variable::Position, j), (Variable::Velocity, i)) => Some((i, j, entry)),
-            _ => None,
+            // α·v is linear in v, and the position part of its second derivative is not in Dα.
+            ((Variable::Position, _), (Variable::Position, _))
+            | ((Variable::Velocity, _), (Variable::Velocity, _)) => None,
         };
     entries.iter().filter_map(pair).collect()
 }
@@ -100,14 +110,11 @@ fn one_form_jacobian(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<S
 }
 
 /// Row i of a Dα + b (Dα)ᵀ has its off-diagonal entry at i's partner.
-fn partner_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Statement> {
-    one_form_jacobian(graph, entries)
-        .into_iter()
-        .filter_map(|statement| match statement.place {
-            Place::MatrixEntry(row, column) if row != column => {
-                Some(Statement { place: Place::Entry(Output::Vector, row), ..statement })
-            }
-            _ => None,
-        })
-        .collect()
+fn partner_entries(jacobian: &[Statement]) -> Vec<Statement> {
+    let entry = |statement: &Statement| match &statement.place {
+        Place::MatrixEntry(row, column) => (row.block != column.block)
+            .then(|| Statement { place: Place::Entry(Output::Vector, row.clone()), ..statement.clone() }),
+        Place::Result | Place::Entry(..) => internal("an entry of a matrix was expected"),
+    };
+    jacobian.iter().filter_map(entry).collect()
 }

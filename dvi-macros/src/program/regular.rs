@@ -1,6 +1,7 @@
 //! What is special to a regular L: the energy and the force.
 
 use super::{Output, Place, Programs, Statement, result};
+use crate::routine::Routine;
 use crate::symbolic::{Expr, Graph, SecondContribution};
 
 /// The formulas of a regular system.
@@ -16,9 +17,9 @@ pub(crate) struct RegularFormulas {
 pub(crate) struct RegularPrograms {
     pub(crate) shared: Programs,
     /// E = v·∂L/∂v − L
-    pub(crate) energy: Vec<Statement>,
+    pub(crate) energy: Routine,
     /// ∂L/∂q
-    pub(crate) force: Vec<Statement>,
+    pub(crate) force: Routine,
 }
 
 impl RegularPrograms {
@@ -30,8 +31,8 @@ impl RegularPrograms {
     ) -> Self {
         let shared = Programs::new(graph, formulas.lagrangian, entries, &formulas.momenta);
         let energy = result(graph.energy(formulas.lagrangian));
-        let force = shared.gradient.iter().filter_map(as_force).collect();
-        Self { shared, energy, force }
+        let force = shared.gradient.statements.iter().filter_map(as_force).collect();
+        Self { shared, energy: Routine::new(graph, energy), force: Routine::new(graph, force) }
     }
 }
 
@@ -41,6 +42,6 @@ fn as_force(statement: &Statement) -> Option<Statement> {
         Place::Entry(Output::Lq, coordinate) => {
             Some(Statement { place: Place::Entry(Output::Vector, coordinate.clone()), ..statement.clone() })
         }
-        _ => None,
+        Place::Result | Place::Entry(..) | Place::MatrixEntry(..) => None,
     }
 }

@@ -7,7 +7,7 @@ use super::singular::{is_numerically_singular, skipped};
 use crate::errors::{Errors, listed};
 use crate::model::Model;
 use crate::program::{RegularFormulas, Variable, variable};
-use crate::symbolic::{Binder, Coordinate, Expr, Graph, Id, Node, SecondContribution};
+use crate::symbolic::{Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution};
 use crate::syntax::Kind;
 
 /// The structure of a regular L; see the constants of `dvi_core::RegularLagrangian`.
@@ -32,7 +32,7 @@ pub(crate) struct MassMatrix {
 
 /// An entry of M.
 pub(super) struct Entry {
-    pub(super) loops: Vec<Binder>,
+    pub(super) loops: Vec<Loop>,
     pub(super) row: Coordinate,
     pub(super) column: Coordinate,
     pub(super) value: Expr,
@@ -182,7 +182,7 @@ fn kinetic_energy(model: &Model, block: usize) -> String {
 fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry> {
     let mut mass: Vec<Entry> = Vec::new();
     for entry in entries {
-        let (Some((Variable::Velocity, i)), Some((Variable::Velocity, j))) =
+        let ((Variable::Velocity, i), (Variable::Velocity, j)) =
             (variable(graph, entry.row), variable(graph, entry.column))
         else {
             continue;
@@ -211,7 +211,7 @@ fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
 }
 
 fn mixes_position_and_velocity(graph: &Graph, entries: &[SecondContribution]) -> bool {
-    let kind = |id: Id| variable(graph, id).map(|(kind, _)| kind);
+    let kind = |id: Id| variable(graph, id).0;
     entries.iter().any(|entry| kind(entry.row) != kind(entry.column))
 }
 
@@ -234,7 +234,7 @@ fn momentum_vanishes_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
         .map(|first| first.value.node)
         .collect::<Vec<_>>()
         .into_iter()
-        .all(|value| graph.rebuild(value, at_rest, Clone::clone).is_zero())
+        .all(|value| graph.rebuild(value, at_rest).is_zero())
 }
 
 /// The blocks whose velocities stand in L.

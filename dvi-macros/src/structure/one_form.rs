@@ -6,7 +6,7 @@ use super::has_matching;
 use crate::errors::Errors;
 use crate::model::Model;
 use crate::program::dalpha;
-use crate::symbolic::{Binder, Coordinate, Expr, Graph, Index, Node, SecondContribution};
+use crate::symbolic::{Coordinate, Expr, Graph, Index, Loop, Node, Range, SecondContribution};
 
 /// The structure of a one-form; see the constants of `dvi_core::DegenerateLagrangian`.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub(crate) struct OneForm {
 struct FormEntry {
     row: Coordinate,
     column: Coordinate,
-    loops: Vec<Binder>,
+    loops: Vec<Loop>,
     value: Expr,
 }
 
@@ -49,13 +49,9 @@ fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<FormEntry> {
     omega
 }
 
-/// The places of Dα off its diagonal, whether or not they cancel in Ω.
-fn off_diagonal(graph: &Graph, entries: &[SecondContribution]) -> Vec<(u32, u32)> {
-    dalpha(graph, entries).iter().filter(|(i, j, _)| i != j).map(|(i, j, _)| (i.block, j.block)).collect()
-}
-
-/// The partner of each block, if Ω couples block to block, entry by entry.
-fn partners(model: &Model, omega: &[FormEntry], dalpha: &[(u32, u32)]) -> Option<Vec<usize>> {
+/// The partner of each block, if Ω couples block to block, entry by entry, and Dα holds nothing else but
+/// entries on its diagonal.
+fn partners(model: &Model, omega: &[FormEntry], dalpha: &[(Coordinate, Coordinate)]) -> Option<Vec<usize>> {
     let mut partners: Vec<Option<usize>> = vec![None; model.blocks.len()];
     for entry in omega {
         let (row, column) = (entry.row.block as usize, entry.column.block as usize);
@@ -70,30 +66,40 @@ fn partners(model: &Model, omega: &[FormEntry], dalpha: &[(u32, u32)]) -> Option
         }
     }
     let partners: Vec<usize> = partners.into_iter().collect::<Option<_>>()?;
-    dalpha.iter().all(|(i, j)| partners[*i as usize] == *j as usize).then_some(partners)
+    // The same index on both sides: the diagonal of a block, or that between a block and its partner.
+    let belongs = |(i, j): &(Coordinate, Coordinate)| {
+        i.index == j.index && (i.block == j.block || partners[i.block as usize] == j.block as usize)
+    };
+    dalpha.iter().all(belongs).then_some(partners)
 }
 
 /// Whether the loops of an entry visit each index of its blocks.
 fn covers(model: &Model, row: usize, column: usize, entry: &FormEntry) -> bool {
     match (entry.loops.as_slice(), &model.blocks[row].array, &model.blocks[column].array) {
         ([], None, None) => true,
-        ([binder], Some((size, _)), Some((other, _))) => {
+        ([only], Some((size, _)), Some((other, _))) => {
             size == other
-                && binder.lower == Index::literal(0)
-                && binder.upper == *size
-                && binder.except.is_none()
-                && entry.row.index == Index::bound(binder.level)
+                && only.range == Range::up_to(size.clone())
+                && entry.row.index == Index::open(only.depth)
         }
         _ => false,
     }
 }
 
 impl OneForm {
-    /// From the second derivative of α·v.
-    pub(crate) fn new(graph: &mut Graph, model: &Model, entries: &[SecondContribution]) -> Self {
-        let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Time);
-        let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, varies));
-        let diagonal = dalpha(graph, entries).iter().any(|(i, j, _)| i == j);
+    /// From α·v and its second derivative.
+    pub(crate) fn new(
+        graph: &mut Graph,
+        model: &Model,
+        one_form: Expr,
+        entries: &[SecondContribution],
+    ) -> Self {
+        let varies = |node: &Node| matches!(node, Node::Coordinate(_));
+        let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, varies))
+            && !graph.depends(one_form.node, |node| matches!(node, Node::Time));
+        let places: Vec<(Coordinate, Coordinate)> =
+            dalpha(graph, entries).into_iter().map(|(i, j, _)| (i, j)).collect();
+        let diagonal = places.iter().any(|(i, j)| i.block == j.block);
         let omega = omega(graph, entries);
         let touched = |block: usize| {
             omega
@@ -101,7 +107,7 @@ impl OneForm {
                 .any(|entry| entry.row.block as usize == block || entry.column.block as usize == block)
         };
         let untouched = (0..model.blocks.len()).filter(|block| !touched(*block)).collect();
-        let partners = partners(model, &omega, &off_diagonal(graph, entries));
+        let partners = partners(model, &omega, &places);
         let canonical = partners.is_some();
         let matching = canonical && !diagonal;
         let partners = partners.unwrap_or_else(|| (0..model.blocks.len()).collect());
@@ -153,7 +159,7 @@ impl OneForm {
         let mut sentences = Vec::new();
         sentences.push(match self.linear {
             true => "α is affine in q with constant coefficients: Ω is constant.",
-            false => "α is nonlinear: Ω depends on q or t.",
+            false => "α is nonlinear in q or depends on t.",
         });
         sentences.push(match (self.linear, self.matching) {
             (true, true) => {

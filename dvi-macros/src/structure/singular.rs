@@ -2,7 +2,7 @@
 
 use super::mass::Entry;
 use crate::model::Model;
-use crate::symbolic::{Atom, Binder, Index};
+use crate::symbolic::{Atom, Index, Loop};
 
 /// For each array of literal size, the first of its coordinates whose velocity M certainly does not involve
 /// while it involves others of that array.
@@ -33,12 +33,12 @@ pub(super) fn skipped(model: &Model, mass: &[Entry]) -> Vec<(usize, i64)> {
 }
 
 /// The range of an index that takes each value of a literal range.
-fn reach(index: &Index, loops: &[Binder]) -> Option<(i64, i64)> {
+fn reach(index: &Index, loops: &[Loop]) -> Option<(i64, i64)> {
     match index.terms.as_slice() {
         [] => Some((index.constant, index.constant.saturating_add(1))),
-        [(Atom::Bound(level), 1)] => {
-            let binder = loops.iter().find(|binder| binder.level == *level && binder.except.is_none())?;
-            let (lower, upper) = (binder.lower.as_literal()?, binder.upper.as_literal()?);
+        [(Atom::Open(depth), 1)] => {
+            let over = loops.iter().find(|over| over.depth == *depth && over.range.except.is_empty())?;
+            let (lower, upper) = (over.range.lower.as_literal()?, over.range.upper.as_literal()?);
             Some((lower.saturating_add(index.constant), upper.saturating_add(index.constant)))
         }
         _ => None,

@@ -8,13 +8,15 @@
 //! respect to a coordinate from outside is the sum of the derivatives, with respect to its own
 //! coordinates a scatter, weighted by ∂f/∂(the sum). [`Graph::hessian`] does this twice.
 
-use super::graph::{Expr, Graph, Id, Node};
-use super::index::Binder;
+use super::graph::{Coordinate, Expr, Fold, Graph, Id, Node};
+use super::index::{Atom, Index, Loop, Range, Renaming};
+use crate::internal::internal;
 
 /// `value`, added to the entry `target` in every pass of the loops.
 #[derive(Clone, Debug)]
 pub(crate) struct Contribution {
-    pub(crate) loops: Vec<Binder>,
+    /// The loop number k is over the open index of depth k.
+    pub(crate) loops: Vec<Loop>,
     /// A coordinate or velocity node.
     pub(crate) target: Id,
     pub(crate) value: Expr,
@@ -24,15 +26,21 @@ pub(crate) struct Contribution {
 /// too if `mirrored`.
 #[derive(Clone, Debug)]
 pub(crate) struct SecondContribution {
-    pub(crate) loops: Vec<Binder>,
+    pub(crate) loops: Vec<Loop>,
     pub(crate) row: Id,
     pub(crate) column: Id,
     pub(crate) value: Expr,
     pub(crate) mirrored: bool,
 }
 
-fn levels(loops: &[Binder]) -> u64 {
-    loops.iter().fold(0, |levels, binder| levels | 1 << binder.level)
+/// The variables that one place of a formula stands for: those that its index reaches, in the loops that
+/// decide its value.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Family {
+    is_velocity: bool,
+    block: u32,
+    index: Index,
+    ranges: Vec<Range>,
 }
 
 impl Graph {
@@ -90,14 +98,30 @@ impl Graph {
                 let (then, otherwise) = (self.derivative(then, by), self.derivative(otherwise, by));
                 self.choose(left, relation, right, then, otherwise)
             }
-            // A variable that depends on the level of this sum is not the one bound inside of it.
-            Node::Reduce(binder, _) if self.free(by) & (1 << binder.level) != 0 => Expr::ZERO,
-            Node::Reduce(binder, body) => {
-                let tangent = self.node_derivative(body, by);
-                self.reduce(binder, tangent)
+            Node::Reduce { fold, height, range, body } => {
+                // A loop that neither of the two knows.
+                let depth = self.free(of).depth().max(self.free(by).depth());
+                let inner = self.opened(height, body, depth);
+                let mut tangent = self.derivative(inner, by);
+                if fold == Fold::Product {
+                    let others = self.other_factors(height, &range, body, depth);
+                    tangent = self.multiply(tangent, others);
+                }
+                self.fold(Fold::Sum, Atom::Open(depth), range, tangent)
             }
-            _ => Expr::ZERO,
+            Node::One
+            | Node::Coordinate(_)
+            | Node::Velocity(_)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Count(_)
+            | Node::Weight(_) => Expr::ZERO,
         }
+    }
+
+    /// The product over `range` without the factor at the open index of `depth`.
+    fn other_factors(&mut self, height: u32, range: &Range, body: Expr, depth: u32) -> Expr {
+        self.fold(Fold::Product, Atom::Bound(height), range.without(Index::open(depth)), body)
     }
 
     fn chain(&mut self, inner: Expr, by: Id, outer: impl FnOnce(&mut Self) -> Expr) -> Expr {
@@ -128,26 +152,28 @@ impl Graph {
     }
 
     /// The gradient of `root`, which stands inside `loops`, by all coordinates and velocities.
-    pub(crate) fn gradient(&mut self, root: Expr, loops: &[Binder]) -> Vec<Contribution> {
+    pub(crate) fn gradient(&mut self, root: Expr, loops: &[Loop]) -> Vec<Contribution> {
         let mut found = Vec::new();
         self.collect(root, Expr::ONE, loops, None, &mut found);
         found
     }
 
     /// Adds the contributions of weight · body; with `newest` given, only those of variables that
-    /// depend on that level, because the others were taken further out.
+    /// depend on the loop at that depth, because the others were taken further out.
     fn collect(
         &mut self,
         body: Expr,
         weight: Expr,
-        loops: &[Binder],
+        loops: &[Loop],
         newest: Option<u32>,
         found: &mut Vec<Contribution>,
     ) {
-        let open = levels(loops);
-        let belongs = |free: u64| free & !open == 0 && newest.is_none_or(|level| free & (1 << level) != 0);
-        let local: Vec<Id> =
-            self.reachable([body.node]).into_iter().filter(|id| belongs(self.free(*id))).collect();
+        // What depends on the index of a closed sum is differentiated when that sum has been opened.
+        let belongs = |graph: &Self, id: &Id| {
+            let free = graph.free(*id);
+            free.bound == 0 && newest.is_none_or(|depth| free.open & (1 << depth) != 0)
+        };
+        let local: Vec<Id> = self.reachable([body.node]).into_iter().filter(|id| belongs(self, id)).collect();
         for id in local {
             match self.node(id).clone() {
                 Node::Coordinate(_) | Node::Velocity(_) => {
@@ -157,40 +183,37 @@ impl Graph {
                         found.push(Contribution { loops: loops.to_vec(), target: id, value });
                     }
                 }
-                Node::Reduce(binder, inner) => {
+                Node::Reduce { fold, height, range, body: inner } => {
                     let partial = self.derivative(body, id);
-                    let weight = self.multiply(weight, partial);
+                    let mut weight = self.multiply(weight, partial);
                     if weight.is_zero() {
                         continue;
                     }
-                    let (binder, inner) = self.opened(binder, inner, open);
-                    let level = binder.level;
-                    let inside: Vec<Binder> = loops.iter().cloned().chain([binder]).collect();
-                    self.collect(inner, weight, &inside, Some(level), found);
+                    let depth = loops.len() as u32;
+                    if fold == Fold::Product {
+                        let others = self.other_factors(height, &range, inner, depth);
+                        weight = self.multiply(weight, others);
+                    }
+                    let inner = self.opened(height, inner, depth);
+                    let inside: Vec<Loop> = loops.iter().cloned().chain([Loop { depth, range }]).collect();
+                    self.collect(inner, weight, &inside, Some(depth), found);
                 }
                 _ => {}
             }
         }
     }
 
-    /// A sum with its levels moved out of the way of the open ones.
-    fn opened(&mut self, binder: Binder, body: Id, open: u64) -> (Binder, Expr) {
-        if open >> binder.level == 0 {
-            return (binder, body.into());
-        }
-        let by = 64 - open.leading_zeros() - binder.level;
-        let body = self.shift(body, binder.level, by);
-        (Binder { level: binder.level + by, ..binder }, body)
-    }
-
-    /// The second derivative of `root` by all coordinates and velocities. Each unordered pair of
-    /// distinct variables appears once, mirrored.
+    /// The second derivative of `root` by all coordinates and velocities.
+    ///
+    /// Each place of the formula belongs to one [`Family`], in the first derivative as in the second.
+    /// The block of two families is the transpose of the block with their roles exchanged, so one of the
+    /// two is enough, mirrored; the block of a family with itself is complete as it comes.
     pub(crate) fn hessian(&mut self, root: Expr) -> Vec<SecondContribution> {
         let mut found = Vec::new();
         for first in self.gradient(root, &[]) {
+            let row = self.family(first.target, &first.loops);
             for second in self.gradient(first.value, &first.loops) {
-                let (row, column) = (self.origin(first.target), self.origin(second.target));
-                // The pair (column, row) comes along on its own way, with the same value.
+                let column = self.family(second.target, &second.loops);
                 if row <= column {
                     found.push(SecondContribution {
                         loops: second.loops,
@@ -205,7 +228,27 @@ impl Graph {
         found
     }
 
-    fn origin(&self, node: Id) -> Id {
-        self.origins.get(&node).map_or(node, |earlier| self.origin(*earlier))
+    fn family(&self, target: Id, loops: &[Loop]) -> Family {
+        let (is_velocity, Coordinate { block, index }) = match self.node(target) {
+            Node::Coordinate(coordinate) => (false, coordinate),
+            Node::Velocity(coordinate) => (true, coordinate),
+            other => internal(format!("a derivative by {other:?}")),
+        };
+        let mut needed = index.free().open;
+        for outer in loops.iter().rev() {
+            if needed & (1 << outer.depth) != 0 {
+                needed |= outer.range.free().open;
+            }
+        }
+        // The loops that matter, numbered from the outside.
+        let mut ranges: Vec<Range> = Vec::new();
+        let mut numbers: Vec<Renaming> = Vec::new();
+        for outer in loops.iter().filter(|outer| needed & (1 << outer.depth) != 0) {
+            let to = Atom::Open(ranges.len() as u32);
+            ranges.push(numbers.iter().fold(outer.range.clone(), |range, number| range.renamed(number)));
+            numbers.push(Renaming { from: Atom::Open(outer.depth), to });
+        }
+        let index = numbers.iter().fold(index.clone(), |index, number| index.renamed(number));
+        Family { is_velocity, block: *block, index, ranges }
     }
 }

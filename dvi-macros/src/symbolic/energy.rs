@@ -7,29 +7,19 @@
 
 use std::collections::HashMap;
 
-use super::graph::{Binary, Expr, Graph, Id, Node, Unary, Weight};
+use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Unary, Weight};
+use super::index::Atom;
 
 impl Graph {
     /// v·∂f/∂v − f.
     pub(crate) fn energy(&mut self, of: Expr) -> Expr {
-        let degrees = self.velocity_degrees(of.node);
-        Energy { graph: self, degrees, known: HashMap::new() }.of(of)
+        Energy { graph: self, degrees: HashMap::new(), known: HashMap::new() }.of(of)
     }
 
-    /// For each node f below `root` the degree k with f(q, s·v) = sᵏ·f(q, v) for s > 0, as far as the form
-    /// of f shows it.
-    fn velocity_degrees(&self, root: Id) -> HashMap<Id, f64> {
-        let mut degrees = HashMap::new();
-        for id in self.reachable([root]) {
-            if let Some(degree) = self.velocity_degree(id, &degrees) {
-                degrees.insert(id, degree);
-            }
-        }
-        degrees
-    }
-
-    fn velocity_degree(&self, id: Id, known: &HashMap<Id, f64>) -> Option<f64> {
-        let known = |id: &Id| known.get(id).copied();
+    /// The degree k with f(q, s·v) = sᵏ·f(q, v) for s > 0, as far as the form of f shows it, from the
+    /// degrees of its operands.
+    fn velocity_degree(&self, id: Id, known: &HashMap<Id, Option<f64>>) -> Option<f64> {
+        let known = |id: &Id| known.get(id).copied().flatten();
         let common = |operands: &[Id]| {
             let first = known(operands.first()?)?;
             operands.iter().all(|operand| known(operand) == Some(first)).then_some(first)
@@ -37,7 +27,7 @@ impl Graph {
         let operands = self.node(id).operands();
         match self.node(id) {
             Node::Velocity(_) => Some(1.0),
-            Node::Sum(_) | Node::Reduce(..) => common(&operands),
+            Node::Sum(_) | Node::Reduce { fold: Fold::Sum, .. } => common(&operands),
             Node::Product(factors) => {
                 factors.iter().map(|(factor, exponent)| Some(known(factor)? * f64::from(*exponent))).sum()
             }
@@ -60,7 +50,7 @@ const MOST_TERMS: usize = 64;
 
 struct Energy<'a> {
     graph: &'a mut Graph,
-    degrees: HashMap<Id, f64>,
+    degrees: HashMap<Id, Option<f64>>,
     known: HashMap<Id, Expr>,
 }
 
@@ -73,12 +63,22 @@ impl Energy<'_> {
         if let Some(known) = self.known.get(&of) {
             return *known;
         }
-        let energy = match self.degrees.get(&of) {
+        let energy = match self.degree(of) {
             Some(degree) => Expr::from(of).scaled(degree - 1.0),
             None => self.of_inhomogeneous(of),
         };
         self.known.insert(of, energy);
         energy
+    }
+
+    fn degree(&mut self, of: Id) -> Option<f64> {
+        for id in self.graph.reachable([of]) {
+            if !self.degrees.contains_key(&id) {
+                let degree = self.graph.velocity_degree(id, &self.degrees);
+                self.degrees.insert(id, degree);
+            }
+        }
+        self.degrees.get(&of).copied().flatten()
     }
 
     fn of_inhomogeneous(&mut self, of: Id) -> Expr {
@@ -87,9 +87,11 @@ impl Energy<'_> {
                 let terms: Vec<Expr> = terms.iter().map(|term| self.of(*term)).collect();
                 self.graph.sum(&terms)
             }
-            Node::Reduce(binder, body) => {
-                let body = self.of_node(body);
-                self.graph.reduce(binder, body)
+            Node::Reduce { fold: Fold::Sum, height, range, body } => {
+                let depth = self.graph.free(of).depth();
+                let inner = self.graph.opened(height, body, depth);
+                let energy = self.of(inner);
+                self.graph.fold(Fold::Sum, Atom::Open(depth), range, energy)
             }
             Node::Choose { left, relation, right, then, otherwise } => {
                 let (then, otherwise) = (self.of(then), self.of(otherwise));
@@ -104,7 +106,7 @@ impl Energy<'_> {
     /// c·f for the only factor f with velocities gives c times the energy of f.
     fn of_product(&mut self, of: Id, factors: &[(Id, u32)]) -> Expr {
         let (resting, moving): (Vec<_>, Vec<_>) =
-            factors.iter().partition(|(factor, _)| self.degrees.get(factor) == Some(&0.0));
+            factors.iter().partition(|(factor, _)| self.degree(*factor) == Some(0.0));
         let [(single, 1)] = moving.as_slice() else { return self.along_velocity(of) };
         let mut product = vec![self.of_node(*single)];
         for (factor, exponent) in resting {
@@ -142,10 +144,10 @@ impl Energy<'_> {
             let velocity = matches!(graph.node(id), Node::Velocity(_));
             velocity.then(|| graph.multiply(factor.into(), id.into()))
         };
-        let stretched = graph.rebuild(of, stretch, Clone::clone);
+        let stretched = graph.rebuild(of, stretch);
         let along = graph.derivative(stretched, factor);
         let at_one = |_: &mut Graph, id: Id| (id == factor).then_some(Expr::ONE);
-        let along = graph.rebuild(along.node, at_one, Clone::clone).scaled(along.scale);
+        let along = graph.rebuild(along.node, at_one).scaled(along.scale);
         graph.subtract(along, of.into())
     }
 }

@@ -4,10 +4,11 @@
 //! than the ids of its operands, so passes are loops in id order. An [`Expr`] is a literal factor
 //! times a node: signs and literal factors stay outside of the nodes, and f and −2f are one node.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::hash::{Hash, Hasher};
 
-use super::index::{Binder, Index};
+use super::index::{Atom, Free, Index, Range, Renaming};
+use crate::internal::internal;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Id(pub(crate) u32);
@@ -113,18 +114,34 @@ pub(crate) enum Node {
         then: Expr,
         otherwise: Expr,
     },
-    /// An index sum. It stays one.
-    Reduce(Binder, Id),
+    /// A sum or product over a range. It stays one.
+    Reduce {
+        fold: Fold,
+        /// The name of its index in `body`: above the heights of all folds inside.
+        height: u32,
+        range: Range,
+        /// A literal factor of a sum stands in front of it.
+        body: Expr,
+    },
+}
+
+/// How the values of a range are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Fold {
+    Sum,
+    Product,
 }
 
 #[derive(Debug)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
-    /// Bound levels on which a node depends, a bit each.
-    free: Vec<u64>,
+    /// The indices on which each node depends.
+    free: Vec<Free>,
+    /// The height that a fold around each node takes.
+    heights: Vec<u32>,
     known: HashMap<Node, Id>,
-    /// For a node that a shift of levels made: the node that it was made from.
-    pub(super) origins: HashMap<Id, Id>,
+    /// Sums that derivatives made and that stand in no formula as written.
+    pub(super) unsigned_sums: HashSet<Id>,
     pub(super) derivatives: HashMap<(Id, Id), Expr>,
 }
 
@@ -188,8 +205,8 @@ impl Node {
             | Self::Weight(_) => Vec::new(),
             Self::Sum(terms) => terms.iter().map(|term| term.node).collect(),
             Self::Product(factors) => factors.iter().map(|(factor, _)| *factor).collect(),
-            Self::Reciprocal(of) | Self::Reduce(_, of) => vec![*of],
-            Self::Unary(_, of) | Self::Call(_, _, of) => vec![of.node],
+            Self::Reciprocal(of) => vec![*of],
+            Self::Unary(_, of) | Self::Call(_, _, of) | Self::Reduce { body: of, .. } => vec![of.node],
             Self::Binary(_, a, b) => vec![a.node, b.node],
             Self::Choose { left, right, then, otherwise, .. } => {
                 vec![left.node, right.node, then.node, otherwise.node]
@@ -205,8 +222,9 @@ impl Graph {
         let mut graph = Self {
             nodes: Vec::new(),
             free: Vec::new(),
+            heights: Vec::new(),
             known: HashMap::new(),
-            origins: HashMap::new(),
+            unsigned_sums: HashSet::new(),
             derivatives: HashMap::new(),
         };
         graph.intern(Node::One);
@@ -217,8 +235,16 @@ impl Graph {
         &self.nodes[id.0 as usize]
     }
 
-    pub(crate) fn free(&self, id: Id) -> u64 {
+    pub(crate) fn free(&self, id: Id) -> Free {
         self.free[id.0 as usize]
+    }
+
+    fn height(&self, id: Id) -> u32 {
+        self.heights[id.0 as usize]
+    }
+
+    pub(super) fn find(&self, node: &Node) -> Option<Id> {
+        self.known.get(node).copied()
     }
 
     /// The id of a node that the constructors have brought to its normal form.
@@ -226,17 +252,26 @@ impl Graph {
         if let Some(id) = self.known.get(&node) {
             return *id;
         }
-        let operands = node.operands().into_iter().fold(0, |free, id| free | self.free(id));
-        let free = match &node {
-            Node::Coordinate(c) | Node::Velocity(c) => c.index.free(),
-            Node::Parameter(p) => p.indices.iter().fold(0, |free, index| free | index.free()),
-            Node::Count(index) => index.free(),
-            Node::Reduce(binder, _) => (operands & !(1 << binder.level)) | binder.free(),
-            _ => operands,
+        let operands = node.operands();
+        let inside = operands.iter().fold(Free::default(), |free, id| free.and(self.free(*id)));
+        let highest = operands.iter().map(|id| self.height(*id)).max().unwrap_or(0);
+        let (free, height) = match &node {
+            Node::Coordinate(c) | Node::Velocity(c) => (c.index.free(), 0),
+            Node::Parameter(p) => {
+                (p.indices.iter().fold(Free::default(), |free, index| free.and(index.free())), 0)
+            }
+            Node::Count(index) => (index.free(), 0),
+            Node::Reduce { height, range, .. } => {
+                let rest = Free { bound: inside.bound & !(1 << height), ..inside };
+                (rest.and(range.free()), height + 1)
+            }
+            _ => (inside, highest),
         };
-        let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        let Ok(number) = u32::try_from(self.nodes.len()) else { internal("the graph is full") };
+        let id = Id(number);
         self.nodes.push(node.clone());
         self.free.push(free);
+        self.heights.push(height);
         self.known.insert(node, id);
         id
     }
@@ -262,13 +297,16 @@ impl Graph {
         self.reachable([root]).into_iter().any(|id| property(self.node(id)))
     }
 
-    /// Rebuilds `root` with some nodes replaced and the ranges of its sums mapped, everything else
-    /// through the constructors.
-    pub(crate) fn rebuild(
+    /// Rebuilds `root` with some nodes replaced, everything else through the constructors.
+    pub(crate) fn rebuild(&mut self, root: Id, replace: impl FnMut(&mut Self, Id) -> Option<Expr>) -> Expr {
+        self.rebuild_with(root, replace, Range::clone)
+    }
+
+    fn rebuild_with(
         &mut self,
         root: Id,
         mut replace: impl FnMut(&mut Self, Id) -> Option<Expr>,
-        range: impl Fn(&Binder) -> Binder,
+        range: impl Fn(&Range) -> Range,
     ) -> Expr {
         let mut new: HashMap<Id, Expr> = HashMap::new();
         for id in self.reachable([root]) {
@@ -281,12 +319,12 @@ impl Graph {
         new[&root]
     }
 
-    fn rebuilt(&mut self, id: Id, new: &HashMap<Id, Expr>, range: &impl Fn(&Binder) -> Binder) -> Expr {
+    fn rebuilt(&mut self, id: Id, new: &HashMap<Id, Expr>, range: &impl Fn(&Range) -> Range) -> Expr {
         let of = |old: &Expr| new[&old.node].scaled(old.scale);
         match self.node(id).clone() {
             Node::Sum(terms) => {
                 let terms: Vec<Expr> = terms.iter().map(of).collect();
-                self.sum(&terms)
+                if self.unsigned_sums.contains(&id) { self.unsigned_sum(&terms) } else { self.sum(&terms) }
             }
             Node::Product(factors) => {
                 let powers: Vec<Expr> =
@@ -300,34 +338,59 @@ impl Graph {
             Node::Choose { left, relation, right, then, otherwise } => {
                 self.choose(of(&left), relation, of(&right), of(&then), of(&otherwise))
             }
-            Node::Reduce(binder, body) => self.reduce(range(&binder), new[&body]),
-            _ => id.into(),
+            Node::Reduce { fold, height, range: known, body } => {
+                self.fold(fold, Atom::Bound(height), range(&known), of(&body))
+            }
+            Node::One
+            | Node::Coordinate(_)
+            | Node::Velocity(_)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Count(_)
+            | Node::Weight(_) => id.into(),
         }
     }
 
-    /// The body of a sum with its levels from `from` on moved by `by`.
-    pub(super) fn shift(&mut self, root: Id, from: u32, by: u32) -> Expr {
-        let mut made = Vec::new();
+    /// `root` with one index in place of another.
+    pub(crate) fn renamed(&mut self, root: Id, renaming: &Renaming) -> Expr {
         let replace = |graph: &mut Self, id: Id| {
-            let moved = |c: &Coordinate| Coordinate { block: c.block, index: c.index.shift(from, by) };
+            let moved = |c: &Coordinate| Coordinate { block: c.block, index: c.index.renamed(renaming) };
             let node = match graph.node(id) {
                 Node::Coordinate(c) => Node::Coordinate(moved(c)),
                 Node::Velocity(c) => Node::Velocity(moved(c)),
                 Node::Parameter(p) => Node::Parameter(Parameter {
                     field: p.field,
-                    indices: p.indices.iter().map(|index| index.shift(from, by)).collect(),
+                    indices: p.indices.iter().map(|index| index.renamed(renaming)).collect(),
                 }),
-                Node::Count(index) => Node::Count(index.shift(from, by)),
+                Node::Count(index) => return Some(graph.count(index.renamed(renaming))),
                 _ => return None,
             };
-            let new = graph.intern(node);
-            if new != id {
-                made.push((new, id));
-            }
-            Some(new.into())
+            Some(graph.intern(node).into())
         };
-        let shifted = self.rebuild(root, replace, |binder| binder.shift(from, by));
-        self.origins.extend(made);
-        shifted
+        self.rebuild_with(root, replace, |range| range.renamed(renaming))
+    }
+
+    /// The body of a fold inside a loop at `depth` that runs over its range.
+    pub(crate) fn opened(&mut self, height: u32, body: Expr, depth: u32) -> Expr {
+        let renaming = Renaming { from: Atom::Bound(height), to: Atom::Open(depth) };
+        self.renamed(body.node, &renaming).scaled(body.scale)
+    }
+
+    /// A body whose index is called `index` as the body of a fold, with the height of that fold. The name
+    /// of the index is then the lowest that no fold inside uses; names around it are higher, so nothing
+    /// is captured.
+    pub(super) fn closed(&mut self, index: &Atom, body: Expr) -> (u32, Expr) {
+        let height = self.height(body.node);
+        let to = Atom::Bound(height);
+        if *index == to {
+            return (height, body);
+        }
+        let own = Index::atom(index.clone()).free().bound;
+        let names_inside = (2_u64 << height) - 1;
+        if self.free(body.node).bound & !own & names_inside != 0 {
+            internal("a sum would capture the index of another one");
+        }
+        let renaming = Renaming { from: index.clone(), to };
+        (height, self.renamed(body.node, &renaming).scaled(body.scale))
     }
 }

@@ -1,7 +1,15 @@
-//! Index arithmetic: affine combinations of bound indices and sizes, and remainders of them.
+//! Index arithmetic: affine combinations of indices and sizes, and remainders of them.
 //!
-//! Bound indices are named by their nesting level, so that the same sum written twice is the same
-//! node. Indices are mathematical integers; `%` is the Euclidean remainder.
+//! An index has one of two kinds of name, and no binder of one kind can capture a name of the other
+//! (the locally nameless representation; McBride & McKinna 2004, Charguéraud 2012). Inside of a sum
+//! that stands in an expression, its index is [`Atom::Bound`] with the height of that sum: one more
+//! than the heights of all sums inside of it, so that the same sum is the same node wherever it
+//! stands, and heights fall strictly on the way inwards. The index of a loop that runs around an
+//! expression is [`Atom::Open`] with the depth of that loop, and depths rise strictly on the way
+//! inwards. A sum becomes a loop, and a loop a sum, by replacing one name with the other.
+//!
+//! Indices are mathematical integers; `%` is the Euclidean remainder. No index is negative: a sum
+//! whose range may begin below zero is shifted when it is made.
 
 /// A size that is not a literal: an entry of the model's table of sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -9,7 +17,9 @@ pub(crate) struct Size(pub(crate) u32);
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Atom {
-    /// The index of the sum at this nesting level.
+    /// The index of the loop at this depth.
+    Open(u32),
+    /// The index of the sum of this height, which stands around it in the same expression.
     Bound(u32),
     Size(Size),
     Remainder(Box<Index>, Box<Index>),
@@ -22,13 +32,46 @@ pub(crate) struct Index {
     pub(crate) terms: Vec<(Atom, i64)>,
 }
 
-/// Σ over `lower <= index < upper`, leaving out `except`.
+/// The values `lower <= index < upper` without those in `except`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) struct Binder {
-    pub(crate) level: u32,
+pub(crate) struct Range {
     pub(crate) lower: Index,
     pub(crate) upper: Index,
-    pub(crate) except: Option<Index>,
+    pub(crate) except: Vec<Index>,
+}
+
+/// A loop over the open index at `depth`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Loop {
+    pub(crate) depth: u32,
+    pub(crate) range: Range,
+}
+
+/// The indices that something depends on, a bit for each name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Free {
+    /// Depths of loops.
+    pub(crate) open: u64,
+    /// Heights of sums.
+    pub(crate) bound: u64,
+}
+
+impl Free {
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self { open: self.open | other.open, bound: self.bound | other.bound }
+    }
+
+    /// The number of loops that must run around what depends on these indices.
+    pub(crate) fn depth(self) -> u32 {
+        u64::BITS - self.open.leading_zeros()
+    }
+}
+
+/// One name instead of another.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Renaming {
+    pub(crate) from: Atom,
+    pub(crate) to: Atom,
 }
 
 impl Index {
@@ -40,8 +83,8 @@ impl Index {
         Self { constant: 0, terms: vec![(atom, 1)] }
     }
 
-    pub(crate) fn bound(level: u32) -> Self {
-        Self::atom(Atom::Bound(level))
+    pub(crate) fn open(depth: u32) -> Self {
+        Self::atom(Atom::Open(depth))
     }
 
     pub(crate) fn size(size: Size) -> Self {
@@ -78,47 +121,61 @@ impl Index {
         }
     }
 
-    /// The set of bound levels that this index depends on, a bit each.
-    pub(crate) fn free(&self) -> u64 {
+    pub(crate) fn free(&self) -> Free {
         let of = |atom: &Atom| match atom {
-            Atom::Bound(level) => 1 << level,
-            Atom::Size(_) => 0,
-            Atom::Remainder(value, modulus) => value.free() | modulus.free(),
+            Atom::Open(depth) => Free { open: 1 << depth, bound: 0 },
+            Atom::Bound(height) => Free { open: 0, bound: 1 << height },
+            Atom::Size(_) => Free::default(),
+            Atom::Remainder(value, modulus) => value.free().and(modulus.free()),
         };
-        self.terms.iter().fold(0, |free, (atom, _)| free | of(atom))
+        self.terms.iter().fold(Free::default(), |free, (atom, _)| free.and(of(atom)))
     }
 
-    /// Moves the levels from `from` on by `by`.
-    pub(crate) fn shift(&self, from: u32, by: u32) -> Self {
-        let shifted = |atom: &Atom| match atom {
-            Atom::Bound(level) if *level >= from => Atom::Bound(level + by),
+    pub(crate) fn renamed(&self, renaming: &Renaming) -> Self {
+        let renamed = |atom: &Atom| match atom {
+            known if *known == renaming.from => renaming.to.clone(),
             Atom::Remainder(value, modulus) => {
-                Atom::Remainder(Box::new(value.shift(from, by)), Box::new(modulus.shift(from, by)))
+                Atom::Remainder(Box::new(value.renamed(renaming)), Box::new(modulus.renamed(renaming)))
             }
-            other => other.clone(),
+            Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => atom.clone(),
         };
-        let mut index = Self {
-            constant: self.constant,
-            terms: self.terms.iter().map(|(atom, coefficient)| (shifted(atom), *coefficient)).collect(),
-        };
-        index.terms.sort();
-        index
+        let terms = self.terms.iter().map(|(atom, coefficient)| (renamed(atom), *coefficient));
+        terms.fold(Self::literal(self.constant), |sum, (atom, coefficient)| {
+            sum.plus(&Self::atom(atom), coefficient)
+        })
+    }
+
+    /// Whether no value of this index is negative, because nothing is subtracted in it.
+    pub(crate) fn is_natural(&self) -> bool {
+        self.constant >= 0 && self.terms.iter().all(|(_, coefficient)| *coefficient > 0)
     }
 }
 
-impl Binder {
-    /// The levels that the range depends on.
-    pub(crate) fn free(&self) -> u64 {
-        self.lower.free() | self.upper.free() | self.except.as_ref().map_or(0, Index::free)
+impl Range {
+    /// `0..upper`
+    pub(crate) fn up_to(upper: Index) -> Self {
+        Self { lower: Index::literal(0), upper, except: Vec::new() }
     }
 
-    pub(crate) fn shift(&self, from: u32, by: u32) -> Self {
+    /// The indices that the bounds depend on.
+    pub(crate) fn free(&self) -> Free {
+        let bounds = self.lower.free().and(self.upper.free());
+        self.except.iter().fold(bounds, |free, except| free.and(except.free()))
+    }
+
+    pub(crate) fn renamed(&self, renaming: &Renaming) -> Self {
         Self {
-            level: if self.level >= from { self.level + by } else { self.level },
-            lower: self.lower.shift(from, by),
-            upper: self.upper.shift(from, by),
-            except: self.except.as_ref().map(|except| except.shift(from, by)),
+            lower: self.lower.renamed(renaming),
+            upper: self.upper.renamed(renaming),
+            except: self.except.iter().map(|except| except.renamed(renaming)).collect(),
         }
+    }
+
+    /// The same values without `index`.
+    pub(crate) fn without(&self, index: Index) -> Self {
+        let mut rest = self.clone();
+        rest.except.push(index);
+        rest
     }
 
     /// Whether the range is known to be empty.

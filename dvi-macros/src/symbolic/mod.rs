@@ -14,7 +14,7 @@ mod simplify;
 mod tests;
 
 pub(crate) use derivative::{Contribution, SecondContribution};
-pub(crate) use graph::{Binary, Coordinate, Expr, Graph, Id, Node, Parameter, Relation, Unary, Weight};
-pub(crate) use index::{Atom, Binder, Index, Size};
-pub(crate) use print::{Names, print_binders, print_coordinate, print_expr, print_velocity};
+pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Unary, Weight};
+pub(crate) use index::{Atom, Free, Index, Loop, Range, Renaming, Size};
+pub(crate) use print::{Names, print_coordinate, print_expr, print_loops, print_velocity};
 pub(crate) use rules::{binary_by_name, unary_by_name, unary_names};

@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::graph::{Coordinate, Expr, Graph, Id, Node, Relation, Weight};
-use super::index::{Atom, Binder, Index};
+use super::graph::{Coordinate, Expr, Fold, Graph, Id, Node, Relation, Weight};
+use super::index::{Atom, Index, Loop, Range};
+use crate::internal::internal;
 
 /// The names that ids of the model stand for.
 pub(crate) trait Names {
@@ -24,52 +25,86 @@ enum Strength {
     Atom,
 }
 
-fn bound(level: u32) -> String {
-    match "ijkl".chars().nth(level as usize) {
+fn letter(number: usize) -> String {
+    match "ijkl".chars().nth(number) {
         Some(letter) => letter.to_string(),
-        None => format!("i{level}"),
+        None => format!("i{number}"),
     }
 }
 
-fn print_index(index: &Index, names: &dyn Names) -> String {
-    let mut text = String::new();
-    for (atom, coefficient) in &index.terms {
-        let name = match atom {
-            Atom::Bound(level) => bound(*level),
-            Atom::Size(size) => names.size(size.0).to_string(),
-            Atom::Remainder(value, modulus) => {
-                format!("({}) % {}", print_index(value, names), print_index(modulus, names))
+/// The letters of the indices: open ones by depth, then those of the sums around a place.
+#[derive(Clone)]
+struct Letters<'a> {
+    names: &'a dyn Names,
+    depth: usize,
+    /// Heights of the sums around, from the outside.
+    sums: Vec<u32>,
+}
+
+impl Letters<'_> {
+    fn inside(&self, height: u32) -> Self {
+        let sums = self.sums.iter().copied().chain([height]).collect();
+        Self { sums, ..self.clone() }
+    }
+
+    fn index(&self, index: &Index) -> String {
+        let mut text = String::new();
+        for (atom, coefficient) in &index.terms {
+            let name = match atom {
+                Atom::Open(depth) => letter(*depth as usize),
+                Atom::Bound(height) => match self.sums.iter().rposition(|known| known == height) {
+                    Some(position) => letter(self.depth + position),
+                    None => internal("an index outside of its sum"),
+                },
+                Atom::Size(size) => self.names.size(size.0).to_string(),
+                Atom::Remainder(value, modulus) => {
+                    format!("({}) % {}", self.index(value), self.index(modulus))
+                }
+            };
+            let sign = match (*coefficient < 0, text.is_empty()) {
+                (true, true) => "-",
+                (true, false) => " - ",
+                (false, true) => "",
+                (false, false) => " + ",
+            };
+            text += sign;
+            if coefficient.abs() != 1 {
+                text += &format!("{}·", coefficient.abs());
             }
-        };
-        let sign = match (*coefficient < 0, text.is_empty()) {
-            (true, true) => "-",
-            (true, false) => " - ",
-            (false, true) => "",
-            (false, false) => " + ",
-        };
-        text += sign;
-        if coefficient.abs() != 1 {
-            text += &format!("{}·", coefficient.abs());
+            text += &name;
         }
-        text += &name;
+        match (index.constant, text.is_empty()) {
+            (constant, true) => constant.to_string(),
+            (0, false) => text,
+            (constant, false) if constant < 0 => format!("{text} - {}", -constant),
+            (constant, false) => format!("{text} + {constant}"),
+        }
     }
-    match (index.constant, text.is_empty()) {
-        (constant, true) => constant.to_string(),
-        (0, false) => text,
-        (constant, false) if constant < 0 => format!("{text} - {}", -constant),
-        (constant, false) => format!("{text} + {constant}"),
+
+    fn range(&self, letter: &str, range: &Range) -> String {
+        let (lower, upper) = (self.index(&range.lower), self.index(&range.upper));
+        let except: Vec<String> = range.except.iter().map(|except| self.index(except)).collect();
+        let except =
+            if except.is_empty() { String::new() } else { format!(" without {}", except.join(", ")) };
+        format!("{letter} in {lower}..{upper}{except}")
+    }
+
+    fn coordinate(&self, coordinate: &Coordinate) -> String {
+        match self.names.coordinate(coordinate.block) {
+            (name, true) => format!("{name}[{}]", self.index(&coordinate.index)),
+            (name, false) => name,
+        }
     }
 }
 
-pub(crate) fn print_binders(loops: &[Binder], names: &dyn Names) -> String {
-    let one = |binder: &Binder| {
-        let (lower, upper) = (print_index(&binder.lower, names), print_index(&binder.upper, names));
-        let except = binder
-            .except
-            .as_ref()
-            .map_or_else(String::new, |except| format!(" without {}", print_index(except, names)));
-        format!("{} in {lower}..{upper}{except}", bound(binder.level))
-    };
+/// The letters outside of all sums.
+fn open_letters(names: &dyn Names) -> Letters<'_> {
+    Letters { names, depth: 0, sums: Vec::new() }
+}
+
+pub(crate) fn print_loops(loops: &[Loop], names: &dyn Names) -> String {
+    let letters = open_letters(names);
+    let one = |one: &Loop| letters.range(&letter(one.depth as usize), &one.range);
     loops.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
@@ -78,22 +113,21 @@ pub(crate) fn print_velocity(coordinate: &Coordinate, names: &dyn Names) -> Stri
 }
 
 pub(crate) fn print_coordinate(coordinate: &Coordinate, names: &dyn Names) -> String {
-    match names.coordinate(coordinate.block) {
-        (name, true) => format!("{name}[{}]", print_index(&coordinate.index, names)),
-        (name, false) => name,
-    }
+    open_letters(names).coordinate(coordinate)
 }
 
 /// Beyond this many nodes nobody reads a formula.
 const LONGEST: u64 = 1000;
 
-/// The text of an expression, unless it is too long: shared parts are written out each time.
-pub(crate) fn print_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> String {
+/// The text of an expression inside of `depth` loops, unless it is too long: shared parts are written out
+/// each time.
+pub(crate) fn print_expr(graph: &Graph, expr: Expr, depth: usize, names: &dyn Names) -> String {
     let nodes = written_out(graph, expr.node);
     if nodes > LONGEST {
         return format!("… ({nodes} operations)");
     }
-    Printer { graph, names }.expr(expr, Strength::Sum)
+    let letters = Letters { depth, ..open_letters(names) };
+    Printer { graph, letters }.expr(expr, Strength::Sum)
 }
 
 /// The number of nodes of an expression as a tree.
@@ -109,7 +143,7 @@ fn written_out(graph: &Graph, root: Id) -> u64 {
 
 struct Printer<'a> {
     graph: &'a Graph,
-    names: &'a dyn Names,
+    letters: Letters<'a>,
 }
 
 impl Printer<'_> {
@@ -140,24 +174,28 @@ impl Printer<'_> {
         };
         match self.graph.node(id) {
             Node::One => ("1".into(), Strength::Atom),
-            Node::Coordinate(c) => (print_coordinate(c, self.names), Strength::Atom),
-            Node::Velocity(c) => (print_velocity(c, self.names), Strength::Atom),
+            Node::Coordinate(c) => (self.letters.coordinate(c), Strength::Atom),
+            Node::Velocity(c) => {
+                let velocity = self.letters.names.velocity();
+                (format!("{velocity}({})", self.letters.coordinate(c)), Strength::Atom)
+            }
             Node::Time => ("t".into(), Strength::Atom),
             Node::Parameter(p) => {
                 let indices: String =
-                    p.indices.iter().map(|index| format!("[{}]", print_index(index, self.names))).collect();
-                (format!("{}{indices}", self.names.parameter(p.field)), Strength::Atom)
+                    p.indices.iter().map(|index| format!("[{}]", self.letters.index(index))).collect();
+                (format!("{}{indices}", self.letters.names.parameter(p.field)), Strength::Atom)
             }
-            Node::Count(index) => (format!("({})", print_index(index, self.names)), Strength::Atom),
+            Node::Count(index) => (format!("({})", self.letters.index(index)), Strength::Atom),
             Node::Weight(weight) => (weight_name(*weight).into(), Strength::Atom),
             Node::Sum(terms) => (self.sum(terms), Strength::Sum),
             Node::Product(factors) => (self.quotient(factors), Strength::Product),
             Node::Reciprocal(_) => (self.quotient(&[(id, 1)]), Strength::Product),
             Node::Unary(function, u) => call(function.name(), &[*u]),
             Node::Binary(function, a, b) => call(function.name(), &[*a, *b]),
-            Node::Call(function, order, u) => {
-                call(&format!("{}{}", self.names.function(*function), "'".repeat(*order as usize)), &[*u])
-            }
+            Node::Call(function, order, u) => call(
+                &format!("{}{}", self.letters.names.function(*function), "'".repeat(*order as usize)),
+                &[*u],
+            ),
             Node::Choose { left, relation, right, then, otherwise } => {
                 let sign = match relation {
                     Relation::Less => "<",
@@ -169,9 +207,15 @@ impl Printer<'_> {
                     [left, right, then, otherwise].map(|part| self.expr(*part, Strength::Sum));
                 (format!("(if {left} {sign} {right} {{ {then} }} else {{ {otherwise} }})"), Strength::Atom)
             }
-            Node::Reduce(binder, body) => {
-                let range = print_binders(std::slice::from_ref(binder), self.names);
-                (format!("Σ({range}) {}", self.expr((*body).into(), Strength::Product)), Strength::Product)
+            Node::Reduce { fold, height, range, body } => {
+                let own = letter(self.letters.depth + self.letters.sums.len());
+                let range = self.letters.range(&own, range);
+                let sign = match fold {
+                    Fold::Sum => "Σ",
+                    Fold::Product => "Π",
+                };
+                let inside = Printer { graph: self.graph, letters: self.letters.inside(*height) };
+                (format!("{sign}({range}) {}", inside.expr(*body, Strength::Product)), Strength::Product)
             }
         }
     }

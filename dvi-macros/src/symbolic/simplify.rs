@@ -8,33 +8,43 @@
 //! no multiplication is fused with an addition. Each rule goes one way, and the right side never costs
 //! more than the left.
 
-use super::graph::{Binary, Expr, Graph, Id, Node, Relation, Unary};
-use super::index::{Binder, Index};
+use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
+use super::index::{Atom, Index, Range};
 use super::rules;
+use crate::internal::internal;
 
 impl Graph {
-    /// a + b + …: constants and like terms collect; the sign, and a factor common to all terms, go out.
+    /// a + b + …: constants and like terms collect, and a positive factor common to all terms goes out. The
+    /// signs stay where they were written, because the sign of a zero is that of the sum as it stands.
     pub(crate) fn sum(&mut self, terms: &[Expr]) -> Expr {
-        let mut collected: Vec<Expr> = Vec::with_capacity(terms.len());
-        for term in terms.iter().filter(|term| !term.is_zero()) {
-            match collected.iter_mut().find(|known| known.node == term.node) {
-                Some(known) => known.scale += term.scale,
-                None => collected.push(*term),
-            }
+        let collected = match collect_terms(terms) {
+            Collected::Single(single) => return single,
+            Collected::Several(collected) => collected,
+        };
+        let factor = common_factor(&collected).abs();
+        let node = self.intern(Node::Sum(divided(&collected, factor)));
+        self.unsigned_sums.remove(&node);
+        Expr { scale: factor, node }
+    }
+
+    /// A sum that a derivative produced: nobody wrote its signs, so all of them may go out, and do where the
+    /// sum of the opposite signs is known already.
+    pub(super) fn unsigned_sum(&mut self, terms: &[Expr]) -> Expr {
+        let collected = match collect_terms(terms) {
+            Collected::Single(single) => return single,
+            Collected::Several(collected) => collected,
+        };
+        let factor = common_factor(&collected);
+        let [kept, opposite] = [factor, -factor].map(|factor| Node::Sum(divided(&collected, factor)));
+        if let Some(node) = self.find(&opposite) {
+            return Expr { scale: -factor, node };
         }
-        collected.retain(|term| term.scale != 0.0);
-        collected.sort_by_key(|term| term.node);
-        match collected.as_slice() {
-            [] => Expr::ZERO,
-            [single] => *single,
-            _ => {
-                let factor = common_factor(&collected);
-                for term in &mut collected {
-                    term.scale /= factor;
-                }
-                Expr { scale: factor, node: self.intern(Node::Sum(collected)) }
-            }
+        let is_new = self.find(&kept).is_none();
+        let node = self.intern(kept);
+        if is_new {
+            self.unsigned_sums.insert(node);
         }
+        Expr { scale: factor, node }
     }
 
     pub(crate) fn add(&mut self, a: Expr, b: Expr) -> Expr {
@@ -45,7 +55,8 @@ impl Graph {
         self.sum(&[a, b.negated()])
     }
 
-    /// a · b · …: factors merge into powers, literal factors multiply.
+    /// a · b · …: factors merge into powers, literal factors multiply; a choice of zero chooses between the
+    /// whole product and zero, so that what the other factors are where they do not count is not asked.
     pub(crate) fn product(&mut self, factors: &[Expr]) -> Expr {
         let mut scale = 1.0;
         let mut collected: Vec<(Id, u32)> = Vec::new();
@@ -65,6 +76,12 @@ impl Graph {
         if scale == 0.0 {
             return Expr::ZERO;
         }
+        if let Some(position) = collected.iter().position(|(id, _)| self.chooses_zero(*id)) {
+            let (choice, exponent) = collected.remove(position);
+            let others: Vec<Expr> =
+                collected.iter().map(|(id, exponent)| self.power((*id).into(), *exponent)).collect();
+            return self.chosen_product(choice, exponent, &others).scaled(scale);
+        }
         collected.sort_unstable();
         let node = match collected.as_slice() {
             [] => Self::ONE,
@@ -72,6 +89,23 @@ impl Graph {
             _ => self.intern(Node::Product(collected)),
         };
         Expr { scale, node }
+    }
+
+    fn chooses_zero(&self, id: Id) -> bool {
+        matches!(self.node(id), Node::Choose { then, otherwise, .. } if then.is_zero() || otherwise.is_zero())
+    }
+
+    /// The product of a choice, to a power, and others, chosen as a whole.
+    fn chosen_product(&mut self, choice: Id, exponent: u32, others: &[Expr]) -> Expr {
+        let Node::Choose { left, relation, right, then, otherwise } = self.node(choice).clone() else {
+            internal("a choice was expected")
+        };
+        let [then, otherwise] = [then, otherwise].map(|branch| {
+            let branch = self.power(branch, exponent);
+            let factors: Vec<Expr> = others.iter().copied().chain([branch]).collect();
+            self.product(&factors)
+        });
+        self.choose(left, relation, right, then, otherwise)
     }
 
     pub(crate) fn multiply(&mut self, a: Expr, b: Expr) -> Expr {
@@ -102,6 +136,9 @@ impl Graph {
             Node::One => return Expr::number(scale),
             _ if exponent == 0 => return Expr::ONE,
             _ if exponent == 1 => base.node,
+            Node::Choose { .. } if self.chooses_zero(base.node) => {
+                return self.chosen_product(base.node, exponent, &[]).scaled(scale);
+            }
             Node::Product(inner) => {
                 let powers = inner.iter().map(|(id, known)| (*id, known.saturating_mul(exponent))).collect();
                 self.intern(Node::Product(powers))
@@ -172,12 +209,20 @@ impl Graph {
         self.intern(Node::Choose { left, relation, right, then, otherwise }).into()
     }
 
-    /// Σ c·f = c·Σ f for a literal c.
-    pub(crate) fn reduce(&mut self, binder: Binder, body: Expr) -> Expr {
-        if body.is_zero() || binder.is_empty() {
-            return Expr::ZERO;
+    /// The sum or product over `range` of a body whose index is called `index`; Σ c·f = c·Σ f for a
+    /// literal c.
+    pub(crate) fn fold(&mut self, fold: Fold, index: Atom, range: Range, body: Expr) -> Expr {
+        match fold {
+            Fold::Sum if body.is_zero() || range.is_empty() => return Expr::ZERO,
+            Fold::Product if body == Expr::ONE || range.is_empty() => return Expr::ONE,
+            Fold::Sum | Fold::Product => {}
         }
-        Expr { scale: body.scale, node: self.intern(Node::Reduce(binder, body.node)) }
+        let (height, body) = self.closed(&index, body);
+        let (scale, body) = match fold {
+            Fold::Sum => (body.scale, body.node.into()),
+            Fold::Product => (1.0, body),
+        };
+        Expr { scale, node: self.intern(Node::Reduce { fold, height, range, body }) }
     }
 
     /// An index as a number.
@@ -191,7 +236,7 @@ impl Graph {
     /// A sum that a derivative produced: its common factors go out, and a constant joins a quotient
     /// where that makes the quotient's numerator no longer: 1 − 2x²/(x² + y²) = (y² − x²)/(x² + y²).
     pub(super) fn factored_sum(&mut self, terms: &[Expr]) -> Expr {
-        let total = self.sum(terms);
+        let total = self.unsigned_sum(terms);
         let Node::Sum(terms) = self.node(total.node).clone() else { return total };
         let shared = self.shared_factors(&terms);
         if !shared.is_empty() {
@@ -258,7 +303,7 @@ impl Graph {
             if parts.iter().any(|part| part.node == numerator.node) {
                 let mut terms: Vec<Expr> = parts.iter().map(|part| part.scaled(constant.scale)).collect();
                 terms.push(numerator);
-                let joined = self.sum(&terms);
+                let joined = self.unsigned_sum(&terms);
                 return Some(self.multiply(joined, factor.into()));
             }
         }
@@ -266,13 +311,42 @@ impl Graph {
     }
 }
 
+enum Collected {
+    /// A single term, or none.
+    Single(Expr),
+    /// Distinct nodes in id order.
+    Several(Vec<Expr>),
+}
+
+fn collect_terms(terms: &[Expr]) -> Collected {
+    let mut collected: Vec<Expr> = Vec::with_capacity(terms.len());
+    for term in terms.iter().filter(|term| !term.is_zero()) {
+        match collected.iter_mut().find(|known| known.node == term.node) {
+            Some(known) => known.scale += term.scale,
+            None => collected.push(*term),
+        }
+    }
+    collected.retain(|term| term.scale != 0.0);
+    collected.sort_by_key(|term| term.node);
+    match collected.as_slice() {
+        [] => Collected::Single(Expr::ZERO),
+        [single] => Collected::Single(*single),
+        _ => Collected::Several(collected),
+    }
+}
+
+fn divided(terms: &[Expr], factor: f64) -> Vec<Expr> {
+    terms.iter().map(|term| Expr { scale: term.scale / factor, node: term.node }).collect()
+}
+
 /// The sign of the first term that is not the constant, times the magnitude where all terms share it
-/// or where it is a power of two, which divides exactly.
+/// or where it is a power of two, which divides exactly; of moderate size, so that nothing overflows.
 fn common_factor(terms: &[Expr]) -> f64 {
+    const MODERATE: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
     let leading = terms.iter().find(|term| term.node != Graph::ONE).map_or(1.0, |term| term.scale);
     let magnitude = leading.abs();
     let shared = terms.iter().all(|term| term.scale.abs() == magnitude);
-    let power_of_two = magnitude.is_normal() && magnitude.to_bits() & ((1 << 52) - 1) == 0;
-    let magnitude = if (shared && magnitude.is_finite()) || power_of_two { magnitude } else { 1.0 };
-    magnitude.copysign(leading)
+    let power_of_two = magnitude.to_bits() & ((1 << 52) - 1) == 0;
+    let divides = MODERATE.contains(&magnitude) && (shared || power_of_two);
+    if divides { magnitude.copysign(leading) } else { leading.signum() }
 }

@@ -147,30 +147,30 @@ fn energy_of_a_chain() {
         chain,
         "energy",
         &expect![[r#"
-        fn energy() {
-            let (__q0, __rest) = __q.split_at(N);
-            let _ = __rest;
-            let (__v0, __rest) = __v.split_at(N);
-            let _ = __rest;
-            let mut __r14 = T::lift(-0.0);
-            for __i0 in (0usize)..(N) {
-                let __r2 = __v0[__i0];
-                let __r13 = ((T::lift(
-                    __private::Number::number(self.mass[__i0]),
-                ) * __r2) * __r2)
-                    - (T::lift(2f64)
-                        * ((T::cos(
-                            (__q0[__i0]
-                                - __q0[__private::wrap(
-                                    (1i64 + 1i64 * (__i0 as i64)),
-                                    (0i64 + 1i64 * (N as i64)),
-                                )]),
-                        )) - T::lift(1f64)));
-                __r14 += __r13;
+            fn energy() {
+                let (__q0, __rest) = __q.split_at(N);
+                let _ = __rest;
+                let (__v0, __rest) = __v.split_at(N);
+                let _ = __rest;
+                let mut __r14 = T::lift(-0.0);
+                for __i0 in (0usize)..(N) {
+                    let __r2 = __v0[__i0];
+                    let __r13 = ((T::lift(
+                        __private::Number::number(self.mass[__i0]),
+                    ) * __r2) * __r2)
+                        + (T::lift(2f64)
+                            * (T::lift(1f64)
+                                - (T::cos(
+                                    (__q0[__private::wrap(
+                                        (1i64 + 1i64 * (__i0 as i64)),
+                                        (0i64 + 1i64 * (N as i64)),
+                                    )] - __q0[__i0]),
+                                ))));
+                    __r14 += __r13;
+                }
+                (T::lift(0.5f64) * __r14)
             }
-            (T::lift(0.5f64) * __r14)
-        }
-    "#]],
+        "#]],
     );
 }
 

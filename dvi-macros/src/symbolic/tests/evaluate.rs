@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
-use crate::symbolic::{Atom, Binder, Coordinate, Expr, Graph, Id, Index, Node, Relation, Weight};
+use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Id, Index, Loop, Node, Range, Relation, Weight};
 
 /// What the names of a formula stand for. Every array has the one size that there is.
 #[derive(Clone, Debug)]
@@ -14,8 +14,8 @@ pub(super) struct Point {
     pub(super) time: f64,
 }
 
-/// The values of the bound indices, by level.
-pub(super) type Bindings = Vec<(u32, i64)>;
+/// The values of the indices, by name.
+pub(super) type Bindings = Vec<(Atom, i64)>;
 
 impl Point {
     pub(super) fn size(&self) -> i64 {
@@ -24,10 +24,10 @@ impl Point {
 
     pub(super) fn index(&self, index: &Index, bindings: &Bindings) -> i64 {
         let of = |atom: &Atom| match atom {
-            Atom::Bound(level) => bindings
+            Atom::Open(_) | Atom::Bound(_) => bindings
                 .iter()
                 .rev()
-                .find_map(|(known, value)| (known == level).then_some(*value))
+                .find_map(|(known, value)| (known == atom).then_some(*value))
                 .expect("an index outside of its loop"),
             Atom::Size(_) => self.size(),
             Atom::Remainder(value, modulus) => {
@@ -37,18 +37,18 @@ impl Point {
         index.terms.iter().fold(index.constant, |sum, (atom, factor)| sum + factor * of(atom))
     }
 
-    pub(super) fn range(&self, binder: &Binder, bindings: &Bindings) -> Vec<i64> {
-        let except = binder.except.as_ref().map(|except| self.index(except, bindings));
-        let range = self.index(&binder.lower, bindings)..self.index(&binder.upper, bindings);
-        range.filter(|value| Some(*value) != except).collect()
+    pub(super) fn range(&self, range: &Range, bindings: &Bindings) -> Vec<i64> {
+        let except: Vec<i64> = range.except.iter().map(|except| self.index(except, bindings)).collect();
+        let all = self.index(&range.lower, bindings)..self.index(&range.upper, bindings);
+        all.filter(|value| !except.contains(value)).collect()
     }
 
     /// Calls `visit` in every pass of the loops.
-    pub(super) fn passes(&self, loops: &[Binder], bindings: &Bindings, visit: &mut dyn FnMut(&Bindings)) {
-        let Some((binder, inner)) = loops.split_first() else { return visit(bindings) };
-        for value in self.range(binder, bindings) {
+    pub(super) fn passes(&self, loops: &[Loop], bindings: &Bindings, visit: &mut dyn FnMut(&Bindings)) {
+        let Some((over, inner)) = loops.split_first() else { return visit(bindings) };
+        for value in self.range(&over.range, bindings) {
             let mut inside = bindings.clone();
-            inside.push((binder.level, value));
+            inside.push((Atom::Open(over.depth), value));
             self.passes(inner, &inside, visit);
         }
     }
@@ -128,8 +128,11 @@ impl<'a> Evaluation<'a> {
 
     fn node(&mut self, id: Id, bindings: &Bindings) -> f64 {
         let free = self.graph.free(id);
-        let relevant: Bindings =
-            bindings.iter().filter(|(level, _)| free & (1 << level) != 0).copied().collect();
+        let is_free = |name: &Atom| {
+            let own = Index::atom(name.clone()).free();
+            own.open & free.open != 0 || own.bound & free.bound != 0
+        };
+        let relevant: Bindings = bindings.iter().filter(|(name, _)| is_free(name)).cloned().collect();
         if let Some(value) = self.known.get(&(id, relevant.clone())) {
             return *value;
         }
@@ -153,11 +156,15 @@ impl<'a> Evaluation<'a> {
                 let chosen = holds(self.expr(left, at), relation, self.expr(right, at));
                 self.expr(if chosen { then } else { otherwise }, at)
             }
-            Node::Reduce(binder, body) => {
-                let point = self.point;
-                let mut sum = 0.0;
-                point.passes(&[binder], at, &mut |inside| sum += self.node(body, inside));
-                sum
+            Node::Reduce { fold, height, range, body } => {
+                let values = self.point.range(&range, at).into_iter().map(|value| {
+                    let inside: Bindings = at.iter().cloned().chain([(Atom::Bound(height), value)]).collect();
+                    self.expr(body, &inside)
+                });
+                match fold {
+                    Fold::Sum => values.sum(),
+                    Fold::Product => values.product(),
+                }
             }
             leaf => self.point.leaf(&leaf, at),
         }

@@ -10,10 +10,10 @@ use super::streams::NONLINEAR;
 use super::tree::{Tree, point, tree};
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::program::{DegenerateFormulas, DegeneratePrograms, Place, Statement};
-use crate::schedule::{Step, schedule};
-use crate::select::select;
+use crate::routine::Routine;
+use crate::schedule::{Accumulated, Step};
 use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
-use crate::symbolic::{Binder, Coordinate, Expr, Graph, Index, Node, Size};
+use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Node, Range, Size};
 
 /// Entries of the outputs by name, each with what was added to it and the sizes of the parts.
 type Written = HashMap<String, (f64, f64)>;
@@ -63,19 +63,24 @@ impl Machine<'_> {
                     let value = self.signed(*value);
                     add(&mut self.written, self.point, &self.statements[*statement].place, at, value);
                 }
-                Step::Loop { binder, sums, body } => {
+                Step::Loop { over, folds, body } => {
                     let outside = self.registers.clone();
-                    let mut totals = vec![0.0; sums.len()];
-                    for index in self.point.range(binder, at) {
+                    let neutral = |fold: &Accumulated| if fold.fold == Fold::Sum { 0.0 } else { 1.0 };
+                    let mut totals: Vec<f64> = folds.iter().map(neutral).collect();
+                    for index in self.point.range(&over.range, at) {
                         let mut inside = at.clone();
-                        inside.push((binder.level, index));
+                        inside.push((Atom::Open(over.depth), index));
                         self.run(body, &inside);
-                        for (total, (_, term)) in totals.iter_mut().zip(sums) {
-                            *total += self.register(*term);
+                        for (total, fold) in totals.iter_mut().zip(folds) {
+                            let value = self.signed(fold.body);
+                            match fold.fold {
+                                Fold::Sum => *total += value,
+                                Fold::Product => *total *= value,
+                            }
                         }
                         self.registers.clone_from(&outside);
                     }
-                    self.registers.extend(sums.iter().map(|(result, _)| *result).zip(totals));
+                    self.registers.extend(folds.iter().map(|fold| fold.result).zip(totals));
                 }
             }
         }
@@ -114,8 +119,8 @@ fn used(
         match step {
             Step::Let(register) => used.extend(code.get(*register).operands()),
             Step::Write(_, value) => _ = used.insert(value.register),
-            Step::Loop { sums, body, .. } => {
-                let terms: Vec<Register> = sums.iter().map(|(_, term)| *term).collect();
+            Step::Loop { folds, body, .. } => {
+                let terms: Vec<Register> = folds.iter().map(|fold| fold.body.register).collect();
                 used.extend(self::used(code, body, &terms)?);
             }
         }
@@ -123,8 +128,8 @@ fn used(
     for step in steps {
         match step {
             Step::Let(register) => prop_assert!(used.contains(register), "{register:?} is of no use"),
-            Step::Loop { sums, .. } => {
-                prop_assert!(sums.iter().all(|(result, _)| used.contains(result)), "a sum is of no use");
+            Step::Loop { folds, .. } => {
+                prop_assert!(folds.iter().all(|fold| used.contains(&fold.result)), "a sum is of no use");
             }
             Step::Write(..) => {}
         }
@@ -133,13 +138,12 @@ fn used(
 }
 
 /// Runs the statements both ways and compares every entry that is written.
-fn check(graph: &Graph, statements: &[Statement], point: &Point) -> Result<(), TestCaseError> {
-    let (code, values) = select(graph, statements);
-    let steps = schedule(&code, statements, &values);
-    used(&code, &steps, &[])?;
+fn check(graph: &Graph, routine: &Routine, point: &Point) -> Result<(), TestCaseError> {
+    let Routine { statements, code, steps } = routine;
+    used(code, steps, &[])?;
     let mut machine =
-        Machine { graph, code: &code, statements, point, registers: HashMap::new(), written: Written::new() };
-    machine.run(&steps, &Bindings::new());
+        Machine { graph, code, statements, point, registers: HashMap::new(), written: Written::new() };
+    machine.run(steps, &Bindings::new());
     let mut expected = Written::new();
     for statement in statements {
         point.passes(&statement.loops, &Bindings::new(), &mut |at| {
@@ -189,15 +193,14 @@ fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
         &programs.flow_source,
         &programs.one_form_jacobian,
     ];
-    values.into_iter().chain(forms).try_for_each(|statements| check(&graph, statements, point))
+    values.into_iter().chain(forms).try_for_each(|routine| check(&graph, routine, point))
 }
 
 fn one_form(graph: &mut Graph) -> Expr {
-    let index = Index::bound(0);
+    let index = Index::open(0);
     let x = graph.intern(Node::Coordinate(Coordinate { block: 0, index: index.clone() }));
     let dy = graph.intern(Node::Velocity(Coordinate { block: 1, index }));
     let square = graph.power(x.into(), 2);
     let body = graph.multiply(square, dy.into());
-    let binder = Binder { level: 0, lower: Index::literal(0), upper: Index::size(Size(0)), except: None };
-    graph.reduce(binder, body)
+    graph.fold(Fold::Sum, Atom::Open(0), Range::up_to(Index::size(Size(0))), body)
 }

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::evaluate::{Evaluation, Point};
 use super::field::{Bounded, Dual, Field};
 use super::tree::{BLOCKS, Tree, point, tree};
-use crate::symbolic::{Coordinate, Expr, Graph, Index, Node};
+use crate::symbolic::{Coordinate, Expr, Free, Graph, Index, Node};
 
 /// All coordinates, then all velocities.
 pub(super) fn variables(point: &Point) -> Vec<f64> {
@@ -90,8 +90,8 @@ proptest! {
         let root = tree.lower(&mut graph, 0);
         other.lower(&mut graph, 0);
         prop_assert_eq!(tree.lower(&mut graph, 0), root);
-        prop_assert_eq!(graph.rebuild(root.node, |_, _| None, Clone::clone), Expr::from(root.node));
-        prop_assert_eq!(graph.free(root.node), 0);
+        prop_assert_eq!(graph.rebuild(root.node, |_, _| None), Expr::from(root.node));
+        prop_assert_eq!(graph.free(root.node), Free::default());
     }
 
     #[test]
@@ -123,7 +123,7 @@ fn is_normal(graph: &Graph, node: &Node) -> bool {
             ordered && flat && several && factors.iter().all(|(_, exponent)| *exponent > 0)
         }
         Node::Reciprocal(of) => !matches!(graph.node(*of), Node::Reciprocal(_) | Node::One),
-        Node::Reduce(binder, _) => !binder.is_empty(),
+        Node::Reduce { range, .. } => !range.is_empty(),
         Node::Unary(_, of) => of.as_number().is_none(),
         Node::Binary(_, a, b) => a.as_number().is_none() || b.as_number().is_none(),
         Node::Choose { then, otherwise, .. } => then != otherwise,

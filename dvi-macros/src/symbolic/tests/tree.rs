@@ -6,7 +6,8 @@ use proptest::prelude::*;
 use super::evaluate::Point;
 use super::field::Field;
 use crate::symbolic::{
-    Binary, Binder, Coordinate, Expr, Graph, Index, Node, Parameter, Relation, Size, Unary,
+    Atom, Binary, Coordinate, Expr, Fold, Graph, Index, Node, Parameter, Range as Values, Relation, Size,
+    Unary,
 };
 
 /// The range of a sum; `j` is the index of the sum around it, if there is one.
@@ -59,15 +60,15 @@ fn size() -> Index {
 }
 
 impl Range {
-    fn binder(self, depth: u32) -> Binder {
-        let whole = Binder { level: depth, lower: Index::literal(0), upper: size(), except: None };
-        let Some(outer) = depth.checked_sub(1).map(Index::bound) else { return whole };
+    fn values(self, depth: u32) -> Values {
+        let whole = Values::up_to(size());
+        let Some(outer) = depth.checked_sub(1).map(Index::open) else { return whole };
         let next = outer.plus(&Index::literal(1), 1);
         match self {
             Self::Whole => whole,
-            Self::UpTo => Binder { upper: next, ..whole },
-            Self::Beyond => Binder { lower: next, ..whole },
-            Self::Except => Binder { except: Some(outer), ..whole },
+            Self::UpTo => Values { upper: next, ..whole },
+            Self::Beyond => Values { lower: next, ..whole },
+            Self::Except => whole.without(outer),
         }
     }
 
@@ -87,7 +88,7 @@ impl Place {
         match depth {
             0 => Index::literal(self.shift),
             _ => {
-                let bound = Index::bound(depth - 1 - self.up as u32 % depth);
+                let bound = Index::open(depth - 1 - self.up as u32 % depth);
                 match self.shift {
                     0 => bound,
                     shift => bound.plus(&Index::literal(shift), 1).remainder(&size()),
@@ -203,7 +204,7 @@ impl Tree {
             }
             Self::Sum(range, body) => {
                 let body = body.lower(graph, depth + 1);
-                graph.reduce(range.binder(depth), body)
+                graph.fold(Fold::Sum, Atom::Open(depth), range.values(depth), body)
             }
         }
     }
