@@ -163,7 +163,7 @@ impl Emitter<'_> {
 
     pub(crate) fn loop_over(&self, over: &Loop, body: &TokenStream) -> TokenStream {
         let (index, range) = (open(over.depth), self.range(&over.range));
-        let except = over.range.except.iter().map(|except| {
+        let except = over.range.left_out().map(|except| {
             let except = self.index(except);
             quote!(if #index == #except { continue; })
         });

@@ -13,6 +13,7 @@ use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm};
 use crate::symbolic::Graph;
 use crate::syntax::{Attribute, Kind, depth, parse_attribute};
+use crate::validate::{self, Checked, Difference};
 
 mod formulas;
 mod stand_in;
@@ -30,7 +31,10 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         stages.barrier()?;
         let canonical = structure.canonical;
         let programs = DegeneratePrograms::new(&mut stages.graph, &formulas, &form_entries, canonical);
-        Some(implement::degenerate(&stages.emitter(), &formulas, &programs, &structure))
+        let Stages { graph, model, attribute, .. } = &*stages;
+        let checked = validate::degenerate(graph, model, attribute, &programs, &structure);
+        let checked = stages.agrees(checked)?;
+        Some(implement::degenerate(&stages.emitter(), &formulas, &programs, &structure, &checked))
     })
 }
 
@@ -44,7 +48,10 @@ pub(crate) fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStre
         structure.check(&stages.model, stages.attribute.lagrangian.as_ref(), &mut stages.errors);
         stages.barrier()?;
         let programs = RegularPrograms::new(&mut stages.graph, &formulas, entries);
-        Some(implement::regular(&stages.emitter(), &formulas, &programs, &structure))
+        let Stages { graph, model, attribute, .. } = &*stages;
+        let checked = validate::regular(graph, model, attribute, &programs, &structure);
+        let checked = stages.agrees(checked)?;
+        Some(implement::regular(&stages.emitter(), &formulas, &programs, &structure, &checked))
     })
 }
 
@@ -60,6 +67,15 @@ impl Stages {
     /// Nothing passes once a mistake was found.
     fn barrier(&self) -> Option<()> {
         self.errors.is_empty().then_some(())
+    }
+
+    /// Nothing is printed that differs from the formulas.
+    fn agrees(&mut self, checked: Result<Checked, Difference>) -> Option<Checked> {
+        checked
+            .map_err(|difference| {
+                self.errors.push_syn(syn::Error::new(Span::call_site(), difference.message()));
+            })
+            .ok()
     }
 
     fn emitter(&self) -> Emitter<'_> {

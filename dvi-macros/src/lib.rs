@@ -26,6 +26,7 @@ mod symbolic;
 mod syntax;
 #[cfg(test)]
 mod tests;
+mod validate;
 
 use proc_macro::TokenStream;
 

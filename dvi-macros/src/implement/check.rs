@@ -121,7 +121,7 @@ impl Walk<'_> {
         let mut tokens = quote!(#krate::__private::check_index(#array, #value, #length)?;);
         for (over, is_needed) in around {
             let range = self.emitter.range(&over.range);
-            tokens = match (is_needed, over.range.except.is_empty()) {
+            tokens = match (is_needed, over.range.left_out().next().is_none()) {
                 (true, _) => self.emitter.loop_over(over, &tokens),
                 (false, true) => quote!(if !(#range).is_empty() { #tokens }),
                 // The first index that is not left out decides.
@@ -133,6 +133,6 @@ impl Walk<'_> {
 
     fn certainly_runs(&self, range: &Range) -> bool {
         let length = range.upper.plus(&range.lower, -1).as_literal();
-        length.is_some_and(|length| length > range.except.len() as i64)
+        length.is_some_and(|length| length > range.left_out().count() as i64)
     }
 }

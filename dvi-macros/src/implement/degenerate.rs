@@ -8,12 +8,14 @@ use crate::emit::Emitter;
 use crate::program::{DegenerateFormulas, DegeneratePrograms};
 use crate::structure::OneForm;
 use crate::symbolic::{Index, print_coordinate};
+use crate::validate::Checked;
 
 pub(crate) fn degenerate(
     emitter: &Emitter<'_>,
     formulas: &DegenerateFormulas,
     programs: &DegeneratePrograms,
     structure: &OneForm,
+    checked: &Checked,
 ) -> TokenStream {
     let implementation = implementation(emitter, programs, structure);
     let krate = emitter.krate();
@@ -21,7 +23,7 @@ pub(crate) fn degenerate(
     super::system(
         emitter,
         &programs.shared,
-        &account(emitter, formulas, programs, structure),
+        &account(emitter, formulas, programs, structure, checked),
         &energy,
         &implementation,
     )
@@ -32,11 +34,13 @@ fn account(
     formulas: &DegenerateFormulas,
     programs: &DegeneratePrograms,
     structure: &OneForm,
+    checked: &Checked,
 ) -> Account {
     let declared = [("α", formulas.one_form), ("H", formulas.hamiltonian)];
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account =
         Account::new("L(q, v, t) = α(q, t)·v − H(q, t) with", declared.to_vec(), structure.sentences());
+    account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
     account.derived(emitter, &programs.one_form.statements, |_, entry| format!("α_{}", coordinate(entry)));

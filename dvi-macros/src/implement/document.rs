@@ -30,6 +30,11 @@ impl Account {
         Self { opening, formulas: declared, sentences, momenta: Vec::new() }
     }
 
+    /// Adds what is said of the system as a whole.
+    pub(super) fn sentence(&mut self, sentence: String) {
+        self.sentences.push(sentence);
+    }
+
     /// Adds the declared momenta.
     pub(super) fn momenta(&mut self, emitter: &Emitter<'_>, values: &[Expr]) {
         for (name, value) in emitter.model.momenta.iter().zip(values) {

@@ -8,18 +8,20 @@ use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
 use crate::structure::MassMatrix;
 use crate::symbolic::{Expr, print_coordinate, print_velocity};
+use crate::validate::Checked;
 
 pub(crate) fn regular(
     emitter: &Emitter<'_>,
     formulas: &RegularFormulas,
     programs: &RegularPrograms,
     structure: &MassMatrix,
+    checked: &Checked,
 ) -> TokenStream {
     let implementation = implementation(emitter, programs, structure);
     super::system(
         emitter,
         &programs.shared,
-        &account(emitter, formulas, programs, structure),
+        &account(emitter, formulas, programs, structure, checked),
         &emitter.value(&programs.energy),
         &implementation,
     )
@@ -30,12 +32,14 @@ fn account(
     formulas: &RegularFormulas,
     programs: &RegularPrograms,
     structure: &MassMatrix,
+    checked: &Checked,
 ) -> Account {
     let energy = programs.energy.statements.first().map_or(Expr::ZERO, |statement| statement.value);
     let declared = [("L", formulas.lagrangian), ("E", energy)];
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account =
         Account::new("L(q, v, t) and its energy E = v·∂L/∂v − L:", declared.to_vec(), structure.sentences());
+    account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     account.derived(emitter, &programs.shared.gradient.statements, |output, entry| match output {
         Output::Lv => format!("∂L/∂{}", print_velocity(entry, emitter.model)),

@@ -45,7 +45,7 @@ impl Lowering<'_> {
         } else {
             let (form, all) = natural(depth + 1, &lower, &upper);
             // Both indices are shifted alike.
-            let range = all.range.without(Index::open(depth));
+            let range = Range { except: Some(Index::open(depth)), ..all.range };
             (form, Loop { range, ..all })
         };
         let indices = [(first, first_form, &outer), (second, second_form, &inner)];
@@ -282,7 +282,7 @@ impl Lowering<'_> {
 fn natural(depth: u32, lower: &Index, upper: &Index) -> (Index, Loop) {
     let open = Index::open(depth);
     if lower.is_natural() {
-        let range = Range { lower: lower.clone(), upper: upper.clone(), except: Vec::new() };
+        let range = Range { lower: lower.clone(), upper: upper.clone(), except: None, taken: Vec::new() };
         return (open, Loop { depth, range });
     }
     (lower.plus(&open, 1), Loop { depth, range: Range::up_to(upper.plus(lower, -1)) })

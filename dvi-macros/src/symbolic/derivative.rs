@@ -237,7 +237,7 @@ impl Graph {
         let mut needed = index.free().open;
         for outer in loops.iter().rev() {
             if needed & (1 << outer.depth) != 0 {
-                needed |= outer.range.free().open;
+                needed |= outer.range.as_written().free().open;
             }
         }
         // The loops that matter, numbered from the outside.
@@ -245,7 +245,8 @@ impl Graph {
         let mut numbers: Vec<Renaming> = Vec::new();
         for outer in loops.iter().filter(|outer| needed & (1 << outer.depth) != 0) {
             let to = Atom::Open(ranges.len() as u32);
-            ranges.push(numbers.iter().fold(outer.range.clone(), |range, number| range.renamed(number)));
+            let range = outer.range.as_written();
+            ranges.push(numbers.iter().fold(range, |range, number| range.renamed(number)));
             numbers.push(Renaming { from: Atom::Open(outer.depth), to });
         }
         let index = numbers.iter().fold(index.clone(), |index, number| index.renamed(number));

@@ -32,12 +32,15 @@ pub(crate) struct Index {
     pub(crate) terms: Vec<(Atom, i64)>,
 }
 
-/// The values `lower <= index < upper` without those in `except`.
+/// The values `lower <= index < upper` without some.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Range {
     pub(crate) lower: Index,
     pub(crate) upper: Index,
-    pub(crate) except: Vec<Index>,
+    /// The value that the formula leaves out.
+    pub(crate) except: Option<Index>,
+    /// The values whose factors a derivative took out of a product.
+    pub(crate) taken: Vec<Index>,
 }
 
 /// A loop over the open index at `depth`.
@@ -154,27 +157,37 @@ impl Index {
 impl Range {
     /// `0..upper`
     pub(crate) fn up_to(upper: Index) -> Self {
-        Self { lower: Index::literal(0), upper, except: Vec::new() }
+        Self { lower: Index::literal(0), upper, except: None, taken: Vec::new() }
     }
 
     /// The indices that the bounds depend on.
     pub(crate) fn free(&self) -> Free {
         let bounds = self.lower.free().and(self.upper.free());
-        self.except.iter().fold(bounds, |free, except| free.and(except.free()))
+        self.left_out().fold(bounds, |free, index| free.and(index.free()))
     }
 
     pub(crate) fn renamed(&self, renaming: &Renaming) -> Self {
         Self {
             lower: self.lower.renamed(renaming),
             upper: self.upper.renamed(renaming),
-            except: self.except.iter().map(|except| except.renamed(renaming)).collect(),
+            except: self.except.as_ref().map(|except| except.renamed(renaming)),
+            taken: self.taken.iter().map(|index| index.renamed(renaming)).collect(),
         }
     }
 
-    /// The same values without `index`.
+    pub(crate) fn left_out(&self) -> impl Iterator<Item = &Index> {
+        self.except.iter().chain(&self.taken)
+    }
+
+    /// The range that the formula names.
+    pub(crate) fn as_written(&self) -> Self {
+        Self { taken: Vec::new(), ..self.clone() }
+    }
+
+    /// The same values without that of a factor that a derivative takes out.
     pub(crate) fn without(&self, index: Index) -> Self {
         let mut rest = self.clone();
-        rest.except.push(index);
+        rest.taken.push(index);
         rest
     }
 

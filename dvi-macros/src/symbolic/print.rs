@@ -83,7 +83,7 @@ impl Letters<'_> {
 
     fn range(&self, letter: &str, range: &Range) -> String {
         let (lower, upper) = (self.index(&range.lower), self.index(&range.upper));
-        let except: Vec<String> = range.except.iter().map(|except| self.index(except)).collect();
+        let except: Vec<String> = range.left_out().map(|index| self.index(index)).collect();
         let except =
             if except.is_empty() { String::new() } else { format!(" without {}", except.join(", ")) };
         format!("{letter} in {lower}..{upper}{except}")

@@ -38,7 +38,7 @@ impl Point {
     }
 
     pub(super) fn range(&self, range: &Range, bindings: &Bindings) -> Vec<i64> {
-        let except: Vec<i64> = range.except.iter().map(|except| self.index(except, bindings)).collect();
+        let except: Vec<i64> = range.left_out().map(|except| self.index(except, bindings)).collect();
         let all = self.index(&range.lower, bindings)..self.index(&range.upper, bindings);
         all.filter(|value| !except.contains(value)).collect()
     }

@@ -68,7 +68,7 @@ impl Range {
             Self::Whole => whole,
             Self::UpTo => Values { upper: next, ..whole },
             Self::Beyond => Values { lower: next, ..whole },
-            Self::Except => whole.without(outer),
+            Self::Except => Values { except: Some(outer), ..whole },
         }
     }
 

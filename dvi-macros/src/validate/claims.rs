@@ -1,0 +1,136 @@
+//! What the compiler says of the structure of a system, held against numbers.
+
+use super::jet::Sized;
+use super::machine::Machine;
+use super::point::{Directions, Point, Support};
+use super::system::{Functions, Outputs, Part, System, difference};
+use super::{Checked, Difference, TOLERANCE};
+use crate::program::Output;
+use crate::structure::{MassMatrix, OneForm};
+use crate::symbolic::Graph;
+
+pub(super) enum Claims<'a> {
+    Degenerate(&'a OneForm),
+    Regular(&'a MassMatrix),
+}
+
+/// A claim about numbers that vanish, or that are the same at two points.
+fn claim(name: &'static str, what: &str, expected: Sized, found: f64) -> Result<(), Difference> {
+    if difference(expected, found) <= TOLERANCE {
+        return Ok(());
+    }
+    Err(Difference { function: name, quantity: what.to_string(), expected: expected.value, found })
+}
+
+fn vanishes(name: &'static str, what: &str, number: Sized) -> Result<(), Difference> {
+    claim(name, what, Sized { value: 0.0, size: number.size }, number.value)
+}
+
+fn is_same(name: &'static str, what: &str, here: Sized, there: Sized) -> Result<(), Difference> {
+    claim(name, what, Sized { value: here.value, size: here.size + there.size }, there.value)
+}
+
+impl System<'_> {
+    pub(super) fn check_claims(
+        &self,
+        graph: &Graph,
+        claims: &Claims<'_>,
+        functions: &Functions<'_>,
+        point: &Point,
+        checked: &mut Checked,
+    ) -> Result<(), Difference> {
+        match (claims, functions) {
+            (Claims::Degenerate(form), Functions::Degenerate(programs)) => {
+                self.check_form(form, point)?;
+                if form.canonical {
+                    let blocks = form.partners.iter().enumerate();
+                    for (block, partner) in blocks {
+                        let first = Support::Block(block);
+                        let directions = Directions { first, second: Support::Block(*partner) };
+                        let Some(outputs) = self.at(point, directions) else { continue };
+                        let partners = Some(form.partners.as_slice());
+                        let machine = Machine { graph, model: self.model, point, directions, partners };
+                        let found = machine.run(&programs.partner_entries).along_first(Output::Vector);
+                        let expected = outputs.form_jacobian(point);
+                        claim("partner_entries", "an entry of a Dα + b (Dα)ᵀ", expected, found)?;
+                        checked.largest = checked.largest.max(difference(expected, found));
+                    }
+                }
+                Ok(())
+            }
+            (Claims::Regular(mass), Functions::Regular(_)) => self.check_mass(mass, point),
+            _ => Ok(()),
+        }
+    }
+
+    /// The values along these directions, where they exist.
+    fn at(&self, point: &Point, directions: Directions) -> Option<Outputs> {
+        self.outputs(point, directions, Part::Form, u64::MAX).ok().filter(Outputs::is_moderate)
+    }
+
+    fn check_form(&self, form: &OneForm, point: &Point) -> Result<(), Difference> {
+        if form.linear {
+            let there = self.at(&point.elsewhere(true, true, true), Directions::ALL);
+            if let (Some(here), Some(there)) = (self.at(point, Directions::ALL), there) {
+                is_same("LINEAR", "Dα elsewhere", here.form_jacobian(point), there.form_jacobian(point))?;
+                vanishes("LINEAR", "∂α/∂t", here.form_rate())?;
+            }
+        }
+        if form.canonical {
+            for (block, partner) in form.partners.iter().enumerate() {
+                let what = "an entry of Dα away from the conjugate coordinate";
+                for directions in away_from(block, *partner, form.matching, point.seed()) {
+                    if let Some(outputs) = self.at(point, directions) {
+                        vanishes("CANONICAL", what, outputs.form_jacobian(point))?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_mass(&self, mass: &MassMatrix, point: &Point) -> Result<(), Difference> {
+        let Some(here) = self.at(point, Directions::ALL) else { return Ok(()) };
+        if mass.quadratic
+            && let Some(there) = self.at(&point.elsewhere(false, true, false), Directions::ALL)
+        {
+            is_same("QUADRATIC", "∂²L/∂v∂v at other velocities", here.mass(), there.mass())?;
+        }
+        if mass.separable {
+            if let Some(there) = self.at(&point.elsewhere(true, true, true), Directions::ALL) {
+                is_same("SEPARABLE", "∂²L/∂v∂v elsewhere", here.mass(), there.mass())?;
+            }
+            for coupling in here.coupling() {
+                vanishes("SEPARABLE", "∂²L/∂q∂v", coupling)?;
+            }
+            if let Some(at_rest) = self.at(&point.at_rest(), Directions::ALL) {
+                vanishes("SEPARABLE", "∂L/∂v at v = 0", at_rest.momentum_along())?;
+            }
+        }
+        if mass.diagonal {
+            for block in 0..self.model.blocks.len() {
+                for directions in away_from(block, block, false, point.seed()) {
+                    if let Some(outputs) = self.at(point, directions) {
+                        vanishes("DIAGONAL_MASS", "∂²L/∂v∂v off the diagonal", outputs.mass())?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Directions between which a matrix vanishes that couples each entry of `block` to the same entry of
+/// `partner` only, and to itself unless `is_off_diagonal`.
+fn away_from(block: usize, partner: usize, is_off_diagonal: bool, seed: u64) -> Vec<Directions> {
+    let pair = |first, second| Directions { first, second };
+    let mut directions = vec![
+        pair(Support::Block(block), Support::Except(block, partner)),
+        pair(Support::Half(block, seed), Support::OtherHalf(block, seed)),
+        pair(Support::Half(block, seed), Support::OtherHalf(partner, seed)),
+    ];
+    if is_off_diagonal {
+        directions.push(pair(Support::Block(block), Support::Block(block)));
+    }
+    directions
+}

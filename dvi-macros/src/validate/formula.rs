@@ -1,0 +1,449 @@
+//! A formula as the user wrote it, evaluated as it stands: no name is resolved in advance, nothing is
+//! simplified, and derivatives come from arithmetic on jets.
+
+use std::collections::HashSet;
+
+use quote::ToTokens;
+use syn::{BinOp, Expr, ExprCall, ExprMethodCall, Lit, Pat, RangeLimits, Stmt, UnOp};
+
+use super::functions;
+use super::jet::Jet;
+use super::point::{Branches, Directions, Point, Variable};
+use crate::internal::internal;
+use crate::model::Model;
+
+/// Why there is no value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum NoValue {
+    /// An index beyond its array: these sizes do not go together.
+    OutOfRange,
+    /// More terms than may be evaluated.
+    TooLong,
+}
+
+type Value<T> = Result<T, NoValue>;
+
+/// What a name of an inner scope stands for.
+#[derive(Clone, Copy)]
+enum Binding {
+    Number(Jet),
+    Index(i64),
+}
+
+/// The sides of the conditions that were taken, each by its place in the text.
+pub(super) type Sides = HashSet<(usize, bool)>;
+
+pub(super) struct Evaluation<'a> {
+    pub(super) model: &'a Model,
+    pub(super) point: &'a Point,
+    pub(super) directions: Directions,
+    /// Velocities are zero, and no direction changes them.
+    pub(super) is_still: bool,
+    /// Operations that may still be carried out.
+    pub(super) budget: u64,
+    pub(super) sides: Sides,
+    scope: Vec<(String, Binding)>,
+}
+
+impl<'a> Evaluation<'a> {
+    pub(super) fn new(model: &'a Model, point: &'a Point, directions: Directions, budget: u64) -> Self {
+        Self { model, point, directions, is_still: false, budget, sides: Sides::new(), scope: Vec::new() }
+    }
+
+    /// α·v of a list of components.
+    pub(super) fn components(&mut self, list: &syn::ExprArray) -> Value<Jet> {
+        let mut total = Jet::number(0.0);
+        for (block, component) in list.elems.iter().enumerate() {
+            match component {
+                Expr::Closure(closure) => {
+                    for index in self.point.visited(0, self.block_size(block)) {
+                        let component = self.closure(closure, &[index])?;
+                        let velocity = self.variable(Variable::Velocity, block, index)?;
+                        total = total.plus(component.times(velocity));
+                    }
+                }
+                _ => {
+                    let component = self.number(component)?;
+                    let velocity = self.variable(Variable::Velocity, block, 0)?;
+                    total = total.plus(component.times(velocity));
+                }
+            }
+        }
+        Ok(total)
+    }
+
+    pub(super) fn number(&mut self, syntax: &Expr) -> Value<Jet> {
+        self.budget = self.budget.checked_sub(1).ok_or(NoValue::TooLong)?;
+        match syntax {
+            Expr::Lit(literal) => Ok(Jet::number(literal_number(&literal.lit))),
+            Expr::Paren(inner) => self.number(&inner.expr),
+            Expr::Group(inner) => self.number(&inner.expr),
+            Expr::Unary(unary) => Ok(self.number(&unary.expr)?.scaled(-1.0)),
+            Expr::Binary(binary) => {
+                let (left, right) = (self.number(&binary.left)?, self.number(&binary.right)?);
+                match binary.op {
+                    BinOp::Add(_) => Ok(left.plus(right)),
+                    BinOp::Sub(_) => Ok(left.minus(right)),
+                    BinOp::Mul(_) => Ok(left.times(right)),
+                    BinOp::Div(_) => Ok(left.times(right.reciprocal())),
+                    _ => unknown(syntax),
+                }
+            }
+            Expr::Path(path) => self.name(syntax, &path.path),
+            Expr::Field(_) | Expr::Index(_) => self.entry(syntax),
+            Expr::MethodCall(call) => self.method(call),
+            Expr::Call(call) => self.call(call),
+            Expr::Cast(cast) if self.is_index(&cast.expr) => Ok(Jet::number(self.index(&cast.expr)? as f64)),
+            Expr::Cast(cast) => self.number(&cast.expr),
+            Expr::Block(block) => self.statements(&block.block),
+            Expr::If(choice) => {
+                let Some((_, otherwise)) = &choice.else_branch else { unknown(syntax) };
+                match self.holds(&choice.cond)? {
+                    true => self.statements(&choice.then_branch),
+                    false => self.number(otherwise),
+                }
+            }
+            _ => unknown(syntax),
+        }
+    }
+
+    fn statements(&mut self, block: &syn::Block) -> Value<Jet> {
+        let outside = self.scope.len();
+        let mut value = None;
+        for statement in &block.stmts {
+            match statement {
+                Stmt::Local(local) => {
+                    let Some(init) = &local.init else { unknown(local) };
+                    let bound = self.number(&init.expr)?;
+                    self.scope.push((pattern(&local.pat), Binding::Number(bound)));
+                }
+                Stmt::Expr(expr, None) => value = Some(self.number(expr)?),
+                _ => unknown(statement),
+            }
+        }
+        self.scope.truncate(outside);
+        value.map_or_else(|| unknown(block), Ok)
+    }
+
+    /// Whether a condition holds, each of its comparisons taken as the point says.
+    fn holds(&mut self, condition: &Expr) -> Value<bool> {
+        match condition {
+            Expr::Paren(inner) => self.holds(&inner.expr),
+            Expr::Group(inner) => self.holds(&inner.expr),
+            Expr::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => Ok(!self.holds(&unary.expr)?),
+            Expr::Binary(binary) => {
+                let compared = match binary.op {
+                    BinOp::And(_) => return Ok(self.holds(&binary.left)? && self.holds(&binary.right)?),
+                    BinOp::Or(_) => return Ok(self.holds(&binary.left)? || self.holds(&binary.right)?),
+                    BinOp::Lt(_) => |a: f64, b: f64| a < b,
+                    BinOp::Le(_) => |a: f64, b: f64| a <= b,
+                    BinOp::Gt(_) => |a: f64, b: f64| a > b,
+                    BinOp::Ge(_) => |a: f64, b: f64| a >= b,
+                    _ => unknown(condition),
+                };
+                let (left, right) = (self.number(&binary.left)?, self.number(&binary.right)?);
+                Ok(self.side(binary, compared(left.value().value, right.value().value)))
+            }
+            _ => unknown(condition),
+        }
+    }
+
+    /// The side of a comparison that is taken.
+    fn side<T>(&mut self, place: &T, holds: bool) -> bool {
+        let side = holds != (self.point.branches == Branches::Exchanged);
+        self.sides.insert((std::ptr::from_ref(place) as usize, side));
+        side
+    }
+
+    fn bound(&self, name: &str) -> Option<Binding> {
+        self.scope.iter().rev().find(|(known, _)| known == name).map(|(_, binding)| *binding)
+    }
+
+    fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Jet> {
+        let text = path.to_token_stream().to_string().replace(' ', "");
+        if let Some(Binding::Number(value)) = self.bound(&text) {
+            return Ok(value);
+        }
+        if self.block(&text).is_some() || self.parameter(&text).is_some() {
+            return self.entry(syntax);
+        }
+        if let Some(size) = self.size(&text) {
+            return Ok(Jet::number(size as f64));
+        }
+        if let Some(value) = constant(&text) {
+            return Ok(Jet::number(value));
+        }
+        match text.as_str() {
+            "t" => Ok(Jet::variable(self.point.time(), [0.0, 0.0, 1.0, 0.0], [0.0; 2])),
+            _ => unknown(syntax),
+        }
+    }
+
+    fn block(&self, name: &str) -> Option<usize> {
+        self.model.blocks.iter().position(|block| block.name == name)
+    }
+
+    fn parameter(&self, name: &str) -> Option<&str> {
+        let mut names = self.model.parameters.iter().map(|parameter| parameter.text.as_str());
+        names.find(|known| *known == name)
+    }
+
+    fn size(&self, name: &str) -> Option<i64> {
+        let number = self.model.sizes.iter().position(|size| size.text == name)?;
+        self.point.size(number)
+    }
+
+    fn block_size(&self, block: usize) -> i64 {
+        match self.point.length(&self.model.block_size(block)) {
+            Some(size) => size,
+            None => internal("a size without a value"),
+        }
+    }
+
+    /// A coordinate or an entry of a parameter: the kind of thing that `d(·)` may stand around.
+    fn entry(&mut self, syntax: &Expr) -> Value<Jet> {
+        let (name, indices) = self.place(syntax)?;
+        match (self.block(&name), indices.as_slice()) {
+            (Some(block), []) => self.variable(Variable::Position, block, 0),
+            (Some(block), [index]) => self.variable(Variable::Position, block, *index),
+            (Some(_), _) => unknown(syntax),
+            (None, _) if indices.iter().any(|index| *index < 0) => Err(NoValue::OutOfRange),
+            (None, _) => match self.parameter(&name) {
+                Some(name) => Ok(Jet::number(self.point.parameter(name, &indices))),
+                None => unknown(syntax),
+            },
+        }
+    }
+
+    /// The name of `x`, `self.x`, `x[i]`, `x[i][j]`, with its indices.
+    fn place(&mut self, syntax: &Expr) -> Value<(String, Vec<i64>)> {
+        match syntax {
+            Expr::Path(path) => Ok((path.to_token_stream().to_string().replace(' ', ""), Vec::new())),
+            Expr::Field(_) => {
+                let text = syntax.to_token_stream().to_string().replace(' ', "");
+                let name = text.strip_prefix("self.").map_or(text.clone(), ToString::to_string);
+                Ok((name, Vec::new()))
+            }
+            Expr::Index(index) => {
+                let (name, mut indices) = self.place(&index.expr)?;
+                indices.push(self.index(&index.index)?);
+                Ok((name, indices))
+            }
+            Expr::Paren(inner) => self.place(&inner.expr),
+            Expr::Group(inner) => self.place(&inner.expr),
+            _ => unknown(syntax),
+        }
+    }
+
+    fn variable(&self, kind: Variable, block: usize, index: i64) -> Value<Jet> {
+        if !(0..self.block_size(block)).contains(&index) {
+            return Err(NoValue::OutOfRange);
+        }
+        if kind == Variable::Velocity && self.is_still {
+            return Ok(Jet::number(0.0));
+        }
+        let value = self.point.variable(kind, block, index);
+        let a = self.point.direction(self.directions.first, false, block, index);
+        let b = self.point.direction(self.directions.second, true, block, index);
+        Ok(match kind {
+            Variable::Position => Jet::variable(value, [a, 0.0, 0.0, 0.0], [b, 0.0]),
+            Variable::Velocity => Jet::variable(value, [0.0, a, 0.0, value], [0.0, b]),
+        })
+    }
+
+    fn method(&mut self, call: &ExprMethodCall) -> Value<Jet> {
+        let name = call.method.to_string();
+        let receiver = self.number(&call.receiver)?;
+        if name == "powi" {
+            return Ok(receiver.power(exponent(&call.args[0])));
+        }
+        let mut arguments = Vec::new();
+        for argument in &call.args {
+            arguments.push(self.number(argument)?);
+        }
+        let degree = std::f64::consts::PI / 180.0;
+        let value = match (name.as_str(), arguments.as_slice()) {
+            ("recip", []) => receiver.reciprocal(),
+            ("to_radians", []) => receiver.scaled(degree),
+            ("to_degrees", []) => receiver.scaled(1.0 / degree),
+            ("mul_add", [factor, term]) => receiver.times(*factor).plus(*term),
+            ("min" | "max", [other]) => {
+                let (a, b) = (receiver.value().value, other.value().value);
+                let holds = if name == "min" { a <= b } else { a >= b };
+                if self.side(call, holds) { receiver } else { *other }
+            }
+            (name, []) => functions::unary(name, receiver).unwrap_or_else(|| unknown(call)),
+            (name, [other]) => functions::binary(name, receiver, *other).unwrap_or_else(|| unknown(call)),
+            _ => unknown(call),
+        };
+        Ok(value)
+    }
+
+    fn call(&mut self, call: &ExprCall) -> Value<Jet> {
+        let name = call.func.to_token_stream().to_string().replace(' ', "");
+        if let Some(number) = self.model.functions.iter().position(|function| function.name == name) {
+            let argument = self.number(&call.args[0])?;
+            return Ok(functions::own(number, argument));
+        }
+        match name.as_str() {
+            "sum" | "product" | "sum_pairs" | "sum_ordered_pairs" => self.fold(&name, call),
+            "d" | "dot" => {
+                let (name, indices) = self.place(&call.args[0])?;
+                let Some(block) = self.block(&name) else { unknown(call) };
+                self.variable(Variable::Velocity, block, indices.first().copied().unwrap_or(0))
+            }
+            // `f64::sin(x)` is `x.sin()`.
+            _ => match name.strip_prefix("f64::").or_else(|| name.strip_prefix("f32::")) {
+                Some(method) => {
+                    let method = quote::format_ident!("{method}");
+                    let (receiver, arguments) = (&call.args[0], call.args.iter().skip(1));
+                    self.method(&syn::parse_quote!((#receiver).#method(#(#arguments),*)))
+                }
+                None => unknown(call),
+            },
+        }
+    }
+
+    fn fold(&mut self, name: &str, call: &ExprCall) -> Value<Jet> {
+        let (Expr::Range(range), Expr::Closure(closure)) = (&call.args[0], &call.args[1]) else {
+            unknown(call)
+        };
+        let lower = range.start.as_ref().map_or(Ok(0), |start| self.index(start))?;
+        let Some(end) = &range.end else { unknown(call) };
+        let upper = self.index(end)?;
+        let upper = match range.limits {
+            RangeLimits::HalfOpen(_) => upper,
+            RangeLimits::Closed(_) => upper + 1,
+        };
+        let mut total = Jet::number(if name == "product" { 1.0 } else { 0.0 });
+        for first in self.point.visited(lower, upper) {
+            let seconds = match name {
+                "sum" | "product" => {
+                    let term = self.closure(closure, &[first])?;
+                    total = if name == "sum" { total.plus(term) } else { total.times(term) };
+                    continue;
+                }
+                "sum_pairs" => self.point.visited(first + 1, upper),
+                _ => self.point.visited(lower, upper).into_iter().filter(|second| *second != first).collect(),
+            };
+            for second in seconds {
+                total = total.plus(self.closure(closure, &[first, second])?);
+            }
+        }
+        Ok(total)
+    }
+
+    fn closure(&mut self, closure: &syn::ExprClosure, indices: &[i64]) -> Value<Jet> {
+        let outside = self.scope.len();
+        for (input, index) in closure.inputs.iter().zip(indices) {
+            self.scope.push((pattern(input), Binding::Index(*index)));
+        }
+        let value = self.number(&closure.body);
+        self.scope.truncate(outside);
+        value
+    }
+
+    /// Whether an expression is index arithmetic: it names an index or a size.
+    fn is_index(&self, syntax: &Expr) -> bool {
+        match syntax {
+            Expr::Path(path) => {
+                let text = path.to_token_stream().to_string();
+                match self.bound(&text) {
+                    Some(binding) => matches!(binding, Binding::Index(_)),
+                    None => self.size(&text).is_some(),
+                }
+            }
+            Expr::Paren(inner) => self.is_index(&inner.expr),
+            Expr::Group(inner) => self.is_index(&inner.expr),
+            Expr::Binary(binary) => self.is_index(&binary.left) || self.is_index(&binary.right),
+            Expr::MethodCall(call) => call.method == "len",
+            _ => false,
+        }
+    }
+
+    fn index(&mut self, syntax: &Expr) -> Value<i64> {
+        match syntax {
+            Expr::Lit(literal) => match &literal.lit {
+                Lit::Int(value) => Ok(value.base10_parse().unwrap_or_else(|_| unknown(syntax))),
+                _ => unknown(syntax),
+            },
+            Expr::Paren(inner) => self.index(&inner.expr),
+            Expr::Group(inner) => self.index(&inner.expr),
+            Expr::Unary(unary) => Ok(-self.index(&unary.expr)?),
+            Expr::Binary(binary) => {
+                let (left, right) = (self.index(&binary.left)?, self.index(&binary.right)?);
+                match binary.op {
+                    BinOp::Add(_) => Ok(left + right),
+                    BinOp::Sub(_) => Ok(left - right),
+                    BinOp::Mul(_) => Ok(left * right),
+                    BinOp::Rem(_) => left.checked_rem_euclid(right).ok_or(NoValue::OutOfRange),
+                    _ => unknown(syntax),
+                }
+            }
+            Expr::Path(_) | Expr::Field(_) | Expr::MethodCall(_) => {
+                let text = syntax.to_token_stream().to_string().replace(' ', "");
+                let name = text.strip_prefix("self.").unwrap_or(&text);
+                match (self.bound(name), self.size(name)) {
+                    (Some(Binding::Index(index)), _) => Ok(index),
+                    (None, Some(size)) => Ok(size),
+                    _ => unknown(syntax),
+                }
+            }
+            _ => unknown(syntax),
+        }
+    }
+}
+
+/// What the stages before have admitted, and this one does not know.
+fn unknown(syntax: &impl ToTokens) -> ! {
+    internal(format!("the self-check cannot read `{}`", syntax.to_token_stream()))
+}
+
+fn literal_number(literal: &Lit) -> f64 {
+    let value = match literal {
+        Lit::Float(value) => value.base10_parse(),
+        Lit::Int(value) => value.base10_digits().parse().map_err(|_| syn::Error::new(value.span(), "")),
+        _ => unknown(literal),
+    };
+    value.unwrap_or_else(|_| unknown(literal))
+}
+
+fn exponent(syntax: &Expr) -> i32 {
+    match syntax {
+        Expr::Paren(inner) => exponent(&inner.expr),
+        Expr::Group(inner) => exponent(&inner.expr),
+        Expr::Unary(unary) => -exponent(&unary.expr),
+        Expr::Lit(syn::ExprLit { lit: Lit::Int(value), .. }) => {
+            value.base10_parse().unwrap_or_else(|_| unknown(syntax))
+        }
+        _ => unknown(syntax),
+    }
+}
+
+fn pattern(pattern: &Pat) -> String {
+    match pattern {
+        Pat::Type(typed) => self::pattern(&typed.pat),
+        other => other.to_token_stream().to_string(),
+    }
+}
+
+#[rustfmt::skip]
+fn constant(text: &str) -> Option<f64> {
+    use std::f64::consts;
+    let name = ["std::f64::consts::", "core::f64::consts::", "::std::f64::consts::", "::core::f64::consts::"]
+        .iter()
+        .find_map(|prefix| text.strip_prefix(prefix))
+        .unwrap_or(text);
+    let value = match name {
+        "PI"        => consts::PI,
+        "TAU"       => consts::TAU,
+        "E"         => consts::E,
+        "SQRT_2"    => consts::SQRT_2,
+        "LN_2"      => consts::LN_2,
+        "LN_10"     => consts::LN_10,
+        "FRAC_PI_2" => consts::FRAC_PI_2,
+        "FRAC_1_PI" => consts::FRAC_1_PI,
+        _ => return None,
+    };
+    Some(value)
+}

@@ -1,0 +1,201 @@
+//! Numbers that carry first and second derivatives along fixed directions, and the sizes of the terms
+//! that each of these was added up from.
+//!
+//! A jet is the value of a function of (q, v, t), its derivatives along four first directions and two
+//! second ones, and the mixed second derivatives that a check needs. The derivatives along a random
+//! direction speak for all entries of a gradient at once, so the cost does not grow with their number.
+
+use std::array::from_fn;
+
+/// First directions: q along a, v along a, t, and v along itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum First {
+    Q,
+    V,
+    T,
+    Stretch,
+}
+
+/// Second directions: q along b, v along b.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Second {
+    Q,
+    V,
+}
+
+const FIRST: usize = 4;
+const SECOND: usize = 2;
+/// The first directions that have mixed derivatives: q, v and t.
+const MIXED: usize = 3;
+const PARTS: usize = 1 + FIRST + SECOND + MIXED * SECOND;
+
+/// A number and the sum of the absolute terms behind it, in units of which its rounding error is some small
+/// multiple of the machine precision.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sized {
+    pub(super) value: f64,
+    pub(super) size: f64,
+}
+
+impl Sized {
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self { value: self.value + other.value, size: self.size + other.size }
+    }
+
+    pub(super) fn times(self, factor: f64) -> Self {
+        Self { value: self.value * factor, size: self.size * factor.abs() }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Jet {
+    value: [f64; PARTS],
+    size: [f64; PARTS],
+}
+
+/// The value and the first three derivatives of a function of one number.
+pub(super) type Taylor = [f64; 4];
+
+fn mixed(first: usize, second: usize) -> usize {
+    1 + FIRST + SECOND + first * SECOND + second
+}
+
+impl Jet {
+    pub(super) fn number(value: f64) -> Self {
+        let mut jet = Self { value: [0.0; PARTS], size: [0.0; PARTS] };
+        jet.value[0] = value;
+        jet.size[0] = value.abs();
+        jet
+    }
+
+    /// A variable with its rates along the directions.
+    pub(super) fn variable(value: f64, first: [f64; FIRST], second: [f64; SECOND]) -> Self {
+        let mut jet = Self::number(value);
+        jet.value[1..=FIRST].copy_from_slice(&first);
+        jet.value[1 + FIRST..1 + FIRST + SECOND].copy_from_slice(&second);
+        jet.size = jet.value.map(f64::abs);
+        jet
+    }
+
+    fn part(&self, at: usize) -> Sized {
+        Sized { value: self.value[at], size: self.size[at] }
+    }
+
+    pub(super) fn value(&self) -> Sized {
+        self.part(0)
+    }
+
+    pub(super) fn first(&self, direction: First) -> Sized {
+        self.part(1 + direction as usize)
+    }
+
+    pub(super) fn second(&self, direction: Second) -> Sized {
+        self.part(1 + FIRST + direction as usize)
+    }
+
+    /// The mixed derivative; none is kept along [`First::Stretch`].
+    pub(super) fn both(&self, first: First, second: Second) -> Sized {
+        self.part(mixed(first as usize, second as usize))
+    }
+
+    /// Whether it changes along any direction.
+    pub(super) fn varies(&self) -> bool {
+        self.value[1..].iter().any(|part| *part != 0.0)
+    }
+
+    /// The same derivatives around another value.
+    pub(super) fn with_value(mut self, value: f64) -> Self {
+        self.value[0] = value;
+        self.size[0] = self.size[0].max(value.abs());
+        self
+    }
+
+    /// Whether all parts are finite, and far from overflow.
+    pub(super) fn is_moderate(&self) -> bool {
+        self.size.iter().chain(&self.value).all(|part| part.abs() < 1e100)
+    }
+
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        Self { value: self.value.map(|v| factor * v), size: self.size.map(|s| factor.abs() * s) }
+    }
+
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self {
+            value: from_fn(|k| self.value[k] + other.value[k]),
+            size: from_fn(|k| self.size[k] + other.size[k]),
+        }
+    }
+
+    pub(super) fn minus(self, other: Self) -> Self {
+        self.plus(other.scaled(-1.0))
+    }
+
+    pub(super) fn times(self, other: Self) -> Self {
+        let mut product = Self::number(0.0);
+        let mut add = |to: usize, i: usize, j: usize| {
+            let ((x, a), (y, b)) = ((self.value[i], self.size[i]), (other.value[j], other.size[j]));
+            product.value[to] += x * y;
+            product.size[to] += x.abs() * b + a * y.abs() - (x * y).abs();
+        };
+        add(0, 0, 0);
+        for k in 1..=FIRST + SECOND {
+            add(k, k, 0);
+            add(k, 0, k);
+        }
+        for first in 0..MIXED {
+            for second in 0..SECOND {
+                let (both, e, f) = (mixed(first, second), 1 + first, 1 + FIRST + second);
+                add(both, both, 0);
+                add(both, e, f);
+                add(both, f, e);
+                add(both, 0, both);
+            }
+        }
+        product
+    }
+
+    /// f(self) from the derivatives of f at its value.
+    pub(super) fn through(self, f: Taylor) -> Self {
+        let [value, d1, d2, d3] = f;
+        let mut result = Self::number(value);
+        let size = f.map(f64::abs);
+        let u = self.size[0];
+        result.size[0] = size[0] + size[1] * u;
+        for k in 1..=FIRST + SECOND {
+            result.value[k] = d1 * self.value[k];
+            result.size[k] = size[1] * self.size[k] + size[2] * u * self.value[k].abs();
+        }
+        for first in 0..MIXED {
+            for second in 0..SECOND {
+                let (both, e, f) = (mixed(first, second), 1 + first, 1 + FIRST + second);
+                let (x, y, xy) = (self.value[e], self.value[f], self.value[both]);
+                result.value[both] = d1 * xy + d2 * x * y;
+                result.size[both] = size[1] * self.size[both]
+                    + size[2] * (self.size[e] * y.abs() + x.abs() * self.size[f] + u * xy.abs())
+                    + d3.abs() * u * (x * y).abs();
+            }
+        }
+        result
+    }
+
+    /// 1/self
+    pub(super) fn reciprocal(self) -> Self {
+        let inverse = 1.0 / self.value[0];
+        let square = inverse * inverse;
+        self.through([inverse, -square, 2.0 * square * inverse, -6.0 * square * square])
+    }
+
+    /// self to an integer power.
+    pub(super) fn power(self, exponent: i32) -> Self {
+        let n = f64::from(exponent);
+        let x = self.value[0];
+        // A factor of zero counts, even before an infinite power.
+        let term = |factor: f64, exponent: i32| if factor == 0.0 { 0.0 } else { factor * x.powi(exponent) };
+        self.through([
+            x.powi(exponent),
+            term(n, exponent - 1),
+            term(n * (n - 1.0), exponent - 2),
+            term(n * (n - 1.0) * (n - 2.0), exponent - 3),
+        ])
+    }
+}

@@ -1,0 +1,217 @@
+//! What is printed, carried out: the instructions of a routine in their loops, on plain numbers.
+
+use std::collections::HashMap;
+
+use super::functions;
+use super::point::{Branches, Directions, Point, Variable};
+use crate::instructions::{Instruction, Register, Signed};
+use crate::internal::internal;
+use crate::model::Model;
+use crate::program::{Output, Place};
+use crate::routine::Routine;
+use crate::schedule::Step;
+use crate::symbolic::{Atom, Coordinate, Fold, Graph, Id, Index, Node, Relation};
+
+/// What a routine gives: what it returns, its vectors along the first direction, and its matrix between
+/// the first and the second.
+#[derive(Debug, Default)]
+pub(super) struct Results {
+    pub(super) value: f64,
+    vectors: HashMap<Output, [f64; 2]>,
+    pub(super) matrix: f64,
+}
+
+impl Results {
+    pub(super) fn along_first(&self, output: Output) -> f64 {
+        self.vectors.get(&output).map_or(0.0, |along| along[0])
+    }
+
+    pub(super) fn along_second(&self, output: Output) -> f64 {
+        self.vectors.get(&output).map_or(0.0, |along| along[1])
+    }
+}
+
+pub(super) struct Machine<'a> {
+    pub(super) graph: &'a Graph,
+    pub(super) model: &'a Model,
+    pub(super) point: &'a Point,
+    pub(super) directions: Directions,
+    /// For a vector of the entries (i, partner of i): the partner of each block.
+    pub(super) partners: Option<&'a [usize]>,
+}
+
+struct Run<'a> {
+    machine: &'a Machine<'a>,
+    routine: &'a Routine,
+    registers: Vec<f64>,
+    /// The values of the open indices, by depth.
+    indices: Vec<i64>,
+    results: Results,
+}
+
+impl Machine<'_> {
+    pub(super) fn run(&self, routine: &Routine) -> Results {
+        let registers = vec![f64::NAN; routine.code.len()];
+        let mut run =
+            Run { machine: self, routine, registers, indices: Vec::new(), results: Results::default() };
+        run.steps(&routine.steps);
+        run.results
+    }
+
+    fn along(&self, is_second: bool, block: usize, index: i64) -> f64 {
+        let support = if is_second { self.directions.second } else { self.directions.first };
+        self.point.direction(support, is_second, block, index)
+    }
+}
+
+impl Run<'_> {
+    fn steps(&mut self, steps: &[Step]) {
+        for step in steps {
+            match step {
+                Step::Let(register) => {
+                    let value = self.instruction(self.routine.code.get(*register));
+                    self.registers[register.0 as usize] = value;
+                }
+                Step::Write(statement, value) => {
+                    let value = self.signed(*value);
+                    self.write(&self.routine.statements[*statement].place, value);
+                }
+                Step::Loop { over, folds, body } => {
+                    let neutral = |fold| match fold {
+                        Fold::Sum => 0.0,
+                        Fold::Product => 1.0,
+                    };
+                    let mut totals: Vec<f64> = folds.iter().map(|fold| neutral(fold.fold)).collect();
+                    let (lower, upper) = (self.index(&over.range.lower), self.index(&over.range.upper));
+                    let except: Vec<i64> = over.range.left_out().map(|index| self.index(index)).collect();
+                    for index in self.machine.point.visited(lower, upper) {
+                        if except.contains(&index) {
+                            continue;
+                        }
+                        self.indices.push(index);
+                        self.steps(body);
+                        for (total, fold) in totals.iter_mut().zip(folds) {
+                            let value = self.signed(fold.body);
+                            match fold.fold {
+                                Fold::Sum => *total += value,
+                                Fold::Product => *total *= value,
+                            }
+                        }
+                        self.indices.pop();
+                    }
+                    for (fold, total) in folds.iter().zip(totals) {
+                        self.registers[fold.result.0 as usize] = total;
+                    }
+                }
+            }
+        }
+    }
+
+    fn write(&mut self, place: &Place, value: f64) {
+        match place {
+            Place::Result => self.results.value += value,
+            Place::Entry(output, coordinate) => {
+                let (block, index) = (coordinate.block as usize, self.index(&coordinate.index));
+                let at_partner = self
+                    .machine
+                    .partners
+                    .map_or(1.0, |partners| self.machine.along(true, partners[block], index));
+                let first = self.machine.along(false, block, index) * at_partner;
+                let second = self.machine.along(true, block, index);
+                let along = self.results.vectors.entry(*output).or_insert([0.0; 2]);
+                along[0] += first * value;
+                along[1] += second * value;
+            }
+            Place::MatrixEntry(row, column) => {
+                let (i, j) = (self.index(&row.index), self.index(&column.index));
+                let (row, column) = (row.block as usize, column.block as usize);
+                let along = self.machine.along(false, row, i) * self.machine.along(true, column, j);
+                self.results.matrix += along * value;
+            }
+        }
+    }
+
+    fn register(&self, register: Register) -> f64 {
+        self.registers[register.0 as usize]
+    }
+
+    fn signed(&self, value: Signed) -> f64 {
+        let register = self.register(value.register);
+        if value.negative { -register } else { register }
+    }
+
+    fn instruction(&self, instruction: &Instruction) -> f64 {
+        match instruction {
+            Instruction::Leaf(id) => self.leaf(*id),
+            Instruction::Literal(bits) => f64::from_bits(*bits),
+            Instruction::Multiply(a, b) => self.register(*a) * self.register(*b),
+            Instruction::Divide(a, b) => self.register(*a) / self.register(*b),
+            Instruction::Sum(terms) => terms.iter().map(|term| self.signed(*term)).sum(),
+            Instruction::Unary(function, of) => functions::printed_unary(function.name(), self.signed(*of)),
+            Instruction::Binary(function, a, b) => {
+                functions::printed_binary(function.name(), self.signed(*a), self.signed(*b))
+            }
+            Instruction::Power(of, exponent) => {
+                self.register(*of).powi(i32::try_from(*exponent).unwrap_or(i32::MAX))
+            }
+            Instruction::Call(function, order, of) => {
+                functions::stand_in(*function as usize, *order, self.signed(*of))
+            }
+            Instruction::Choose(left, relation, right, then, otherwise) => {
+                let (left, right) = (self.signed(*left), self.signed(*right));
+                let holds = match relation {
+                    Relation::Less => left < right,
+                    Relation::LessOrEqual => left <= right,
+                    Relation::Greater => left > right,
+                    Relation::GreaterOrEqual => left >= right,
+                };
+                let is_exchanged = self.machine.point.branches == Branches::Exchanged;
+                self.signed(if holds != is_exchanged { *then } else { *otherwise })
+            }
+            Instruction::Reduce(..) => internal("a sum outside of its loop"),
+        }
+    }
+
+    fn leaf(&self, id: Id) -> f64 {
+        let Machine { point, model, .. } = self.machine;
+        let variable = |kind: Variable, c: &Coordinate| {
+            let (block, index) = (c.block as usize, self.index(&c.index));
+            let size = point.length(&model.block_size(block));
+            // What is read where an inner loop is empty is not used.
+            if size.is_some_and(|size| (0..size).contains(&index)) {
+                point.variable(kind, block, index)
+            } else {
+                f64::NAN
+            }
+        };
+        match self.machine.graph.node(id) {
+            Node::Coordinate(coordinate) => variable(Variable::Position, coordinate),
+            Node::Velocity(coordinate) => variable(Variable::Velocity, coordinate),
+            Node::Time => point.time(),
+            Node::Parameter(parameter) => {
+                let indices: Vec<i64> = parameter.indices.iter().map(|index| self.index(index)).collect();
+                point.parameter(&model.parameters[parameter.field as usize].text, &indices)
+            }
+            Node::Count(index) => self.index(index) as f64,
+            Node::Weight(weight) => point.weight(*weight),
+            other => internal(format!("{other:?} is not a leaf")),
+        }
+    }
+
+    fn index(&self, index: &Index) -> i64 {
+        index.terms.iter().fold(index.constant, |sum, (atom, coefficient)| {
+            let value = match atom {
+                Atom::Open(depth) => self.indices[*depth as usize],
+                Atom::Bound(_) => internal("an index outside of its sum"),
+                Atom::Size(size) => match self.machine.point.size(size.0 as usize) {
+                    Some(size) => size,
+                    None => internal("a size without a value"),
+                },
+                Atom::Remainder(value, modulus) => {
+                    self.index(value).checked_rem_euclid(self.index(modulus)).unwrap_or(-1)
+                }
+            };
+            sum + coefficient * value
+        })
+    }
+}

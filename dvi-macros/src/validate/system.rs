@@ -1,0 +1,285 @@
+//! What the formulas of a system say about each generated function, and what the functions give.
+
+use super::formula::{Evaluation, NoValue, Sides};
+use super::jet::{First, Jet, Second, Sized};
+use super::machine::{Machine, Results};
+use super::point::{Directions, Point};
+use crate::internal::internal;
+use crate::model::Model;
+use crate::program::{self, DegeneratePrograms, Programs, RegularPrograms};
+use crate::routine::Routine;
+use crate::symbolic::{Graph, Weight};
+use crate::syntax::{Attribute, Kind};
+
+/// The formulas as written, with what their names stand for.
+#[derive(Clone, Copy)]
+pub(super) struct System<'a> {
+    pub(super) model: &'a Model,
+    pub(super) attribute: &'a Attribute,
+}
+
+/// What is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    All,
+    /// L, or α·v where it is declared apart from H.
+    Form,
+}
+
+/// The generated functions.
+pub(super) enum Functions<'a> {
+    Degenerate(&'a DegeneratePrograms),
+    Regular(&'a RegularPrograms),
+}
+
+/// What is compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Quantity {
+    Lagrangian,
+    /// ∂L/∂q and ∂L/∂v
+    Lq,
+    Lv,
+    /// The weighted sum of second derivatives.
+    Hessian,
+    Hamiltonian,
+    HamiltonianGradient,
+    OneForm,
+    FlowSource,
+    OneFormJacobian,
+    Energy,
+    Force,
+    Momentum(usize),
+    MomentumGradient(usize),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Output {
+    pub(super) function: &'static str,
+    quantity: Quantity,
+    pub(super) is_matrix: bool,
+}
+
+/// The values of the formulas at a point.
+pub(super) struct Outputs {
+    /// L = α·v − H
+    lagrangian: Jet,
+    pub(super) form: Jet,
+    hamiltonian: Jet,
+    momenta: Vec<Jet>,
+    pub(super) sides: Sides,
+    /// The operations that it took.
+    pub(super) cost: u64,
+}
+
+impl System<'_> {
+    /// # Errors
+    /// Where the formulas cannot be evaluated.
+    pub(super) fn outputs(
+        &self,
+        point: &Point,
+        along: Directions,
+        part: Part,
+        budget: u64,
+    ) -> Result<Outputs, NoValue> {
+        let Self { model, attribute } = *self;
+        let mut evaluation = Evaluation::new(model, point, along, budget);
+        let zero = Jet::number(0.0);
+        let (lagrangian, form, hamiltonian) = match (&attribute.lagrangian, &attribute.one_form) {
+            (Some(lagrangian), _) => {
+                let moving = evaluation.number(lagrangian)?;
+                if model.kind == Kind::Regular {
+                    (moving, zero, zero)
+                } else {
+                    evaluation.is_still = true;
+                    let still = evaluation.number(lagrangian)?;
+                    evaluation.is_still = false;
+                    (moving, moving.minus(still), still.scaled(-1.0))
+                }
+            }
+            (None, Some(one_form)) => {
+                let form = match one_form {
+                    syn::Expr::Array(list) => evaluation.components(list)?,
+                    _ => evaluation.number(one_form)?,
+                };
+                let Some(hamiltonian) = &attribute.hamiltonian else { internal("no Hamiltonian") };
+                let hamiltonian = match part {
+                    Part::All => evaluation.number(hamiltonian)?,
+                    Part::Form => zero,
+                };
+                (form.minus(hamiltonian), form, hamiltonian)
+            }
+            (None, None) => internal("no dynamics"),
+        };
+        let momenta = attribute
+            .momenta
+            .iter()
+            .filter(|_| part == Part::All)
+            .map(|momentum| evaluation.number(&momentum.formula));
+        let momenta = momenta.collect::<Result<_, _>>()?;
+        let cost = budget - evaluation.budget;
+        Ok(Outputs { lagrangian, form, hamiltonian, momenta, sides: evaluation.sides, cost })
+    }
+}
+
+impl Output {
+    fn new(function: &'static str, quantity: Quantity) -> Self {
+        let is_matrix = matches!(quantity, Quantity::Hessian | Quantity::OneFormJacobian);
+        Self { function, quantity, is_matrix }
+    }
+
+    /// Its name, or that of an entry of it.
+    pub(super) fn quantity(&self, entry: Option<&str>) -> String {
+        let name = match self.quantity {
+            Quantity::Lagrangian => "L",
+            Quantity::Lq => "∂L/∂q",
+            Quantity::Lv => "∂L/∂v",
+            Quantity::Hessian => "the weighted second derivative of L",
+            Quantity::Hamiltonian => "H",
+            Quantity::HamiltonianGradient => "∇H",
+            Quantity::OneForm => "α",
+            Quantity::FlowSource => "∇H + ∂α/∂t",
+            Quantity::OneFormJacobian => "a Dα + b (Dα)ᵀ",
+            Quantity::Energy => "E",
+            Quantity::Force => "the force",
+            Quantity::Momentum(_) => "J",
+            Quantity::MomentumGradient(_) => "∇J",
+        };
+        entry.map_or_else(|| name.to_string(), |entry| format!("{name} at {entry}"))
+    }
+}
+
+impl Outputs {
+    pub(super) fn is_moderate(&self) -> bool {
+        let jets = [&self.lagrangian, &self.form, &self.hamiltonian];
+        jets.into_iter().chain(&self.momenta).all(Jet::is_moderate)
+    }
+
+    /// a Dα + b (Dα)ᵀ between the two directions.
+    pub(super) fn form_jacobian(&self, point: &Point) -> Sized {
+        let [a, b] = [Weight::A, Weight::B].map(|weight| point.weight(weight));
+        let (direct, transposed) = (First::V, First::Q);
+        self.form.both(direct, Second::Q).times(a).plus(self.form.both(transposed, Second::V).times(b))
+    }
+
+    /// ∂α/∂t along the second direction.
+    pub(super) fn form_rate(&self) -> Sized {
+        self.form.both(First::T, Second::V)
+    }
+
+    /// ∂²L/∂v∂v between the two directions.
+    pub(super) fn mass(&self) -> Sized {
+        self.lagrangian.both(First::V, Second::V)
+    }
+
+    /// What couples positions and velocities in L.
+    pub(super) fn coupling(&self) -> [Sized; 2] {
+        [self.lagrangian.both(First::Q, Second::V), self.lagrangian.both(First::V, Second::Q)]
+    }
+
+    /// ∂L/∂v along the first direction.
+    pub(super) fn momentum_along(&self) -> Sized {
+        self.lagrangian.first(First::V)
+    }
+
+    pub(super) fn expected(&self, output: &Output, point: &Point) -> Sized {
+        let Self { lagrangian, form, hamiltonian, momenta, .. } = self;
+        match output.quantity {
+            Quantity::Lagrangian => lagrangian.value(),
+            Quantity::Lq | Quantity::Force => lagrangian.first(First::Q),
+            Quantity::Lv => lagrangian.first(First::V),
+            Quantity::Hessian => {
+                let blocks = [
+                    (Weight::Qq, First::Q, Second::Q),
+                    (Weight::Qv, First::Q, Second::V),
+                    (Weight::Vq, First::V, Second::Q),
+                    (Weight::Vv, First::V, Second::V),
+                ];
+                let weighted =
+                    |(weight, first, second)| lagrangian.both(first, second).times(point.weight(weight));
+                blocks.into_iter().map(weighted).fold(Sized::default(), Sized::plus)
+            }
+            Quantity::Hamiltonian => hamiltonian.value(),
+            Quantity::HamiltonianGradient => hamiltonian.first(First::Q),
+            Quantity::OneForm => form.first(First::V),
+            Quantity::FlowSource => hamiltonian.second(Second::Q).plus(form.both(First::T, Second::V)),
+            Quantity::OneFormJacobian => self.form_jacobian(point),
+            Quantity::Energy => lagrangian.first(First::Stretch).plus(lagrangian.value().times(-1.0)),
+            Quantity::Momentum(number) => momenta[number].value(),
+            Quantity::MomentumGradient(number) => momenta[number].first(First::Q),
+        }
+    }
+
+    /// The difference in units of the sum of the absolute terms.
+    pub(super) fn difference(&self, output: &Output, found: f64, point: &Point) -> f64 {
+        difference(self.expected(output, point), found)
+    }
+}
+
+/// The difference in units of the sum of the absolute terms; infinite where `found` is no number.
+pub(super) fn difference(expected: Sized, found: f64) -> f64 {
+    let off = (found - expected.value).abs();
+    if off == 0.0 {
+        0.0
+    } else if off.is_nan() || expected.size == 0.0 {
+        f64::INFINITY
+    } else {
+        off / expected.size
+    }
+}
+
+impl Functions<'_> {
+    fn shared(&self) -> &Programs {
+        match self {
+            Self::Degenerate(programs) => &programs.shared,
+            Self::Regular(programs) => &programs.shared,
+        }
+    }
+
+    /// Each output of each function, along these directions.
+    pub(super) fn carried_out(
+        &self,
+        graph: &Graph,
+        model: &Model,
+        point: &Point,
+        directions: Directions,
+    ) -> Vec<(Output, f64)> {
+        let machine = Machine { graph, model, point, directions, partners: None };
+        let mut found = Vec::new();
+        let mut add = |function, quantity, value| found.push((Output::new(function, quantity), value));
+        let value = |routine: &Routine| machine.run(routine).value;
+        let vector = |routine: &Routine| machine.run(routine).along_first(program::Output::Vector);
+        let shared = self.shared();
+        add("lagrangian", Quantity::Lagrangian, value(&shared.lagrangian));
+        for (function, routine) in [("gradient", &shared.gradient), ("linearize", &shared.linearize)] {
+            let results: Results = machine.run(routine);
+            add(function, Quantity::Lq, results.along_first(program::Output::Lq));
+            add(function, Quantity::Lv, results.along_first(program::Output::Lv));
+            if function == "linearize" {
+                add(function, Quantity::Hessian, results.matrix);
+            }
+        }
+        for (number, momentum) in shared.momenta.iter().enumerate() {
+            add("momentum", Quantity::Momentum(number), value(momentum));
+        }
+        match self {
+            Self::Degenerate(programs) => {
+                add("hamiltonian", Quantity::Hamiltonian, value(&programs.hamiltonian));
+                let gradient = vector(&programs.hamiltonian_gradient);
+                add("hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
+                add("one_form", Quantity::OneForm, vector(&programs.one_form));
+                let source = machine.run(&programs.flow_source).along_second(program::Output::Vector);
+                add("flow_source", Quantity::FlowSource, source);
+                let jacobian = machine.run(&programs.one_form_jacobian).matrix;
+                add("one_form_jacobian", Quantity::OneFormJacobian, jacobian);
+                for (number, gradient) in programs.momentum_gradients.iter().enumerate() {
+                    add("momentum_gradient", Quantity::MomentumGradient(number), vector(gradient));
+                }
+            }
+            Self::Regular(programs) => {
+                add("energy", Quantity::Energy, value(&programs.energy));
+                add("force", Quantity::Force, vector(&programs.force));
+            }
+        }
+        found
+    }
+}
