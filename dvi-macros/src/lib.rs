@@ -16,6 +16,8 @@ mod instructions;
 mod lower;
 mod model;
 mod operations;
+#[cfg(test)]
+mod oracle_tests;
 mod program;
 mod schedule;
 mod select;

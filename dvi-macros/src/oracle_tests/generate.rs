@@ -1,0 +1,85 @@
+//! Random systems in the whole language.
+//!
+//! Indices are drawn so that they stay in range: the scope knows all values that the bound indices take
+//! together.
+
+mod declarations;
+mod forms;
+mod indices;
+mod values;
+
+use super::formula::Formula;
+use super::random::Random;
+use super::system::{Dynamics, System};
+use indices::Scope;
+
+/// Whether velocities may stand in a formula.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Velocities {
+    None,
+    Any,
+}
+
+struct Generator<'a> {
+    random: &'a mut Random,
+    system: System,
+    velocities: Velocities,
+    /// The number of nodes that may still be written.
+    budget: usize,
+}
+
+/// A system, degenerate or regular.
+pub(super) fn system(random: &mut Random) -> System {
+    let regular = random.chance(40);
+    let system = declarations::declarations(random, regular);
+    let budget = 8 + random.below(28);
+    let mut generator = Generator { random, system, velocities: Velocities::None, budget };
+    let dynamics = if regular { generator.regular() } else { generator.degenerate() };
+    generator.system.dynamics = dynamics;
+    for _ in 0..generator.random.below(3) {
+        generator.budget = 8;
+        generator.velocities = if regular { Velocities::Any } else { Velocities::None };
+        let momentum = generator.value(&Scope::outside(), 3);
+        generator.system.momenta.push(momentum);
+    }
+    generator.system
+}
+
+impl Generator<'_> {
+    fn degenerate(&mut self) -> Dynamics {
+        let scope = Scope::outside();
+        match self.random.below(10) {
+            0..=4 => {
+                let hamiltonian = self.value(&scope, 6);
+                self.budget = self.budget.max(6);
+                let one_form = self.form(&scope, 4);
+                Dynamics::OneForm(self.with_base(one_form), hamiltonian)
+            }
+            5..=6 => {
+                let hamiltonian = self.value(&scope, 6);
+                let components = (0..self.system.blocks.len()).map(|block| self.component(block));
+                Dynamics::Components(components.collect(), hamiltonian)
+            }
+            _ => {
+                let lagrangian = self.affine(&scope, 6);
+                Dynamics::Affine(self.with_base(lagrangian))
+            }
+        }
+    }
+
+    fn component(&mut self, block: usize) -> Formula {
+        self.budget = self.budget.max(4);
+        let scope = match self.system.blocks[block].size {
+            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
+            None => Scope::outside(),
+        };
+        self.value(&scope, 3)
+    }
+
+    fn regular(&mut self) -> Dynamics {
+        let scope = Scope::outside();
+        self.velocities = Velocities::Any;
+        let value = self.value(&scope, 6);
+        Dynamics::Regular(if self.random.chance(85) { self.kinetic().plus(value) } else { value })
+    }
+}
