@@ -10,6 +10,7 @@
 //! oracle_tests -- --nocapture` prints how many of which kind there were. More random systems come with
 //! `DVI_SYSTEMS=100000`, others with `DVI_SEED=7`, and larger formulas of the grammar with `DVI_NODES=7`.
 
+mod by_hand;
 mod compare;
 mod evaluate;
 mod exhaustive;
@@ -20,6 +21,7 @@ mod generate;
 mod jet;
 mod parts;
 mod random;
+mod read;
 mod rust;
 mod shrink;
 mod structure;

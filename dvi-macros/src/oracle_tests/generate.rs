@@ -8,7 +8,7 @@ mod forms;
 mod indices;
 mod values;
 
-use super::formula::Formula;
+use super::formula::{Formula, Index};
 use super::random::Random;
 use super::system::{Dynamics, System};
 use indices::Scope;
@@ -26,14 +26,17 @@ struct Generator<'a> {
     velocities: Velocities,
     /// The number of nodes that may still be written.
     budget: usize,
+    /// What was written before, to be written again: the same parts in several places are what a
+    /// compiler shares.
+    written: Vec<Formula>,
 }
 
 /// A system, degenerate or regular.
 pub(super) fn system(random: &mut Random) -> System {
     let regular = random.chance(40);
     let system = declarations::declarations(random, regular);
-    let budget = 8 + random.below(28);
-    let mut generator = Generator { random, system, velocities: Velocities::None, budget };
+    let budget = 10 + random.below(30);
+    let mut generator = Generator { random, system, velocities: Velocities::None, budget, written: Vec::new() };
     let dynamics = if regular { generator.regular() } else { generator.degenerate() };
     generator.system.dynamics = dynamics;
     for _ in 0..generator.random.below(3) {
@@ -73,13 +76,16 @@ impl Generator<'_> {
             Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
             None => Scope::outside(),
         };
-        self.value(&scope, 3)
+        let value = self.value(&scope, 3);
+        // Blocks come in pairs: yⱼ stands in the component of xⱼ.
+        let index = self.system.blocks[block].size.map(|_| Index::bound(0));
+        if block.is_multiple_of(2) { Formula::Coordinate(block + 1, index).plus(value) } else { value }
     }
 
     fn regular(&mut self) -> Dynamics {
         let scope = Scope::outside();
         self.velocities = Velocities::Any;
         let value = self.value(&scope, 6);
-        Dynamics::Regular(if self.random.chance(85) { self.kinetic().plus(value) } else { value })
+        Dynamics::Regular(if self.random.chance(95) { self.kinetic().plus(value) } else { value })
     }
 }

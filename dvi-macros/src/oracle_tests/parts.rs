@@ -67,6 +67,10 @@ impl Formula {
         }
     }
 
+    pub(super) fn has_velocities(&self) -> bool {
+        matches!(self, Self::Velocity(..)) || self.parts().into_iter().any(Self::has_velocities)
+    }
+
     /// The number of nodes; a leaf that is no number counts twice.
     pub(super) fn weight(&self) -> usize {
         let own = match self {

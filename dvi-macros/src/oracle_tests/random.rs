@@ -32,8 +32,9 @@ impl Random {
         &values[self.below(values.len())]
     }
 
-    /// A number between `low` and `high`.
+    /// A number between `low` and `high`, of three decimals.
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+        let number = low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
+        (number * 1000.0).round() / 1000.0
     }
 }

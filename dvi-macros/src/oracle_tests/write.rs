@@ -4,7 +4,7 @@ use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
 use super::functions::{BinaryFunction, OWN};
 use super::system::{Container, Dynamics, Field, SizeKind, System};
 
-const INDICES: [&str; 10] = ["i", "j", "k", "l", "m", "i5", "i6", "i7", "i8", "i9"];
+const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
 
 /// How tightly a written formula binds.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -55,9 +55,9 @@ impl System {
         if !momenta.is_empty() {
             text += &format!(", momenta({})", momenta.join(", "));
         }
-        let own: Vec<String> =
-            OWN.iter().map(|(name, paths)| format!("{name} = [{}]", paths.join(", "))).collect();
-        text + &format!(", functions({})", own.join(", "))
+        let used = OWN.iter().filter(|(name, _)| text.contains(&format!(" {name}(")) || text.contains(&format!("({name}(")));
+        let own: Vec<String> = used.map(|(name, paths)| format!("{name} = [{}]", paths.join(", "))).collect();
+        if own.is_empty() { text } else { text + &format!(", functions({})", own.join(", ")) }
     }
 
     /// The struct.
@@ -90,6 +90,11 @@ impl System {
             Container::Matrix => format!("[[f64; {}]; {}]", size(1), size(0)),
             Container::VectorOfVectors => "Vec<Vec<f64>>".into(),
         }
+    }
+
+    /// The name of a size in systems by hand, whatever it is written as.
+    pub(super) fn size_name(&self, size: usize) -> &'static str {
+        ["N", "M"][size]
     }
 
     pub(super) fn size_text(&self, size: usize) -> String {

@@ -91,7 +91,7 @@ fn blocks(random: &mut Random, regular: bool) -> Vec<Block> {
         0 => pair,
         1 => singles.into_iter().chain([block("x", Some(1)), block("y", Some(1))]).collect(),
         2 if regular => vec![block("x", Some(0)), block("y", Some(1)), block("u", None)],
-        2 => vec![block("x", Some(0)), block("z", Some(1)), block("u", None), block("w", None)],
+        2 => pair.into_iter().chain([block("z", Some(1)), block("w", Some(1))]).collect(),
         3 if regular => vec![block("u", None), block("x", Some(0))],
         3 => singles,
         _ => vec![block("x", Some(1)), block("y", Some(1)), block("u", None), block("w", None)],

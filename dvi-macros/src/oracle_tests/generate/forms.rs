@@ -64,7 +64,7 @@ impl Generator<'_> {
 
     /// The form, most often with one added that makes Ω regular.
     pub(super) fn with_base(&mut self, form: Formula) -> Formula {
-        if self.random.chance(15) {
+        if self.random.chance(4) {
             return form;
         }
         let blocks = self.system.blocks.len();

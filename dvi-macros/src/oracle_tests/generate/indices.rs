@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::Generator;
-use crate::oracle_tests::formula::{Atom, Index, Loops};
+use crate::oracle_tests::formula::{Atom, Formula, Index, Loops};
+use crate::oracle_tests::system::System;
 
 /// What is bound around a formula.
 #[derive(Clone, Debug)]
@@ -57,6 +58,35 @@ impl Scope {
         let level = self.level + if loops == Loops::Single { 1 } else { 2 };
         let fits = !values.is_empty() && values.len() <= MOST_TERMS && level <= DEEPEST;
         fits.then_some(Self { values, level, names: self.names })
+    }
+
+    /// Whether a formula that was written elsewhere has a meaning here: its names are known and all of its
+    /// indices are in range.
+    pub(super) fn admits_formula(&self, formula: &Formula, system: &System) -> bool {
+        let sizes = system.size_values();
+        let admits = |index: &Index, size: usize| self.admits(index, sizes[size], &sizes);
+        let here = match formula {
+            Formula::Coordinate(block, index) | Formula::Velocity(block, index) => {
+                system.blocks[*block].size.zip(index.as_ref()).is_none_or(|(size, index)| admits(index, size))
+            }
+            Formula::Parameter(field, indices) => {
+                indices.iter().zip(&system.fields[*field].shape).all(|(index, size)| admits(index, *size))
+            }
+            Formula::Count(index) => self.admits(index, i64::MAX, &sizes),
+            Formula::Name(name) => *name < self.names,
+            Formula::Let(name, value, body) => {
+                return *name == self.names
+                    && self.admits_formula(value, system)
+                    && self.with_name().admits_formula(body, system);
+            }
+            Formula::Sum(loops, level, lower, upper, body) => {
+                let inside = || self.inside(*loops, lower, upper, &sizes);
+                return *level == self.level
+                    && inside().is_some_and(|inside| inside.admits_formula(body, system));
+            }
+            _ => true,
+        };
+        here && formula.parts().into_iter().all(|part| self.admits_formula(part, system))
     }
 
     /// Whether an index stays in 0..length.

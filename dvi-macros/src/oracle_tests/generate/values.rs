@@ -13,7 +13,27 @@ impl Generator<'_> {
         if depth == 0 || self.budget == 0 {
             return self.leaf(scope);
         }
-        let less = depth - 1;
+        if self.random.chance(15)
+            && let Some(again) = self.written_before(scope)
+        {
+            return again;
+        }
+        let value = self.new_value(scope, depth - 1);
+        self.written.push(value.clone());
+        value
+    }
+
+    /// Something that was written before and has a meaning here.
+    fn written_before(&mut self, scope: &Scope) -> Option<Formula> {
+        if self.written.is_empty() {
+            return None;
+        }
+        let again = self.random.pick(&self.written).clone();
+        let still = self.velocities == Velocities::Any || !again.has_velocities();
+        (still && scope.admits_formula(&again, &self.system)).then_some(again)
+    }
+
+    fn new_value(&mut self, scope: &Scope, less: usize) -> Formula {
         match self.random.below(100) {
             0..=25 => self.sum(scope, less),
             26..=37 => {
