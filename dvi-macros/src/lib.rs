@@ -17,6 +17,8 @@ mod internal;
 mod lower;
 mod model;
 mod operations;
+#[cfg(test)]
+mod oracle_tests;
 mod program;
 mod routine;
 mod schedule;

@@ -1,0 +1,98 @@
+//! Generated functions against an independent oracle.
+//!
+//! A system of the tests is a tree of its own. Its text goes through the macro as a user's would, and the
+//! Rust that comes out is run by an interpreter; the oracle evaluates the tree on second-order jets, and
+//! every generated function and every declared structure is compared. Nothing here shares code with the
+//! compiler, or looks inside of it.
+//!
+//! There are random systems in the whole language, all formulas of a small grammar up to a certain size,
+//! and systems of which one is known to have been wrong once. `cargo test -p dvi-macros --lib
+//! oracle_tests -- --nocapture` prints how many of which kind there were. More random systems come with
+//! `DVI_SYSTEMS=100000`, others with `DVI_SEED=7`, and larger formulas of the grammar with `DVI_NODES=7`.
+
+mod by_hand;
+mod compare;
+mod evaluate;
+mod exhaustive;
+mod expand;
+mod formula;
+mod functions;
+mod generate;
+mod jet;
+mod parts;
+mod random;
+mod read;
+mod rust;
+mod shrink;
+mod structure;
+mod summary;
+mod system;
+mod write;
+
+use random::Random;
+use summary::Summary;
+
+/// A number from the environment.
+fn setting(name: &str, default: u64) -> u64 {
+    match std::env::var(name) {
+        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name} is a number, not {text}")),
+        Err(_) => default,
+    }
+}
+
+/// Runs on a stack as large as the compiler's.
+fn on_large_stack(run: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(8 << 20).spawn(run);
+    if let Err(panic) = thread.expect("a thread").join() {
+        std::panic::resume_unwind(panic);
+    }
+}
+
+fn random_systems(part: u64) {
+    on_large_stack(move || {
+        let (count, seed) = (setting("DVI_SYSTEMS", 1000), setting("DVI_SEED", 0));
+        let mut summary = Summary::default();
+        for number in (0..count).filter(|number| number % 2 == part) {
+            let seed = (seed << 40) + number;
+            let system = generate::system(&mut Random::new(seed));
+            summary.examine(&system, seed);
+        }
+        summary.conclude("random systems");
+    });
+}
+
+#[test]
+fn random_systems_of_even_number() {
+    random_systems(0);
+}
+
+#[test]
+fn random_systems_of_odd_number() {
+    random_systems(1);
+}
+
+fn grammar() -> Vec<formula::Formula> {
+    exhaustive::all(setting("DVI_NODES", 6) as usize)
+}
+
+#[test]
+fn every_small_formula_as_hamiltonian() {
+    on_large_stack(|| {
+        let mut summary = Summary::default();
+        for (number, formula) in grammar().into_iter().enumerate() {
+            summary.examine(&exhaustive::as_hamiltonian(number, formula), number as u64);
+        }
+        summary.conclude("Hamiltonians of the grammar");
+    });
+}
+
+#[test]
+fn every_small_formula_as_kinetic_energy() {
+    on_large_stack(|| {
+        let mut summary = Summary::default();
+        for (number, formula) in grammar().into_iter().enumerate() {
+            summary.examine(&exhaustive::as_kinetic_energy(number, formula), number as u64);
+        }
+        summary.conclude("kinetic energies of the grammar");
+    });
+}

@@ -1,0 +1,116 @@
+//! Systems that are written by hand: each was wrong once, or was refused though it is right.
+
+use super::compare::{Verdict, compare};
+use super::formula::Formula;
+use super::random::Random;
+use super::read::Reader;
+use super::summary::describe;
+use super::system::{Block, Container, Dynamics, Field, Size, SizeKind, System};
+
+const CONJUGATE: &str = "u * d(w) + sum(0..N, |j| x[j] * d(y[j]))";
+
+#[rustfmt::skip]
+const HAMILTONIANS: &[&str] = &[
+    // Sums in sums that use a coordinate from outside.
+    "sum_pairs(0..N, |i, j| s * (x[i] + x[j] - u).powi(2)) / 4",
+    "sum_pairs(0..N, |i, j| s * (x[i] + x[j] - u).powi(2)) / 2",
+    "sum_pairs(0..N, |i, j| (u + x[i] - x[j]).powi(4))",
+    "sum(0..2, |i| sum(0..2, |j| 1 / (w + x[i] + x[j])))",
+    "sum_ordered_pairs(0..2, |i, j| sum(0..2, |k| 1 / (x[j] + x[k] - u))).powi(2)",
+    // Products of sums with the same factors.
+    "sum(0..N, |i| g[i]) * sum_pairs(0..N, |i, j| x[j].powi(2)) + sum_pairs(0..N, |i, j| g[i] * x[j].powi(2))",
+    "(sum(0..N, |i| g[i] * x[i]) - sum(0..N, |i| g[i]) * sum(0..N, |i| x[i])) * sum(0..N, |i| x[i].powi(2))",
+    // One array at two depths.
+    "sum(0..N, |j| (x[j] - sum(0..N, |k| x[k]) / (N as f64)).powi(2)) / (N as f64)",
+    "sum_pairs(0..N, |i, j| x[j]) * sum(0..N, |i| x[i]).powi(2)",
+    "sum(0..N, |i| sum(0..N - i, |j| y[j])) / sum(0..N, |i| y[i])",
+    "sum(0..N, |i| if x[i] < 1 { 1 / (3 + sum_ordered_pairs(0..2, |j, k| x[j])) } else { 1 })",
+    // Ranges that begin below zero.
+    "sum(-1..2, |k| x[k + 1])",
+    "sum_pairs(-2..1, |i, j| x[i + 2] * y[j + 2])",
+    "sum(0..N, |i| sum(i - 1..i + 2, |k| x[k % N] * y[i]))",
+    // A branch that is not taken has no value.
+    "if u > 5 { sum(0..N, |i| (x[i] - 9).sqrt()) } else { u * u }",
+    // A literal near the smallest number, beside one of ordinary size.
+    "9.33e-305 * u + 10000.0 * w * w",
+    "sum(0..N, |i| 9.33e-305 * x[i] + 10000.0 * y[i] * y[i])",
+    // Indices whose bounds depend on each other.
+    "sum(0..N, |j| sum(j..N, |k| x[k - j]))",
+    "sum(0..N, |j| sum(0..N - j, |k| x[j + k]))",
+    "sum_pairs(0..N, |j, k| g[k - j - 1] * x[j])",
+    "sum_pairs(0..N, |i, j| x[i + 1] * x[j])",
+    "sum_pairs(0..4, |i, j| x[i])",
+    // A comma of the attribute behind two bars.
+    "if u > 1 || w > 1 { u * u } else { w }",
+];
+
+const ONE_FORMS: &[&str] = &[
+    "sum(0..N, |i| x[i] * d(y[i])) + x[0] * d(y[1]) + y[1] * d(x[0]) + u * d(w)",
+    "sum(0..N, |i| x[i] * d(y[i])) + x[0] * d(y[1]) + u * d(w)",
+    "sum(0..N, |i| x[i] * d(y[(i + 1) % N])) + u * d(w)",
+    "(u * d(w) - w * d(u)) / 2 + t * d(u) + sum(0..N, |j| x[j] * d(y[j]))",
+    "u * d(w) + sum(0..N, |j| x[j] * d(y[j]) + t * t * d(x[j]))",
+];
+
+const KINETIC: &[&str] = &[
+    "sum(0..N, |j| (dot(x[j]) - 0.1 * sum(0..N, |k| dot(x[k]))).powi(2)) / 2 + dot(u).powi(2)",
+    "sum_pairs(0..N, |i, j| (dot(u) + dot(x[i]) - dot(x[j])).powi(4)) + sum(0..N, |i| dot(x[i]).powi(2))",
+    "sum(0..N, |i| dot(x[i])).powi(2) * (1 + u * u) + sum(0..N, |i| dot(x[i]).powi(2)) + dot(u).powi(2)",
+];
+
+/// u, w, x[N], y[N] and the parameters s and g[N], with N = 3.
+fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
+    let field = |name, container, shape, values| Field { name, container, shape, values };
+    let fields = vec![
+        field("s", Container::Scalar, vec![], vec![2.5]),
+        field("g", Container::Vector, vec![0], vec![1.0, 2.0, 4.0]),
+    ];
+    let block = |name, size| Block { name, size };
+    let mut blocks = vec![block("u", None), block("w", None), block("x", Some(0)), block("y", Some(0))];
+    if matches!(dynamics, Dynamics::Regular(_)) {
+        blocks.retain(|block| ["u", "x"].contains(&block.name));
+    }
+    System { sizes: vec![Size { kind, value: 3 }], fields, blocks, dynamics, momenta: vec![Formula::Time] }
+}
+
+/// The systems with a literal size, a const generic, and a size that the run knows.
+fn systems() -> Vec<System> {
+    let kinds = [SizeKind::Literal, SizeKind::Constant("N"), SizeKind::Field("n"), SizeKind::Length("g")];
+    let mut systems = Vec::new();
+    for kind in kinds {
+        let open = |regular: bool| {
+            let time = || Formula::Time;
+            let dynamics = if regular { Dynamics::Regular(time()) } else { Dynamics::OneForm(time(), time()) };
+            declarations(kind.clone(), dynamics)
+        };
+        let (degenerate, regular) = (open(false), open(true));
+        let read = |text: &str| Reader::formula(&degenerate, text);
+        for hamiltonian in HAMILTONIANS {
+            let dynamics = Dynamics::OneForm(read(CONJUGATE), read(hamiltonian));
+            systems.push(System { dynamics, ..degenerate.clone() });
+        }
+        for one_form in ONE_FORMS {
+            let dynamics = Dynamics::OneForm(read(one_form), read("u * u + sum(0..N, |i| x[i] * y[i])"));
+            systems.push(System { dynamics, ..degenerate.clone() });
+        }
+        for kinetic in KINETIC {
+            let dynamics = Dynamics::Regular(Reader::formula(&regular, kinetic));
+            systems.push(System { dynamics, ..regular.clone() });
+        }
+    }
+    systems
+}
+
+#[test]
+fn systems_by_hand() {
+    super::on_large_stack(|| {
+        let mut failures = Vec::new();
+        for system in systems() {
+            let verdict = compare(&system, &mut Random::new(1));
+            if !matches!(verdict, Verdict::Agrees { .. }) {
+                failures.push(describe(&system, &verdict));
+            }
+        }
+        assert!(failures.is_empty(), "{} systems:\n{}", failures.len(), failures.join("\n\n"));
+    });
+}

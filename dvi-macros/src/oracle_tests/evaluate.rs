@@ -1,0 +1,209 @@
+//! The oracle: formulas evaluated on jets, as they are written.
+
+use super::formula::{Condition, Formula, Index, Loops, Relation};
+use super::functions::own;
+use super::jet::Jet;
+use super::system::{Dynamics, System};
+
+/// Where a formula is evaluated.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) t: f64,
+}
+
+/// Why there is no value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Outside {
+    /// The point is outside of the domain of a function, or too near to its border.
+    Domain,
+    /// An index leaves its array, or no sum binds it: the formula has no meaning at any point.
+    Index,
+}
+
+pub(super) struct Oracle<'a> {
+    system: &'a System,
+    sizes: Vec<i64>,
+    point: &'a Point,
+    bound: Vec<i64>,
+    names: Vec<(usize, Jet)>,
+}
+
+/// Conditions that are nearer to equality than this decide nothing.
+const NEAR: f64 = 1e-6;
+
+impl<'a> Oracle<'a> {
+    pub(super) fn new(system: &'a System, point: &'a Point) -> Self {
+        Self { system, sizes: system.size_values(), point, bound: Vec::new(), names: Vec::new() }
+    }
+
+    /// The number of variables of a jet: q, v and t.
+    pub(super) fn variables(&self) -> usize {
+        2 * self.system.dimension() + 1
+    }
+
+    /// L = α·v − H, or L itself.
+    pub(super) fn lagrangian(&mut self) -> Result<Jet, Outside> {
+        let system = self.system;
+        match &system.dynamics {
+            Dynamics::Affine(lagrangian) | Dynamics::Regular(lagrangian) => self.value(lagrangian),
+            Dynamics::OneForm(one_form, hamiltonian) => {
+                Ok(self.value(one_form)?.plus(&self.value(hamiltonian)?.scaled(-1.0)))
+            }
+            Dynamics::Components(components, hamiltonian) => {
+                let mut sum = self.value(hamiltonian)?.scaled(-1.0);
+                for (block, component) in components.iter().enumerate() {
+                    sum = sum.plus(&self.value(&system.component_term(block, component))?);
+                }
+                Ok(sum)
+            }
+        }
+    }
+
+    pub(super) fn value(&mut self, formula: &Formula) -> Result<Jet, Outside> {
+        let jet = self.evaluate(formula)?;
+        if jet.is_moderate() { Ok(jet) } else { Err(Outside::Domain) }
+    }
+
+    fn evaluate(&mut self, formula: &Formula) -> Result<Jet, Outside> {
+        Ok(match formula {
+            Formula::Number(text) => Jet::constant(text.parse().expect("a number")),
+            Formula::Pi => Jet::constant(std::f64::consts::PI),
+            Formula::Time => {
+                let variables = self.variables();
+                Jet::variable(self.point.t, variables - 1, variables)
+            }
+            Formula::Name(name) => {
+                let known = self.names.iter().rev().find(|(known, _)| known == name);
+                known.ok_or(Outside::Index)?.1.clone()
+            }
+            Formula::Coordinate(block, index) => {
+                let place = self.coordinate(*block, index.as_ref())?;
+                Jet::variable(self.point.q[place], place, self.variables())
+            }
+            Formula::Velocity(block, index) => {
+                let place = self.coordinate(*block, index.as_ref())?;
+                Jet::variable(self.point.v[place], self.point.q.len() + place, self.variables())
+            }
+            Formula::Parameter(field, indices) => Jet::constant(self.parameter(*field, indices)?),
+            Formula::Count(index) => Jet::constant(self.index(index)? as f64),
+            Formula::Negative(of) => self.value(of)?.scaled(-1.0),
+            Formula::Add(a, b) => self.value(a)?.plus(&self.value(b)?),
+            Formula::Subtract(a, b) => self.value(a)?.plus(&self.value(b)?.scaled(-1.0)),
+            Formula::Multiply(a, b) => self.value(a)?.times(&self.value(b)?),
+            Formula::Divide(a, b) => {
+                let (a, b) = (self.value(a)?, self.power(b, -1)?);
+                a.times(&b)
+            }
+            Formula::Power(of, exponent) => self.power(of, *exponent)?,
+            Formula::Unary(function, of) => {
+                let of = self.value(of)?;
+                if !(function.domain)(of.value.value) {
+                    return Err(Outside::Domain);
+                }
+                of.unary(&function.at)
+            }
+            Formula::Binary(function, a, b) => {
+                let (a, b) = (self.value(a)?, self.value(b)?);
+                a.binary(*function, &b).ok_or(Outside::Domain)?
+            }
+            Formula::MultiplyAdd(a, b, c) => self.value(a)?.times(&self.value(b)?).plus(&self.value(c)?),
+            Formula::Own(function, of) => self.value(of)?.unary(&|x| own(*function, x)),
+            Formula::If(condition, then, otherwise) => {
+                if self.holds(condition)? { self.value(then)? } else { self.value(otherwise)? }
+            }
+            Formula::Let(name, value, body) => {
+                let value = self.value(value)?;
+                self.names.push((*name, value));
+                let body = self.value(body);
+                self.names.pop();
+                body?
+            }
+            Formula::Sum(loops, level, lower, upper, body) => {
+                // The level is the number of indices that are bound around the sum.
+                if *level != self.bound.len() {
+                    return Err(Outside::Index);
+                }
+                let (lower, upper) = (self.index(lower)?, self.index(upper)?);
+                let mut sum = Jet::constant(0.0);
+                for first in lower..upper {
+                    let seconds = match loops {
+                        Loops::Single => {
+                            sum = sum.plus(&self.inside(&[first], body)?);
+                            continue;
+                        }
+                        Loops::Pairs => first + 1..upper,
+                        Loops::OrderedPairs => lower..upper,
+                    };
+                    for second in seconds.filter(|second| *second != first) {
+                        sum = sum.plus(&self.inside(&[first, second], body)?);
+                    }
+                }
+                sum
+            }
+        })
+    }
+
+    /// A body with its indices at these values.
+    fn inside(&mut self, indices: &[i64], body: &Formula) -> Result<Jet, Outside> {
+        let outside = self.bound.len();
+        self.bound.extend(indices);
+        let value = self.value(body);
+        self.bound.truncate(outside);
+        value
+    }
+
+    fn power(&mut self, of: &Formula, exponent: i32) -> Result<Jet, Outside> {
+        let of = self.value(of)?;
+        if exponent < 0 && of.value.value.abs() < 1e-2 {
+            return Err(Outside::Domain);
+        }
+        Ok(of.power(exponent))
+    }
+
+    fn holds(&mut self, condition: &Condition) -> Result<bool, Outside> {
+        Ok(match condition {
+            Condition::Compare(left, relation, right) => {
+                let (left, right) = (self.value(left)?.value, self.value(right)?.value);
+                let difference = left.value - right.value;
+                if difference.abs() < NEAR * (1.0 + left.size + right.size) {
+                    return Err(Outside::Domain);
+                }
+                match relation {
+                    Relation::Less | Relation::LessOrEqual => difference < 0.0,
+                    Relation::Greater | Relation::GreaterOrEqual => difference > 0.0,
+                }
+            }
+            Condition::And(a, b) => self.holds(a)? && self.holds(b)?,
+            Condition::Or(a, b) => self.holds(a)? || self.holds(b)?,
+            Condition::Not(of) => !self.holds(of)?,
+        })
+    }
+
+    fn index(&self, index: &Index) -> Result<i64, Outside> {
+        index.value(&self.sizes, &self.bound).ok_or(Outside::Index)
+    }
+
+    /// An index into an array of this length.
+    fn position(&self, index: &Index, length: usize) -> Result<usize, Outside> {
+        let position = usize::try_from(self.index(index)?).ok().filter(|position| *position < length);
+        position.ok_or(Outside::Index)
+    }
+
+    fn coordinate(&self, block: usize, index: Option<&Index>) -> Result<usize, Outside> {
+        let length = self.system.block_length(block);
+        let position = index.map_or(Ok(0), |index| self.position(index, length))?;
+        Ok(self.system.offset(block) + position)
+    }
+
+    fn parameter(&self, field: usize, indices: &[Index]) -> Result<f64, Outside> {
+        let field = &self.system.fields[field];
+        let mut place = 0;
+        for (index, size) in indices.iter().zip(&field.shape) {
+            let length = self.sizes[*size] as usize;
+            place = place * length + self.position(index, length)?;
+        }
+        Ok(field.values[place])
+    }
+}

@@ -1,0 +1,104 @@
+//! From the text of a system to what the macro makes of it.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use proc_macro2::{TokenStream, TokenTree};
+
+use super::functions::{OWN, own};
+use super::rust::{Environment, Expansion, Nested};
+use super::system::{Field, SizeKind, System};
+use crate::expand::{degenerate_lagrangian, lagrangian};
+
+/// The expansion of a system, or the messages with which it is refused.
+pub(super) fn expand(system: &System) -> Result<Expansion, Vec<String>> {
+    let parse = |text: String| match text.parse::<TokenStream>() {
+        Ok(tokens) => tokens,
+        Err(error) => panic!("{text} is no Rust: {error}"),
+    };
+    let (attribute, item) = (parse(system.attribute()), parse(system.item()));
+    let tokens =
+        if system.is_regular() { lagrangian(attribute, item) } else { degenerate_lagrangian(attribute, item) };
+    let mut messages = Vec::new();
+    collect_messages(tokens.clone(), &mut messages);
+    if messages.is_empty() { Ok(Expansion::new(tokens)) } else { Err(messages) }
+}
+
+/// The text of each `compile_error!`.
+fn collect_messages(tokens: TokenStream, messages: &mut Vec<String>) {
+    let mut after = false;
+    for token in tokens {
+        match token {
+            TokenTree::Ident(name) => after = name == "compile_error",
+            TokenTree::Group(group) if after => messages.push(group.stream().to_string()),
+            TokenTree::Group(group) => collect_messages(group.stream(), messages),
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+}
+
+/// The kinds of messages that a system of the generator may be refused with, by a part of their text.
+///
+/// The generator writes formulas without looking at what cancels in them.
+const EXPECTED: &[&str] = &[
+    // What is divided by, or all that has a velocity, may cancel.
+    "division by zero",
+    "so the mass matrix",
+    "the mass matrix ∂²L/∂v∂v is singular",
+    "the mass matrix ∂²L/∂v∂v of this Lagrangian is zero",
+    "so its mass matrix ∂²L/∂v∂v is zero",
+    "mentions no velocity",
+    // Which ranges are bounded how well is a matter of its own; what must compile is among the systems
+    // by hand.
+    "this index reaches",
+    "Ω",
+    "the value of this is not a finite number",
+];
+
+/// The expected kind of a message.
+pub(super) fn refusal(message: &str) -> Option<&'static str> {
+    EXPECTED.iter().find(|part| message.contains(**part)).copied()
+}
+
+/// The struct as a value, and the paths that its formulas name.
+pub(super) fn environment(system: &System) -> Environment {
+    let mut fields: HashMap<String, Rc<Nested>> =
+        system.fields.iter().map(|field| (field.name.to_string(), nested(system, field))).collect();
+    let mut constants = HashMap::new();
+    for size in &system.sizes {
+        match size.kind {
+            SizeKind::Constant(name) => {
+                constants.insert(name.to_string(), size.value as usize);
+            }
+            SizeKind::Field(name) => {
+                fields.insert(name.to_string(), Rc::new(Nested::Count(size.value as usize)));
+            }
+            SizeKind::Literal | SizeKind::Length(_) => {}
+        }
+    }
+    Environment { fields, constants, own: own_by_path }
+}
+
+fn nested(system: &System, field: &Field) -> Rc<Nested> {
+    let lengths: Vec<usize> = field.shape.iter().map(|size| system.sizes[*size].value as usize).collect();
+    nest(&field.values, &lengths)
+}
+
+fn nest(values: &[f64], lengths: &[usize]) -> Rc<Nested> {
+    Rc::new(match lengths {
+        [] => Nested::Number(values[0]),
+        [length, inner @ ..] => {
+            let rows = values.chunks(values.len() / length);
+            Nested::List(rows.map(|row| nest(row, inner)).collect())
+        }
+    })
+}
+
+fn own_by_path(path: &str, x: f64) -> f64 {
+    let places = OWN.iter().enumerate().flat_map(|(function, (_, paths))| {
+        paths.iter().enumerate().map(move |(order, path)| (function, order, *path))
+    });
+    let mut known = places.filter(|(.., known)| *known == path);
+    let (function, order, _) = known.next().unwrap_or_else(|| panic!("no function {path} was declared"));
+    own(function, x)[order]
+}

@@ -1,0 +1,123 @@
+//! The functions of the language, each with its value and its first two derivatives from a textbook.
+//!
+//! The last column is the domain on which the function has two derivatives, with a margin.
+
+use std::f64::consts::{LN_2, LN_10, PI};
+
+/// Value, first and second derivative.
+pub(super) type Derivatives = [f64; 3];
+
+#[derive(Clone, Copy)]
+pub(super) struct UnaryFunction {
+    pub(super) name: &'static str,
+    pub(super) at: fn(f64) -> Derivatives,
+    pub(super) domain: fn(f64) -> bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum BinaryFunction {
+    Atan2,
+    Hypot,
+    Powf,
+}
+
+impl std::fmt::Debug for UnaryFunction {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl PartialEq for UnaryFunction {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+const MARGIN: f64 = 1e-2;
+
+fn all(_: f64) -> bool {
+    true
+}
+fn moderate(x: f64) -> bool {
+    x.abs() < 8.0
+}
+fn positive(x: f64) -> bool {
+    x > MARGIN
+}
+fn inside(x: f64) -> bool {
+    x.abs() < 1.0 - MARGIN
+}
+fn nonzero(x: f64) -> bool {
+    x.abs() > MARGIN
+}
+
+macro_rules! row {
+    ($name:literal, $domain:expr, $x:ident, $value:expr, $first:expr, $second:expr) => {
+        UnaryFunction { name: $name, at: |$x| [$value, $first, $second], domain: $domain }
+    };
+}
+
+#[rustfmt::skip]
+pub(super) const UNARY: &[UnaryFunction] = &[
+    row!("sqrt",   positive, x, x.sqrt(), 0.5 / x.sqrt(), -0.25 / (x * x.sqrt())),
+    row!("cbrt",   nonzero,  x, x.cbrt(), x.cbrt() / (3.0 * x), -2.0 * x.cbrt() / (9.0 * x * x)),
+    row!("exp",    moderate, x, x.exp(), x.exp(), x.exp()),
+    row!("exp2",   moderate, x, x.exp2(), LN_2 * x.exp2(), LN_2 * LN_2 * x.exp2()),
+    row!("exp_m1", moderate, x, x.exp_m1(), x.exp(), x.exp()),
+    row!("ln",     positive, x, x.ln(), 1.0 / x, -1.0 / (x * x)),
+    row!("ln_1p",  |x| positive(1.0 + x), x, x.ln_1p(), 1.0 / (1.0 + x), -1.0 / ((1.0 + x) * (1.0 + x))),
+    row!("log2",   positive, x, x.ln() / LN_2, 1.0 / (x * LN_2), -1.0 / (x * x * LN_2)),
+    row!("log10",  positive, x, x.ln() / LN_10, 1.0 / (x * LN_10), -1.0 / (x * x * LN_10)),
+    row!("sin",    all,      x, x.sin(), x.cos(), -x.sin()),
+    row!("cos",    all,      x, x.cos(), -x.sin(), -x.cos()),
+    row!("tan",    |x| nonzero(x.cos()), x, x.tan(), 1.0 / x.cos().powi(2), 2.0 * x.sin() / x.cos().powi(3)),
+    row!("asin",   inside,   x, x.asin(), (1.0 - x * x).powf(-0.5), x * (1.0 - x * x).powf(-1.5)),
+    row!("acos",   inside,   x, x.acos(), -(1.0 - x * x).powf(-0.5), -x * (1.0 - x * x).powf(-1.5)),
+    row!("atan",   all,      x, x.atan(), 1.0 / (1.0 + x * x), -2.0 * x / (1.0 + x * x).powi(2)),
+    row!("sinh",   moderate, x, x.sinh(), x.cosh(), x.sinh()),
+    row!("cosh",   moderate, x, x.cosh(), x.sinh(), x.cosh()),
+    row!("tanh",   |x| x.abs() < 4.0, x, x.tanh(), x.cosh().powi(-2), -2.0 * x.tanh() * x.cosh().powi(-2)),
+    row!("asinh",  all,      x, x.asinh(), (1.0 + x * x).powf(-0.5), -x * (1.0 + x * x).powf(-1.5)),
+    row!("acosh",  |x| x > 1.0 + MARGIN, x, x.acosh(), (x * x - 1.0).powf(-0.5), -x * (x * x - 1.0).powf(-1.5)),
+    row!("atanh",  inside,   x, x.atanh(), 1.0 / (1.0 - x * x), 2.0 * x / (1.0 - x * x).powi(2)),
+    row!("abs",    nonzero,  x, x.abs(), x.signum(), 0.0),
+    row!("signum", nonzero,  x, x.signum(), 0.0, 0.0),
+    row!("recip",  nonzero,  x, 1.0 / x, -1.0 / (x * x), 2.0 / (x * x * x)),
+    row!("to_radians", all,  x, x * (PI / 180.0), PI / 180.0, 0.0),
+    row!("to_degrees", all,  x, x * (180.0 / PI), 180.0 / PI, 0.0),
+];
+
+/// The functions that the systems declare as their own: name, and the paths of its derivatives.
+pub(super) const OWN: &[(&str, [&str; 3])] = &[("f", ["f", "df", "d2f"]), ("g", ["own::g", "own::dg", "own::d2g"])];
+
+/// x/(1 + x²), and sin 2x + x³/3.
+pub(super) fn own(function: usize, x: f64) -> Derivatives {
+    let s = 1.0 + x * x;
+    match function {
+        0 => [x / s, (1.0 - x * x) / (s * s), 2.0 * x * (x * x - 3.0) / (s * s * s)],
+        _ => [
+            (2.0 * x).sin() + x * x * x / 3.0,
+            2.0 * (2.0 * x).cos() + x * x,
+            -4.0 * (2.0 * x).sin() + 2.0 * x,
+        ],
+    }
+}
+
+/// Each second derivative is held against the first, and each first against the value.
+#[test]
+fn derivatives_are_those_of_the_functions() {
+    let check = |name: &str, at: &dyn Fn(f64) -> Derivatives, x: f64| {
+        let h = 1e-5;
+        for order in 0..2 {
+            let difference = (at(x + h)[order] - at(x - h)[order]) / (2.0 * h);
+            let derivative = at(x)[order + 1];
+            assert!((difference - derivative).abs() < 1e-6 * (1.0 + derivative.abs()), "{name}({x}), {order}");
+        }
+    };
+    for x in [-2.3, -0.7, -0.3, 0.2, 0.6, 1.4, 2.1] {
+        for row in UNARY.iter().filter(|row| (row.domain)(x)) {
+            check(row.name, &row.at, x);
+        }
+        (0..OWN.len()).for_each(|function| check(OWN[function].0, &|x| own(function, x), x));
+    }
+}

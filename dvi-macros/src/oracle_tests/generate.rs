@@ -1,0 +1,91 @@
+//! Random systems in the whole language.
+//!
+//! Indices are drawn so that they stay in range: the scope knows all values that the bound indices take
+//! together.
+
+mod declarations;
+mod forms;
+mod indices;
+mod values;
+
+use super::formula::{Formula, Index};
+use super::random::Random;
+use super::system::{Dynamics, System};
+use indices::Scope;
+
+/// Whether velocities may stand in a formula.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Velocities {
+    None,
+    Any,
+}
+
+struct Generator<'a> {
+    random: &'a mut Random,
+    system: System,
+    velocities: Velocities,
+    /// The number of nodes that may still be written.
+    budget: usize,
+    /// What was written before, to be written again: the same parts in several places are what a
+    /// compiler shares.
+    written: Vec<Formula>,
+}
+
+/// A system, degenerate or regular.
+pub(super) fn system(random: &mut Random) -> System {
+    let regular = random.chance(40);
+    let system = declarations::declarations(random, regular);
+    let budget = 10 + random.below(30);
+    let mut generator = Generator { random, system, velocities: Velocities::None, budget, written: Vec::new() };
+    let dynamics = if regular { generator.regular() } else { generator.degenerate() };
+    generator.system.dynamics = dynamics;
+    for _ in 0..generator.random.below(3) {
+        generator.budget = 8;
+        generator.velocities = if regular { Velocities::Any } else { Velocities::None };
+        let momentum = generator.value(&Scope::outside(), 3);
+        generator.system.momenta.push(momentum);
+    }
+    generator.system
+}
+
+impl Generator<'_> {
+    fn degenerate(&mut self) -> Dynamics {
+        let scope = Scope::outside();
+        match self.random.below(10) {
+            0..=4 => {
+                let hamiltonian = self.value(&scope, 6);
+                self.budget = self.budget.max(6);
+                let one_form = self.form(&scope, 4);
+                Dynamics::OneForm(self.with_base(one_form), hamiltonian)
+            }
+            5..=6 => {
+                let hamiltonian = self.value(&scope, 6);
+                let components = (0..self.system.blocks.len()).map(|block| self.component(block));
+                Dynamics::Components(components.collect(), hamiltonian)
+            }
+            _ => {
+                let lagrangian = self.affine(&scope, 6);
+                Dynamics::Affine(self.with_base(lagrangian))
+            }
+        }
+    }
+
+    fn component(&mut self, block: usize) -> Formula {
+        self.budget = self.budget.max(4);
+        let scope = match self.system.blocks[block].size {
+            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
+            None => Scope::outside(),
+        };
+        let value = self.value(&scope, 3);
+        // Blocks come in pairs: yⱼ stands in the component of xⱼ.
+        let index = self.system.blocks[block].size.map(|_| Index::bound(0));
+        if block.is_multiple_of(2) { Formula::Coordinate(block + 1, index).plus(value) } else { value }
+    }
+
+    fn regular(&mut self) -> Dynamics {
+        let scope = Scope::outside();
+        self.velocities = Velocities::Any;
+        let value = self.value(&scope, 6);
+        Dynamics::Regular(if self.random.chance(95) { self.kinetic().plus(value) } else { value })
+    }
+}

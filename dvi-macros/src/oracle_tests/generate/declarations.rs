@@ -1,0 +1,99 @@
+//! Random declarations: sizes, coordinates, and the fields of the struct.
+
+use crate::oracle_tests::formula::Formula;
+use crate::oracle_tests::random::Random;
+use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Size, SizeKind, System};
+
+/// How sizes are written.
+#[derive(Clone, Copy, PartialEq)]
+enum Known {
+    Literal,
+    Constant,
+    RunTime,
+    Mixed,
+}
+
+/// A system without formulas.
+pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
+    let known = *random.pick(&[Known::Literal, Known::Constant, Known::RunTime, Known::Mixed]);
+    let sizes = sizes(random, known);
+    let fields = fields(random, &sizes);
+    let blocks = blocks(random, regular);
+    let dynamics = Dynamics::Regular(Formula::Time);
+    System { sizes, fields, blocks, dynamics, momenta: Vec::new() }
+}
+
+/// Two sizes that are different from each other, and that of the field `g`.
+fn sizes(random: &mut Random, known: Known) -> Vec<Size> {
+    let (first, second) = *random.pick(&[(3, 2), (2, 3), (3, 4), (2, 4), (4, 2)]);
+    let kind = |random: &mut Random, constant, field| match known {
+        Known::Literal => SizeKind::Literal,
+        Known::Constant => SizeKind::Constant(constant),
+        Known::RunTime => SizeKind::Field(field),
+        Known::Mixed => {
+            random.pick(&[SizeKind::Literal, SizeKind::Constant(constant), SizeKind::Field(field)]).clone()
+        }
+    };
+    let mut sizes = vec![
+        Size { kind: kind(random, "N", "n"), value: first },
+        Size { kind: kind(random, "M", "m"), value: second },
+    ];
+    if matches!(known, Known::RunTime | Known::Mixed) {
+        sizes.push(Size { kind: SizeKind::Length("g"), value: 2 + random.below(2) as i64 });
+    }
+    sizes
+}
+
+fn fields(random: &mut Random, sizes: &[Size]) -> Vec<Field> {
+    let on_stack = |size: &usize| matches!(sizes[*size].kind, SizeKind::Literal | SizeKind::Constant(_));
+    let entries = |random: &mut Random, container: Container, shape: &[usize]| {
+        let count: i64 = shape.iter().map(|size| sizes[*size].value).product();
+        let value = |_| match container {
+            Container::Integer => 1.0 + random.below(3) as f64,
+            _ => random.between(0.4, 1.6) * if random.chance(25) { -1.0 } else { 1.0 },
+        };
+        (0..count).map(value).collect()
+    };
+    let mut fields = Vec::new();
+    let mut declare = |random: &mut Random, name, container, shape: Vec<usize>| {
+        let values = entries(random, container, &shape);
+        fields.push(Field { name, container, shape, values });
+    };
+    declare(random, "s", Container::Scalar, vec![]);
+    if random.chance(20) {
+        declare(random, "e", Container::Integer, vec![]);
+    }
+    for (size, name) in [(0, "a"), (1, "b")] {
+        let container = if on_stack(&size) {
+            *random.pick(&[Container::Array, Container::Array, Container::Vector])
+        } else {
+            *random.pick(&[Container::Vector, Container::Slice])
+        };
+        declare(random, name, container, vec![size]);
+    }
+    if random.chance(40) {
+        let container =
+            if on_stack(&0) && on_stack(&1) { Container::Matrix } else { Container::VectorOfVectors };
+        declare(random, "c", container, vec![0, 1]);
+    }
+    if let Some(size) = sizes.iter().position(|size| size.kind == SizeKind::Length("g")) {
+        let container = *random.pick(&[Container::Vector, Container::Slice]);
+        declare(random, "g", container, vec![size]);
+    }
+    fields
+}
+
+fn blocks(random: &mut Random, regular: bool) -> Vec<Block> {
+    let block = |name, size| Block { name, size };
+    let pair = vec![block("x", Some(0)), block("y", Some(0))];
+    let singles = vec![block("u", None), block("w", None)];
+    match random.below(5) {
+        0 => pair,
+        1 => singles.into_iter().chain([block("x", Some(1)), block("y", Some(1))]).collect(),
+        2 if regular => vec![block("x", Some(0)), block("y", Some(1)), block("u", None)],
+        2 => pair.into_iter().chain([block("z", Some(1)), block("w", Some(1))]).collect(),
+        3 if regular => vec![block("u", None), block("x", Some(0))],
+        3 => singles,
+        _ => vec![block("x", Some(1)), block("y", Some(1)), block("u", None), block("w", None)],
+    }
+}

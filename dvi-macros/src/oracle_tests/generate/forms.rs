@@ -1,0 +1,127 @@
+//! What concerns velocities: one-forms, affine Lagrangians, kinetic energies.
+
+use super::indices::Scope;
+use super::{Generator, Velocities};
+use crate::oracle_tests::formula::{Atom, Formula, Index, Loops};
+
+impl Generator<'_> {
+    /// Something linear in the velocities.
+    pub(super) fn form(&mut self, scope: &Scope, depth: usize) -> Formula {
+        if depth == 0 || self.budget == 0 {
+            return self.value(scope, 1).times(self.velocity(scope));
+        }
+        self.budget -= 1;
+        let less = depth - 1;
+        match self.random.below(12) {
+            0..=4 => {
+                let loops = self.any_loops();
+                match self.loops(scope, loops) {
+                    Some((lower, upper, inside)) => {
+                        let body = self.form(&inside, less);
+                        Formula::Sum(loops, scope.level, lower, upper, Box::new(body))
+                    }
+                    None => self.form(scope, less),
+                }
+            }
+            5 => self.form(scope, less).plus(self.form(scope, less)),
+            6 => self.form(scope, less).minus(self.form(scope, less)),
+            7 => self.value(scope, less.min(2)).times(self.form(scope, less)),
+            8 => {
+                let form = self.form(scope, less);
+                let below = self.value(scope, less.min(2));
+                form.over(self.positive(below))
+            }
+            9 => {
+                let (then, otherwise) = (self.form(scope, less), self.form(scope, less));
+                Formula::If(Box::new(self.condition(scope, 1)), Box::new(then), Box::new(otherwise))
+            }
+            10 => {
+                let value = self.value(scope, less);
+                let body = self.form(&scope.with_name(), less);
+                Formula::Let(scope.names, Box::new(value), Box::new(body))
+            }
+            _ => self.value(scope, less.min(2)).times(self.velocity(scope)),
+        }
+    }
+
+    /// Something affine in the velocities.
+    pub(super) fn affine(&mut self, scope: &Scope, depth: usize) -> Formula {
+        if depth > 2 && self.random.chance(50) {
+            let loops = self.any_loops();
+            if let Some((lower, upper, inside)) = self.loops(scope, loops) {
+                let body = self.affine(&inside, depth - 1);
+                return Formula::Sum(loops, scope.level, lower, upper, Box::new(body));
+            }
+        }
+        let (value, form) = (self.value(scope, depth.min(4)), self.form(scope, depth.min(3)));
+        match self.random.below(4) {
+            0 => form.minus(value),
+            1 => value.plus(form),
+            2 => self.value(scope, 1).times(form.plus(value)),
+            _ => form.plus(value),
+        }
+    }
+
+    /// The form, most often with one added that makes Ω regular.
+    pub(super) fn with_base(&mut self, form: Formula) -> Formula {
+        if self.random.chance(4) {
+            return form;
+        }
+        let blocks = self.system.blocks.len();
+        let pairs = (0..blocks / 2).map(|pair| (2 * pair, 2 * pair + 1));
+        let pairs: Vec<(usize, usize)> =
+            pairs.filter(|(x, y)| self.system.blocks[*x].size == self.system.blocks[*y].size).collect();
+        pairs.into_iter().fold(form, |form, (x, y)| form.plus(self.conjugate(x, y)))
+    }
+
+    /// Σ xⱼ dyⱼ, with a factor or without.
+    fn conjugate(&mut self, x: usize, y: usize) -> Formula {
+        let size = self.system.blocks[x].size;
+        let scope = match size {
+            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
+            None => Scope::outside(),
+        };
+        let index = size.map(|_| Index::bound(0));
+        let term = Formula::Coordinate(x, index.clone()).times(Formula::Velocity(y, index));
+        let term = if self.random.chance(40) { self.parameter(&scope).times(term) } else { term };
+        self.over(size, term)
+    }
+
+    /// ½ m v² for each velocity.
+    pub(super) fn kinetic(&mut self) -> Formula {
+        let blocks = self.system.blocks.len();
+        let terms: Vec<Formula> = (0..blocks).map(|block| self.kinetic_of(block)).collect();
+        terms.into_iter().reduce(Formula::plus).expect("a system has coordinates")
+    }
+
+    fn kinetic_of(&mut self, block: usize) -> Formula {
+        let size = self.system.blocks[block].size;
+        let scope = match size {
+            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
+            None => Scope::outside(),
+        };
+        let velocity = Formula::Velocity(block, size.map(|_| Index::bound(0)));
+        let square = velocity.power(2).over(Formula::Number("2.0"));
+        let term = match self.random.below(4) {
+            0 => self.parameter(&scope).times(square),
+            1 => {
+                let before = std::mem::replace(&mut self.velocities, Velocities::None);
+                let mass = self.value(&scope, 2);
+                self.velocities = before;
+                self.positive(mass).times(square)
+            }
+            _ => square,
+        };
+        self.over(size, term)
+    }
+
+    fn over(&self, size: Option<usize>, term: Formula) -> Formula {
+        match size {
+            Some(size) => {
+                let upper = Index::atom(Atom::Size(size));
+                Formula::Sum(Loops::Single, 0, Index::literal(0), upper, Box::new(term))
+            }
+            None => term,
+        }
+    }
+}

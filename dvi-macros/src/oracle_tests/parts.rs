@@ -1,0 +1,133 @@
+//! The parts of a formula: what walks and rebuilds the tree.
+
+use super::formula::{Atom, Condition, Formula, Index};
+
+impl Formula {
+    /// The formulas directly inside, those of conditions included.
+    pub(super) fn parts(&self) -> Vec<&Formula> {
+        match self {
+            Self::Number(_)
+            | Self::Pi
+            | Self::Time
+            | Self::Coordinate(..)
+            | Self::Velocity(..)
+            | Self::Parameter(..)
+            | Self::Count(_)
+            | Self::Name(_) => Vec::new(),
+            Self::Negative(a)
+            | Self::Power(a, _)
+            | Self::Unary(_, a)
+            | Self::Own(_, a)
+            | Self::Sum(.., a) => vec![a],
+            Self::Add(a, b)
+            | Self::Subtract(a, b)
+            | Self::Multiply(a, b)
+            | Self::Divide(a, b)
+            | Self::Binary(_, a, b)
+            | Self::Let(_, a, b) => vec![a, b],
+            Self::MultiplyAdd(a, b, c) => vec![a, b, c],
+            Self::If(condition, a, b) => condition.parts().into_iter().chain([&**a, &**b]).collect(),
+        }
+    }
+
+    pub(super) fn parts_mut(&mut self) -> Vec<&mut Formula> {
+        match self {
+            Self::Number(_)
+            | Self::Pi
+            | Self::Time
+            | Self::Coordinate(..)
+            | Self::Velocity(..)
+            | Self::Parameter(..)
+            | Self::Count(_)
+            | Self::Name(_) => Vec::new(),
+            Self::Negative(a)
+            | Self::Power(a, _)
+            | Self::Unary(_, a)
+            | Self::Own(_, a)
+            | Self::Sum(.., a) => vec![a],
+            Self::Add(a, b)
+            | Self::Subtract(a, b)
+            | Self::Multiply(a, b)
+            | Self::Divide(a, b)
+            | Self::Binary(_, a, b)
+            | Self::Let(_, a, b) => vec![a, b],
+            Self::MultiplyAdd(a, b, c) => vec![a, b, c],
+            Self::If(condition, a, b) => {
+                condition.parts_mut().into_iter().chain([&mut **a, &mut **b]).collect()
+            }
+        }
+    }
+
+    fn indices_mut(&mut self) -> Vec<&mut Index> {
+        match self {
+            Self::Coordinate(_, Some(index)) | Self::Velocity(_, Some(index)) | Self::Count(index) => vec![index],
+            Self::Parameter(_, indices) => indices.iter_mut().collect(),
+            Self::Sum(_, _, lower, upper, _) => vec![lower, upper],
+            _ => Vec::new(),
+        }
+    }
+
+    pub(super) fn has_velocities(&self) -> bool {
+        matches!(self, Self::Velocity(..)) || self.parts().into_iter().any(Self::has_velocities)
+    }
+
+    /// The number of nodes; a leaf that is no number counts twice.
+    pub(super) fn weight(&self) -> usize {
+        let own = match self {
+            Self::Number(_) => 1,
+            _ => 2,
+        };
+        own + self.parts().into_iter().map(Self::weight).sum::<usize>()
+    }
+
+    /// The body of a sum as it is where the index of this level is zero.
+    pub(super) fn without_level(mut self, level: usize) -> Self {
+        if let Self::Sum(_, own, ..) = &mut self
+            && *own > level
+        {
+            *own -= 1;
+        }
+        self.indices_mut().into_iter().for_each(|index| *index = index.without_level(level));
+        self.parts_mut().into_iter().for_each(|part| {
+            let inner = std::mem::replace(part, Self::Pi);
+            *part = inner.without_level(level);
+        });
+        self
+    }
+}
+
+impl Condition {
+    fn parts(&self) -> Vec<&Formula> {
+        match self {
+            Self::Compare(left, _, right) => vec![left, right],
+            Self::And(a, b) | Self::Or(a, b) => a.parts().into_iter().chain(b.parts()).collect(),
+            Self::Not(of) => of.parts(),
+        }
+    }
+
+    fn parts_mut(&mut self) -> Vec<&mut Formula> {
+        match self {
+            Self::Compare(left, _, right) => vec![left, right],
+            Self::And(a, b) | Self::Or(a, b) => a.parts_mut().into_iter().chain(b.parts_mut()).collect(),
+            Self::Not(of) => of.parts_mut(),
+        }
+    }
+}
+
+impl Index {
+    fn without_level(&self, level: usize) -> Self {
+        let terms = self.terms.iter().filter(|(atom, _)| *atom != Atom::Bound(level));
+        let atom = |atom: &Atom| match atom {
+            Atom::Bound(other) if *other > level => Atom::Bound(other - 1),
+            Atom::Remainder(value, modulus) => Atom::Remainder(
+                Box::new(value.without_level(level)),
+                Box::new(modulus.without_level(level)),
+            ),
+            other => other.clone(),
+        };
+        Self {
+            constant: self.constant,
+            terms: terms.map(|(known, coefficient)| (atom(known), *coefficient)).collect(),
+        }
+    }
+}

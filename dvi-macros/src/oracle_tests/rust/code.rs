@@ -1,0 +1,64 @@
+//! The tree that printed Rust is read into: names are resolved to slots.
+
+use super::functions::Callee;
+use super::value::{Kind, Value};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    And,
+    Or,
+}
+
+/// What a `let` binds: slots, or nothing for `_`.
+#[derive(Clone, Debug)]
+pub(super) enum Pattern {
+    Slot(usize),
+    Ignored,
+    Tuple(Vec<Pattern>),
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Code {
+    Value(Value),
+    Slot(usize),
+    /// A const generic or another name that the environment knows.
+    Named(String),
+    Field(Box<Code>, String),
+    Index(Box<Code>, Box<Code>),
+    Negative(Box<Code>),
+    Not(Box<Code>),
+    Binary(Operator, Box<Code>, Box<Code>),
+    /// `place = value`, or `place ∘= value`.
+    Assign(Option<Operator>, Box<Code>, Box<Code>),
+    Call(Callee, Vec<Code>),
+    Method(Box<Code>, String, Vec<Code>),
+    Cast(Box<Code>, Kind),
+    Tuple(Vec<Code>),
+    Block(Vec<Code>),
+    Let(Pattern, Box<Code>),
+    If(Box<Code>, Box<Code>, Option<Box<Code>>),
+    /// Arms with the integer that they match, or `_`.
+    Match(Box<Code>, Vec<(Option<i128>, Code)>),
+    For(Pattern, Box<Code>, Box<Code>, Box<Code>),
+    Return(Box<Code>),
+    Continue,
+    Try(Box<Code>),
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Function {
+    pub(super) parameters: usize,
+    pub(super) slots: usize,
+    pub(super) body: Code,
+}

@@ -1,0 +1,76 @@
+//! What generated functions call: the methods of `Scalar`, the helpers of the library, each other, and
+//! the user's own.
+
+use super::code::Operator;
+
+#[derive(Clone, Debug)]
+pub(super) enum Callee {
+    /// `Scalar::lift` and `Number::number`
+    Number,
+    Unary(fn(f64) -> f64),
+    Binary(fn(f64, f64) -> f64),
+    Power,
+    Choose,
+    /// `__private::wrap` and `__private::remainder`
+    Wrap,
+    Remainder,
+    CheckIndex,
+    Ok,
+    /// Another generated function.
+    Generated(String),
+    /// A path of the user's.
+    Own(String),
+}
+
+#[rustfmt::skip]
+const UNARY: &[(&str, fn(f64) -> f64)] = &[
+    ("sqrt",  f64::sqrt),  ("cbrt",  f64::cbrt),  ("exp",   f64::exp),   ("exp2",   f64::exp2),
+    ("exp_m1", f64::exp_m1), ("ln",  f64::ln),    ("ln_1p", f64::ln_1p), ("log2",   f64::log2),
+    ("log10", f64::log10), ("sin",   f64::sin),   ("cos",   f64::cos),   ("tan",    f64::tan),
+    ("asin",  f64::asin),  ("acos",  f64::acos),  ("atan",  f64::atan),  ("sinh",   f64::sinh),
+    ("cosh",  f64::cosh),  ("tanh",  f64::tanh),  ("asinh", f64::asinh), ("acosh",  f64::acosh),
+    ("atanh", f64::atanh), ("abs",   f64::abs),   ("signum", f64::signum),
+];
+
+const BINARY: &[(&str, fn(f64, f64) -> f64)] =
+    &[("atan2", f64::atan2), ("hypot", f64::hypot), ("powf", f64::powf)];
+
+/// The traits whose functions are generated.
+const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
+
+/// What a path calls, by its segments.
+pub(super) fn callee(path: &[String]) -> Callee {
+    let segments: Vec<&str> = path.iter().map(String::as_str).collect();
+    match segments.as_slice() {
+        [.., "Scalar", "lift"] | [.., "__private", "Number", "number"] => Callee::Number,
+        [.., "Scalar", "powi"] => Callee::Power,
+        [.., "Scalar", "choose"] => Callee::Choose,
+        [.., "Scalar", name] => scalar(name),
+        [.., "__private", "wrap"] => Callee::Wrap,
+        [.., "__private", "remainder"] => Callee::Remainder,
+        [.., "__private", "check_index"] => Callee::CheckIndex,
+        ["core", "result", "Result", "Ok"] => Callee::Ok,
+        [.., owner, name] if TRAITS.contains(owner) => Callee::Generated((*name).into()),
+        ["dvi_core" | "core", ..] => panic!("the interpreter does not know the function {}", path.join("::")),
+        _ => Callee::Own(path.join("::")),
+    }
+}
+
+fn scalar(name: &str) -> Callee {
+    let unary = UNARY.iter().find(|(known, _)| *known == name).map(|(_, function)| Callee::Unary(*function));
+    let binary =
+        BINARY.iter().find(|(known, _)| *known == name).map(|(_, function)| Callee::Binary(*function));
+    unary.or(binary).unwrap_or_else(|| panic!("the interpreter does not know the method `{name}` of a scalar"))
+}
+
+/// The relation that a variant of `Comparison` names.
+pub(super) fn comparison(path: &[String]) -> Option<Operator> {
+    let segments: Vec<&str> = path.iter().map(String::as_str).collect();
+    match segments.as_slice() {
+        [.., "Comparison", "Less"] => Some(Operator::Less),
+        [.., "Comparison", "LessOrEqual"] => Some(Operator::LessOrEqual),
+        [.., "Comparison", "Greater"] => Some(Operator::Greater),
+        [.., "Comparison", "GreaterOrEqual"] => Some(Operator::GreaterOrEqual),
+        _ => None,
+    }
+}

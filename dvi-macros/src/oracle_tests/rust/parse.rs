@@ -1,0 +1,301 @@
+//! Printed Rust to its tree.
+
+use std::collections::HashMap;
+
+use proc_macro2::TokenStream;
+use quote::ToTokens;
+use syn::{BinOp, Expr, FnArg, ImplItem, Item, Lit, Pat, RangeLimits, Stmt, Type, UnOp};
+
+use super::code::{Code, Function, Operator, Pattern};
+use super::functions::{callee, comparison};
+use super::value::{Kind, Value};
+
+/// The generated functions and constants of a system, by name.
+#[derive(Debug, Default)]
+pub(crate) struct Expansion {
+    pub(super) functions: HashMap<String, Function>,
+    pub(crate) constants: HashMap<String, bool>,
+}
+
+const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
+
+fn unknown(what: &str, tokens: &impl ToTokens) -> ! {
+    panic!("the interpreter does not know this {what}: {}", tokens.to_token_stream())
+}
+
+impl Expansion {
+    pub(crate) fn new(tokens: TokenStream) -> Self {
+        let file: syn::File = syn::parse2(tokens).expect("the expansion is Rust");
+        let mut expansion = Self::default();
+        expansion.items(&file.items);
+        expansion
+    }
+
+    fn items(&mut self, items: &[Item]) {
+        for item in items {
+            match item {
+                // `const _: () = { … };`
+                Item::Const(constant) => {
+                    if let Expr::Block(block) = &*constant.expr {
+                        let inside = block.block.stmts.iter().map(|statement| match statement {
+                            Stmt::Item(item) => item.clone(),
+                            other => unknown("statement", other),
+                        });
+                        self.items(&inside.collect::<Vec<_>>());
+                    }
+                }
+                Item::Impl(implementation) => {
+                    let name = implementation.trait_.as_ref().and_then(|(path, _)| path.segments.last());
+                    if name.is_some_and(|name| TRAITS.iter().any(|known| name.ident == known)) {
+                        implementation.items.iter().for_each(|item| self.member(item));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn member(&mut self, item: &ImplItem) {
+        match item {
+            ImplItem::Const(constant) => {
+                if let Expr::Lit(literal) = &constant.expr
+                    && let Lit::Bool(value) = &literal.lit
+                {
+                    self.constants.insert(constant.ident.to_string(), value.value);
+                }
+            }
+            // The shape of the configuration space is a type; dimensions are compared by `block_len`.
+            ImplItem::Fn(function) if function.sig.ident != "space" => {
+                self.functions.insert(function.sig.ident.to_string(), Parser::function(function));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Names in scope, each with its slot.
+#[derive(Default)]
+struct Parser {
+    scope: Vec<(String, usize)>,
+    slots: usize,
+}
+
+impl Parser {
+    fn function(function: &syn::ImplItemFn) -> Function {
+        let mut parser = Self::default();
+        let mut parameters = 0;
+        for input in &function.sig.inputs {
+            if let FnArg::Typed(typed) = input {
+                parser.pattern(&typed.pat);
+                parameters += 1;
+            }
+        }
+        let body = parser.block(&function.block);
+        Function { parameters, slots: parser.slots, body }
+    }
+
+    fn pattern(&mut self, pattern: &Pat) -> Pattern {
+        match pattern {
+            Pat::Ident(name) if name.subpat.is_none() => {
+                self.scope.push((name.ident.to_string(), self.slots));
+                self.slots += 1;
+                Pattern::Slot(self.slots - 1)
+            }
+            Pat::Wild(_) => Pattern::Ignored,
+            Pat::Type(typed) => self.pattern(&typed.pat),
+            Pat::Tuple(tuple) => {
+                Pattern::Tuple(tuple.elems.iter().map(|element| self.pattern(element)).collect())
+            }
+            other => unknown("pattern", other),
+        }
+    }
+
+    fn block(&mut self, block: &syn::Block) -> Code {
+        let outside = self.scope.len();
+        let mut steps = Vec::new();
+        for statement in &block.stmts {
+            match statement {
+                Stmt::Local(local) => {
+                    let Some(init) = &local.init else { unknown("statement", local) };
+                    let value = self.expr(&init.expr);
+                    let pattern = self.pattern(&local.pat);
+                    steps.push(Code::Let(pattern, Box::new(value)));
+                }
+                Stmt::Expr(expr, semicolon) => {
+                    steps.push(self.expr(expr));
+                    if semicolon.is_some() {
+                        steps.push(Code::Value(Value::Unit));
+                    }
+                }
+                other => unknown("statement", other),
+            }
+        }
+        self.scope.truncate(outside);
+        Code::Block(steps)
+    }
+
+    fn boxed(&mut self, expr: &Expr) -> Box<Code> {
+        Box::new(self.expr(expr))
+    }
+
+    fn expr(&mut self, expr: &Expr) -> Code {
+        match expr {
+            Expr::Paren(inner) => self.expr(&inner.expr),
+            Expr::Group(inner) => self.expr(&inner.expr),
+            Expr::Reference(inner) => self.expr(&inner.expr),
+            Expr::Block(block) => self.block(&block.block),
+            Expr::Lit(literal) => Code::Value(literal_value(&literal.lit)),
+            Expr::Path(path) => self.path(path),
+            Expr::Field(field) => {
+                Code::Field(self.boxed(&field.base), field.member.to_token_stream().to_string())
+            }
+            Expr::Index(index) => Code::Index(self.boxed(&index.expr), self.boxed(&index.index)),
+            Expr::Unary(unary) => match unary.op {
+                UnOp::Neg(_) => Code::Negative(self.boxed(&unary.expr)),
+                UnOp::Not(_) => Code::Not(self.boxed(&unary.expr)),
+                _ => unknown("operator", unary),
+            },
+            Expr::Binary(binary) => self.binary(binary),
+            Expr::Assign(assign) => {
+                Code::Assign(None, self.boxed(&assign.left), self.boxed(&assign.right))
+            }
+            Expr::Call(call) => {
+                let Expr::Path(path) = &*call.func else { unknown("call", call) };
+                let arguments = call.args.iter().map(|argument| self.expr(argument)).collect();
+                Code::Call(callee(&segments(path)), arguments)
+            }
+            Expr::MethodCall(call) => {
+                let receiver = self.boxed(&call.receiver);
+                let arguments = call.args.iter().map(|argument| self.expr(argument)).collect();
+                Code::Method(receiver, call.method.to_string(), arguments)
+            }
+            Expr::Cast(cast) => Code::Cast(self.boxed(&cast.expr), kind(&cast.ty)),
+            Expr::Tuple(tuple) if tuple.elems.is_empty() => Code::Value(Value::Unit),
+            Expr::Tuple(tuple) => Code::Tuple(tuple.elems.iter().map(|element| self.expr(element)).collect()),
+            Expr::If(choice) => {
+                let (condition, then) = (self.boxed(&choice.cond), self.block(&choice.then_branch));
+                let otherwise = choice.else_branch.as_ref().map(|(_, expr)| self.boxed(expr));
+                Code::If(condition, Box::new(then), otherwise)
+            }
+            Expr::Match(choice) => {
+                let value = self.boxed(&choice.expr);
+                let arms = choice.arms.iter().map(|arm| (arm_value(&arm.pat), self.expr(&arm.body))).collect();
+                Code::Match(value, arms)
+            }
+            Expr::ForLoop(repeated) => self.repeated(repeated),
+            Expr::Return(returned) => Code::Return(
+                returned.expr.as_ref().map_or_else(|| Box::new(Code::Value(Value::Unit)), |e| self.boxed(e)),
+            ),
+            Expr::Continue(_) => Code::Continue,
+            Expr::Try(tried) => Code::Try(self.boxed(&tried.expr)),
+            other => unknown("expression", other),
+        }
+    }
+
+    fn path(&mut self, path: &syn::ExprPath) -> Code {
+        let segments = segments(path);
+        if let [name] = segments.as_slice() {
+            if name == "self" {
+                return Code::Value(Value::System);
+            }
+            let known = self.scope.iter().rev().find(|(known, _)| known == name);
+            return known.map_or_else(|| Code::Named(name.clone()), |(_, slot)| Code::Slot(*slot));
+        }
+        if let Some(relation) = comparison(&segments) {
+            return Code::Value(Value::Text(format!("{relation:?}")));
+        }
+        match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            [.., "f64", "NAN"] => Code::Value(Value::Real(f64::NAN)),
+            [.., "f64", "INFINITY"] => Code::Value(Value::Real(f64::INFINITY)),
+            _ => unknown("path", path),
+        }
+    }
+
+    fn binary(&mut self, binary: &syn::ExprBinary) -> Code {
+        use Operator::{
+            Add, And, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Multiply, NotEqual, Or,
+            Remainder, Subtract,
+        };
+        let (left, right) = (self.boxed(&binary.left), self.boxed(&binary.right));
+        let operator = match binary.op {
+            BinOp::AddAssign(_) => return Code::Assign(Some(Add), left, right),
+            BinOp::SubAssign(_) => return Code::Assign(Some(Subtract), left, right),
+            BinOp::MulAssign(_) => return Code::Assign(Some(Multiply), left, right),
+            BinOp::DivAssign(_) => return Code::Assign(Some(Divide), left, right),
+            BinOp::Add(_) => Add,
+            BinOp::Sub(_) => Subtract,
+            BinOp::Mul(_) => Multiply,
+            BinOp::Div(_) => Divide,
+            BinOp::Rem(_) => Remainder,
+            BinOp::Eq(_) => Equal,
+            BinOp::Ne(_) => NotEqual,
+            BinOp::Lt(_) => Less,
+            BinOp::Le(_) => LessOrEqual,
+            BinOp::Gt(_) => Greater,
+            BinOp::Ge(_) => GreaterOrEqual,
+            BinOp::And(_) => And,
+            BinOp::Or(_) => Or,
+            _ => unknown("operator", binary),
+        };
+        Code::Binary(operator, left, right)
+    }
+
+    fn repeated(&mut self, repeated: &syn::ExprForLoop) -> Code {
+        let Expr::Range(range) = &*repeated.expr else { unknown("loop", repeated) };
+        let (Some(start), Some(end), RangeLimits::HalfOpen(_)) = (&range.start, &range.end, &range.limits) else {
+            unknown("range", range)
+        };
+        let (lower, upper) = (self.boxed(start), self.boxed(end));
+        let outside = self.scope.len();
+        let pattern = self.pattern(&repeated.pat);
+        let body = self.block(&repeated.body);
+        self.scope.truncate(outside);
+        Code::For(pattern, lower, upper, Box::new(body))
+    }
+}
+
+/// The segments of a path; `<T as Trait>::name` is `Trait::name`.
+fn segments(path: &syn::ExprPath) -> Vec<String> {
+    path.path.segments.iter().map(|segment| segment.ident.to_string()).collect()
+}
+
+fn kind(ty: &Type) -> Kind {
+    match ty.to_token_stream().to_string().as_str() {
+        "usize" => Kind::Usize,
+        "i64" => Kind::I64,
+        "i32" => Kind::I32,
+        "f64" => Kind::F64,
+        _ => unknown("type", ty),
+    }
+}
+
+fn literal_value(literal: &Lit) -> Value {
+    match literal {
+        Lit::Int(value) => {
+            let kind = match value.suffix() {
+                "usize" => Kind::Usize,
+                "i64" => Kind::I64,
+                "i32" => Kind::I32,
+                "" => Kind::Open,
+                "f64" => return Value::Real(value.base10_parse().expect("a number")),
+                _ => unknown("literal", value),
+            };
+            Value::Integer(value.base10_parse().expect("an integer"), kind)
+        }
+        Lit::Float(value) => Value::Real(value.base10_digits().parse().expect("a number")),
+        Lit::Str(text) => Value::Text(text.value()),
+        Lit::Bool(value) => Value::Bool(value.value),
+        other => unknown("literal", other),
+    }
+}
+
+fn arm_value(pattern: &Pat) -> Option<i128> {
+    match pattern {
+        Pat::Wild(_) => None,
+        Pat::Lit(literal) => match literal_value(&literal.lit) {
+            Value::Integer(value, _) => Some(value),
+            _ => unknown("pattern", pattern),
+        },
+        other => unknown("pattern", other),
+    }
+}

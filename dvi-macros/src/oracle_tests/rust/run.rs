@@ -1,0 +1,388 @@
+//! Runs generated functions.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use super::code::{Code, Function, Operator, Pattern};
+use super::functions::Callee;
+use super::parse::Expansion;
+use super::value::{Kind, Nested, Value};
+
+/// What generated functions find around them.
+pub(crate) struct Environment {
+    /// The fields of the struct.
+    pub(crate) fields: HashMap<String, Rc<Nested>>,
+    /// The const generics.
+    pub(crate) constants: HashMap<String, usize>,
+    /// The functions of the user's, by path.
+    pub(crate) own: fn(&str, f64) -> f64,
+}
+
+/// Runs the functions of one expansion. What would panic in Rust is an `Err` with its reason.
+pub(crate) struct Machine<'a> {
+    pub(crate) expansion: &'a Expansion,
+    pub(crate) environment: &'a Environment,
+    pub(crate) arrays: Vec<Vec<f64>>,
+}
+
+/// Why the next step is not the one below.
+enum Jump {
+    Continue,
+    Return(Value),
+    Panic(String),
+}
+
+type Step = Result<Value, Jump>;
+
+fn panicked(reason: impl Into<String>) -> Jump {
+    Jump::Panic(reason.into())
+}
+
+impl Machine<'_> {
+    /// An array of the caller's, as a value.
+    pub(crate) fn array(&mut self, entries: Vec<f64>) -> Value {
+        let length = entries.len();
+        self.arrays.push(entries);
+        Value::View { array: self.arrays.len() - 1, start: 0, length }
+    }
+
+    pub(crate) fn call(&mut self, name: &str, arguments: Vec<Value>) -> Result<Value, String> {
+        let expansion = self.expansion;
+        let function = expansion.functions.get(name).unwrap_or_else(|| panic!("`{name}` is generated"));
+        self.function(function, arguments).map_err(|reason| format!("{name} panics: {reason}"))
+    }
+
+    fn function(&mut self, function: &Function, mut arguments: Vec<Value>) -> Result<Value, String> {
+        assert_eq!(arguments.len(), function.parameters, "the signature of the trait");
+        arguments.resize(function.slots, Value::Unit);
+        match self.run(&function.body, &mut arguments) {
+            Ok(value) | Err(Jump::Return(value)) => Ok(value),
+            Err(Jump::Panic(reason)) => Err(reason),
+            Err(Jump::Continue) => panic!("`continue` outside of a loop"),
+        }
+    }
+
+    fn run(&mut self, code: &Code, slots: &mut Vec<Value>) -> Step {
+        match code {
+            Code::Value(value) => Ok(value.clone()),
+            Code::Slot(slot) => Ok(slots[*slot].clone()),
+            Code::Named(name) => {
+                let value = self.environment.constants.get(name);
+                let value = value.unwrap_or_else(|| panic!("the interpreter does not know the name {name}"));
+                Ok(Value::Integer(*value as i128, Kind::Usize))
+            }
+            Code::Field(base, name) => {
+                let base = self.run(base, slots)?;
+                Ok(self.field(&base, name))
+            }
+            Code::Index(base, index) => {
+                let (base, index) = (self.run(base, slots)?, self.run(index, slots)?);
+                self.indexed(&base, &index)
+            }
+            Code::Negative(of) => match self.run(of, slots)? {
+                Value::Real(value) => Ok(Value::Real(-value)),
+                Value::Integer(value, kind) if kind != Kind::Usize => Ok(Value::Integer(-value, kind)),
+                other => panic!("the interpreter does not negate {other:?}"),
+            },
+            Code::Not(of) => match self.run(of, slots)? {
+                Value::Bool(value) => Ok(Value::Bool(!value)),
+                other => panic!("the interpreter does not invert {other:?}"),
+            },
+            Code::Binary(operator, left, right) => {
+                let left = self.run(left, slots)?;
+                match (operator, &left) {
+                    (Operator::And, Value::Bool(false)) | (Operator::Or, Value::Bool(true)) => Ok(left),
+                    (Operator::And | Operator::Or, Value::Bool(_)) => self.run(right, slots),
+                    _ => {
+                        let right = self.run(right, slots)?;
+                        operation(*operator, left, right)
+                    }
+                }
+            }
+            Code::Assign(operator, place, value) => {
+                let value = self.run(value, slots)?;
+                let value = match operator {
+                    Some(operator) => operation(*operator, self.run(place, slots)?, value)?,
+                    None => value,
+                };
+                self.assign(place, value, slots)
+            }
+            Code::Call(callee, arguments) => {
+                let arguments: Result<Vec<Value>, Jump> =
+                    arguments.iter().map(|argument| self.run(argument, slots)).collect();
+                self.called(callee, arguments?)
+            }
+            Code::Method(receiver, name, arguments) => {
+                let receiver = self.run(receiver, slots)?;
+                let arguments: Result<Vec<Value>, Jump> =
+                    arguments.iter().map(|argument| self.run(argument, slots)).collect();
+                self.method(&receiver, name, &arguments?)
+            }
+            Code::Cast(of, kind) => Ok(cast(&self.run(of, slots)?, *kind)),
+            Code::Tuple(parts) => {
+                let parts: Result<Vec<Value>, Jump> = parts.iter().map(|part| self.run(part, slots)).collect();
+                Ok(Value::Tuple(parts?))
+            }
+            Code::Block(steps) => {
+                let mut value = Value::Unit;
+                for step in steps {
+                    value = self.run(step, slots)?;
+                }
+                Ok(value)
+            }
+            Code::Let(pattern, value) => {
+                let value = self.run(value, slots)?;
+                bind(pattern, value, slots);
+                Ok(Value::Unit)
+            }
+            Code::If(condition, then, otherwise) => match self.run(condition, slots)? {
+                Value::Bool(true) => self.run(then, slots),
+                Value::Bool(false) => {
+                    otherwise.as_ref().map_or(Ok(Value::Unit), |otherwise| self.run(otherwise, slots))
+                }
+                other => panic!("a condition is {other:?}"),
+            },
+            Code::Match(value, arms) => {
+                let Value::Integer(value, _) = self.run(value, slots)? else {
+                    panic!("the interpreter matches integers")
+                };
+                let arm = arms.iter().find(|(known, _)| known.is_none_or(|known| known == value));
+                self.run(&arm.expect("a match is exhaustive").1, slots)
+            }
+            Code::For(pattern, lower, upper, body) => {
+                let (lower, upper) = (self.run(lower, slots)?, self.run(upper, slots)?);
+                let kind = kind_of(&lower).joined(kind_of(&upper));
+                let (lower, upper) = (lower.integer(), upper.integer());
+                for index in lower..upper {
+                    bind(pattern, Value::Integer(index, kind), slots);
+                    match self.run(body, slots) {
+                        Ok(_) | Err(Jump::Continue) => {}
+                        Err(other) => return Err(other),
+                    }
+                }
+                Ok(Value::Unit)
+            }
+            Code::Return(value) => Err(Jump::Return(self.run(value, slots)?)),
+            Code::Continue => Err(Jump::Continue),
+            Code::Try(value) => match self.run(value, slots)? {
+                failure @ Value::Failure(_) => Err(Jump::Return(failure)),
+                value => Ok(value),
+            },
+        }
+    }
+
+    fn field(&self, base: &Value, name: &str) -> Value {
+        match (base, name) {
+            (Value::System, _) => {
+                let field = self.environment.fields.get(name);
+                Value::Place(field.unwrap_or_else(|| panic!("the struct has no field {name}")).clone())
+            }
+            (Value::Weights([weight, ..]), "qq")
+            | (Value::Weights([_, weight, ..]), "qv")
+            | (Value::Weights([_, _, weight, _]), "vq")
+            | (Value::Weights([.., weight]), "vv") => Value::Real(*weight),
+            _ => panic!("the interpreter does not know the field {name} of {base:?}"),
+        }
+    }
+
+    fn indexed(&self, base: &Value, index: &Value) -> Step {
+        let position = index.integer();
+        match base {
+            Value::View { array, start, length } => match usize::try_from(position) {
+                Ok(position) if position < *length => Ok(Value::Real(self.arrays[*array][start + position])),
+                _ => Err(panicked(format!("index {position} of a slice of length {length}"))),
+            },
+            Value::Place(place) => match &**place {
+                Nested::List(entries) => {
+                    let entry = usize::try_from(position).ok().and_then(|position| entries.get(position));
+                    let reason = || panicked(format!("index {position} of a field of length {}", entries.len()));
+                    Ok(Value::Place(entry.ok_or_else(reason)?.clone()))
+                }
+                other => panic!("the interpreter does not index {other:?}"),
+            },
+            other => panic!("the interpreter does not index {other:?}"),
+        }
+    }
+
+    fn assign(&mut self, place: &Code, value: Value, slots: &mut Vec<Value>) -> Step {
+        match place {
+            Code::Slot(slot) => slots[*slot] = value,
+            Code::Index(base, index) => {
+                let (base, index) = (self.run(base, slots)?, self.run(index, slots)?);
+                self.indexed(&base, &index)?;
+                let (Value::View { array, start, .. }, Value::Real(value)) = (base, value) else {
+                    panic!("the interpreter assigns numbers to entries of slices")
+                };
+                self.arrays[array][start + index.integer() as usize] = value;
+            }
+            other => panic!("the interpreter does not assign to {other:?}"),
+        }
+        Ok(Value::Unit)
+    }
+
+    fn called(&mut self, callee: &Callee, arguments: Vec<Value>) -> Step {
+        let real = |n: usize| arguments[n].real();
+        let integer = |n: usize| arguments[n].integer();
+        match callee {
+            Callee::Number => Ok(Value::Real(real(0))),
+            Callee::Unary(function) => Ok(Value::Real(function(real(0)))),
+            Callee::Binary(function) => Ok(Value::Real(function(real(0), real(1)))),
+            Callee::Power => {
+                Ok(Value::Real(real(0).powi(i32::try_from(integer(1)).expect("an exponent"))))
+            }
+            Callee::Choose => {
+                let Value::Text(relation) = &arguments[1] else { panic!("a choice compares") };
+                let holds = match relation.as_str() {
+                    "Less" => real(0) < real(2),
+                    "LessOrEqual" => real(0) <= real(2),
+                    "Greater" => real(0) > real(2),
+                    "GreaterOrEqual" => real(0) >= real(2),
+                    other => panic!("the interpreter does not know the relation {other}"),
+                };
+                Ok(Value::Real(if holds { real(3) } else { real(4) }))
+            }
+            Callee::Wrap | Callee::Remainder => {
+                let kind = if matches!(callee, Callee::Wrap) { Kind::Usize } else { Kind::I64 };
+                let remainder = integer(0).checked_rem_euclid(integer(1));
+                let remainder = remainder.ok_or_else(|| panicked("a remainder by zero"))?;
+                Ok(Value::Integer(remainder, kind))
+            }
+            Callee::CheckIndex => {
+                let (index, length) = (integer(1), integer(2));
+                Ok(if (0..length).contains(&index) {
+                    Value::Unit
+                } else {
+                    Value::Failure(format!("index {index} of {:?}, of length {length}", arguments[0]))
+                })
+            }
+            Callee::Ok => Ok(arguments.into_iter().next().expect("a value")),
+            Callee::Generated(name) => {
+                let arguments = arguments.into_iter().filter(|value| !matches!(value, Value::System));
+                self.call(name, arguments.collect()).map_err(Jump::Panic)
+            }
+            Callee::Own(path) => Ok(Value::Real((self.environment.own)(path, real(0)))),
+        }
+    }
+
+    fn method(&mut self, receiver: &Value, name: &str, arguments: &[Value]) -> Step {
+        match (receiver, name) {
+            (Value::View { array, start, length }, "split_at" | "split_at_mut") => {
+                let at = usize::try_from(arguments[0].integer()).expect("a length");
+                if at > *length {
+                    return Err(panicked(format!("a slice of length {length} is cut at {at}")));
+                }
+                Ok(Value::Tuple(vec![
+                    Value::View { array: *array, start: *start, length: at },
+                    Value::View { array: *array, start: start + at, length: length - at },
+                ]))
+            }
+            (Value::View { array, start, length }, "fill") => {
+                self.arrays[*array][*start..start + length].fill(arguments[0].real());
+                Ok(Value::Unit)
+            }
+            (Value::View { length, .. }, "len") => Ok(Value::Integer(*length as i128, Kind::Usize)),
+            (Value::Place(place), "len") => match &**place {
+                Nested::List(entries) => Ok(Value::Integer(entries.len() as i128, Kind::Usize)),
+                other => panic!("{other:?} has no length"),
+            },
+            (Value::Integer(..) | Value::Place(_), _) => {
+                let (kind, value) = (kind_of(receiver), receiver.integer());
+                let other = arguments.first().map(Value::integer);
+                Ok(Value::Integer(integer_method(name, kind, value, other)?, kind))
+            }
+            _ => panic!("the interpreter does not know the method `{name}` of {receiver:?}"),
+        }
+    }
+}
+
+fn integer_method(name: &str, kind: Kind, value: i128, other: Option<i128>) -> Result<i128, Jump> {
+    let other = other.unwrap_or_else(|| panic!("`{name}` of an integer takes an argument"));
+    let (least, turn) = match kind {
+        Kind::Usize => (0, 1_i128 << 64),
+        _ => (i128::from(i64::MIN), 1_i128 << 64),
+    };
+    Ok(match name {
+        "wrapping_sub" => (value - other - least).rem_euclid(turn) + least,
+        "wrapping_add" => (value + other - least).rem_euclid(turn) + least,
+        "saturating_sub" => (value - other).max(least),
+        "max" => value.max(other),
+        "min" => value.min(other),
+        "rem_euclid" => value.checked_rem_euclid(other).ok_or_else(|| panicked("a remainder by zero"))?,
+        _ => panic!("the interpreter does not know the method `{name}` of an integer"),
+    })
+}
+
+fn bind(pattern: &Pattern, value: Value, slots: &mut [Value]) {
+    match (pattern, value) {
+        (Pattern::Slot(slot), value) => slots[*slot] = value,
+        (Pattern::Ignored, _) => {}
+        (Pattern::Tuple(patterns), Value::Tuple(values)) => {
+            patterns.iter().zip(values).for_each(|(pattern, value)| bind(pattern, value, slots));
+        }
+        (Pattern::Tuple(_), other) => panic!("{other:?} is no tuple"),
+    }
+}
+
+fn kind_of(value: &Value) -> Kind {
+    match value {
+        Value::Integer(_, kind) => *kind,
+        _ => Kind::Usize,
+    }
+}
+
+fn cast(value: &Value, kind: Kind) -> Value {
+    if kind == Kind::F64 {
+        return Value::Real(match value {
+            Value::Real(value) => *value,
+            other => other.integer() as f64,
+        });
+    }
+    let value = value.integer();
+    let turn = if kind == Kind::I32 { 1_i128 << 32 } else { 1_i128 << 64 };
+    let least = if kind == Kind::Usize { 0 } else { -turn / 2 };
+    Value::Integer((value - least).rem_euclid(turn) + least, kind)
+}
+
+fn operation(operator: Operator, left: Value, right: Value) -> Step {
+    use Operator::{Add, Divide, Multiply, Remainder, Subtract};
+    let value = match (left, right) {
+        (Value::Real(a), Value::Real(b)) => match operator {
+            Add => Value::Real(a + b),
+            Subtract => Value::Real(a - b),
+            Multiply => Value::Real(a * b),
+            Divide => Value::Real(a / b),
+            Remainder => panic!("the interpreter takes remainders of integers"),
+            relation => Value::Bool(related(relation, &a, &b)),
+        },
+        (left, right) => {
+            let kind = kind_of(&left).joined(kind_of(&right));
+            let (a, b) = (left.integer(), right.integer());
+            let value = match operator {
+                Add => a + b,
+                Subtract => a - b,
+                Multiply => a * b,
+                Divide | Remainder if b == 0 => return Err(panicked("a division by zero")),
+                Divide => a / b,
+                Remainder => a % b,
+                relation => return Ok(Value::Bool(related(relation, &a, &b))),
+            };
+            if !kind.holds(value) {
+                return Err(panicked(format!("{a} {operator:?} {b} overflows {kind:?}")));
+            }
+            Value::Integer(value, kind)
+        }
+    };
+    Ok(value)
+}
+
+fn related<V: PartialOrd>(relation: Operator, a: &V, b: &V) -> bool {
+    match relation {
+        Operator::Equal => a == b,
+        Operator::NotEqual => a != b,
+        Operator::Less => a < b,
+        Operator::LessOrEqual => a <= b,
+        Operator::Greater => a > b,
+        Operator::GreaterOrEqual => a >= b,
+        other => panic!("the interpreter does not compare by {other:?}"),
+    }
+}

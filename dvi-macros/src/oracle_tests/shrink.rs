@@ -1,0 +1,62 @@
+//! The smallest system that still fails, by removing one part after the other.
+
+use super::formula::{Formula, Loops};
+use super::system::System;
+
+/// The smallest system that `fails` and that single removals reach.
+pub(super) fn smallest(system: &System, fails: impl Fn(&System) -> bool) -> System {
+    let mut smallest = system.clone();
+    loop {
+        let smaller = smaller_systems(&smallest).into_iter().find(|candidate| fails(candidate));
+        match smaller {
+            Some(smaller) => smallest = smaller,
+            None => return smallest,
+        }
+    }
+}
+
+fn smaller_systems(system: &System) -> Vec<System> {
+    let without = |momentum: usize| {
+        let mut smaller = system.clone();
+        smaller.momenta.remove(momentum);
+        smaller
+    };
+    let mut candidates: Vec<System> = (0..system.momenta.len()).map(without).collect();
+    let mut copy = system.clone();
+    let formulas: Vec<Formula> = copy.formulas_mut().into_iter().map(|formula| formula.clone()).collect();
+    for (place, formula) in formulas.iter().enumerate() {
+        let weight = formula.weight();
+        let mut variants = smaller_formulas(formula);
+        variants.retain(|variant| variant.weight() < weight);
+        variants.sort_by_key(Formula::weight);
+        for variant in variants {
+            let mut smaller = system.clone();
+            *smaller.formulas_mut().remove(place) = variant;
+            candidates.push(smaller);
+        }
+    }
+    candidates
+}
+
+/// All formulas that one replacement makes of this one.
+fn smaller_formulas(formula: &Formula) -> Vec<Formula> {
+    let mut variants = vec![Formula::Number("1")];
+    match formula {
+        Formula::Sum(loops, level, .., body) => {
+            let once = (**body).clone();
+            variants.push(match loops {
+                Loops::Single => once.without_level(*level),
+                Loops::Pairs | Loops::OrderedPairs => once.without_level(level + 1).without_level(*level),
+            });
+        }
+        other => variants.extend(other.parts().into_iter().cloned()),
+    }
+    for place in 0..formula.parts().len() {
+        for part in smaller_formulas(formula.parts()[place]) {
+            let mut variant = formula.clone();
+            *variant.parts_mut().remove(place) = part;
+            variants.push(variant);
+        }
+    }
+    variants
+}

@@ -1,0 +1,94 @@
+//! The declared structure of a system against numbers: a declaration that numbers refute is an error,
+//! one that is missing where numbers would allow it is counted.
+
+use super::compare::{Difference, Expected};
+use super::jet::Sized;
+use super::rust::Expansion;
+use super::system::System;
+
+/// Each constant as it is declared, and as the numbers allow it.
+pub(super) type Claims = Vec<(&'static str, bool, bool)>;
+
+/// Entries below this part of their size are zero.
+const ZERO: f64 = 1e-9;
+
+fn is_zero(entry: Sized) -> bool {
+    entry.value.abs() <= ZERO * entry.size
+}
+
+pub(super) fn same(one: Sized, other: Sized) -> bool {
+    is_zero(one.plus(other.scaled(-1.0)))
+}
+
+pub(super) fn hold(
+    system: &System,
+    expansion: &Expansion,
+    partners: &[usize],
+    points: &[Expected],
+) -> Result<Claims, Difference> {
+    let n = system.dimension();
+    let numbers =
+        if system.is_regular() { regular(n, points) } else { degenerate(n, partners, points) };
+    let mut claims = Claims::new();
+    for (name, possible) in numbers {
+        let declared = expansion.constants[name];
+        if declared && !possible {
+            let q: Vec<&Vec<f64>> = points.iter().map(|expected| &expected.point.q).collect();
+            return Err((name.into(), format!("{name} is declared, and numbers refute it at q = {q:?}")));
+        }
+        claims.push((name, declared, possible));
+    }
+    let implied = [("MATCHING", "CANONICAL"), ("SEPARABLE", "QUADRATIC")];
+    for (one, other) in implied {
+        if expansion.constants.get(one) == Some(&true) && !expansion.constants[other] {
+            return Err((one.into(), format!("{one} is declared without {other}")));
+        }
+    }
+    Ok(claims)
+}
+
+fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
+    (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)))
+}
+
+fn degenerate(n: usize, partners: &[usize], points: &[Expected]) -> Vec<(&'static str, bool)> {
+    let dalpha = |at: &Expected, i: usize, j: usize| at.lagrangian.hessian(n + i, j);
+    let omega = |at: &Expected, i: usize, j: usize| dalpha(at, j, i).plus(dalpha(at, i, j).scaled(-1.0));
+    let first = &points[0];
+    let constant = points.iter().all(|at| pairs(n).all(|(i, j)| same(dalpha(at, i, j), dalpha(first, i, j))));
+    let free_of_time = points.iter().all(|at| (0..n).all(|i| is_zero(at.lagrangian.hessian(n + i, 2 * n))));
+    // Where nothing is declared, every coordinate is its own partner.
+    let involution = (0..n).all(|i| partners[i] < n && partners[i] != i && partners[partners[i]] == i);
+    let couples = |entry: &dyn Fn(&Expected, usize, usize) -> Sized| {
+        let alone = |i: usize, j: usize| j == partners[i] || points.iter().all(|at| is_zero(entry(at, i, j)));
+        involution && pairs(n).all(|(i, j)| alone(i, j))
+    };
+    vec![
+        ("LINEAR", constant && free_of_time),
+        ("MATCHING", couples(&dalpha)),
+        ("CANONICAL", couples(&omega)),
+    ]
+}
+
+fn regular(n: usize, points: &[Expected]) -> Vec<(&'static str, bool)> {
+    let mass = |at: &Expected, i: usize, j: usize| at.lagrangian.hessian(n + i, n + j);
+    let first = &points[0];
+    let constant = points.iter().all(|at| pairs(n).all(|(i, j)| same(mass(at, i, j), mass(first, i, j))));
+    let diagonal = points.iter().all(|at| pairs(n).all(|(i, j)| i == j || is_zero(mass(at, i, j))));
+    let fixed = |at: &Expected| {
+        // Neither q nor t moves ∂L/∂v, and it is M v.
+        let still = (0..n).all(|i| {
+            let variables = (0..n).chain([2 * n]);
+            variables.into_iter().all(|j| is_zero(at.lagrangian.hessian(n + i, j)))
+        });
+        let momentum = |i: usize| {
+            (0..n).fold(Sized::default(), |sum, j| sum.plus(mass(at, i, j).times(Sized::new(at.point.v[j]))))
+        };
+        still && (0..n).all(|i| same(momentum(i), at.lagrangian.gradient(n + i)))
+    };
+    vec![
+        ("SEPARABLE", constant && points.iter().all(fixed)),
+        ("DIAGONAL_MASS", diagonal),
+        ("QUADRATIC", points.iter().all(|at| at.is_quadratic)),
+    ]
+}

@@ -1,0 +1,125 @@
+//! A system under test: its declarations, its formulas, and the numbers that its struct holds.
+
+use super::formula::{Formula, Index};
+
+/// How the size of an array is written, and what it is in the test.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Size {
+    pub(super) kind: SizeKind,
+    pub(super) value: i64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum SizeKind {
+    Literal,
+    /// `const N: usize`
+    Constant(&'static str),
+    /// A field of type `usize`.
+    Field(&'static str),
+    /// The length of an array of the struct.
+    Length(&'static str),
+}
+
+/// The type of a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Container {
+    /// `f64`
+    Scalar,
+    /// `i32`
+    Integer,
+    /// `[f64; n]`
+    Array,
+    Vector,
+    /// `&'a [f64]`
+    Slice,
+    /// `[[f64; n]; n]`
+    Matrix,
+    /// `Vec<Vec<f64>>`
+    VectorOfVectors,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    pub(super) name: &'static str,
+    pub(super) container: Container,
+    /// The sizes of its entries, as entries of the table of sizes.
+    pub(super) shape: Vec<usize>,
+    /// Its entries, row by row.
+    pub(super) values: Vec<f64>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    pub(super) name: &'static str,
+    pub(super) size: Option<usize>,
+}
+
+/// What the attribute declares.
+#[derive(Clone, Debug)]
+pub(super) enum Dynamics {
+    /// α as a sum of `… * d(x)`, and H.
+    OneForm(Formula, Formula),
+    /// α as a list of components, and H. The index of a component is that of level 0.
+    Components(Vec<Formula>, Formula),
+    /// `#[degenerate_lagrangian(lagrangian = …)]`
+    Affine(Formula),
+    /// `#[lagrangian(lagrangian = …)]`
+    Regular(Formula),
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct System {
+    pub(super) sizes: Vec<Size>,
+    pub(super) fields: Vec<Field>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) dynamics: Dynamics,
+    pub(super) momenta: Vec<Formula>,
+}
+
+impl System {
+    pub(super) fn size_values(&self) -> Vec<i64> {
+        self.sizes.iter().map(|size| size.value).collect()
+    }
+
+    pub(super) fn block_length(&self, block: usize) -> usize {
+        self.blocks[block].size.map_or(1, |size| self.sizes[size].value as usize)
+    }
+
+    /// Where the coordinates of a block begin in a flat slice.
+    pub(super) fn offset(&self, block: usize) -> usize {
+        (0..block).map(|before| self.block_length(before)).sum()
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        self.offset(self.blocks.len())
+    }
+
+    pub(super) fn is_regular(&self) -> bool {
+        matches!(self.dynamics, Dynamics::Regular(_))
+    }
+
+    /// All formulas, to be changed in place.
+    pub(super) fn formulas_mut(&mut self) -> Vec<&mut Formula> {
+        let mut formulas = match &mut self.dynamics {
+            Dynamics::OneForm(one_form, hamiltonian) => vec![one_form, hamiltonian],
+            Dynamics::Components(components, hamiltonian) => {
+                components.iter_mut().chain([hamiltonian]).collect()
+            }
+            Dynamics::Affine(lagrangian) | Dynamics::Regular(lagrangian) => vec![lagrangian],
+        };
+        formulas.extend(&mut self.momenta);
+        formulas
+    }
+
+    /// `|i| component` of a block as Σ componentᵢ·d(xᵢ), or component·d(x).
+    pub(super) fn component_term(&self, block: usize, component: &Formula) -> Formula {
+        match self.blocks[block].size {
+            None => component.clone().times(Formula::Velocity(block, None)),
+            Some(size) => {
+                let term = component.clone().times(Formula::Velocity(block, Some(Index::bound(0))));
+                let upper = Index::atom(super::formula::Atom::Size(size));
+                Formula::Sum(super::formula::Loops::Single, 0, Index::literal(0), upper, Box::new(term))
+            }
+        }
+    }
+}

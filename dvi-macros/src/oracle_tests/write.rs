@@ -1,0 +1,231 @@
+//! Systems to text: the attribute and the struct as a user writes them.
+
+use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
+use super::functions::{BinaryFunction, OWN};
+use super::system::{Container, Dynamics, Field, SizeKind, System};
+
+const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
+
+/// How tightly a written formula binds.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    /// At the beginning of a statement it would be one of its own.
+    Block,
+    Sum,
+    Product,
+    Sign,
+    Postfix,
+}
+
+/// Writes the formulas of one system.
+pub(super) struct Writer<'a> {
+    pub(super) system: &'a System,
+    /// `d` or `dot`.
+    pub(super) velocity: &'static str,
+}
+
+impl System {
+    /// The arguments of the attribute.
+    pub(super) fn attribute(&self) -> String {
+        let blocks = self.blocks.iter().map(|block| match block.size {
+            None => block.name.to_string(),
+            Some(size) => format!("{}[{}]", block.name, self.size_text(size)),
+        });
+        let mut text = format!("coordinates({})", blocks.collect::<Vec<_>>().join(", "));
+        let writer = |velocity| Writer { system: self, velocity };
+        let (d, dot) = (writer("d"), writer("dot"));
+        text += &match &self.dynamics {
+            Dynamics::OneForm(one_form, hamiltonian) => {
+                format!(", one_form = {}, hamiltonian = {}", d.text(one_form), d.text(hamiltonian))
+            }
+            Dynamics::Components(components, hamiltonian) => {
+                let components = components.iter().zip(&self.blocks).map(|(component, block)| {
+                    let index = if block.size.is_some() { "|i| " } else { "" };
+                    format!("{index}{}", d.text(component))
+                });
+                let components = components.collect::<Vec<_>>().join(", ");
+                format!(", one_form = [{components}], hamiltonian = {}", d.text(hamiltonian))
+            }
+            Dynamics::Affine(lagrangian) | Dynamics::Regular(lagrangian) => {
+                format!(", lagrangian = {}", dot.text(lagrangian))
+            }
+        };
+        let momenta = self.momenta.iter().enumerate();
+        let momenta: Vec<String> = momenta.map(|(n, value)| format!("p{n} = {}", dot.text(value))).collect();
+        if !momenta.is_empty() {
+            text += &format!(", momenta({})", momenta.join(", "));
+        }
+        let used = OWN.iter().filter(|(name, _)| text.contains(&format!(" {name}(")) || text.contains(&format!("({name}(")));
+        let own: Vec<String> = used.map(|(name, paths)| format!("{name} = [{}]", paths.join(", "))).collect();
+        if own.is_empty() { text } else { text + &format!(", functions({})", own.join(", ")) }
+    }
+
+    /// The struct.
+    pub(super) fn item(&self) -> String {
+        let borrows = self.fields.iter().any(|field| field.container == Container::Slice);
+        let lifetime = borrows.then(|| "'a".to_string());
+        let constants = self.sizes.iter().filter_map(|size| match size.kind {
+            SizeKind::Constant(name) => Some(format!("const {name}: usize")),
+            _ => None,
+        });
+        let generics: Vec<String> = lifetime.into_iter().chain(constants).collect();
+        let generics =
+            if generics.is_empty() { String::new() } else { format!("<{}>", generics.join(", ")) };
+        let counts = self.sizes.iter().filter_map(|size| match size.kind {
+            SizeKind::Field(name) => Some(format!("{name}: usize")),
+            _ => None,
+        });
+        let fields = self.fields.iter().map(|field| format!("{}: {}", field.name, self.type_text(field)));
+        format!("struct System{generics} {{ {} }}", fields.chain(counts).collect::<Vec<_>>().join(", "))
+    }
+
+    fn type_text(&self, field: &Field) -> String {
+        let size = |n: usize| self.size_text(field.shape[n]);
+        match field.container {
+            Container::Scalar => "f64".into(),
+            Container::Integer => "i32".into(),
+            Container::Array => format!("[f64; {}]", size(0)),
+            Container::Vector => "Vec<f64>".into(),
+            Container::Slice => "&'a [f64]".into(),
+            Container::Matrix => format!("[[f64; {}]; {}]", size(1), size(0)),
+            Container::VectorOfVectors => "Vec<Vec<f64>>".into(),
+        }
+    }
+
+    /// The name of a size in systems by hand, whatever it is written as.
+    pub(super) fn size_name(&self, size: usize) -> &'static str {
+        ["N", "M"][size]
+    }
+
+    pub(super) fn size_text(&self, size: usize) -> String {
+        match self.sizes[size].kind {
+            SizeKind::Literal => self.sizes[size].value.to_string(),
+            SizeKind::Constant(name) | SizeKind::Field(name) => name.into(),
+            SizeKind::Length(field) => format!("{field}.len()"),
+        }
+    }
+}
+
+impl Writer<'_> {
+    pub(super) fn text(&self, formula: &Formula) -> String {
+        self.bound(formula, Binding::Block)
+    }
+
+    /// In parentheses where it binds less tightly than asked.
+    fn bound(&self, formula: &Formula, wanted: Binding) -> String {
+        let (text, binding) = self.formula(formula);
+        if binding < wanted { format!("({text})") } else { text }
+    }
+
+    fn formula(&self, formula: &Formula) -> (String, Binding) {
+        use Binding::{Block, Postfix, Product, Sign, Sum};
+        let postfix = |text: String| (text, Postfix);
+        let method = |of: &Formula, name: &str, arguments: String| {
+            (format!("{}.{name}({arguments})", self.bound(of, Postfix)), Postfix)
+        };
+        match formula {
+            Formula::Number(text) => postfix((*text).into()),
+            Formula::Pi => postfix("PI".into()),
+            Formula::Time => postfix("t".into()),
+            Formula::Name(name) => postfix(format!("a{name}")),
+            Formula::Coordinate(block, index) => postfix(self.place(*block, index.as_ref())),
+            Formula::Velocity(block, index) => {
+                postfix(format!("{}({})", self.velocity, self.place(*block, index.as_ref())))
+            }
+            Formula::Parameter(field, indices) => {
+                let indices: String = indices.iter().map(|index| format!("[{}]", self.index(index))).collect();
+                postfix(format!("{}{indices}", self.system.fields[*field].name))
+            }
+            Formula::Count(index) => postfix(format!("(({}) as f64)", self.index(index))),
+            Formula::Negative(of) => (format!("-{}", self.bound(of, Sign)), Sign),
+            Formula::Add(a, b) => (format!("{} + {}", self.bound(a, Sum), self.bound(b, Product)), Sum),
+            Formula::Subtract(a, b) => (format!("{} - {}", self.bound(a, Sum), self.bound(b, Product)), Sum),
+            Formula::Multiply(a, b) => {
+                (format!("{} * {}", self.bound(a, Product), self.bound(b, Sign)), Product)
+            }
+            Formula::Divide(a, b) => {
+                (format!("{} / {}", self.bound(a, Product), self.bound(b, Sign)), Product)
+            }
+            Formula::Power(of, exponent) => method(of, "powi", exponent.to_string()),
+            Formula::Unary(function, of) => method(of, function.name, String::new()),
+            Formula::Binary(function, a, b) => {
+                let name = match function {
+                    BinaryFunction::Atan2 => "atan2",
+                    BinaryFunction::Hypot => "hypot",
+                    BinaryFunction::Powf => "powf",
+                };
+                method(a, name, self.text(b))
+            }
+            Formula::MultiplyAdd(a, b, c) => {
+                method(a, "mul_add", format!("{}, {}", self.text(b), self.text(c)))
+            }
+            Formula::Own(function, of) => postfix(format!("{}({})", OWN[*function].0, self.text(of))),
+            Formula::If(condition, then, otherwise) => {
+                let (then, otherwise) = (self.text(then), self.text(otherwise));
+                (format!("if {} {{ {then} }} else {{ {otherwise} }}", self.condition(condition)), Block)
+            }
+            Formula::Let(name, value, body) => {
+                (format!("{{ let a{name} = {}; {} }}", self.text(value), self.text(body)), Block)
+            }
+            Formula::Sum(loops, level, lower, upper, body) => {
+                let (name, indices) = match loops {
+                    Loops::Single => ("sum", INDICES[*level].to_string()),
+                    Loops::Pairs => ("sum_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1])),
+                    Loops::OrderedPairs => {
+                        ("sum_ordered_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1]))
+                    }
+                };
+                let (lower, upper) = (self.index(lower), self.index(upper));
+                postfix(format!("{name}({lower}..{upper}, |{indices}| {})", self.text(body)))
+            }
+        }
+    }
+
+    fn condition(&self, condition: &Condition) -> String {
+        match condition {
+            Condition::Compare(left, relation, right) => {
+                let relation = match relation {
+                    Relation::Less => "<",
+                    Relation::LessOrEqual => "<=",
+                    Relation::Greater => ">",
+                    Relation::GreaterOrEqual => ">=",
+                };
+                format!("{} {relation} {}", self.bound(left, Binding::Sum), self.bound(right, Binding::Sum))
+            }
+            Condition::And(a, b) => format!("({}) && ({})", self.condition(a), self.condition(b)),
+            Condition::Or(a, b) => format!("({}) || ({})", self.condition(a), self.condition(b)),
+            Condition::Not(of) => format!("!({})", self.condition(of)),
+        }
+    }
+
+    fn place(&self, block: usize, index: Option<&Index>) -> String {
+        let name = self.system.blocks[block].name;
+        index.map_or_else(|| name.into(), |index| format!("{name}[{}]", self.index(index)))
+    }
+
+    fn index(&self, index: &Index) -> String {
+        let mut text = String::new();
+        for (atom, coefficient) in &index.terms {
+            let atom = match atom {
+                Atom::Bound(level) => INDICES[*level].to_string(),
+                Atom::Size(size) => self.system.size_text(*size),
+                Atom::Remainder(value, modulus) => {
+                    format!("(({}) % {})", self.index(value), self.index(modulus))
+                }
+            };
+            let sign = if *coefficient < 0 { "-" } else { "+" };
+            let times = match coefficient.abs() {
+                1 => String::new(),
+                factor => format!("{factor} * "),
+            };
+            let sign = if text.is_empty() && sign == "+" { String::new() } else { format!(" {sign} ") };
+            text += &format!("{sign}{times}{atom}");
+        }
+        match index.constant {
+            0 if !text.is_empty() => text,
+            constant if text.is_empty() => constant.to_string(),
+            constant if constant < 0 => format!("{text} - {}", -constant),
+            constant => format!("{text} + {constant}"),
+        }
+    }
+}
