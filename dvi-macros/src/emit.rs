@@ -22,7 +22,7 @@ use syn::{Ident, Path};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
-use crate::model::{Model, Shape};
+use crate::model::Model;
 use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
@@ -35,16 +35,12 @@ pub(crate) struct Emitter<'a> {
     pub(crate) model: &'a Model,
 }
 
-/// One scope of a function on its way to tokens: its body, or that of a loop.
-struct Scope<'a> {
+/// One function on its way to tokens.
+struct Function<'a> {
     emitter: &'a Emitter<'a>,
     routine: &'a Routine,
     /// Registers that are written into the one expression that uses them.
     inlined: &'a [bool],
-    loops: Vec<Loop>,
-    /// Whether loops run inside. They may be empty, and what stands here for their sake may then reach
-    /// beyond an array.
-    has_loops: bool,
 }
 
 pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
@@ -82,8 +78,7 @@ impl Emitter<'_> {
             leaf || (uses[position] == 1 && !elsewhere[position])
         });
         let inlined: Vec<bool> = inlined.collect();
-        let scope = Scope { emitter: self, routine, inlined: &inlined, loops: Vec::new(), has_loops: false };
-        scope.steps(&routine.steps)
+        Function { emitter: self, routine, inlined: &inlined }.steps(&routine.steps)
     }
 
     /// An index as an expression of type `usize`; negative intermediate values do not occur.
@@ -92,7 +87,7 @@ impl Emitter<'_> {
     }
 
     /// The bound of a range: a negative one is zero.
-    fn range_bound(&self, index: &Index) -> TokenStream {
+    pub(crate) fn range_bound(&self, index: &Index) -> TokenStream {
         self.difference(index, &quote!(saturating_sub))
     }
 
@@ -156,7 +151,7 @@ impl Emitter<'_> {
         quote!((#(#terms)+*))
     }
 
-    pub(crate) fn range(&self, range: &Range) -> TokenStream {
+    fn range(&self, range: &Range) -> TokenStream {
         let (lower, upper) = (self.range_bound(&range.lower), self.range_bound(&range.upper));
         quote!((#lower)..(#upper))
     }
@@ -214,11 +209,9 @@ fn count_uses(
     used
 }
 
-impl Scope<'_> {
+impl Function<'_> {
     fn steps(&self, steps: &[Step]) -> TokenStream {
-        let has_loops = steps.iter().any(|step| matches!(step, Step::Loop { .. }));
-        let scope = Scope { loops: self.loops.clone(), has_loops, ..*self };
-        steps.iter().map(|step| scope.step(step)).collect()
+        steps.iter().map(|step| self.step(step)).collect()
     }
 
     fn step(&self, step: &Step) -> TokenStream {
@@ -229,13 +222,11 @@ impl Scope<'_> {
                 quote!(let #name = #value;)
             }
             Step::Loop { over, folds, body } => {
-                let loops = self.loops.iter().chain([over]).cloned().collect();
-                let inside = Scope { loops, ..*self };
                 let mut begin = TokenStream::new();
-                let mut accumulate = inside.steps(body);
+                let mut accumulate = self.steps(body);
                 for Accumulated { fold, result, body } in folds {
                     let (krate, name) = (self.emitter.krate(), name(*result));
-                    let body = inside.signed(*body);
+                    let body = self.signed(*body);
                     let (neutral, join) = match fold {
                         Fold::Sum => (quote!(-0.0), quote!(#name += #body;)),
                         Fold::Product => (quote!(1.0), quote!(#name = #name * #body;)),
@@ -251,38 +242,21 @@ impl Scope<'_> {
     }
 
     fn write(&self, place: &Place, value: Signed) -> TokenStream {
-        let (target, conditions) = match place {
+        let target = match place {
             Place::Result => return self.signed(value),
             Place::Entry(output, coordinate) => {
                 let array =
                     format_ident!("{}", output_block(*output, coordinate.block), span = Span::mixed_site());
                 let index = self.emitter.index(&coordinate.index);
-                (quote!(#array[#index]), vec![self.condition(coordinate)])
+                quote!(#array[#index])
             }
             Place::MatrixEntry(row, column) => {
-                let conditions = vec![self.condition(row), self.condition(column)];
                 let (row, column) = (self.flat(row), self.flat(column));
-                (quote!(__matrix[(#row) * __dimension + #column]), conditions)
+                quote!(__matrix[(#row) * __dimension + #column])
             }
         };
         let register = self.register(value.register);
-        let write = match value.negative {
-            true => quote!(#target -= #register;),
-            false => quote!(#target += #register;),
-        };
-        let conditions: Vec<TokenStream> = conditions.into_iter().flatten().collect();
-        if conditions.is_empty() { write } else { quote!(if #(#conditions)&&* { #write }) }
-    }
-
-    /// What must hold for an entry to be there, where that is not certain: this scope may touch it for the
-    /// sake of an inner loop that is empty.
-    fn condition(&self, coordinate: &Coordinate) -> Option<TokenStream> {
-        let length = self.emitter.model.block_size(coordinate.block as usize);
-        if !self.has_loops || self.emitter.stays_inside(&coordinate.index, &length, &self.loops) {
-            return None;
-        }
-        let (index, length) = (self.emitter.index(&coordinate.index), self.emitter.index(&length));
-        Some(quote!((#index) < (#length)))
+        if value.negative { quote!(#target -= #register;) } else { quote!(#target += #register;) }
     }
 
     /// The position of a coordinate in a flat slice.
@@ -403,44 +377,14 @@ impl Scope<'_> {
     fn gather(&self, array: &str, coordinate: &Coordinate) -> TokenStream {
         let array = local(format_args!("{array}{}", coordinate.block));
         let index = self.emitter.index(&coordinate.index);
-        self.guarded(self.condition(coordinate), &quote!(#array[#index]))
-    }
-
-    /// A value that is read where `condition` holds, and used only there.
-    fn guarded(&self, condition: Option<TokenStream>, value: &TokenStream) -> TokenStream {
-        let krate = self.emitter.krate();
-        match condition {
-            Some(condition) => {
-                quote!((if #condition { #value } else { <__T as #krate::Scalar>::lift(f64::NAN) }))
-            }
-            None => value.clone(),
-        }
+        quote!(#array[#index])
     }
 
     fn parameter(&self, parameter: &Parameter) -> TokenStream {
         let krate = self.emitter.krate();
-        let field = &self.emitter.model.parameters[parameter.field as usize];
-        let mut place = field.tokens.clone();
-        let mut shape = Some(&field.shape);
-        let mut conditions = Vec::new();
-        for index in &parameter.indices {
-            let length = match shape {
-                Some(Shape::Array(length, entry)) => {
-                    shape = Some(entry);
-                    *length
-                }
-                _ => None,
-            };
-            let is_certain = index.as_literal().zip(length).is_some_and(|(index, length)| index < length);
-            let index = self.emitter.index(index);
-            if self.has_loops && !is_certain {
-                conditions.push(quote!((#index) < #place.len()));
-            }
-            place = quote!(#place[#index]);
-        }
-        let value = quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place)));
-        let condition = (!conditions.is_empty()).then(|| quote!(#(#conditions)&&*));
-        self.guarded(condition, &value)
+        let place = &self.emitter.model.parameters[parameter.field as usize].tokens;
+        let indices = parameter.indices.iter().map(|index| self.emitter.index(index));
+        quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place #([#indices])*)))
     }
 }
 

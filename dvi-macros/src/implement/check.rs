@@ -120,12 +120,12 @@ impl Walk<'_> {
         let value = self.emitter.signed_index(index);
         let mut tokens = quote!(#krate::__private::check_index(#array, #value, #length)?;);
         for (over, is_needed) in around {
-            let range = self.emitter.range(&over.range);
-            tokens = match (is_needed, over.range.left_out().next().is_none()) {
-                (true, _) => self.emitter.loop_over(over, &tokens),
-                (false, true) => quote!(if !(#range).is_empty() { #tokens }),
-                // The first index that is not left out decides.
-                (false, false) => self.emitter.loop_over(over, &quote!(#tokens break;)),
+            tokens = if is_needed || over.range.left_out().next().is_some() {
+                self.emitter.loop_over(over, &tokens)
+            } else {
+                let [lower, upper] =
+                    [&over.range.lower, &over.range.upper].map(|bound| self.emitter.range_bound(bound));
+                quote!(if (#lower) < (#upper) { #tokens })
             };
         }
         self.tokens.extend(tokens);

@@ -37,7 +37,8 @@ fn reach(index: &Index, loops: &[Loop]) -> Option<(i64, i64)> {
     match index.terms.as_slice() {
         [] => Some((index.constant, index.constant.saturating_add(1))),
         [(Atom::Open(depth), 1)] => {
-            let over = loops.iter().find(|over| over.depth == *depth && over.range.left_out().next().is_none())?;
+            let over =
+                loops.iter().find(|over| over.depth == *depth && over.range.left_out().next().is_none())?;
             let (lower, upper) = (over.range.lower.as_literal()?, over.range.upper.as_literal()?);
             Some((lower.saturating_add(index.constant), upper.saturating_add(index.constant)))
         }
