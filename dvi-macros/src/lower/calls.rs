@@ -6,7 +6,7 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 use super::admit::LARGEST_EXPONENT;
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest};
-use crate::symbolic::{Binary, Expr, Node, binary_by_name, unary_by_name, unary_names};
+use crate::symbolic::{Expr, Node, binary_by_name, unary_by_name, unary_names};
 use crate::syntax::Kind;
 
 /// Methods that are arithmetic rather than functions of the table, with their number of arguments.
@@ -212,7 +212,7 @@ fn arity(name: &str) -> Option<usize> {
         return Some(0);
     }
     match binary_by_name(name) {
-        Some(Binary::Atan2 | Binary::Hypot | Binary::Powf) => Some(1),
+        Some(_) => Some(1),
         None => ARITHMETIC.iter().find(|(known, _)| *known == name).map(|(_, arity)| *arity),
     }
 }

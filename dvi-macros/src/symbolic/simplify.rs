@@ -213,7 +213,7 @@ impl Graph {
         }
     }
 
-    fn factors(&self, node: Id) -> Vec<(Id, u32)> {
+    pub(super) fn factors(&self, node: Id) -> Vec<(Id, u32)> {
         match self.node(node) {
             Node::One => Vec::new(),
             Node::Product(factors) => factors.clone(),
