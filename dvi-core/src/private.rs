@@ -3,7 +3,6 @@
 #[cfg(feature = "alloc")]
 pub use alloc::vec::Vec;
 
-#[cfg(feature = "alloc")]
 use crate::Scalar;
 use crate::error::{IndexError, LengthError};
 
@@ -53,6 +52,15 @@ pub fn wrap(index: i64, modulus: i64) -> usize {
 /// The Euclidean remainder, −1 where there is none.
 pub fn remainder(index: i64, modulus: i64) -> i64 {
     index.checked_rem_euclid(modulus).unwrap_or(-1)
+}
+
+/// An entry; zero where there is none, which no pass of a loop uses.
+#[inline(always)]
+pub fn entry<T: Scalar>(array: &[T], index: usize) -> T {
+    match array.get(index) {
+        Some(value) => *value,
+        None => T::lift(0.0),
+    }
 }
 
 /// Checks one index.

@@ -21,7 +21,7 @@ use quote::{format_ident, quote};
 use syn::{Ident, Path};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
-use crate::model::{Model, Shape};
+use crate::model::Model;
 use crate::program::{Output, Place, Statement};
 use crate::schedule::{Step, schedule};
 use crate::select::select;
@@ -220,6 +220,22 @@ impl Function<'_> {
     }
 
     fn write(&self, place: &Place, value: Signed) -> TokenStream {
+        let assign = self.assign(place, value);
+        // Of an index that is out of range no pass adds anything.
+        let within = |coordinate: &Coordinate| {
+            let size = self.emitter.model.block_size(coordinate.block as usize);
+            let (index, size) = (self.emitter.index(&coordinate.index), self.emitter.index(&size));
+            (!coordinate.index.is_plain()).then(|| quote!((#index) < (#size)))
+        };
+        let inside: Vec<TokenStream> = match place {
+            Place::Result => Vec::new(),
+            Place::Entry(_, coordinate) => within(coordinate).into_iter().collect(),
+            Place::MatrixEntry(row, column) => within(row).into_iter().chain(within(column)).collect(),
+        };
+        if inside.is_empty() { assign } else { quote!(if #(#inside)&&* { #assign }) }
+    }
+
+    fn assign(&self, place: &Place, value: Signed) -> TokenStream {
         let target = match place {
             Place::Result => return self.signed(value),
             Place::Entry(output, coordinate) => {
@@ -337,8 +353,8 @@ impl Emitter<'_> {
             Node::Coordinate(coordinate) => self.gather("q", coordinate),
             Node::Velocity(coordinate) => self.gather("v", coordinate),
             Node::Parameter(parameter) => {
-                let place = self.parameter(parameter);
-                quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place)))
+                let value = self.parameter(parameter);
+                quote!(<__T as #krate::Scalar>::lift(#value))
             }
             Node::Count(index) => {
                 let index = self.signed_index(index);
@@ -359,19 +375,28 @@ impl Emitter<'_> {
     fn gather(&self, array: &str, coordinate: &Coordinate) -> TokenStream {
         let array = local(format_args!("{array}{}", coordinate.block));
         let index = self.index(&coordinate.index);
-        quote!(#array[#index])
+        if coordinate.index.is_plain() {
+            return quote!(#array[#index]);
+        }
+        let krate = self.krate();
+        quote!(#krate::__private::entry(#array, #index))
     }
 
+    /// A parameter as an expression of type `f64`.
     fn parameter(&self, parameter: &Parameter) -> TokenStream {
-        let place = &self.model.parameters[parameter.field as usize];
-        let (tokens, indices) = (&place.tokens, parameter.indices.iter().map(|index| self.index(index)));
-        let indexed = quote!(#tokens #([#indices])*);
-        // A place of type `&f64` or `&[f64]` stays one; numbers are `Copy`.
-        if place.shape == Shape::Number || !parameter.indices.is_empty() {
-            quote!(#indexed)
-        } else {
-            quote!(#tokens)
+        let krate = self.krate();
+        let mut place = self.model.parameters[parameter.field as usize].tokens.clone();
+        let mut inside = Vec::new();
+        for index in &parameter.indices {
+            let index = self.index(index);
+            inside.push(quote!((#index) < #place.len()));
+            place = quote!(#place[#index]);
         }
+        let value = quote!(#krate::__private::Number::number(#place));
+        if parameter.indices.iter().all(Index::is_plain) {
+            return value;
+        }
+        quote!(if #(#inside)&&* { #value } else { 0f64 })
     }
 }
 

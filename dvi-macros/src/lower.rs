@@ -16,7 +16,9 @@ use crate::symbolic::{Binder, Expr, Graph, Id, Index, Node, Parameter};
 mod admit;
 mod blocks;
 mod calls;
+mod integers;
 mod names;
+mod reach;
 mod sums;
 mod unsupported;
 
@@ -48,10 +50,9 @@ impl Role {
 #[derive(Clone, Debug)]
 enum Binding {
     Value(Option<Expr>),
-    /// An index with its largest and smallest value where the range is literal.
+    /// An index and the range that it runs over.
     Index {
-        level: u32,
-        range: Option<(i64, i64)>,
+        binder: Binder,
     },
 }
 
@@ -269,20 +270,6 @@ impl<'a> Lowering<'a> {
                 None
             }
         }
-    }
-
-    /// `value as f64`: numbers pass, and an index becomes a number.
-    fn cast(&mut self, cast: &syn::ExprCast) -> Option<Expr> {
-        let is_float = matches!(&*cast.ty, syn::Type::Path(path) if path.path.is_ident("f64") || path.path.is_ident("f32"));
-        if !is_float {
-            self.errors.push(&cast.ty, "formulas are real: only `as f64` is possible here");
-            return None;
-        }
-        if self.is_index(&cast.expr) {
-            let index = self.index(&cast.expr)?;
-            return Some(self.graph.count(index));
-        }
-        self.expr(&cast.expr)
     }
 
     fn binding_of(&self, name: &str) -> Option<&Binding> {

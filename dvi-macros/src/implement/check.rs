@@ -13,10 +13,12 @@ use crate::emit::Emitter;
 use crate::program::{Programs, Statement};
 use crate::symbolic::{Binder, Id, Index, Node};
 
-/// An access: the loops around it, the array as text and as a length, the index.
+/// An access: the loops around it, those among them that only decide whether there is a pass, the array
+/// as text, the index.
 #[derive(PartialEq, Eq, Hash)]
 struct Access {
     loops: Vec<Binder>,
+    guards: Vec<Binder>,
     array: String,
     index: Index,
 }
@@ -44,9 +46,10 @@ impl Walk<'_> {
     }
 
     fn node(&mut self, loops: &[Binder], id: Id) {
-        // Loops that a node does not depend on decide nothing but how often it is visited.
+        // Other loops decide nothing but how often a node is visited.
         let free = self.emitter.graph.free(id);
-        let loops: Vec<Binder> = relevant(loops, free);
+        let (needed, guards) = relevant(loops, free);
+        let loops: Vec<Binder> = needed.into_iter().chain(guards).collect();
         if !self.visited.insert((loops.clone(), id)) {
             return;
         }
@@ -55,7 +58,7 @@ impl Walk<'_> {
                 let block = &self.emitter.model.blocks[c.block as usize];
                 if block.array.is_some() {
                     let length = self.emitter.index(&self.emitter.model.block_size(c.block as usize));
-                    self.access(&relevant(&loops, c.index.free()), block.name.to_string(), &length, &c.index);
+                    self.access(&loops, c.index.free(), block.name.to_string(), &length, &c.index);
                 }
             }
             Node::Parameter(p) => {
@@ -65,7 +68,7 @@ impl Walk<'_> {
                     free |= index.free();
                     let name = self.emitter.model.parameters[p.field as usize].text.clone();
                     let length = quote!(#place.len());
-                    self.access(&relevant(&loops, free), name, &length, index);
+                    self.access(&loops, free, name, &length, index);
                     let index = self.emitter.index(index);
                     place = quote!(#place[#index]);
                 }
@@ -78,17 +81,27 @@ impl Walk<'_> {
         }
     }
 
-    /// The check of one access, inside those of the loops that the index and the array depend on.
-    fn access(&mut self, loops: &[Binder], array: String, length: &TokenStream, index: &Index) {
-        if !self.seen.insert(Access { loops: loops.to_vec(), array: array.clone(), index: index.clone() }) {
-            return;
-        }
-        if self.is_whole_range(loops, &array, index) {
+    /// The check of one access, inside the loops that the index and the array depend on: in each of their
+    /// passes in which the loops that depend on these have a pass too, if the index has an offset.
+    fn access(&mut self, loops: &[Binder], free: u64, array: String, length: &TokenStream, index: &Index) {
+        let (loops, guards) = relevant(loops, free);
+        let guards = if index.is_plain() { Vec::new() } else { guards };
+        let access =
+            Access { loops: loops.clone(), guards: guards.clone(), array: array.clone(), index: index.clone() };
+        if !self.seen.insert(access) || self.is_whole_range(&loops, &array, index) {
             return;
         }
         let krate = self.emitter.krate();
         let value = self.emitter.signed_index(index);
         let mut tokens = quote!(#krate::__private::check_index(#array, #value, #length)?;);
+        if !guards.is_empty() {
+            // The first pass of these loops is enough.
+            tokens = quote!(#tokens break '__guarded;);
+            for binder in guards.iter().rev() {
+                tokens = self.emitter.loop_over(binder, &tokens);
+            }
+            tokens = quote!('__guarded: { #tokens });
+        }
         for binder in loops.iter().rev() {
             tokens = self.emitter.loop_over(binder, &tokens);
         }
@@ -107,16 +120,20 @@ impl Walk<'_> {
     }
 }
 
-/// The loops that a set of levels depends on, ranges of ranges included.
-fn relevant(loops: &[Binder], free: u64) -> Vec<Binder> {
-    let mut needed = free;
-    let mut kept: Vec<Binder> = Vec::new();
-    for binder in loops.iter().rev() {
-        if needed & (1 << binder.level) != 0 {
-            needed |= binder.free();
-            kept.push(binder.clone());
-        }
-    }
-    kept.reverse();
-    kept
+/// The loops that a set of levels depends on, ranges of ranges included; and of the others those that may
+/// be empty because of them, with what their ranges depend on.
+fn relevant(loops: &[Binder], free: u64) -> (Vec<Binder>, Vec<Binder>) {
+    let level = |binder: &Binder| 1_u64 << binder.level;
+    let with_ranges = |levels: u64| {
+        loops.iter().rev().fold(levels, |levels, binder| {
+            if levels & level(binder) != 0 { levels | binder.free() } else { levels }
+        })
+    };
+    let needed = with_ranges(free);
+    let dependent = loops.iter().fold(needed, |levels, binder| {
+        if binder.free() & levels != 0 { levels | level(binder) } else { levels }
+    });
+    let all = with_ranges(dependent);
+    let kept = loops.iter().filter(|binder| all & level(binder) != 0).cloned();
+    kept.partition(|binder| needed & level(binder) != 0)
 }

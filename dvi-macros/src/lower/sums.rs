@@ -4,7 +4,7 @@ use quote::ToTokens;
 use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
 use super::{Binding, DEEPEST_SUM, Lowering, bound_name};
-use crate::symbolic::{Atom, Binder, Expr, Index};
+use crate::symbolic::{Binder, Expr, Index};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
 const LARGEST: u64 = 1 << 48;
@@ -55,11 +55,7 @@ impl Lowering<'_> {
     pub(super) fn inside(&mut self, indices: &[(String, &Binder)], body: &Syntax) -> Option<Expr> {
         let outside = self.scope.len();
         for (name, binder) in indices {
-            let range = match (self.extent(&binder.lower), self.extent(&binder.upper)) {
-                (Some((least, _)), Some((_, beyond))) if beyond > least => Some((least, beyond - 1)),
-                _ => None,
-            };
-            self.scope.push((name.clone(), Binding::Index { level: binder.level, range }));
+            self.scope.push((name.clone(), Binding::Index { binder: (*binder).clone() }));
         }
         self.level += indices.len() as u32;
         let value = self.expr(body);
@@ -169,8 +165,8 @@ impl Lowering<'_> {
             }
             Syntax::Path(path) => {
                 let name = path.path.get_ident().map(ToString::to_string).unwrap_or_default();
-                if let Some(Binding::Index { level, .. }) = self.binding_of(&name) {
-                    return Some(Index::bound(*level));
+                if let Some(Binding::Index { binder }) = self.binding_of(&name) {
+                    return Some(Index::bound(binder.level));
                 }
                 if let Some(size) = self.model.size(syntax) {
                     return Some(size);
@@ -250,24 +246,5 @@ impl Lowering<'_> {
             Syntax::Group(inner) => self.literal_index(&inner.expr),
             _ => None,
         }
-    }
-
-    /// The smallest and the largest value of an index, where all ranges in it are literal.
-    pub(super) fn extent(&self, index: &Index) -> Option<(i64, i64)> {
-        index.terms.iter().try_fold(
-            (index.constant, index.constant),
-            |(least, largest), (atom, coefficient)| {
-                let (low, high) = match atom {
-                    Atom::Bound(level) => self.scope.iter().find_map(|(_, binding)| match binding {
-                        Binding::Index { level: known, range } if known == level => *range,
-                        _ => None,
-                    })?,
-                    Atom::Remainder(_, modulus) => (0, modulus.as_literal()? - 1),
-                    Atom::Size(_) => return None,
-                };
-                let ends = (low.checked_mul(*coefficient)?, high.checked_mul(*coefficient)?);
-                Some((least.checked_add(ends.0.min(ends.1))?, largest.checked_add(ends.0.max(ends.1))?))
-            },
-        )
     }
 }

@@ -88,6 +88,20 @@ impl Index {
         self.terms.iter().fold(0, |free, (atom, _)| free | of(atom))
     }
 
+    /// Whether this is a bound index, a remainder or a literal as it stands, without an offset.
+    ///
+    /// What is computed from `x[i + 1]` in a loop over j may be moved out of that loop, where it is read
+    /// even if there is no j for the last i. So an index with an offset is checked in the passes of all loops
+    /// around it, and read, where it is out of range, as zero, which no pass uses. An index without one is
+    /// checked in all passes of its own loops, and needs no care when it is read.
+    pub(crate) fn is_plain(&self) -> bool {
+        match self.terms.as_slice() {
+            [] => true,
+            [(Atom::Bound(_) | Atom::Remainder(..), 1)] => self.constant == 0,
+            _ => false,
+        }
+    }
+
     /// Moves the levels from `from` on by `by`.
     pub(crate) fn shift(&self, from: u32, by: u32) -> Self {
         let shifted = |atom: &Atom| match atom {

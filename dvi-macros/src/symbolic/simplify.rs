@@ -12,6 +12,11 @@ use super::graph::{Binary, Expr, Graph, Id, Node, Relation, Unary};
 use super::index::{Binder, Index};
 use super::rules;
 
+/// A product of more factors than this is one factor of other products. The derivative of a function of
+/// a function of … is a product of as many factors as there are functions, and its own derivative a sum of
+/// that many such products: written out they grow with the cube of the depth, as factors linearly.
+const MOST_FACTORS: usize = 12;
+
 impl Graph {
     /// a + b + …: constants and like terms collect; the sign, and a factor common to all terms, go out.
     pub(crate) fn sum(&mut self, terms: &[Expr]) -> Expr {
@@ -58,7 +63,9 @@ impl Graph {
             scale *= factor.scale;
             match self.node(factor.node) {
                 Node::One => {}
-                Node::Product(inner) => inner.iter().for_each(|(id, exponent)| insert(*id, *exponent)),
+                Node::Product(inner) if inner.len() <= MOST_FACTORS => {
+                    inner.iter().for_each(|(id, exponent)| insert(*id, *exponent));
+                }
                 _ => insert(factor.node, 1),
             }
         }
