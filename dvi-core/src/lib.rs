@@ -77,6 +77,7 @@ mod composition;
 pub mod diagnostics;
 mod elimination;
 mod error;
+mod error_function;
 mod form;
 mod frequency;
 mod galerkin;

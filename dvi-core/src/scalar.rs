@@ -50,6 +50,23 @@ macro_rules! scalar {
             fn powf(self, exponent: Self) -> Self;
             /// `self` raised to an integer power.
             fn powi(self, exponent: i32) -> Self;
+            /// −1, 0 or 1: the derivative of |`self`|, taken to be 0 at 0.
+            #[inline(always)]
+            fn sign(self) -> Self {
+                let (zero, one) = (Self::lift(0.0), Self::lift(1.0));
+                let below = Self::choose(self, Comparison::Less, zero, -one, self - self);
+                Self::choose(self, Comparison::Greater, zero, one, below)
+            }
+            /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a quotient
+            /// where the term that it stands in has the limit 0.
+            #[inline(always)]
+            fn over_root(self, root: Self) -> Self {
+                Self::choose(root, Comparison::LessOrEqual, Self::lift(0.0), self - self, self / root)
+            }
+            /// The error function 2/√π ∫ e^(−s²) ds from 0 to `self`.
+            fn erf(self) -> Self {
+                crate::error_function::erf(self)
+            }
             $($(#[$doc])* fn $name(self) -> Self;)*
         }
 
@@ -137,7 +154,7 @@ scalar! {
     atanh,
     /// Absolute value.
     abs,
-    /// −1, 0 or 1 with the sign of `self`.
+    /// 1 or −1, with the sign of `self`, which may be that of a zero.
     signum,
 }
 

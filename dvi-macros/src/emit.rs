@@ -35,6 +35,9 @@ pub(crate) struct Emitter<'a> {
     pub(crate) model: &'a Model,
 }
 
+/// Expressions that nest deeper than this are cut into `let`s: the compiler reads them by recursion.
+const DEEPEST_EXPRESSION: u32 = 24;
+
 /// One function on its way to tokens.
 struct Function<'a> {
     emitter: &'a Emitter<'a>,
@@ -73,11 +76,16 @@ impl Emitter<'_> {
         let mut uses = vec![0_u32; code.len()];
         let mut elsewhere = vec![false; code.len()];
         count_uses(code, &routine.steps, &mut uses, &mut elsewhere);
-        let inlined = (0..code.len()).map(|position| {
-            let leaf = matches!(code.get(Register(position as u32)), Instruction::Literal(_));
-            leaf || (uses[position] == 1 && !elsewhere[position])
-        });
-        let inlined: Vec<bool> = inlined.collect();
+        let mut inlined = vec![false; code.len()];
+        let mut nesting = vec![0_u32; code.len()];
+        for position in 0..code.len() {
+            let instruction = code.get(Register(position as u32));
+            let inside = instruction.operands().into_iter().map(|operand| operand.0 as usize);
+            let deepest = inside.filter(|operand| inlined[*operand]).map(|operand| nesting[operand]).max();
+            nesting[position] = 1 + deepest.unwrap_or(0);
+            let is_short = uses[position] == 1 && !elsewhere[position] && nesting[position] < DEEPEST_EXPRESSION;
+            inlined[position] = is_short || matches!(instruction, Instruction::Literal(_));
+        }
         Function { emitter: self, routine, inlined: &inlined }.steps(&routine.steps)
     }
 
@@ -93,7 +101,7 @@ impl Emitter<'_> {
 
     fn difference(&self, index: &Index, subtract: &TokenStream) -> TokenStream {
         let (mut above, mut below) = (Vec::new(), Vec::new());
-        for (atom, coefficient) in &index.terms {
+        for (atom, coefficient) in index.counted_terms() {
             let atom = self.atom(atom);
             let factor = plain(coefficient.unsigned_abs());
             let term = if coefficient.abs() == 1 { atom } else { quote!(#factor * #atom) };
@@ -134,7 +142,7 @@ impl Emitter<'_> {
         let krate = self.krate();
         let mut terms =
             vec![Literal::i64_suffixed(index.constant)].into_iter().map(|c| quote!(#c)).collect::<Vec<_>>();
-        for (atom, coefficient) in &index.terms {
+        for (atom, coefficient) in index.counted_terms() {
             let atom = match atom {
                 Atom::Remainder(value, modulus) => {
                     let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));

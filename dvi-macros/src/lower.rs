@@ -16,7 +16,10 @@ use crate::symbolic::{Atom, Expr, Fold, Graph, Id, Index, Loop, Node, Parameter,
 mod admit;
 mod blocks;
 mod calls;
+mod inside;
+mod integers;
 mod names;
+mod reach;
 mod sums;
 mod unsupported;
 
@@ -48,12 +51,10 @@ impl Role {
 #[derive(Clone, Debug)]
 enum Binding {
     Value(Option<Expr>),
-    /// An index: its form in the open index at `depth`, and the smallest and largest value of that open
-    /// index where the range is literal.
+    /// An index: its form in the open index of a loop, and that loop.
     Index {
         form: Index,
-        depth: u32,
-        range: Option<(i64, i64)>,
+        over: Loop,
     },
 }
 
@@ -65,6 +66,8 @@ pub(crate) struct Lowering<'a> {
     scope: Vec<(String, Binding)>,
     /// The number of sums around.
     loops: u32,
+    /// How many indices were tied to loops that may be empty.
+    ties: usize,
     depth: u32,
     /// Names that some closure of the formula binds, to recognise an index outside of its sum.
     index_names: HashSet<String>,
@@ -104,6 +107,7 @@ impl<'a> Lowering<'a> {
             role: Role::Hamiltonian,
             scope: Vec::new(),
             loops: 0,
+            ties: 0,
             depth: 0,
             index_names: HashSet::new(),
             measures: HashMap::new(),
@@ -272,20 +276,6 @@ impl<'a> Lowering<'a> {
                 None
             }
         }
-    }
-
-    /// `value as f64`: numbers pass, and an index becomes a number.
-    fn cast(&mut self, cast: &syn::ExprCast) -> Option<Expr> {
-        let is_float = matches!(&*cast.ty, syn::Type::Path(path) if path.path.is_ident("f64") || path.path.is_ident("f32"));
-        if !is_float {
-            self.errors.push(&cast.ty, "formulas are real: only `as f64` is possible here");
-            return None;
-        }
-        if self.is_index(&cast.expr) {
-            let index = self.index(&cast.expr)?;
-            return Some(self.graph.count(index));
-        }
-        self.expr(&cast.expr)
     }
 
     fn binding_of(&self, name: &str) -> Option<&Binding> {

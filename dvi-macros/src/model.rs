@@ -5,14 +5,18 @@
 
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
-use syn::{
-    Expr, ExprLit, Fields, GenericArgument, GenericParam, Ident, ItemStruct, Lit, Path, PathArguments, Type,
-};
+use syn::{Fields, Ident, ItemStruct, Path};
 
 use crate::errors::Errors;
 use crate::lower::RESERVED;
-use crate::symbolic::{Index, Names, Size};
+use crate::symbolic::{Index, Names};
 use crate::syntax::{Attribute, Declaration, Function, Kind};
+
+mod shape;
+mod sizes;
+
+pub(crate) use shape::Shape;
+use shape::{is_integer, shape};
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -39,18 +43,8 @@ pub(crate) struct ParameterName {
     /// The place in a method of the struct.
     pub(crate) tokens: TokenStream,
     pub(crate) shape: Shape,
-}
-
-/// What the type of a field says, as far as it is written out.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Shape {
-    Number,
-    Count,
-    /// An array, slice or vector: its length if that is a literal, and the shape of its entries.
-    Array(Option<i64>, Box<Shape>),
-    Unknown,
-    /// Certainly not a number.
-    Other,
+    /// Whether its numbers are integers for certain.
+    pub(crate) integer: bool,
 }
 
 #[derive(Debug)]
@@ -69,9 +63,6 @@ pub(crate) struct Model {
     /// Whether functions are unknown.
     pub(crate) lost_functions: bool,
 }
-
-/// The largest dimension that a literal size may give: such a state lives on the stack.
-const LARGEST: i64 = 1 << 20;
 
 impl Model {
     pub(crate) fn new(attribute: &mut Attribute, item: ItemStruct, errors: &mut Errors) -> Self {
@@ -148,77 +139,17 @@ impl Model {
         pairs.filter(|_| self.has_velocities()).find(|(a, b)| **a == velocity_name(b))
     }
 
-    /// The size of an array of coordinates, or what is wrong with it.
-    fn declared_size(&mut self, name: &Ident, size: &Expr) -> Result<Index, String> {
-        let index = self.size(size).ok_or(
-            "expected a size: a literal, a const generic, a field of type `usize`, or `field.len()`",
-        )?;
-        let so_far = self.dimension().as_literal().unwrap_or(0);
-        match index.as_literal() {
-            Some(..1) => Err(format!("`{name}` would have no coordinates")),
-            Some(size) if size > LARGEST - so_far => Err(format!(
-                "a state of this size does not fit on the stack (at most {LARGEST} coordinates); take the size \
-                 from a field: `{name}[field.len()]`"
-            )),
-            _ => Ok(index),
-        }
-    }
-
-    /// A literal, a const generic, a field of type `usize`, or `field.len()`.
-    pub(crate) fn size(&mut self, expr: &Expr) -> Option<Index> {
-        match expr {
-            Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => {
-                // Beyond all integers is beyond all sizes.
-                Some(Index::literal(value.base10_digits().parse().unwrap_or(i64::MAX)))
-            }
-            Expr::Paren(inner) => self.size(&inner.expr),
-            Expr::Path(path) => self.named_size(&path.path.get_ident()?.to_string()),
-            Expr::MethodCall(call) if call.method == "len" && call.args.is_empty() => {
-                let field = field_name(&call.receiver)?;
-                let known = self
-                    .parameters
-                    .iter()
-                    .find(|p| p.text == field && matches!(p.shape, Shape::Array(..)))?;
-                let tokens = known.tokens.clone();
-                Some(self.intern_size(format!("{field}.len()"), quote!(#tokens.len()), false))
-            }
-            Expr::Field(_) => self.named_size(&field_name(expr)?),
-            _ => None,
-        }
-    }
-
-    /// A const generic or a field of type `usize`.
-    pub(crate) fn named_size(&mut self, name: &str) -> Option<Index> {
-        let generic = self.item.generics.params.iter().find_map(|parameter| match parameter {
-            GenericParam::Const(constant)
-                if constant.ident == name && shape(&constant.ty) == Shape::Count =>
-            {
-                Some(constant.ident.clone())
-            }
-            _ => None,
-        });
-        if let Some(ident) = generic {
-            return Some(self.intern_size(name.to_string(), ident.to_token_stream(), true));
-        }
-        let field = self.parameters.iter().find(|p| p.text == name && p.shape == Shape::Count)?;
-        let tokens = field.tokens.clone();
-        Some(self.intern_size(name.to_string(), tokens, false))
-    }
-
-    fn intern_size(&mut self, text: String, tokens: TokenStream, constant: bool) -> Index {
-        let known = self.sizes.iter().position(|size| size.text == text).unwrap_or_else(|| {
-            self.sizes.push(SizeName { text, tokens, constant });
-            self.sizes.len() - 1
-        });
-        Index::size(Size(known as u32))
-    }
-
     /// The parameter that a path such as `Self::G` stands for.
     pub(crate) fn path_parameter(&mut self, path: &Path) -> u32 {
         let text = path.to_token_stream().to_string().replace(' ', "");
         let known = self.parameters.iter().position(|parameter| parameter.text == text);
         let position = known.unwrap_or_else(|| {
-            self.parameters.push(ParameterName { text, tokens: quote!(#path), shape: Shape::Unknown });
+            self.parameters.push(ParameterName {
+                text,
+                tokens: quote!(#path),
+                shape: Shape::Unknown,
+                integer: false,
+            });
             self.parameters.len() - 1
         });
         position as u32
@@ -269,20 +200,6 @@ pub(crate) fn velocity_name(coordinate: &Ident) -> Ident {
     format_ident!("dot_{}", coordinate)
 }
 
-/// `name` in `name` and in `self.name`.
-fn field_name(expr: &Expr) -> Option<String> {
-    match expr {
-        Expr::Path(path) => path.path.get_ident().map(Ident::to_string),
-        Expr::Field(field) => match (&*field.base, &field.member) {
-            (Expr::Path(base), syn::Member::Named(name)) if base.path.is_ident("self") => {
-                Some(name.to_string())
-            }
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
 fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
     match &item.fields {
         Fields::Named(fields) => fields
@@ -295,6 +212,7 @@ fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
                     // What is wrong with the type of a field is reported on the field.
                     tokens: quote_spanned!(Span::call_site().located_at(name.span())=> self.#name),
                     shape: shape(&field.ty),
+                    integer: is_integer(&field.ty),
                 })
             })
             .collect(),
@@ -305,50 +223,6 @@ fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
             errors.push(fields, message);
             Vec::new()
         }
-    }
-}
-
-fn shape(ty: &Type) -> Shape {
-    match ty {
-        Type::Array(array) => {
-            let length = match &array.len {
-                Expr::Lit(ExprLit { lit: Lit::Int(length), .. }) => length.base10_parse().ok(),
-                _ => None,
-            };
-            Shape::Array(length, Box::new(shape(&array.elem)))
-        }
-        Type::Slice(slice) => Shape::Array(None, Box::new(shape(&slice.elem))),
-        Type::Reference(reference) => shape(&reference.elem),
-        Type::Paren(inner) => shape(&inner.elem),
-        Type::Group(inner) => shape(&inner.elem),
-        Type::Tuple(_) | Type::Never(_) => Shape::Other,
-        Type::Path(path) => {
-            let Some(last) = path.path.segments.last() else { return Shape::Unknown };
-            match last.ident.to_string().as_str() {
-                "f64" | "f32" | "i8" | "i16" | "i32" | "i64" | "isize" | "u8" | "u16" | "u32" | "u64" => {
-                    Shape::Number
-                }
-                "usize" => Shape::Count,
-                "Vec" | "VecDeque" | "SmallVec" | "ArrayVec" => {
-                    Shape::Array(None, Box::new(entry(&last.arguments)))
-                }
-                "String" | "str" | "bool" | "char" | "Option" | "Result" | "PhantomData" | "HashMap"
-                | "BTreeMap" => Shape::Other,
-                _ => Shape::Unknown,
-            }
-        }
-        _ => Shape::Unknown,
-    }
-}
-
-/// The entries of `Vec<f64>`.
-fn entry(arguments: &PathArguments) -> Shape {
-    match arguments {
-        PathArguments::AngleBracketed(list) => match list.args.first() {
-            Some(GenericArgument::Type(ty)) => shape(ty),
-            _ => Shape::Unknown,
-        },
-        _ => Shape::Unknown,
     }
 }
 

@@ -3,7 +3,7 @@
 //! Arguments are cut at the top-level commas first and parsed one by one, so that a mistake in one of
 //! them leaves the others readable.
 
-use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
@@ -325,11 +325,17 @@ fn split_at_commas(tokens: TokenStream) -> Vec<TokenStream> {
     let mut pieces = Vec::new();
     let mut piece = TokenStream::new();
     let mut in_bars = false;
-    // Behind a value, a bar is an operator.
+    // Behind a value, a bar is an operator, and so is one joined to it in `||`.
     let mut behind_value = false;
+    let mut joined = false;
     for token in tokens {
+        let is_bar = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == '|');
+        let is_operator = is_bar && !in_bars && (behind_value || joined);
+        joined =
+            is_operator && !joined && matches!(&token, TokenTree::Punct(p) if p.spacing() == Spacing::Joint);
         match &token {
-            TokenTree::Punct(punct) if punct.as_char() == '|' => in_bars = !in_bars && !behind_value,
+            TokenTree::Punct(_) if is_operator => {}
+            TokenTree::Punct(_) if is_bar => in_bars = !in_bars,
             TokenTree::Punct(punct) if punct.as_char() == ',' && !in_bars => {
                 pieces.push(std::mem::take(&mut piece));
                 behind_value = false;

@@ -114,13 +114,9 @@ fn vortices() {
                 for __i0 in (0usize)..(N) {
                     let __r0 = __q0[__i0];
                     let __r6 = T::lift(0.15915494309189535f64)
-                        * (if (__i0) < self.gamma.len() {
-                            T::lift(
-                                __private::Number::number(self.gamma[__i0]),
-                            )
-                        } else {
-                            T::lift(f64::NAN)
-                        });
+                        * T::lift(
+                            __private::Number::number(self.gamma[__i0]),
+                        );
                     let __r9 = __q1[__i0];
                     let mut __r16 = T::lift(-0.0);
                     let mut __r18 = T::lift(-0.0);
@@ -198,6 +194,8 @@ fn check_of_indices() {
         "check",
         &expect![[r#"
             fn check() {
+                __private::check_index("q", 0i64, self.k.len())?;
+                __private::check_index("p", 0i64, self.k.len())?;
                 for __i0 in (0usize)..(self.k.len()) {
                     __private::check_index(
                         "mass",

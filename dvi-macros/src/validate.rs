@@ -7,14 +7,14 @@
 //! rounding is a compile error (translation validation; Pnueli, Siegel & Singerman 1998).
 //!
 //! Gradients and second derivatives are compared along random directions, which speak for all of their
-//! entries at once. Sizes that are not literal are small numbers, long ranges are visited at some of
-//! their values, entries of parameters are numbers and the user's functions are sines. Comparisons are
+//! entries at once. Sizes that are not literal are small numbers, long ranges are visited at the
+//! first of their values, entries of parameters are numbers and the user's functions are sines. Comparisons are
 //! taken both ways.
 
 use quote::ToTokens;
 
 use self::claims::Claims;
-use self::formula::NoValue;
+use self::formula::{NoValue, Texts};
 use self::point::{Branches, Directions, Point, Support, mix_text};
 use self::system::{Functions, Output, Part, System};
 use crate::model::Model;
@@ -93,7 +93,8 @@ pub(crate) fn degenerate(
     programs: &DegeneratePrograms,
     structure: &OneForm,
 ) -> Result<Checked, Difference> {
-    Check { graph, system: System { model, attribute } }
+    let texts = Texts::default();
+    Check { graph, system: System { model, attribute, texts: &texts } }
         .run(&Functions::Degenerate(programs), &Claims::Degenerate(structure))
 }
 
@@ -104,7 +105,8 @@ pub(crate) fn regular(
     programs: &RegularPrograms,
     structure: &MassMatrix,
 ) -> Result<Checked, Difference> {
-    Check { graph, system: System { model, attribute } }
+    let texts = Texts::default();
+    Check { graph, system: System { model, attribute, texts: &texts } }
         .run(&Functions::Regular(programs), &Claims::Regular(structure))
 }
 

@@ -2,6 +2,7 @@
 
 pub mod functions;
 pub mod gauges;
+pub mod language;
 pub mod lattices;
 pub mod particles;
 pub mod regular;

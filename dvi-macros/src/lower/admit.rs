@@ -15,7 +15,7 @@ pub(super) const LARGEST_EXPONENT: u32 = 4096;
 
 /// Derivatives of functions of functions of functions grow with the depth; no formula on paper is
 /// nearly as deep.
-const DEEPEST_FUNCTION: u32 = 32;
+const DEEPEST_FUNCTION: u32 = 400;
 
 /// The degree of everything that is no polynomial of degree 0, 1 or 2.
 const BEYOND: u8 = 3;
@@ -121,14 +121,16 @@ impl Lowering<'_> {
         None
     }
 
-    /// The two sides of a condition do not depend on velocities, where L is to be affine in them.
-    pub(super) fn check_at_rest(&mut self, condition: &Syntax, sides: &[Expr]) -> Option<()> {
+    /// What is compared does not depend on velocities, where L is to be affine in them.
+    pub(super) fn check_at_rest(&mut self, at: &impl ToTokens, what: &str, sides: &[Expr]) -> Option<()> {
         if self.model.kind == Kind::Regular || sides.iter().all(|side| self.degree(*side) == 0) {
             return Some(());
         }
-        let message = "this condition depends on a velocity, so L is not affine in the velocities; \
-                       a condition compares coordinates, parameters and `t`";
-        self.errors.push(condition, message);
+        let message = format!(
+            "{what} depends on a velocity, so L is not affine in the velocities; \
+             a condition compares coordinates, parameters and `t`"
+        );
+        self.errors.push(at, message);
         None
     }
 

@@ -6,12 +6,12 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 use super::admit::LARGEST_EXPONENT;
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest};
-use crate::symbolic::{Binary, Expr, Node, binary_by_name, unary_by_name, unary_names};
+use crate::symbolic::{Expr, Node, Relation, binary_by_name, unary_by_name, unary_names};
 use crate::syntax::Kind;
 
 /// Methods that are arithmetic rather than functions of the table, with their number of arguments.
-const ARITHMETIC: [(&str, usize); 5] =
-    [("powi", 1), ("recip", 0), ("mul_add", 2), ("to_radians", 0), ("to_degrees", 0)];
+const ARITHMETIC: [(&str, usize); 7] =
+    [("powi", 1), ("recip", 0), ("mul_add", 2), ("min", 1), ("max", 1), ("to_radians", 0), ("to_degrees", 0)];
 
 /// Names that a function of the user's own cannot have.
 pub(crate) const RESERVED: [&str; 6] = ["sum", "sum_pairs", "sum_ordered_pairs", "product", "d", "dot"];
@@ -48,7 +48,11 @@ impl Lowering<'_> {
         }
         let arguments: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
         let arguments: Vec<Expr> = arguments.into_iter().collect::<Option<_>>()?;
-        let value = self.apply(&name, receiver?, &arguments);
+        let receiver = receiver?;
+        if name == "min" || name == "max" {
+            self.check_at_rest(call, &format!("`{name}`"), &[receiver, arguments[0]])?;
+        }
+        let value = self.apply(&name, receiver, &arguments);
         self.admitted(call, value)
     }
 
@@ -64,9 +68,20 @@ impl Lowering<'_> {
                 let product = self.graph.multiply(x, arguments[0]);
                 self.graph.add(product, arguments[1])
             }
+            "min" => self.smaller(x, arguments[0], (x, arguments[0])),
+            "max" => self.smaller(x, arguments[0], (arguments[0], x)),
             "to_radians" => x.scaled(std::f64::consts::PI / 180.0),
             "to_degrees" => x.scaled(180.0 / std::f64::consts::PI),
             _ => self.graph.reciprocal(x),
+        }
+    }
+
+    /// The first of `values` where a ≤ b, the second elsewhere: `a.min(b)` is a where a ≤ b.
+    fn smaller(&mut self, a: Expr, b: Expr, values: (Expr, Expr)) -> Expr {
+        match (a.as_number(), b.as_number()) {
+            (Some(left), Some(right)) if left <= right => values.0,
+            (Some(_), Some(_)) => values.1,
+            _ => self.graph.choose(a, Relation::LessOrEqual, b, values.0, values.1),
         }
     }
 
@@ -212,7 +227,7 @@ fn arity(name: &str) -> Option<usize> {
         return Some(0);
     }
     match binary_by_name(name) {
-        Some(Binary::Atan2 | Binary::Hypot | Binary::Powf) => Some(1),
+        Some(_) => Some(1),
         None => ARITHMETIC.iter().find(|(known, _)| *known == name).map(|(_, arity)| *arity),
     }
 }

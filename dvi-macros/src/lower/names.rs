@@ -86,7 +86,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// `self.name` is `name`.
+    /// `self.name` is `name`; `self.p.m` is a field of a field.
     pub(super) fn field(&mut self, field: &ExprField) -> Option<Expr> {
         match (&*field.base, &field.member) {
             (Syntax::Path(base), syn::Member::Named(name)) if base.path.is_ident("self") => {
@@ -99,9 +99,30 @@ impl Lowering<'_> {
                 }
             }
             _ => {
-                self.unsupported(&Syntax::Field(field.clone()));
-                None
+                let syntax = Syntax::Field(field.clone());
+                if self.is_bound_root(&syntax) {
+                    self.unsupported(&syntax);
+                    return None;
+                }
+                match self.model.nested_parameter(&syntax) {
+                    Some(parameter) => Some(self.parameter_node(parameter, Vec::new())),
+                    None => {
+                        self.unsupported(&syntax);
+                        None
+                    }
+                }
             }
+        }
+    }
+
+    /// Whether the first name of `p.m.n` is one of an inner scope.
+    fn is_bound_root(&self, syntax: &Syntax) -> bool {
+        match syntax {
+            Syntax::Field(field) => self.is_bound_root(&field.base),
+            Syntax::Path(path) => {
+                path.path.get_ident().is_some_and(|name| self.binding_of(&name.to_string()).is_some())
+            }
+            _ => false,
         }
     }
 
@@ -125,6 +146,12 @@ impl Lowering<'_> {
             _ => None,
         };
         let Some(name) = name else {
+            let nested = if self.is_bound_root(base) { None } else { self.model.nested_parameter(base) };
+            if let Some(field) = nested {
+                let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
+                let lowered = lowered.into_iter().collect::<Option<_>>()?;
+                return Some(self.entry_node(field, lowered));
+            }
             self.errors.push(base, "only coordinates and fields of the struct take an index");
             return None;
         };
@@ -170,7 +197,7 @@ impl Lowering<'_> {
                 );
                 None
             }
-            _ => Some(self.parameter_node(field, lowered)),
+            _ => Some(self.entry_node(field, lowered)),
         }
     }
 
@@ -194,13 +221,24 @@ impl Lowering<'_> {
         };
         let size = self.model.block_size(block).as_literal();
         self.check_range(indices[0], index, size.filter(|_| !self.model.lost_coordinates), &name)?;
-        let coordinate = Coordinate { block: block as u32, index: index.clone() };
+        let index = self.tied(index.clone(), &[self.model.block_size(block)]);
+        let coordinate = Coordinate { block: block as u32, index };
         Some(self.graph.intern(Node::Coordinate(coordinate)).into())
+    }
+
+    /// An entry of a parameter.
+    fn entry_node(&mut self, field: u32, indices: Vec<Index>) -> Expr {
+        let indices = indices.into_iter().enumerate().map(|(level, index)| {
+            let lengths = self.model.lengths(field, level);
+            self.tied(index, &lengths)
+        });
+        let indices = indices.collect();
+        self.parameter_node(field, indices)
     }
 
     /// Reports an index that is known to leave 0..length, or to be negative.
     fn check_range(&mut self, at: &Syntax, index: &Index, length: Option<i64>, name: &str) -> Option<()> {
-        let Some((least, largest)) = self.extent(index) else { return Some(()) };
+        let Some((least, largest)) = self.reach(index) else { return Some(()) };
         let length = length.unwrap_or(i64::MAX);
         let outside = if least < 0 { least } else { largest };
         if (0..length).contains(&outside) {

@@ -4,7 +4,6 @@ use quote::ToTokens;
 use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
 use super::{Binding, DEEPEST_SUM, Lowering, bound_name};
-use crate::internal::internal;
 use crate::symbolic::{Atom, Expr, Fold, Index, Loop, Range};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
@@ -38,18 +37,52 @@ impl Lowering<'_> {
             return self.admitted(call, value);
         }
         let indices = self.closure_indices::<2>(closure);
-        let ((lower, upper), [first, second]) = (bounds?, indices?);
+        let (bounds, names) = (bounds?, indices?);
+        if name == "sum_ordered_pairs" {
+            return self.ordered_pairs(bounds, names, &closure.body);
+        }
+        let ties = self.ties;
+        let sum =
+            self.pairs((bounds.0.clone(), bounds.1.clone()), &bounds.1, names.clone(), &closure.body)?;
+        if self.ties == ties {
+            return Some(sum);
+        }
+        // Without the first index that has no second one, less is in doubt.
+        let last = bounds.1.plus(&Index::literal(1), -1);
+        self.ties = ties;
+        self.pairs(bounds, &last, names, &closure.body)
+    }
+
+    /// The sum over j < k in a range, with j below `last` only.
+    fn pairs(
+        &mut self,
+        (lower, upper): (Index, Index),
+        last: &Index,
+        [first, second]: [String; 2],
+        body: &Syntax,
+    ) -> Option<Expr> {
+        let depth = self.loops;
+        let (first_form, outer) = natural(depth, &lower, last);
+        let (second_form, inner) = natural(depth + 1, &first_form.plus(&Index::literal(1), 1), &upper);
+        let body = self.inside(&[(first, first_form, &outer), (second, second_form, &inner)], body)?;
+        let body = self.graph.fold(Fold::Sum, Atom::Open(depth + 1), inner.range, body);
+        Some(self.graph.fold(Fold::Sum, Atom::Open(depth), outer.range, body))
+    }
+
+    /// The sum over j ≠ k in a range.
+    fn ordered_pairs(
+        &mut self,
+        (lower, upper): (Index, Index),
+        [first, second]: [String; 2],
+        body: &Syntax,
+    ) -> Option<Expr> {
+        let depth = self.loops;
         let (first_form, outer) = natural(depth, &lower, &upper);
-        let (second_form, inner) = if name == "sum_pairs" {
-            natural(depth + 1, &first_form.plus(&Index::literal(1), 1), &upper)
-        } else {
-            let (form, all) = natural(depth + 1, &lower, &upper);
-            // Both indices are shifted alike.
-            let range = Range { except: Some(Index::open(depth)), ..all.range };
-            (form, Loop { range, ..all })
-        };
-        let indices = [(first, first_form, &outer), (second, second_form, &inner)];
-        let body = self.inside(&indices, &closure.body)?;
+        let (second_form, all) = natural(depth + 1, &lower, &upper);
+        // Both indices are shifted alike.
+        let range = Range { except: Some(Index::open(depth)), ..all.range };
+        let inner = Loop { range, ..all };
+        let body = self.inside(&[(first, first_form, &outer), (second, second_form, &inner)], body)?;
         let body = self.graph.fold(Fold::Sum, Atom::Open(depth + 1), inner.range, body);
         Some(self.graph.fold(Fold::Sum, Atom::Open(depth), outer.range, body))
     }
@@ -58,11 +91,7 @@ impl Lowering<'_> {
     pub(super) fn inside(&mut self, indices: &[(String, Index, &Loop)], body: &Syntax) -> Option<Expr> {
         let outside = self.scope.len();
         for (name, form, over) in indices {
-            let range = match (self.extent(&over.range.lower), self.extent(&over.range.upper)) {
-                (Some((least, _)), Some((_, beyond))) if beyond > least => Some((least, beyond - 1)),
-                _ => None,
-            };
-            let binding = Binding::Index { form: form.clone(), depth: over.depth, range };
+            let binding = Binding::Index { form: form.clone(), over: (*over).clone() };
             self.scope.push((name.clone(), binding));
         }
         self.loops += indices.len() as u32;
@@ -254,26 +283,6 @@ impl Lowering<'_> {
             Syntax::Group(inner) => self.literal_index(&inner.expr),
             _ => None,
         }
-    }
-
-    /// The smallest and the largest value of an index, where all ranges in it are literal.
-    pub(super) fn extent(&self, index: &Index) -> Option<(i64, i64)> {
-        index.terms.iter().try_fold(
-            (index.constant, index.constant),
-            |(least, largest), (atom, coefficient)| {
-                let (low, high) = match atom {
-                    Atom::Open(depth) => self.scope.iter().find_map(|(_, binding)| match binding {
-                        Binding::Index { depth: known, range, .. } if known == depth => *range,
-                        _ => None,
-                    })?,
-                    Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
-                    Atom::Remainder(_, modulus) => (0, modulus.as_literal()? - 1),
-                    Atom::Size(_) => return None,
-                };
-                let ends = (low.checked_mul(*coefficient)?, high.checked_mul(*coefficient)?);
-                Some((least.checked_add(ends.0.min(ends.1))?, largest.checked_add(ends.0.max(ends.1))?))
-            },
-        )
     }
 }
 

@@ -49,7 +49,7 @@ impl Graph {
         self.node_derivative(of.node, by).scaled(of.scale)
     }
 
-    fn node_derivative(&mut self, of: Id, by: Id) -> Expr {
+    pub(super) fn node_derivative(&mut self, of: Id, by: Id) -> Expr {
         if of == by {
             return Expr::ONE;
         }
@@ -72,14 +72,7 @@ impl Graph {
                 self.factored_sum(&tangents)
             }
             Node::Product(factors) => self.product_derivative(&factors, by),
-            Node::Reciprocal(u) => {
-                let tangent = self.node_derivative(u, by);
-                if tangent.is_zero() {
-                    return Expr::ZERO;
-                }
-                let square = self.power(of.into(), 2);
-                self.multiply(square, tangent).negated()
-            }
+            Node::Reciprocal(u) => self.reciprocal_derivative(of, u, by),
             Node::Unary(function, u) => {
                 self.chain(u, by, |graph| graph.unary_derivative(function, u, of.into()))
             }
@@ -131,24 +124,6 @@ impl Graph {
         }
         let outer = outer(self);
         self.multiply(outer, tangent)
-    }
-
-    /// Constant factors stay outside of Σ e·f^(e−1)·f'·(the others).
-    fn product_derivative(&mut self, factors: &[(Id, u32)], by: Id) -> Expr {
-        let tangents: Vec<Expr> =
-            factors.iter().map(|(factor, _)| self.node_derivative(*factor, by)).collect();
-        let mut terms = Vec::new();
-        for (position, tangent) in tangents.iter().enumerate().filter(|(_, tangent)| !tangent.is_zero()) {
-            let mut term = vec![tangent.scaled(f64::from(factors[position].1))];
-            for (other, (factor, exponent)) in factors.iter().enumerate() {
-                let exponent = exponent - u32::from(other == position);
-                if exponent > 0 {
-                    term.push(self.power((*factor).into(), exponent));
-                }
-            }
-            terms.push(self.product(&term));
-        }
-        self.factored_sum(&terms)
     }
 
     /// The gradient of `root`, which stands inside `loops`, by all coordinates and velocities.

@@ -69,7 +69,11 @@ pub(crate) enum Unary {
     Acosh,
     Atanh,
     Abs,
+    /// As in `f64`: 1 or −1, with the sign bit of a zero.
     Signum,
+    /// |u|', which is 0 at 0; the compiler makes it, users do not write it.
+    Sign,
+    Erf,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -77,6 +81,8 @@ pub(crate) enum Binary {
     Atan2,
     Hypot,
     Powf,
+    /// w/R for a root R ≥ |w|, 0 where R is; the compiler makes it, users do not write it.
+    OverRoot,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -148,6 +148,13 @@ impl Index {
         })
     }
 
+    /// The terms that have a value: not those that are there to depend on a loop.
+    pub(crate) fn counted_terms(&self) -> impl Iterator<Item = &(Atom, i64)> {
+        let is_zero =
+            |atom: &Atom| matches!(atom, Atom::Remainder(_, modulus) if modulus.as_literal() == Some(1));
+        self.terms.iter().filter(move |(atom, _)| !is_zero(atom))
+    }
+
     /// Whether no value of this index is negative, because nothing is subtracted in it.
     pub(crate) fn is_natural(&self) -> bool {
         self.constant >= 0 && self.terms.iter().all(|(_, coefficient)| *coefficient > 0)

@@ -7,6 +7,7 @@ mod derivative;
 mod energy;
 mod graph;
 mod index;
+mod powers;
 mod print;
 mod rules;
 mod simplify;

@@ -49,7 +49,7 @@ impl Letters<'_> {
 
     fn index(&self, index: &Index) -> String {
         let mut text = String::new();
-        for (atom, coefficient) in &index.terms {
+        for (atom, coefficient) in index.counted_terms() {
             let name = match atom {
                 Atom::Open(depth) => letter(*depth as usize),
                 Atom::Bound(height) => match self.sums.iter().rposition(|known| known == height) {

@@ -2,9 +2,9 @@
 //!
 //! A derivative may use the result `f` itself, so that sharing comes for free: (√u)' = 1/(2f).
 
-use core::f64::consts::{LN_2, LOG2_E, LOG10_E};
+use core::f64::consts::{FRAC_2_SQRT_PI, LN_2, LOG2_E, LOG10_E};
 
-use super::graph::{Binary, Expr, Graph, Unary};
+use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
 
 pub(super) type UnaryRow = (&'static str, Unary, fn(f64) -> f64, Option<f64>);
 pub(super) type BinaryRow = (&'static str, Binary, fn(f64, f64) -> f64);
@@ -35,6 +35,8 @@ pub(super) const UNARY: &[UnaryRow] = &[
     ("atanh",  Unary::Atanh,  f64::atanh,  Some(-1.0)),
     ("abs",    Unary::Abs,    f64::abs,    Some(1.0)),
     ("signum", Unary::Signum, f64::signum, Some(-1.0)),
+    ("sign",   Unary::Sign,   sign,        Some(-1.0)),
+    ("erf",    Unary::Erf,    erf,         Some(-1.0)),
 ];
 
 #[rustfmt::skip]
@@ -42,7 +44,39 @@ pub(super) const BINARY: &[BinaryRow] = &[
     ("atan2", Binary::Atan2, f64::atan2),
     ("hypot", Binary::Hypot, f64::hypot),
     ("powf",  Binary::Powf,  f64::powf),
+    ("over_root", Binary::OverRoot, over_root),
 ];
+
+/// What only derivatives are made of.
+const INTERNAL: [&str; 2] = ["sign", "over_root"];
+
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        x - x
+    }
+}
+
+fn over_root(w: f64, root: f64) -> f64 {
+    if root <= 0.0 { w - w } else { w / root }
+}
+
+/// The error function: its series 2/√π·e^(−x²)·Σ (2x²)ⁿ·x/(2n + 1)!!, in which no term is negative.
+fn erf(x: f64) -> f64 {
+    if x.abs() > 6.0 {
+        return sign(x);
+    }
+    let (mut term, mut sum, mut odd) = (x, x, 1.0);
+    while term.abs() > sum.abs() * (f64::EPSILON / 8.0) {
+        odd += 2.0;
+        term *= 2.0 * x * x / odd;
+        sum += term;
+    }
+    core::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp() * sum
+}
 
 fn row(function: Unary) -> Option<&'static UnaryRow> {
     UNARY.iter().find(|(_, known, _, _)| *known == function)
@@ -61,16 +95,19 @@ pub(super) fn evaluate_binary(function: Binary, a: f64, b: f64) -> f64 {
 }
 
 pub(crate) fn unary_by_name(name: &str) -> Option<Unary> {
-    UNARY.iter().find(|(known, ..)| *known == name).map(|(_, function, ..)| *function)
+    let mut written = UNARY.iter().filter(|(known, ..)| !INTERNAL.contains(known));
+    written.find(|(known, ..)| *known == name).map(|(_, function, ..)| *function)
 }
 
 pub(crate) fn binary_by_name(name: &str) -> Option<Binary> {
-    BINARY.iter().find(|(known, ..)| *known == name).map(|(_, function, _)| *function)
+    let mut written = BINARY.iter().filter(|(known, ..)| !INTERNAL.contains(known));
+    written.find(|(known, ..)| *known == name).map(|(_, function, _)| *function)
 }
 
-/// The names of all functions, in the order of the tables.
+/// The names of all functions that a formula may use, in the order of the tables.
 pub(crate) fn unary_names() -> impl Iterator<Item = &'static str> {
-    UNARY.iter().map(|(name, ..)| *name).chain(BINARY.iter().map(|(name, ..)| *name))
+    let names = UNARY.iter().map(|(name, ..)| *name).chain(BINARY.iter().map(|(name, ..)| *name));
+    names.filter(|name| !INTERNAL.contains(name))
 }
 
 impl Unary {
@@ -95,7 +132,7 @@ impl Graph {
             Unary::Cbrt   => { let g = self.power(f, 2); self.reciprocal(g).scaled(1.0 / 3.0) }
             Unary::Exp    => f,
             Unary::Exp2   => f.scaled(LN_2),
-            Unary::ExpM1  => self.add(f, one),
+            Unary::ExpM1  => self.unary(Unary::Exp, u),
             Unary::Ln     => self.reciprocal(u),
             Unary::Ln1p   => { let g = self.add(one, u); self.reciprocal(g) }
             Unary::Log2   => self.reciprocal(u).scaled(LOG2_E),
@@ -108,12 +145,14 @@ impl Graph {
             Unary::Atan   => { let g = self.power(u, 2); let g = self.add(one, g); self.reciprocal(g) }
             Unary::Sinh   => self.unary(Unary::Cosh, u),
             Unary::Cosh   => self.unary(Unary::Sinh, u),
-            Unary::Tanh   => { let g = self.power(f, 2); self.subtract(one, g) }
-            Unary::Asinh  => { let g = self.power(u, 2); let g = self.add(one, g); self.inverse_root(g) }
-            Unary::Acosh  => { let g = self.one_minus_square(u).negated(); self.inverse_root(g) }
+            Unary::Tanh   => { let g = self.unary(Unary::Cosh, u); let g = self.reciprocal(g); self.power(g, 2) }
+            Unary::Asinh  => { let g = self.binary(Binary::Hypot, one, u); self.reciprocal(g) }
+            Unary::Acosh  => { let (g, h) = self.roots_around_one(u); let g = self.multiply(g, h); self.reciprocal(g) }
             Unary::Atanh  => { let g = self.one_minus_square(u); self.reciprocal(g) }
-            Unary::Abs    => self.unary(Unary::Signum, u),
+            Unary::Abs    => self.unary(Unary::Sign, u),
             Unary::Signum => Expr::ZERO,
+            Unary::Sign   => Expr::ZERO,
+            Unary::Erf    => { let g = self.power(u, 2).negated(); self.unary(Unary::Exp, g).scaled(FRAC_2_SQRT_PI) }
         }
     }
 
@@ -126,6 +165,34 @@ impl Graph {
     fn one_minus_square(&mut self, u: Expr) -> Expr {
         let (below, above) = (self.subtract(Expr::ONE, u), self.add(Expr::ONE, u));
         self.multiply(below, above)
+    }
+
+    /// √(u − 1) and √(u + 1): their product neither overflows nor loses digits near 1, and it is no number
+    /// below −1.
+    fn roots_around_one(&mut self, u: Expr) -> (Expr, Expr) {
+        let (below, above) = (self.subtract(u, Expr::ONE), self.add(u, Expr::ONE));
+        (self.unary(Unary::Sqrt, below), self.unary(Unary::Sqrt, above))
+    }
+
+    /// (1/u)' along `by`, where `f` is the node 1/u: −f²·u', and −n·f·tanh s·s' for u = coshⁿ s, since
+    /// sinh s overflows where f is 0.
+    pub(super) fn reciprocal_derivative(&mut self, f: Id, u: Id, by: Id) -> Expr {
+        if let [(base, exponent)] = *self.factors(u).as_slice()
+            && let Node::Unary(Unary::Cosh, s) = *self.node(base)
+        {
+            let tangent = self.derivative(s, by);
+            if tangent.is_zero() {
+                return Expr::ZERO;
+            }
+            let slope = self.unary(Unary::Tanh, s).scaled(-f64::from(exponent));
+            return self.product(&[f.into(), slope, tangent]);
+        }
+        let tangent = self.node_derivative(u, by);
+        if tangent.is_zero() {
+            return Expr::ZERO;
+        }
+        let square = self.power(f.into(), 2);
+        self.multiply(square, tangent).negated()
     }
 
     /// (∂f/∂a, ∂f/∂b), where `f` is the node f(a, b) itself.
@@ -146,6 +213,10 @@ impl Graph {
                 let power = self.binary(Binary::Powf, a, less);
                 let logarithm = self.unary(Unary::Ln, a);
                 [self.multiply(b, power), self.multiply(f, logarithm)]
+            }
+            Binary::OverRoot => {
+                let over = self.reciprocal(b);
+                [over, self.multiply(f, over).negated()]
             }
         }
     }

@@ -13,6 +13,11 @@ use super::index::{Atom, Index, Range};
 use super::rules;
 use crate::internal::internal;
 
+/// A product of more factors than this is one factor of other products. The derivative of a function of
+/// a function of … is a product of as many factors as there are functions, and its own derivative a sum of
+/// that many such products: written out they grow with the cube of the depth, as factors linearly.
+const MOST_FACTORS: usize = 12;
+
 impl Graph {
     /// a + b + …: constants and like terms collect, and a positive factor common to all terms goes out. The
     /// signs stay where they were written, because the sign of a zero is that of the sum as it stands.
@@ -69,7 +74,9 @@ impl Graph {
             scale *= factor.scale;
             match self.node(factor.node) {
                 Node::One => {}
-                Node::Product(inner) => inner.iter().for_each(|(id, exponent)| insert(*id, *exponent)),
+                Node::Product(inner) if inner.len() <= MOST_FACTORS => {
+                    inner.iter().for_each(|(id, exponent)| insert(*id, *exponent));
+                }
                 _ => insert(factor.node, 1),
             }
         }
@@ -258,7 +265,7 @@ impl Graph {
         }
     }
 
-    fn factors(&self, node: Id) -> Vec<(Id, u32)> {
+    pub(super) fn factors(&self, node: Id) -> Vec<(Id, u32)> {
         match self.node(node) {
             Node::One => Vec::new(),
             Node::Product(factors) => factors.clone(),

@@ -7,6 +7,7 @@
 use proptest::test_runner::{Config, RngSeed};
 
 mod evaluate;
+mod extremes;
 mod field;
 mod instructions;
 mod properties;

@@ -1,7 +1,9 @@
 //! A formula as the user wrote it, evaluated as it stands: no name is resolved in advance, nothing is
 //! simplified, and derivatives come from arithmetic on jets.
 
-use std::collections::HashSet;
+use std::cell::RefCell;
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
 
 use quote::ToTokens;
 use syn::{BinOp, Expr, ExprCall, ExprMethodCall, Lit, Pat, RangeLimits, Stmt, UnOp};
@@ -24,10 +26,26 @@ pub(super) enum NoValue {
 type Value<T> = Result<T, NoValue>;
 
 /// What a name of an inner scope stands for.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 enum Binding {
     Number(Jet),
     Index(i64),
+}
+
+/// The names in the text, each made once: by the place of the node that it is the text of. The formulas
+/// stay where they are as long as they are checked.
+#[derive(Debug, Default)]
+pub(super) struct Texts(RefCell<HashMap<usize, Rc<str>>>);
+
+impl Texts {
+    fn of<T>(&self, node: &T, text: impl FnOnce() -> String) -> Rc<str> {
+        let place = std::ptr::from_ref(node) as usize;
+        self.0.borrow_mut().entry(place).or_insert_with(|| text().into()).clone()
+    }
+}
+
+fn written(node: &impl ToTokens) -> String {
+    node.to_token_stream().to_string().replace(' ', "")
 }
 
 /// The sides of the conditions that were taken, each by its place in the text.
@@ -35,6 +53,9 @@ pub(super) type Sides = HashSet<(usize, bool)>;
 
 pub(super) struct Evaluation<'a> {
     pub(super) model: &'a Model,
+    texts: &'a Texts,
+    blocks: Vec<Rc<str>>,
+    functions: Vec<Rc<str>>,
     pub(super) point: &'a Point,
     pub(super) directions: Directions,
     /// Velocities are zero, and no direction changes them.
@@ -42,12 +63,33 @@ pub(super) struct Evaluation<'a> {
     /// Operations that may still be carried out.
     pub(super) budget: u64,
     pub(super) sides: Sides,
-    scope: Vec<(String, Binding)>,
+    scope: Vec<(Rc<str>, Binding)>,
 }
 
 impl<'a> Evaluation<'a> {
-    pub(super) fn new(model: &'a Model, point: &'a Point, directions: Directions, budget: u64) -> Self {
-        Self { model, point, directions, is_still: false, budget, sides: Sides::new(), scope: Vec::new() }
+    pub(super) fn new(
+        model: &'a Model,
+        texts: &'a Texts,
+        point: &'a Point,
+        directions: Directions,
+        budget: u64,
+    ) -> Self {
+        let blocks =
+            model.blocks.iter().map(|block| texts.of(&block.name, || block.name.to_string())).collect();
+        let own = model.functions.iter();
+        let functions = own.map(|own| texts.of(&own.name, || own.name.to_string())).collect();
+        Self {
+            model,
+            texts,
+            blocks,
+            functions,
+            point,
+            directions,
+            is_still: false,
+            budget,
+            sides: Sides::new(),
+            scope: Vec::new(),
+        }
     }
 
     /// α·v of a list of components.
@@ -59,13 +101,13 @@ impl<'a> Evaluation<'a> {
                     for index in self.point.visited(0, self.block_size(block)) {
                         let component = self.closure(closure, &[index])?;
                         let velocity = self.variable(Variable::Velocity, block, index)?;
-                        total = total.plus(component.times(velocity));
+                        total = total.plus(&component.times(&velocity));
                     }
                 }
                 _ => {
                     let component = self.number(component)?;
                     let velocity = self.variable(Variable::Velocity, block, 0)?;
-                    total = total.plus(component.times(velocity));
+                    total = total.plus(&component.times(&velocity));
                 }
             }
         }
@@ -82,10 +124,10 @@ impl<'a> Evaluation<'a> {
             Expr::Binary(binary) => {
                 let (left, right) = (self.number(&binary.left)?, self.number(&binary.right)?);
                 match binary.op {
-                    BinOp::Add(_) => Ok(left.plus(right)),
+                    BinOp::Add(_) => Ok(left.plus(&right)),
                     BinOp::Sub(_) => Ok(left.minus(right)),
-                    BinOp::Mul(_) => Ok(left.times(right)),
-                    BinOp::Div(_) => Ok(left.times(right.reciprocal())),
+                    BinOp::Mul(_) => Ok(left.times(&right)),
+                    BinOp::Div(_) => Ok(left.times(&right.reciprocal())),
                     _ => unknown(syntax),
                 }
             }
@@ -115,7 +157,8 @@ impl<'a> Evaluation<'a> {
                 Stmt::Local(local) => {
                     let Some(init) = &local.init else { unknown(local) };
                     let bound = self.number(&init.expr)?;
-                    self.scope.push((pattern(&local.pat), Binding::Number(bound)));
+                    let name = self.texts.of(&local.pat, || pattern(&local.pat));
+                    self.scope.push((name, Binding::Number(bound)));
                 }
                 Stmt::Expr(expr, None) => value = Some(self.number(expr)?),
                 _ => unknown(statement),
@@ -156,11 +199,11 @@ impl<'a> Evaluation<'a> {
     }
 
     fn bound(&self, name: &str) -> Option<Binding> {
-        self.scope.iter().rev().find(|(known, _)| known == name).map(|(_, binding)| *binding)
+        self.scope.iter().rev().find(|(known, _)| **known == *name).map(|(_, binding)| binding.clone())
     }
 
     fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Jet> {
-        let text = path.to_token_stream().to_string().replace(' ', "");
+        let text = self.texts.of(syntax, || written(path));
         if let Some(Binding::Number(value)) = self.bound(&text) {
             return Ok(value);
         }
@@ -173,14 +216,14 @@ impl<'a> Evaluation<'a> {
         if let Some(value) = constant(&text) {
             return Ok(Jet::number(value));
         }
-        match text.as_str() {
+        match &*text {
             "t" => Ok(Jet::variable(self.point.time(), [0.0, 0.0, 1.0, 0.0], [0.0; 2])),
             _ => unknown(syntax),
         }
     }
 
     fn block(&self, name: &str) -> Option<usize> {
-        self.model.blocks.iter().position(|block| block.name == name)
+        self.blocks.iter().position(|block| **block == *name)
     }
 
     fn parameter(&self, name: &str) -> Option<&str> {
@@ -216,14 +259,9 @@ impl<'a> Evaluation<'a> {
     }
 
     /// The name of `x`, `self.x`, `x[i]`, `x[i][j]`, with its indices.
-    fn place(&mut self, syntax: &Expr) -> Value<(String, Vec<i64>)> {
+    fn place(&mut self, syntax: &Expr) -> Value<(Rc<str>, Vec<i64>)> {
         match syntax {
-            Expr::Path(path) => Ok((path.to_token_stream().to_string().replace(' ', ""), Vec::new())),
-            Expr::Field(_) => {
-                let text = syntax.to_token_stream().to_string().replace(' ', "");
-                let name = text.strip_prefix("self.").map_or(text.clone(), ToString::to_string);
-                Ok((name, Vec::new()))
-            }
+            Expr::Path(_) | Expr::Field(_) => Ok((self.texts.of(syntax, || place_text(syntax)), Vec::new())),
             Expr::Index(index) => {
                 let (name, mut indices) = self.place(&index.expr)?;
                 indices.push(self.index(&index.index)?);
@@ -252,40 +290,45 @@ impl<'a> Evaluation<'a> {
     }
 
     fn method(&mut self, call: &ExprMethodCall) -> Value<Jet> {
-        let name = call.method.to_string();
+        let name = self.texts.of(call, || call.method.to_string());
         let receiver = self.number(&call.receiver)?;
+        self.function(call, &name, receiver, &call.args.iter().collect::<Vec<_>>())
+    }
+
+    /// A function of the language by its name.
+    fn function<T: ToTokens>(&mut self, call: &T, name: &str, receiver: Jet, rest: &[&Expr]) -> Value<Jet> {
         if name == "powi" {
-            return Ok(receiver.power(exponent(&call.args[0])));
+            return Ok(receiver.power(exponent(rest[0])));
         }
         let mut arguments = Vec::new();
-        for argument in &call.args {
+        for argument in rest {
             arguments.push(self.number(argument)?);
         }
         let degree = std::f64::consts::PI / 180.0;
-        let value = match (name.as_str(), arguments.as_slice()) {
+        let value = match (name, arguments.as_slice()) {
             ("recip", []) => receiver.reciprocal(),
             ("to_radians", []) => receiver.scaled(degree),
             ("to_degrees", []) => receiver.scaled(1.0 / degree),
-            ("mul_add", [factor, term]) => receiver.times(*factor).plus(*term),
+            ("mul_add", [factor, term]) => receiver.times(factor).plus(term),
             ("min" | "max", [other]) => {
                 let (a, b) = (receiver.value().value, other.value().value);
                 let holds = if name == "min" { a <= b } else { a >= b };
-                if self.side(call, holds) { receiver } else { *other }
+                if self.side(call, holds) { receiver } else { other.clone() }
             }
-            (name, []) => functions::unary(name, receiver).unwrap_or_else(|| unknown(call)),
-            (name, [other]) => functions::binary(name, receiver, *other).unwrap_or_else(|| unknown(call)),
+            (name, []) => functions::unary(name, &receiver).unwrap_or_else(|| unknown(call)),
+            (name, [other]) => functions::binary(name, &receiver, other).unwrap_or_else(|| unknown(call)),
             _ => unknown(call),
         };
         Ok(value)
     }
 
     fn call(&mut self, call: &ExprCall) -> Value<Jet> {
-        let name = call.func.to_token_stream().to_string().replace(' ', "");
-        if let Some(number) = self.model.functions.iter().position(|function| function.name == name) {
+        let name = self.texts.of(call, || written(&call.func));
+        if let Some(number) = self.functions.iter().position(|function| *function == name) {
             let argument = self.number(&call.args[0])?;
-            return Ok(functions::own(number, argument));
+            return Ok(functions::own(number, &argument));
         }
-        match name.as_str() {
+        match &*name {
             "sum" | "product" | "sum_pairs" | "sum_ordered_pairs" => self.fold(&name, call),
             "d" | "dot" => {
                 let (name, indices) = self.place(&call.args[0])?;
@@ -295,9 +338,8 @@ impl<'a> Evaluation<'a> {
             // `f64::sin(x)` is `x.sin()`.
             _ => match name.strip_prefix("f64::").or_else(|| name.strip_prefix("f32::")) {
                 Some(method) => {
-                    let method = quote::format_ident!("{method}");
-                    let (receiver, arguments) = (&call.args[0], call.args.iter().skip(1));
-                    self.method(&syn::parse_quote!((#receiver).#method(#(#arguments),*)))
+                    let receiver = self.number(&call.args[0])?;
+                    self.function(call, method, receiver, &call.args.iter().skip(1).collect::<Vec<_>>())
                 }
                 None => unknown(call),
             },
@@ -320,14 +362,14 @@ impl<'a> Evaluation<'a> {
             let seconds = match name {
                 "sum" | "product" => {
                     let term = self.closure(closure, &[first])?;
-                    total = if name == "sum" { total.plus(term) } else { total.times(term) };
+                    total = if name == "sum" { total.plus(&term) } else { total.times(&term) };
                     continue;
                 }
                 "sum_pairs" => self.point.visited(first + 1, upper),
                 _ => self.point.visited(lower, upper).into_iter().filter(|second| *second != first).collect(),
             };
             for second in seconds {
-                total = total.plus(self.closure(closure, &[first, second])?);
+                total = total.plus(&self.closure(closure, &[first, second])?);
             }
         }
         Ok(total)
@@ -336,7 +378,8 @@ impl<'a> Evaluation<'a> {
     fn closure(&mut self, closure: &syn::ExprClosure, indices: &[i64]) -> Value<Jet> {
         let outside = self.scope.len();
         for (input, index) in closure.inputs.iter().zip(indices) {
-            self.scope.push((pattern(input), Binding::Index(*index)));
+            let name = self.texts.of(input, || pattern(input));
+            self.scope.push((name, Binding::Index(*index)));
         }
         let value = self.number(&closure.body);
         self.scope.truncate(outside);
@@ -347,7 +390,7 @@ impl<'a> Evaluation<'a> {
     fn is_index(&self, syntax: &Expr) -> bool {
         match syntax {
             Expr::Path(path) => {
-                let text = path.to_token_stream().to_string();
+                let text = self.texts.of(syntax, || written(path));
                 match self.bound(&text) {
                     Some(binding) => matches!(binding, Binding::Index(_)),
                     None => self.size(&text).is_some(),
@@ -381,9 +424,8 @@ impl<'a> Evaluation<'a> {
                 }
             }
             Expr::Path(_) | Expr::Field(_) | Expr::MethodCall(_) => {
-                let text = syntax.to_token_stream().to_string().replace(' ', "");
-                let name = text.strip_prefix("self.").unwrap_or(&text);
-                match (self.bound(name), self.size(name)) {
+                let name = self.texts.of(syntax, || place_text(syntax));
+                match (self.bound(&name), self.size(&name)) {
                     (Some(Binding::Index(index)), _) => Ok(index),
                     (None, Some(size)) => Ok(size),
                     _ => unknown(syntax),
@@ -418,6 +460,12 @@ fn exponent(syntax: &Expr) -> i32 {
         }
         _ => unknown(syntax),
     }
+}
+
+/// The text of a place, which may begin with `self`.
+fn place_text(syntax: &Expr) -> String {
+    let text = written(syntax);
+    text.strip_prefix("self.").map_or(text.clone(), ToString::to_string)
 }
 
 fn pattern(pattern: &Pat) -> String {

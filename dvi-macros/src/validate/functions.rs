@@ -1,7 +1,7 @@
 //! The functions of the language with their first three derivatives, written out for the self-check
 //! alone: it shares no rule with the compiler that it checks.
 
-use std::f64::consts::{LN_2, LN_10};
+use std::f64::consts::{LN_2, LN_10, PI};
 
 use super::jet::{Jet, Taylor};
 use crate::internal::internal;
@@ -34,9 +34,25 @@ fn taylor(name: &str, x: f64) -> Option<Taylor> {
         "atanh"  => { let d = 1.0 / (1.0 - squared); [x.atanh(), d, 2.0 * x * d * d, (2.0 + 6.0 * squared) * d * d * d] }
         "abs"    => [x.abs(), if x == 0.0 { 0.0 } else { x.signum() }, 0.0, 0.0],
         "signum" => [x.signum(), 0.0, 0.0, 0.0],
+        "erf"    => { let d = 2.0 / PI.sqrt() * (-squared).exp(); [error_function(x), d, -2.0 * x * d, (4.0 * squared - 2.0) * d] }
         _ => return None,
     };
     Some(value)
+}
+
+/// The error function, by its series for small arguments and the continued fraction of its complement for
+/// large ones (Abramowitz & Stegun 1964, 7.1.5 and 7.1.14).
+fn error_function(x: f64) -> f64 {
+    if x.abs() < 2.0 {
+        let terms = (0..60).scan(x, |power, n| {
+            let term = *power / f64::from(2 * n + 1);
+            *power *= -x * x / f64::from(n + 1);
+            Some(term)
+        });
+        return 2.0 / PI.sqrt() * terms.sum::<f64>();
+    }
+    let fraction = (1..=120).rev().fold(x.abs(), |tail, n| x.abs() + f64::from(n) / 2.0 / tail);
+    (1.0 - (-x * x).exp() / (PI.sqrt() * fraction)).copysign(x)
 }
 
 /// A logarithm whose derivative is 1/(base · argument).
@@ -52,20 +68,20 @@ fn inverse_sine(x: f64) -> [f64; 3] {
 }
 
 /// f(x) for a function of one number.
-pub(super) fn unary(name: &str, x: Jet) -> Option<Jet> {
+pub(super) fn unary(name: &str, x: &Jet) -> Option<Jet> {
     Some(x.through(taylor(name, x.value().value)?))
 }
 
 /// f(a, b) for a function of two numbers.
-pub(super) fn binary(name: &str, a: Jet, b: Jet) -> Option<Jet> {
+pub(super) fn binary(name: &str, a: &Jet, b: &Jet) -> Option<Jet> {
     let (x, y) = (a.value().value, b.value().value);
     let result = match name {
-        "hypot" => unary("sqrt", a.times(a).plus(b.times(b)))?,
+        "hypot" => unary("sqrt", &a.times(a).plus(&b.times(b)))?,
         "powf" if y.fract() == 0.0 && y.abs() <= 64.0 && !b.varies() => a.power(y as i32),
-        "powf" => unary("exp", b.times(unary("ln", a)?))?,
+        "powf" => unary("exp", &b.times(&unary("ln", a)?))?,
         // The angle that has the derivative of arctan(a/b) or of −arctan(b/a), whichever quotient is small.
-        "atan2" if x.abs() <= y.abs() => unary("atan", a.times(b.reciprocal()))?.with_value(x.atan2(y)),
-        "atan2" => unary("atan", b.times(a.reciprocal()))?.scaled(-1.0).with_value(x.atan2(y)),
+        "atan2" if x.abs() <= y.abs() => unary("atan", &a.times(&b.reciprocal()))?.with_value(x.atan2(y)),
+        "atan2" => unary("atan", &b.times(&a.reciprocal()))?.scaled(-1.0).with_value(x.atan2(y)),
         _ => return None,
     };
     Some(result)
@@ -74,6 +90,14 @@ pub(super) fn binary(name: &str, a: Jet, b: Jet) -> Option<Jet> {
 /// The value of the function of one number that is printed with this name.
 pub(super) fn printed_unary(name: &str, x: f64) -> f64 {
     match (name, taylor(name, x)) {
+        // What derivatives of |x| are made of: the mean of both sides at 0.
+        ("sign", _) => {
+            if x == 0.0 {
+                0.0
+            } else {
+                x.signum()
+            }
+        }
         (_, Some([value, ..])) => value,
         _ => internal(format!("the self-check does not know the function `{name}`")),
     }
@@ -82,6 +106,14 @@ pub(super) fn printed_unary(name: &str, x: f64) -> f64 {
 /// The value of the function of two numbers that is printed with this name.
 pub(super) fn printed_binary(name: &str, a: f64, b: f64) -> f64 {
     match name {
+        // A quotient by a root that is zero where both are.
+        "over_root" => {
+            if b == 0.0 {
+                0.0
+            } else {
+                a / b
+            }
+        }
         "hypot" => a.hypot(b),
         "powf" => a.powf(b),
         "atan2" => a.atan2(b),
@@ -97,7 +129,7 @@ pub(super) fn stand_in(number: usize, order: u32, x: f64) -> f64 {
     0.7_f64.powi(order as i32) * wave + if order == 0 { 1.5 } else { 0.0 }
 }
 
-pub(super) fn own(number: usize, x: Jet) -> Jet {
+pub(super) fn own(number: usize, x: &Jet) -> Jet {
     let at = x.value().value;
     x.through([0, 1, 2, 3].map(|order| stand_in(number, order, at)))
 }

@@ -5,8 +5,6 @@
 //! second ones, and the mixed second derivatives that a check needs. The derivatives along a random
 //! direction speak for all entries of a gradient at once, so the cost does not grow with their number.
 
-use std::array::from_fn;
-
 /// First directions: q along a, v along a, t, and v along itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum First {
@@ -47,8 +45,12 @@ impl Sized {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Jet {
+/// Kept on the heap: formulas nest deeply, and so does their evaluation.
+#[derive(Clone, Debug)]
+pub(super) struct Jet(Box<Parts>);
+
+#[derive(Clone, Debug)]
+struct Parts {
     value: [f64; PARTS],
     size: [f64; PARTS],
 }
@@ -62,23 +64,23 @@ fn mixed(first: usize, second: usize) -> usize {
 
 impl Jet {
     pub(super) fn number(value: f64) -> Self {
-        let mut jet = Self { value: [0.0; PARTS], size: [0.0; PARTS] };
-        jet.value[0] = value;
-        jet.size[0] = value.abs();
-        jet
+        let mut parts = Parts { value: [0.0; PARTS], size: [0.0; PARTS] };
+        parts.value[0] = value;
+        parts.size[0] = value.abs();
+        Self(Box::new(parts))
     }
 
     /// A variable with its rates along the directions.
     pub(super) fn variable(value: f64, first: [f64; FIRST], second: [f64; SECOND]) -> Self {
         let mut jet = Self::number(value);
-        jet.value[1..=FIRST].copy_from_slice(&first);
-        jet.value[1 + FIRST..1 + FIRST + SECOND].copy_from_slice(&second);
-        jet.size = jet.value.map(f64::abs);
+        jet.0.value[1..=FIRST].copy_from_slice(&first);
+        jet.0.value[1 + FIRST..1 + FIRST + SECOND].copy_from_slice(&second);
+        jet.0.size = jet.0.value.map(f64::abs);
         jet
     }
 
     fn part(&self, at: usize) -> Sized {
-        Sized { value: self.value[at], size: self.size[at] }
+        Sized { value: self.0.value[at], size: self.0.size[at] }
     }
 
     pub(super) fn value(&self) -> Sized {
@@ -100,42 +102,45 @@ impl Jet {
 
     /// Whether it changes along any direction.
     pub(super) fn varies(&self) -> bool {
-        self.value[1..].iter().any(|part| *part != 0.0)
+        self.0.value[1..].iter().any(|part| *part != 0.0)
     }
 
     /// The same derivatives around another value.
     pub(super) fn with_value(mut self, value: f64) -> Self {
-        self.value[0] = value;
-        self.size[0] = self.size[0].max(value.abs());
+        self.0.value[0] = value;
+        self.0.size[0] = self.0.size[0].max(value.abs());
         self
     }
 
     /// Whether all parts are finite, and far from overflow.
     pub(super) fn is_moderate(&self) -> bool {
-        self.size.iter().chain(&self.value).all(|part| part.abs() < 1e100)
+        self.0.size.iter().chain(&self.0.value).all(|part| part.abs() < 1e100)
     }
 
-    pub(super) fn scaled(self, factor: f64) -> Self {
-        Self { value: self.value.map(|v| factor * v), size: self.size.map(|s| factor.abs() * s) }
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
+        self.0.value.iter_mut().for_each(|value| *value *= factor);
+        self.0.size.iter_mut().for_each(|size| *size *= factor.abs());
+        self
     }
 
-    pub(super) fn plus(self, other: Self) -> Self {
-        Self {
-            value: from_fn(|k| self.value[k] + other.value[k]),
-            size: from_fn(|k| self.size[k] + other.size[k]),
+    pub(super) fn plus(mut self, other: &Self) -> Self {
+        for k in 0..PARTS {
+            self.0.value[k] += other.0.value[k];
+            self.0.size[k] += other.0.size[k];
         }
+        self
     }
 
     pub(super) fn minus(self, other: Self) -> Self {
-        self.plus(other.scaled(-1.0))
+        self.plus(&other.scaled(-1.0))
     }
 
-    pub(super) fn times(self, other: Self) -> Self {
+    pub(super) fn times(&self, other: &Self) -> Self {
         let mut product = Self::number(0.0);
         let mut add = |to: usize, i: usize, j: usize| {
-            let ((x, a), (y, b)) = ((self.value[i], self.size[i]), (other.value[j], other.size[j]));
-            product.value[to] += x * y;
-            product.size[to] += x.abs() * b + a * y.abs() - (x * y).abs();
+            let ((x, a), (y, b)) = ((self.0.value[i], self.0.size[i]), (other.0.value[j], other.0.size[j]));
+            product.0.value[to] += x * y;
+            product.0.size[to] += x.abs() * b + a * y.abs() - (x * y).abs();
         };
         add(0, 0, 0);
         for k in 1..=FIRST + SECOND {
@@ -155,23 +160,23 @@ impl Jet {
     }
 
     /// f(self) from the derivatives of f at its value.
-    pub(super) fn through(self, f: Taylor) -> Self {
+    pub(super) fn through(&self, f: Taylor) -> Self {
         let [value, d1, d2, d3] = f;
         let mut result = Self::number(value);
         let size = f.map(f64::abs);
-        let u = self.size[0];
-        result.size[0] = size[0] + size[1] * u;
+        let u = self.0.size[0];
+        result.0.size[0] = size[0] + size[1] * u;
         for k in 1..=FIRST + SECOND {
-            result.value[k] = d1 * self.value[k];
-            result.size[k] = size[1] * self.size[k] + size[2] * u * self.value[k].abs();
+            result.0.value[k] = d1 * self.0.value[k];
+            result.0.size[k] = size[1] * self.0.size[k] + size[2] * u * self.0.value[k].abs();
         }
         for first in 0..MIXED {
             for second in 0..SECOND {
                 let (both, e, f) = (mixed(first, second), 1 + first, 1 + FIRST + second);
-                let (x, y, xy) = (self.value[e], self.value[f], self.value[both]);
-                result.value[both] = d1 * xy + d2 * x * y;
-                result.size[both] = size[1] * self.size[both]
-                    + size[2] * (self.size[e] * y.abs() + x.abs() * self.size[f] + u * xy.abs())
+                let (x, y, xy) = (self.0.value[e], self.0.value[f], self.0.value[both]);
+                result.0.value[both] = d1 * xy + d2 * x * y;
+                result.0.size[both] = size[1] * self.0.size[both]
+                    + size[2] * (self.0.size[e] * y.abs() + x.abs() * self.0.size[f] + u * xy.abs())
                     + d3.abs() * u * (x * y).abs();
             }
         }
@@ -179,16 +184,16 @@ impl Jet {
     }
 
     /// 1/self
-    pub(super) fn reciprocal(self) -> Self {
-        let inverse = 1.0 / self.value[0];
+    pub(super) fn reciprocal(&self) -> Self {
+        let inverse = 1.0 / self.0.value[0];
         let square = inverse * inverse;
         self.through([inverse, -square, 2.0 * square * inverse, -6.0 * square * square])
     }
 
     /// self to an integer power.
-    pub(super) fn power(self, exponent: i32) -> Self {
+    pub(super) fn power(&self, exponent: i32) -> Self {
         let n = f64::from(exponent);
-        let x = self.value[0];
+        let x = self.0.value[0];
         // A factor of zero counts, even before an infinite power.
         let term = |factor: f64, exponent: i32| if factor == 0.0 { 0.0 } else { factor * x.powi(exponent) };
         self.through([

@@ -161,13 +161,9 @@ impl Point {
         })
     }
 
-    /// The values of `lower..upper` that are visited: of a long range the first and the last ones.
+    /// The values of `lower..upper` that are visited: of a long range the first ones.
     pub(super) fn visited(&self, lower: i64, upper: i64) -> Vec<i64> {
-        if upper.saturating_sub(lower) <= self.most_visited {
-            return (lower..upper).collect();
-        }
-        let last = self.most_visited / 2;
-        (lower..lower + self.most_visited - last).chain(upper - last..upper).collect()
+        (lower..upper.min(lower.saturating_add(self.most_visited))).collect()
     }
 
     fn interval(&self, kind: u64, block: usize) -> (f64, f64) {

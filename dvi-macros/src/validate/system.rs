@@ -1,6 +1,6 @@
 //! What the formulas of a system say about each generated function, and what the functions give.
 
-use super::formula::{Evaluation, NoValue, Sides};
+use super::formula::{Evaluation, NoValue, Sides, Texts};
 use super::jet::{First, Jet, Second, Sized};
 use super::machine::{Machine, Results};
 use super::point::{Directions, Point};
@@ -16,6 +16,7 @@ use crate::syntax::{Attribute, Kind};
 pub(super) struct System<'a> {
     pub(super) model: &'a Model,
     pub(super) attribute: &'a Attribute,
+    pub(super) texts: &'a Texts,
 }
 
 /// What is evaluated.
@@ -81,19 +82,19 @@ impl System<'_> {
         part: Part,
         budget: u64,
     ) -> Result<Outputs, NoValue> {
-        let Self { model, attribute } = *self;
-        let mut evaluation = Evaluation::new(model, point, along, budget);
+        let Self { model, attribute, texts } = *self;
+        let mut evaluation = Evaluation::new(model, texts, point, along, budget);
         let zero = Jet::number(0.0);
         let (lagrangian, form, hamiltonian) = match (&attribute.lagrangian, &attribute.one_form) {
             (Some(lagrangian), _) => {
                 let moving = evaluation.number(lagrangian)?;
                 if model.kind == Kind::Regular {
-                    (moving, zero, zero)
+                    (moving, zero.clone(), zero)
                 } else {
                     evaluation.is_still = true;
                     let still = evaluation.number(lagrangian)?;
                     evaluation.is_still = false;
-                    (moving, moving.minus(still), still.scaled(-1.0))
+                    (moving.clone(), moving.minus(still.clone()), still.scaled(-1.0))
                 }
             }
             (None, Some(one_form)) => {
@@ -106,7 +107,7 @@ impl System<'_> {
                     Part::All => evaluation.number(hamiltonian)?,
                     Part::Form => zero,
                 };
-                (form.minus(hamiltonian), form, hamiltonian)
+                (form.clone().minus(hamiltonian.clone()), form, hamiltonian)
             }
             (None, None) => internal("no dynamics"),
         };

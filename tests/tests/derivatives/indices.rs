@@ -1,6 +1,7 @@
 //! `check()` names the first index that leaves an array.
 
 use dvi_core::{IndexError, Lagrangian, degenerate_lagrangian};
+use dvi_tests::zoo::language::Neighbours as Correlated;
 use dvi_tests::zoo::shapes::{Borrowing, Chain};
 
 /// A neighbour without a wrap.
@@ -87,4 +88,13 @@ fn a_neighbour_before_the_beginning() {
 fn an_index_of_a_momentum() {
     assert_eq!(Weighted { g: vec![0.0; 3] }.check(), Err(IndexError { array: "g", index: 3, len: 3 }));
     assert_eq!(Weighted { g: vec![0.0; 4] }.check(), Ok(()));
+}
+
+#[test]
+fn an_index_that_a_pair_keeps_in_range() {
+    let system = |g: usize| Correlated::<4> { g: vec![1.0; g].into() };
+    assert_eq!(system(4).check(), Ok(()));
+    assert_eq!(system(3).check(), Err(IndexError { array: "g", index: 3, len: 3 }));
+    assert_eq!(Correlated::<1> { g: Box::default() }.check(), Ok(()));
+    assert_eq!(Correlated::<0> { g: Box::default() }.check(), Ok(()));
 }

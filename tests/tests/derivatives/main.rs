@@ -3,6 +3,7 @@
 mod functions;
 mod gauges;
 mod indices;
+mod language;
 mod lattices;
 mod oracle;
 mod particles;
@@ -14,6 +15,7 @@ mod sums;
 use dvi_tests::systems::{LotkaVolterra, PointVortices};
 use dvi_tests::zoo::functions::{Branches, Driven, EveryFunction, OwnFunction};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedShifted, SymmetricShifted};
+use dvi_tests::zoo::language::{Corners, Elastic, Material, Neighbours, Nested, Toeplitz};
 use dvi_tests::zoo::lattices::{AblowitzLadik, Schroedinger};
 use dvi_tests::zoo::particles::{GuidingCentre, PlaneParticle, SphereVortices};
 use dvi_tests::zoo::shapes::{Borrowing, Chain, FullLagrangian};
@@ -57,4 +59,11 @@ systems! {
     one_pendulum: Chain { n: 1, k: Vec::new(), mass: 1.25 };
     borrowed_parameters: Borrowing { weights: &[0.5, -1.5, 2.0], coupling: &TABLE, scale: &0.25 };
     full_lagrangian: FullLagrangian { c: 0.7 };
+    differences_of_indices: Toeplitz { g: [0.7, -0.4, 1.3] };
+    differences_of_indices_of_any_size: Neighbours::<5> { g: [0.7, -0.4, 1.3, 0.2, -0.9].into() };
+    one_body_without_a_neighbour: Neighbours::<1> { g: Box::default() };
+    sizes_that_are_sums: Nested::<3> {
+        material: Material { masses: vec![0.5, 1.5], elastic: Elastic { k: 2.5 } },
+    };
+    smaller_and_larger: Corners;
 }

@@ -1,6 +1,6 @@
 //! Numbers for the oracle: with a bound of their rounding error, and with a derivative.
 
-use core::f64::consts::{LN_2, LN_10};
+use core::f64::consts::{FRAC_2_SQRT_PI, LN_2, LN_10};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::symbolic::Unary;
@@ -43,6 +43,8 @@ fn slope<F: Field>(function: Unary, u: F) -> F {
         Unary::Atanh  => one / (one - u * u),
         Unary::Abs    => call(Unary::Signum, u),
         Unary::Signum => F::lift(0.0),
+        Unary::Sign   => F::lift(0.0),
+        Unary::Erf    => call(Unary::Exp, -(u * u)) * F::lift(FRAC_2_SQRT_PI),
     }
 }
 
@@ -127,7 +129,7 @@ impl Field for Bounded {
     fn unary(function: Unary, of: Self) -> Self {
         let value = evaluate_unary(function, of.value);
         let error = slope(function, of.value).abs() * of.error + value.abs();
-        let jumps = matches!(function, Unary::Abs | Unary::Signum);
+        let jumps = matches!(function, Unary::Abs | Unary::Signum | Unary::Sign);
         if jumps && Self::ordered(of, Self::lift(0.0)).is_none() {
             return Self { value, error: f64::INFINITY };
         }

@@ -136,6 +136,7 @@ impl Tree {
                     Binary::Atan2 => F::unary(Unary::Atan, a / b),
                     Binary::Hypot => F::unary(Unary::Sqrt, a * a + b * b),
                     Binary::Powf => F::unary(Unary::Exp, b * F::unary(Unary::Ln, a)),
+                    Binary::OverRoot => a / b,
                 }
             }
             Self::Choose(parts, relation) => {
@@ -235,7 +236,7 @@ impl Tree {
         let argument = match function {
             Unary::Sqrt | Unary::Cbrt | Unary::Ln | Unary::Ln1p | Unary::Log2 | Unary::Log10 => u.above_one(),
             Unary::Acosh => u.above_one().above_one(),
-            Unary::Sin | Unary::Cos | Unary::Atan | Unary::Abs | Unary::Signum => u,
+            Unary::Sin | Unary::Cos | Unary::Atan | Unary::Abs | Unary::Signum | Unary::Erf => u,
             _ => u.small(),
         };
         Self::Unary(function, Box::new(argument))

@@ -1,0 +1,86 @@
+//! Integers in real formulas: `as f64` behind integers that Rust would divide without a remainder.
+//!
+//! A formula is real: `1/2*x` is 0.5·x, as it is on paper. But `(3 / 2) as f64` is 1 in Rust, and the
+//! `as` says that integers were meant; so a division of integers in front of an `as` is refused.
+
+use syn::{BinOp, Expr as Syntax, Lit, UnOp};
+
+use super::{Binding, Lowering};
+use crate::symbolic::Expr;
+
+impl Lowering<'_> {
+    /// `value as f64`: numbers pass, and an index becomes a number.
+    pub(super) fn cast(&mut self, cast: &syn::ExprCast) -> Option<Expr> {
+        let is_float = matches!(&*cast.ty, syn::Type::Path(path) if path.path.is_ident("f64") || path.path.is_ident("f32"));
+        if !is_float {
+            self.errors.push(&cast.ty, "formulas are real: only `as f64` is possible here");
+            return None;
+        }
+        if let Some(division) = self.integer_division(&cast.expr) {
+            let (left, right) = (&division.left, &division.right);
+            let message = format!(
+                "Rust would divide these integers and drop the remainder; write `{} / {}` for the quotient",
+                Self::as_real(left),
+                Self::as_real(right)
+            );
+            self.errors.push(division, message);
+            return None;
+        }
+        if self.is_index(&cast.expr) {
+            let index = self.index(&cast.expr)?;
+            return Some(self.graph.count(index));
+        }
+        self.expr(&cast.expr)
+    }
+
+    /// The first division of two integers in an expression.
+    fn integer_division<'s>(&mut self, syntax: &'s Syntax) -> Option<&'s syn::ExprBinary> {
+        match syntax {
+            Syntax::Paren(inner) => self.integer_division(&inner.expr),
+            Syntax::Group(inner) => self.integer_division(&inner.expr),
+            Syntax::Unary(unary) => self.integer_division(&unary.expr),
+            Syntax::Binary(binary) => {
+                let inside = self.integer_division(&binary.left);
+                let inside = inside.or_else(|| self.integer_division(&binary.right));
+                inside.or_else(|| {
+                    let divides = matches!(binary.op, BinOp::Div(_));
+                    (divides && self.is_integer(&binary.left) && self.is_integer(&binary.right))
+                        .then_some(binary)
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether Rust takes an expression for an integer: it is made of literals without a point, indices,
+    /// sizes and integer fields.
+    fn is_integer(&mut self, syntax: &Syntax) -> bool {
+        match syntax {
+            Syntax::Lit(literal) => {
+                matches!(&literal.lit, Lit::Int(value) if !value.suffix().starts_with('f'))
+            }
+            Syntax::Paren(inner) => self.is_integer(&inner.expr),
+            Syntax::Group(inner) => self.is_integer(&inner.expr),
+            Syntax::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && self.is_integer(&unary.expr),
+            Syntax::Binary(binary) => self.is_integer(&binary.left) && self.is_integer(&binary.right),
+            Syntax::Path(path) => match path.path.get_ident() {
+                Some(name) => match self.binding_of(&name.to_string()) {
+                    Some(binding) => matches!(binding, Binding::Index { .. }),
+                    None => self.model.is_integer_field(syntax) || self.model.size(syntax).is_some(),
+                },
+                None => false,
+            },
+            Syntax::Field(_) | Syntax::Index(_) => self.model.is_integer_field(syntax),
+            Syntax::MethodCall(call) => call.method == "len",
+            _ => false,
+        }
+    }
+
+    /// An integer as a real number in Rust.
+    fn as_real(syntax: &Syntax) -> String {
+        match syntax {
+            Syntax::Lit(syn::ExprLit { lit: Lit::Int(value), .. }) => format!("{}.0", value.base10_digits()),
+            other => format!("({} as f64)", crate::errors::text(other)),
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The values that an index is known to take.
+//!
+//! An index is refused when there is a pass of the loops around it in which it leaves its array, and only
+//! then: the passes are walked, so that `x[k - j]` for k in j..n is seen to stay at or above 0. Of a long
+//! range the ends are walked, where an affine index is largest and smallest. What is not found here, or
+//! depends on a size that only the run knows, is left to the check before the first step.
+
+use super::{Binding, Lowering};
+use crate::internal::internal;
+use crate::symbolic::{Atom, Index, Loop};
+
+/// Ranges up to this length are walked as a whole, longer ones at their ends.
+const WHOLE: i64 = 16;
+
+/// So many values at each end.
+const END: i64 = 4;
+
+/// So many passes at most.
+const PASSES: u32 = 4096;
+
+/// A loop of the walk.
+struct Around<'a> {
+    over: &'a Loop,
+    /// Whether its index decides anything but whether there is a pass at all.
+    walked: bool,
+}
+
+struct Walk<'a> {
+    loops: Vec<Around<'a>>,
+    index: &'a Index,
+    reached: Option<(i64, i64)>,
+    left: u32,
+}
+
+impl Lowering<'_> {
+    /// The smallest and the largest value of an index in the passes that were walked, if there is one.
+    pub(super) fn reach(&self, index: &Index) -> Option<(i64, i64)> {
+        if let Some(value) = index.as_literal() {
+            return Some((value, value));
+        }
+        let around = self.loops_around();
+        let mut walk = Walk { loops: loops(&around, index), index, reached: None, left: PASSES };
+        walk.passes(0, &mut Vec::new())?;
+        walk.reached
+    }
+
+    /// The loops around the place that is read, from the outermost.
+    pub(super) fn loops_around(&self) -> Vec<&Loop> {
+        let bindings = self.scope.iter().map(|(_, binding)| binding);
+        bindings
+            .filter_map(|binding| match binding {
+                Binding::Index { over, .. } => Some(over),
+                Binding::Value(_) => None,
+            })
+            .collect()
+    }
+}
+
+/// The loops that the index depends on, ranges of ranges included, and those that may be empty because
+/// of them; from the outermost.
+fn loops<'a>(around: &[&'a Loop], index: &Index) -> Vec<Around<'a>> {
+    let needed = needed(around, index);
+    let kept = around.iter().filter(|over| (over.range.free().open | 1 << over.depth) & needed != 0);
+    kept.map(|over| Around { over, walked: needed & (1 << over.depth) != 0 }).collect()
+}
+
+/// The loops that an index depends on, ranges of ranges included, a bit each.
+pub(super) fn needed(around: &[&Loop], index: &Index) -> u64 {
+    around.iter().rev().fold(index.free().open, |needed, over| {
+        if needed & (1 << over.depth) != 0 { needed | over.range.free().open } else { needed }
+    })
+}
+
+impl Walk<'_> {
+    /// `None` if something is not known: a size, or a loop that was left out.
+    fn passes(&mut self, depth: usize, values: &mut Vec<(u32, i64)>) -> Option<()> {
+        let Some(Around { over, walked }) = self.loops.get(depth) else {
+            let value = evaluated(self.index, values)?;
+            let (least, largest) = self.reached.unwrap_or((value, value));
+            self.reached = Some((least.min(value), largest.max(value)));
+            self.left = self.left.saturating_sub(1);
+            return Some(());
+        };
+        let (own, walked) = (over.depth, *walked);
+        let (lower, upper) = (evaluated(&over.range.lower, values)?, evaluated(&over.range.upper, values)?);
+        let except = match &over.range.except {
+            Some(except) => Some(evaluated(except, values)?),
+            None => None,
+        };
+        let whole = upper.saturating_sub(lower) <= WHOLE;
+        let (first, last) =
+            if whole { (lower..upper, upper..upper) } else { (lower..lower + END, upper - END..upper) };
+        for value in first.chain(last).filter(|value| Some(*value) != except) {
+            values.push((own, value));
+            self.passes(depth + 1, values)?;
+            values.pop();
+            if !walked || self.left == 0 {
+                break;
+            }
+        }
+        Some(())
+    }
+}
+
+/// The value of an index in one pass.
+fn evaluated(index: &Index, values: &[(u32, i64)]) -> Option<i64> {
+    index.terms.iter().try_fold(index.constant, |sum, (atom, coefficient)| {
+        let value = match atom {
+            Atom::Open(depth) => values.iter().find(|(known, _)| known == depth)?.1,
+            Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
+            Atom::Remainder(value, modulus) => {
+                evaluated(value, values)?.checked_rem_euclid(evaluated(modulus, values)?)?
+            }
+            Atom::Size(_) => return None,
+        };
+        sum.checked_add(value.checked_mul(*coefficient)?)
+    })
+}

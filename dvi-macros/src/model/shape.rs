@@ -1,0 +1,83 @@
+//! What the type of a field says of it, as far as it is written out.
+
+use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, Type};
+
+/// What the type of a field says, as far as it is written out.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Number,
+    Count,
+    /// An array, slice or vector: its length if that is a literal, and the shape of its entries.
+    Array(Option<i64>, Box<Shape>),
+    Unknown,
+    /// Certainly not a number.
+    Other,
+}
+
+pub(super) fn shape(ty: &Type) -> Shape {
+    match ty {
+        Type::Array(array) => {
+            let length = match &array.len {
+                Expr::Lit(ExprLit { lit: Lit::Int(length), .. }) => length.base10_parse().ok(),
+                _ => None,
+            };
+            Shape::Array(length, Box::new(shape(&array.elem)))
+        }
+        Type::Slice(slice) => Shape::Array(None, Box::new(shape(&slice.elem))),
+        Type::Reference(reference) => shape(&reference.elem),
+        Type::Paren(inner) => shape(&inner.elem),
+        Type::Group(inner) => shape(&inner.elem),
+        Type::Tuple(_) | Type::Never(_) => Shape::Other,
+        Type::Path(path) => {
+            let Some(last) = path.path.segments.last() else { return Shape::Unknown };
+            match last.ident.to_string().as_str() {
+                "f64" | "f32" | "i8" | "i16" | "i32" | "i64" | "isize" | "u8" | "u16" | "u32" | "u64" => {
+                    Shape::Number
+                }
+                "usize" => Shape::Count,
+                "Box" | "Rc" | "Arc" => entry(&last.arguments),
+                "Vec" | "VecDeque" | "SmallVec" | "ArrayVec" => {
+                    Shape::Array(None, Box::new(entry(&last.arguments)))
+                }
+                "String" | "str" | "bool" | "char" | "Option" | "Result" | "PhantomData" | "HashMap"
+                | "BTreeMap" => Shape::Other,
+                _ => Shape::Unknown,
+            }
+        }
+        _ => Shape::Unknown,
+    }
+}
+
+/// The entries of `Vec<f64>`.
+fn entry(arguments: &PathArguments) -> Shape {
+    match arguments {
+        PathArguments::AngleBracketed(list) => match list.args.first() {
+            Some(GenericArgument::Type(ty)) => shape(ty),
+            _ => Shape::Unknown,
+        },
+        _ => Shape::Unknown,
+    }
+}
+
+/// Whether the numbers of a type are integers for certain.
+pub(super) fn is_integer(ty: &Type) -> bool {
+    match ty {
+        Type::Array(array) => is_integer(&array.elem),
+        Type::Slice(slice) => is_integer(&slice.elem),
+        Type::Reference(reference) => is_integer(&reference.elem),
+        Type::Paren(inner) => is_integer(&inner.elem),
+        Type::Group(inner) => is_integer(&inner.elem),
+        Type::Path(path) => path.path.segments.last().is_some_and(|last| match &last.arguments {
+            PathArguments::AngleBracketed(list) => list
+                .args
+                .iter()
+                .any(|argument| matches!(argument, GenericArgument::Type(ty) if is_integer(ty))),
+            _ => {
+                let integers =
+                    ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];
+                integers.iter().any(|integer| last.ident == integer)
+            }
+        }),
+        _ => false,
+    }
+}

@@ -1,0 +1,225 @@
+//! First and second derivatives of every function where formulas lose digits, overflow or divide by
+//! zero: against closed forms that do not.
+
+use crate::symbolic::rules::{UNARY, evaluate_unary};
+use crate::symbolic::{Binary, Coordinate, Expr, Graph, Id, Index, Node, Unary};
+
+use super::evaluate::{Evaluation, Point};
+
+/// A function, its first two derivatives by other formulas, and the points: where a derivative does not
+/// exist the closed form is not finite, and neither may be what is generated.
+type Row = (&'static str, fn(f64) -> f64, fn(f64) -> f64, &'static [f64]);
+
+const REAL: &[f64] = &[0.0, 1e-300, -1e-300, 1e-9, -1e-9, 0.3, 1.0, -1.0, 20.0, -20.0];
+const WIDE: &[f64] = &[0.0, 1e-300, 1e-9, -0.3, 1.0, -20.0, 700.0, -700.0, 1e300, -1e300];
+const POSITIVE: &[f64] = &[0.0, 1e-90, 1e-9, 0.3, 1.0, 20.0, 700.0, 1e90, 1e300];
+const UNIT: &[f64] =
+    &[0.0, 1e-300, -1e-9, 0.3, -0.7, 1.0 - 1e-9, 1.0 - f64::EPSILON, f64::EPSILON - 1.0, 1.0, -1.0];
+
+fn sech(x: f64) -> f64 {
+    2.0 * (-x.abs()).exp() / (1.0 + (-2.0 * x.abs()).exp())
+}
+
+/// 1 − x², exactly rounded up to a few units: 1 − |x| is exact near the ends.
+fn rest(x: f64) -> f64 {
+    (1.0 - x.abs()) * (1.0 + x.abs())
+}
+
+const LN_2: f64 = core::f64::consts::LN_2;
+const LN_10: f64 = core::f64::consts::LN_10;
+
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    ("sqrt",   |x| 0.5 / x.sqrt(), |x| -0.25 / x.sqrt() / x, POSITIVE),
+    ("cbrt",   |x| x.cbrt() / x / 3.0, |x| -2.0 / 9.0 * x.cbrt() / x / x, &[1e-90, -1e-9, 0.3, 1.0, -20.0, 1e90]),
+    ("exp",    f64::exp, f64::exp, &[0.0, -20.0, 20.0, 700.0, -700.0, -1e300]),
+    ("exp2",   |x| x.exp2() * LN_2, |x| x.exp2() * LN_2 * LN_2, &[0.0, -20.0, 20.0, 1000.0, -1000.0, -1e300]),
+    ("exp_m1", f64::exp, f64::exp, &[0.0, -1e-300, -20.0, -50.0, 20.0, 700.0, -700.0]),
+    ("ln",     |x| 1.0 / x, |x| -1.0 / x / x, POSITIVE),
+    ("ln_1p",  |x| 1.0 / (1.0 + x), |x| -1.0 / (1.0 + x) / (1.0 + x), &[0.0, 1e-300, -0.7, f64::EPSILON - 1.0, 1e100]),
+    ("log2",   |x| 1.0 / x / LN_2, |x| -1.0 / x / x / LN_2, POSITIVE),
+    ("log10",  |x| 1.0 / x / LN_10, |x| -1.0 / x / x / LN_10, POSITIVE),
+    ("sin",    f64::cos, |x| -x.sin(), WIDE),
+    ("cos",    |x| -x.sin(), |x| -x.cos(), WIDE),
+    ("tan",    |x| x.cos().powi(-2), |x| 2.0 * x.tan() * x.cos().powi(-2), &[0.0, 1e-300, 1e-9, 0.3, 1.5, 1.570796, -20.0]),
+    ("asin",   |x| 1.0 / rest(x).sqrt(), |x| x / rest(x).powf(1.5), UNIT),
+    ("acos",   |x| -1.0 / rest(x).sqrt(), |x| -x / rest(x).powf(1.5), UNIT),
+    ("atan",   |x| 1.0 / (1.0 + x * x), |x| -2.0 * x / (1.0 + x * x).powi(2), WIDE),
+    ("sinh",   f64::cosh, f64::sinh, &[0.0, 1e-300, -1e-9, 20.0, -700.0]),
+    ("cosh",   f64::sinh, f64::cosh, &[0.0, 1e-300, -1e-9, 20.0, -700.0]),
+    ("tanh",   |x| sech(x) * sech(x), |x| -2.0 * x.tanh() * sech(x) * sech(x), &[0.0, 1e-300, 1e-9, -1.0, 20.0, -30.0, 350.0, -700.0, 720.0, 1e300]),
+    ("asinh",  |x| 1.0 / x.hypot(1.0), |x| -x / x.hypot(1.0).powi(3), WIDE),
+    ("acosh",  |x| 1.0 / ((x - 1.0).sqrt() * (x + 1.0).sqrt()),
+               |x| -x * ((x - 1.0) * (x + 1.0)).powf(-1.5), &[1.0, 1.0 + f64::EPSILON, 1.0 + 1e-9, 1.3, 20.0, 700.0, 1e100, 1e300]),
+    ("atanh",  |x| 1.0 / rest(x), |x| 2.0 * x / rest(x).powi(2), UNIT),
+    ("abs",    |x| if x == 0.0 { 0.0 } else { x.signum() }, |_| 0.0, WIDE),
+    ("signum", |_| 0.0, |_| 0.0, WIDE),
+    ("sign",   |_| 0.0, |_| 0.0, WIDE),
+    ("erf",    |x| core::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp(),
+               |x| -2.0 * x * core::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp(), REAL),
+];
+
+/// A graph with two coordinates, x and y.
+struct Plane {
+    graph: Graph,
+    x: Id,
+    y: Id,
+}
+
+impl Plane {
+    fn new() -> Self {
+        let mut graph = Graph::new();
+        let mut coordinate =
+            |block| graph.intern(Node::Coordinate(Coordinate { block, index: Index::literal(0) }));
+        let (x, y) = (coordinate(0), coordinate(1));
+        Self { graph, x, y }
+    }
+
+    fn at(&self, of: Expr, x: f64, y: f64) -> f64 {
+        let point = Point {
+            coordinates: vec![vec![x], vec![y]],
+            velocities: Vec::new(),
+            parameters: Vec::new(),
+            time: 0.0,
+        };
+        Evaluation::new(&self.graph, &point).expr(of, &Vec::new())
+    }
+
+    /// f, its gradient, and ∂²f by xx, xy, yx, yy.
+    fn expanded(&mut self, f: Expr, x: f64, y: f64) -> [f64; 7] {
+        let mut values = vec![f];
+        let first = [self.x, self.y].map(|by| self.graph.derivative(f, by));
+        values.extend(first);
+        for derivative in first {
+            values.extend([self.x, self.y].map(|by| self.graph.derivative(derivative, by)));
+        }
+        std::array::from_fn(|entry| self.at(values[entry], x, y))
+    }
+}
+
+fn agree(what: &str, found: f64, expected: f64) {
+    if !expected.is_finite() {
+        assert!(!found.is_finite(), "{what} = {found}, but there is none");
+        return;
+    }
+    // Below the smallest normal number digits are lost in any case.
+    let allowed = 64.0 * f64::EPSILON * expected.abs() + f64::MIN_POSITIVE;
+    assert!((found - expected).abs() <= allowed, "{what} = {found:e}, expected {expected:e}");
+}
+
+#[test]
+fn every_function_is_as_accurate_as_its_closed_form() {
+    assert_eq!(ROWS.len(), UNARY.len());
+    for (name, function, ..) in UNARY {
+        let (_, first, second, points) =
+            ROWS.iter().find(|(known, ..)| known == name).expect("every function has a row");
+        let mut plane = Plane::new();
+        let f = plane.graph.unary(*function, plane.x.into());
+        for x in *points {
+            let [value, d, _, dd, ..] = plane.expanded(f, *x, 0.0);
+            assert!(value.is_nan() == evaluate_unary(*function, *x).is_nan());
+            agree(&format!("{name}'({x:e})"), d, first(*x));
+            agree(&format!("{name}''({x:e})"), dd, second(*x));
+        }
+    }
+}
+
+/// x^p, whose k-th derivative at 0 is 0 for p > k and does not exist for a fraction p < k.
+#[test]
+fn powers_at_zero() {
+    for power in [0.3, 0.5, 1.3, 1.5, 1.7, 2.0, 2.3, 2.5, 3.5, 5.5] {
+        let mut plane = Plane::new();
+        let f = plane.graph.binary(Binary::Powf, plane.x.into(), Expr::number(power));
+        for x in [0.0, 1e-30, 0.3, 1.0, 1e30] {
+            let [value, d, _, dd, ..] = plane.expanded(f, x, 0.0);
+            agree(&format!("{x:e}^{power}"), value, x.powf(power));
+            agree(&format!("{power}·{x:e}^({power} − 1)"), d, power * x.powf(power - 1.0));
+            agree(&format!("({x:e}^{power})''"), dd, power * (power - 1.0) * x.powf(power - 2.0));
+        }
+    }
+}
+
+/// r³, r⁵, by two ways to write each, and r², at the origin and far from it.
+#[test]
+fn powers_of_a_distance_at_the_origin() {
+    for power in [2_u32, 3, 5] {
+        for way in 0..3 {
+            let mut plane = Plane::new();
+            let (x, y) = (Expr::from(plane.x), Expr::from(plane.y));
+            let graph = &mut plane.graph;
+            let squares = [graph.power(x, 2), graph.power(y, 2)];
+            let square = graph.sum(&squares);
+            let f = match way {
+                0 => graph.binary(Binary::Powf, square, Expr::number(f64::from(power) / 2.0)),
+                1 => {
+                    let distance = graph.binary(Binary::Hypot, x, y);
+                    graph.power(distance, power)
+                }
+                _ => {
+                    let distance = graph.unary(Unary::Sqrt, square);
+                    graph.power(distance, power)
+                }
+            };
+            for (x, y) in [(0.0, 0.0), (3.0, 4.0), (-3e-40, 4e-40), (0.0, 1.0), (1e-200, 1e-200)] {
+                let r = f64::hypot(x, y);
+                let p = f64::from(power);
+                // ∂ᵢ rᵖ = p·rᵖ⁻²·xᵢ and ∂ᵢ∂ⱼ rᵖ = p·rᵖ⁻²·(δᵢⱼ + (p − 2)·nᵢ·nⱼ), n = x/r.
+                let (n, scale) =
+                    (if r > 0.0 { (x / r, y / r) } else { (0.0, 0.0) }, p * r.powi(power as i32 - 2));
+                let second = |a: f64, b: f64, on: f64| scale * (on + (p - 2.0) * a * b);
+                let expected = [
+                    r.powi(power as i32),
+                    scale * x,
+                    scale * y,
+                    second(n.0, n.0, 1.0),
+                    second(n.0, n.1, 0.0),
+                    second(n.1, n.0, 0.0),
+                    second(n.1, n.1, 1.0),
+                ];
+                let found = plane.expanded(f, x, y);
+                for (entry, (found, expected)) in found.iter().zip(expected).enumerate() {
+                    // x² underflows at 1e-200: the absolute error is then below 1e-160.
+                    assert!(
+                        (found - expected).abs() <= 64.0 * f64::EPSILON * expected.abs() + 1e-160,
+                        "r^{power} (written in way {way}) [{entry}] at ({x:e}, {y:e}): {found:e}, expected {expected:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// r itself, and x·r, have no (second) derivative at the origin: no number may stand there.
+#[test]
+fn what_has_no_derivative_has_no_number() {
+    for way in 0..2 {
+        let mut plane = Plane::new();
+        let (x, y) = (Expr::from(plane.x), Expr::from(plane.y));
+        let graph = &mut plane.graph;
+        let squares = [graph.power(x, 2), graph.power(y, 2)];
+        let square = graph.sum(&squares);
+        let r = if way == 0 { graph.unary(Unary::Sqrt, square) } else { graph.binary(Binary::Hypot, x, y) };
+        let stretched = graph.multiply(x, r);
+        let found = plane.expanded(r, 0.0, 0.0);
+        assert!(found[1..].iter().all(|entry| !entry.is_finite()), "{found:?}");
+        let found = plane.expanded(stretched, 0.0, 0.0);
+        assert_eq!(found[..3], [0.0; 3]);
+        assert!(found[3..].iter().all(|entry| !entry.is_finite()), "{found:?}");
+    }
+}
+
+/// √(x² + y²) by `hypot`: second derivatives keep their digits where one side is far longer, and where
+/// squares overflow.
+#[test]
+fn hypot_across_and_far_away() {
+    let mut plane = Plane::new();
+    let f = plane.graph.binary(Binary::Hypot, plane.x.into(), plane.y.into());
+    for (x, y) in [(1.0, 1e-9), (1e-12, -3.0), (3e200, 4e200), (3e-200, 4e-200), (1e300, 1.0), (5.0, 0.0)] {
+        let r = f64::hypot(x, y);
+        let (c, s) = (x / r, y / r);
+        let expected = [r, c, s, s * s / r, -s * c / r, -s * c / r, c * c / r];
+        for (entry, (found, expected)) in plane.expanded(f, x, y).into_iter().zip(expected).enumerate() {
+            agree(&format!("hypot [{entry}] at ({x:e}, {y:e})"), found, expected);
+        }
+    }
+}
