@@ -12,7 +12,7 @@ use super::system::System;
 const TOLERANCE: f64 = 1e-10;
 
 /// The number of points that a system is compared at, and of points that are drawn to find them.
-const POINTS: usize = 3;
+const POINTS: usize = 2;
 const DRAWN: usize = 40;
 
 /// The jets of a system at one point.

@@ -114,7 +114,7 @@ impl Generator<'_> {
         let size = Index::atom(Atom::Size(self.random.below(self.system.sizes.len())));
         let whole = (Index::literal(0), size.clone());
         if scope.level == 0 || self.random.chance(45) {
-            return match self.random.below(if std::env::var("DVI_X").is_ok() { 0 } else { 0 } + 10).max(if std::env::var("DVI_X").is_ok() { 5 } else { 0 }) {
+            return match self.random.below(10) {
                 0 => (Index::literal(-1), Index::literal(2)),
                 1 => (Index::literal(-2), Index::literal(1)),
                 2 => (Index::literal(0), Index::literal(2)),
@@ -131,7 +131,7 @@ impl Generator<'_> {
             2 => (Index::literal(0), j),
             3 => (Index::literal(0), j.plus(1)),
             4 => (Index::literal(0), size.with(outer, -1)),
-            5 if std::env::var("DVI_X").is_err() => (j.clone().plus(-1), j.plus(2)),
+            5 => (j.clone().plus(-1), j.plus(2)),
             6 => (j.clone(), j.plus(2)),
             _ => (Index::literal(0), j.plus(2)),
         }

@@ -252,7 +252,8 @@ impl Machine<'_> {
                 Ok(if (0..length).contains(&index) {
                     Value::Unit
                 } else {
-                    Value::Failure(format!("index {index} of {:?}, of length {length}", arguments[0]))
+                    let Value::Text(array) = &arguments[0] else { panic!("an array has a name") };
+                    Value::Failure(format!("index {index} of `{array}`, of length {length}"))
                 })
             }
             Callee::Ok => Ok(arguments.into_iter().next().expect("a value")),
