@@ -49,7 +49,9 @@ fn a_form_that_is_not_linear() -> Outcome {
     let system = Guiding { kappa: 0.4 };
     let start = [0.6, -0.5, 0.2, 0.7];
     // Parasites grow where σ is not one half.
-    [(0.4, 4), (0.5, 10), (0.6, 4)].into_iter().try_for_each(|(sigma, steps)| check(&system, &start, sigma, steps))
+    [(0.4, 4), (0.5, 10), (0.6, 4)]
+        .into_iter()
+        .try_for_each(|(sigma, steps)| check(&system, &start, sigma, steps))
 }
 
 /// q(t) of the flow of α = ½(x dy − y dx) + t dx and H = 2x is y = y0 + 3t, x = x0: (Dα)ᵀ − Dα times q′ is
@@ -70,7 +72,10 @@ fn the_rate_of_the_form_drives_the_flow() -> Outcome {
             run.advance_by(10)?;
             let (expected, RampState { x, y }) = (3.0 * 10.0 * h, run.state());
             let apart = (x - 1.0).abs().max((y - expected).abs());
-            assert!(apart < 1e-13, "sigma = {sigma}, {solver:?}, h = {h}: ({x}, {y}), expected (1, {expected})");
+            assert!(
+                apart < 1e-13,
+                "sigma = {sigma}, {solver:?}, h = {h}: ({x}, {y}), expected (1, {expected})"
+            );
         }
     }
     Ok(())

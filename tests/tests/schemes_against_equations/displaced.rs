@@ -29,9 +29,7 @@ fn lobatto(nodes: usize) -> (Vec<f64>, Vec<f64>) {
 fn lagrange_derivative(nodes: &[f64], k: usize, at: f64) -> f64 {
     let factor = |m: usize| (at - nodes[m]) / (nodes[k] - nodes[m]);
     let others = || (0..nodes.len()).filter(move |&m| m != k);
-    others()
-        .map(|m| others().filter(|&l| l != m).map(factor).product::<f64>() / (nodes[k] - nodes[m]))
-        .sum()
+    others().map(|m| others().filter(|&l| l != m).map(factor).product::<f64>() / (nodes[k] - nodes[m])).sum()
 }
 
 /// L_d(q0, q1, δ), the displacements of one interior node after the other.
@@ -68,9 +66,8 @@ fn stationary<F: Formula>(formula: &F, rule: (usize, f64), th: [f64; 2], [q0, q1
     let size = q0.len() * (rule.0 - 2);
     let (q0, q1) = (dual(q0, None), dual(q1, None));
     let gradient = |x: &DVector<f64>| {
-        let entry = |i, _| {
-            discrete_lagrangian(formula, rule, th, [&q0, &q1, &dual(x.as_slice(), Some(i))]).eps
-        };
+        let entry =
+            |i, _| discrete_lagrangian(formula, rule, th, [&q0, &q1, &dual(x.as_slice(), Some(i))]).eps;
         DVector::from_fn(size, entry)
     };
     let mut x = DVector::zeros(size);
@@ -115,9 +112,8 @@ where
             let (q1, p1) = (run.q(), run.memory().p());
             let rule = (NODES, omega);
             let x = dual(&stationary(system, rule, [t, h], [&q0, q1]), None);
-            let value = |a, b| {
-                discrete_lagrangian(system, rule, [t, h], [&dual(&q0, a), &dual(q1, b), &x]).eps
-            };
+            let value =
+                |a, b| discrete_lagrangian(system, rule, [t, h], [&dual(&q0, a), &dual(q1, b), &x]).eps;
             let left: Vec<f64> = (0..q0.len()).map(|i| value(Some(i), None)).collect();
             let right: Vec<f64> = (0..q0.len()).map(|i| value(None, Some(i))).collect();
             let scale = 1.0 + size(&p0) + size(p1) + size(q1) / h.abs();

@@ -55,7 +55,10 @@ pub(crate) fn discrete_lagrangian<F: Formula, T: RealField + Copy>(
     for (&c, &w) in rule.nodes.iter().zip(&rule.weights) {
         let [b0, b1, d0, d1] = interpolation(c, rule.omega * h);
         let combine = |x: f64, y: f64| -> Vec<T> {
-            q0.iter().zip(q1).map(|(&q0, &q1)| convert::<f64, T>(x) * q0 + convert::<f64, T>(y) * q1).collect()
+            q0.iter()
+                .zip(q1)
+                .map(|(&q0, &q1)| convert::<f64, T>(x) * q0 + convert::<f64, T>(y) * q1)
+                .collect()
         };
         let (point, velocity) = (combine(b0, b1), combine(d0 / h, d1 / h));
         sum += convert::<f64, T>(h * w) * formula.lagrangian(&point, &velocity, convert(t + c * h));
@@ -69,7 +72,12 @@ pub(crate) fn dual(q: &[f64], direction: Option<usize>) -> Vec<Dual64> {
 }
 
 /// (D₁L_d, D₂L_d)
-pub(crate) fn slots<F: Formula>(formula: &F, rule: &Rule, th: [f64; 2], [q0, q1]: [&[f64]; 2]) -> [Vec<f64>; 2] {
+pub(crate) fn slots<F: Formula>(
+    formula: &F,
+    rule: &Rule,
+    th: [f64; 2],
+    [q0, q1]: [&[f64]; 2],
+) -> [Vec<f64>; 2] {
     let value = |a, b| {
         let (q0, q1) = (dual(q0, a), dual(q1, b));
         discrete_lagrangian(formula, rule, th, [&q0, &q1]).eps

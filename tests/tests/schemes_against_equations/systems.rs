@@ -22,7 +22,9 @@ impl Formula for Driven {
     fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
         let ([x, y], [vx, vy]) = ([q[0], q[1]], [v[0], v[1]]);
         let form = (x * vy - y * vx) * real(0.5) + t.sin() * vx + t * t * vy;
-        form - (real::<T>(2.0) * x + (real::<T>(1.0) + real::<T>(0.3) * t.cos()) * y * y + x * x * y / real(3.0))
+        form - (real::<T>(2.0) * x
+            + (real::<T>(1.0) + real::<T>(0.3) * t.cos()) * y * y
+            + x * x * y / real(3.0))
     }
 }
 
@@ -39,7 +41,8 @@ pub(crate) struct Breathing {
 
 impl Formula for Breathing {
     fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let form = (real::<T>(1.0) + real::<T>(self.depth) * t.sin()) * (q[0] * v[1] - q[1] * v[0]) * real(0.5);
+        let form =
+            (real::<T>(1.0) + real::<T>(self.depth) * t.sin()) * (q[0] * v[1] - q[1] * v[0]) * real(0.5);
         form - ((q[0] * q[0] + q[1] * q[1]) * real(0.5) + real::<T>(0.2) * q[0] * q[1] * q[1] * t)
     }
 }

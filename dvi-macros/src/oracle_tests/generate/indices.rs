@@ -31,7 +31,11 @@ impl Scope {
             let outer = outer.clone();
             range.clone().map(move |index| outer.iter().copied().chain([index]).collect::<Vec<i64>>())
         };
-        Self { values: self.values.iter().flat_map(extended).collect(), level: self.level + 1, names: self.names }
+        Self {
+            values: self.values.iter().flat_map(extended).collect(),
+            level: self.level + 1,
+            names: self.names,
+        }
     }
 
     pub(super) fn with_name(&self) -> Self {
@@ -115,11 +119,13 @@ impl Generator<'_> {
         let whole = (Index::literal(0), size.clone());
         if scope.level == 0 || self.random.chance(45) {
             return match self.random.below(10) {
-                0 => (Index::literal(-1), Index::literal(2)),
-                1 => (Index::literal(-2), Index::literal(1)),
-                2 => (Index::literal(0), Index::literal(2)),
-                3 => (Index::literal(1), size),
-                4 => (Index::literal(-1), size.plus(-1)),
+                0 => match self.random.below(3) {
+                    0 => (Index::literal(-1), Index::literal(2)),
+                    1 => (Index::literal(-2), Index::literal(1)),
+                    _ => (Index::literal(-1), size.plus(-1)),
+                },
+                1 => (Index::literal(0), Index::literal(2)),
+                2 => (Index::literal(1), size),
                 _ => whole,
             };
         }
