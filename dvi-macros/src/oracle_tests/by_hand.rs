@@ -80,7 +80,8 @@ fn systems() -> Vec<System> {
     for kind in kinds {
         let open = |regular: bool| {
             let time = || Formula::Time;
-            let dynamics = if regular { Dynamics::Regular(time()) } else { Dynamics::OneForm(time(), time()) };
+            let dynamics =
+                if regular { Dynamics::Regular(time()) } else { Dynamics::OneForm(time(), time()) };
             declarations(kind.clone(), dynamics)
         };
         let (degenerate, regular) = (open(false), open(true));

@@ -111,7 +111,11 @@ impl<'a> Oracle<'a> {
             Formula::MultiplyAdd(a, b, c) => self.value(a)?.times(&self.value(b)?).plus(&self.value(c)?),
             Formula::Own(function, of) => self.value(of)?.unary(&|x| own(*function, x)),
             Formula::If(condition, then, otherwise) => {
-                if self.holds(condition)? { self.value(then)? } else { self.value(otherwise)? }
+                if self.holds(condition)? {
+                    self.value(then)?
+                } else {
+                    self.value(otherwise)?
+                }
             }
             Formula::Let(name, value, body) => {
                 let value = self.value(value)?;

@@ -4,6 +4,7 @@
 //! and 1/(2 + ·²) as its one function:
 //! ```text
 //! F ::= u | x[i] (for each bound index i) | F + F | F * F | F² | 1/(2 + F²) | sum(0..N, |i| F)
+//!       | sum_pairs(0..N, |i, j| F), which is two sums
 //! ```
 //! Of operands that may be exchanged one order is kept.
 
@@ -35,6 +36,12 @@ fn formulas(size: usize, sums: usize, level: usize) -> Vec<Formula> {
         for body in formulas(size - 1, sums - 1, level + 1) {
             let upper = Index::atom(Atom::Size(0));
             found.push(Formula::Sum(Loops::Single, level, Index::literal(0), upper, Box::new(body)));
+        }
+    }
+    if sums > 1 {
+        for body in formulas(size - 1, sums - 2, level + 2) {
+            let upper = Index::atom(Atom::Size(0));
+            found.push(Formula::Sum(Loops::Pairs, level, Index::literal(0), upper, Box::new(body)));
         }
     }
     for left_size in 1..size - 1 {

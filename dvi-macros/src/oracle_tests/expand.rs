@@ -17,8 +17,11 @@ pub(super) fn expand(system: &System) -> Result<Expansion, Vec<String>> {
         Err(error) => panic!("{text} is no Rust: {error}"),
     };
     let (attribute, item) = (parse(system.attribute()), parse(system.item()));
-    let tokens =
-        if system.is_regular() { lagrangian(attribute, item) } else { degenerate_lagrangian(attribute, item) };
+    let tokens = if system.is_regular() {
+        lagrangian(attribute, item)
+    } else {
+        degenerate_lagrangian(attribute, item)
+    };
     let mut messages = Vec::new();
     collect_messages(tokens.clone(), &mut messages);
     if messages.is_empty() { Ok(Expansion::new(tokens)) } else { Err(messages) }

@@ -88,7 +88,8 @@ pub(super) const UNARY: &[UnaryFunction] = &[
 ];
 
 /// The functions that the systems declare as their own: name, and the paths of its derivatives.
-pub(super) const OWN: &[(&str, [&str; 3])] = &[("f", ["f", "df", "d2f"]), ("g", ["own::g", "own::dg", "own::d2g"])];
+pub(super) const OWN: &[(&str, [&str; 3])] =
+    &[("f", ["f", "df", "d2f"]), ("g", ["own::g", "own::dg", "own::d2g"])];
 
 /// x/(1 + x²), and sin 2x + x³/3.
 pub(super) fn own(function: usize, x: f64) -> Derivatives {
@@ -111,7 +112,10 @@ fn derivatives_are_those_of_the_functions() {
         for order in 0..2 {
             let difference = (at(x + h)[order] - at(x - h)[order]) / (2.0 * h);
             let derivative = at(x)[order + 1];
-            assert!((difference - derivative).abs() < 1e-6 * (1.0 + derivative.abs()), "{name}({x}), {order}");
+            assert!(
+                (difference - derivative).abs() < 1e-6 * (1.0 + derivative.abs()),
+                "{name}({x}), {order}"
+            );
         }
     };
     for x in [-2.3, -0.7, -0.3, 0.2, 0.6, 1.4, 2.1] {

@@ -36,7 +36,8 @@ pub(super) fn system(random: &mut Random) -> System {
     let regular = random.chance(40);
     let system = declarations::declarations(random, regular);
     let budget = 10 + random.below(30);
-    let mut generator = Generator { random, system, velocities: Velocities::None, budget, written: Vec::new() };
+    let mut generator =
+        Generator { random, system, velocities: Velocities::None, budget, written: Vec::new() };
     let dynamics = if regular { generator.regular() } else { generator.degenerate() };
     generator.system.dynamics = dynamics;
     for _ in 0..generator.random.below(3) {

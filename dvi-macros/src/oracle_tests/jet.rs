@@ -150,10 +150,7 @@ impl Jet {
         let derivative = |order: i32, factor: f64| {
             if factor == 0.0 { 0.0 } else { factor * x.powi(exponent - order) }
         };
-        let sized = |value: f64, next: f64| Sized {
-            value,
-            size: value.abs() + next.abs() * self.value.size,
-        };
+        let sized = |value: f64, next: f64| Sized { value, size: value.abs() + next.abs() * self.value.size };
         let (f, f1) = (x.powi(exponent), derivative(1, n));
         let (f2, f3) = (derivative(2, n * (n - 1.0)), derivative(3, n * (n - 1.0) * (n - 2.0)));
         let zero = Sized::default();
@@ -168,7 +165,8 @@ impl Jet {
         let (f, derivatives, distance) = match function {
             BinaryFunction::Atan2 => {
                 let r4 = r2 * r2;
-                let derivatives = [b / r2, -a / r2, -2.0 * a * b / r4, (a * a - b * b) / r4, 2.0 * a * b / r4];
+                let derivatives =
+                    [b / r2, -a / r2, -2.0 * a * b / r4, (a * a - b * b) / r4, 2.0 * a * b / r4];
                 // The angle jumps at the negative axis.
                 let distance = if b < 0.0 { a.abs() } else { r2.sqrt() };
                 (a.atan2(b), derivatives, distance)

@@ -60,11 +60,19 @@ impl Formula {
 
     fn indices_mut(&mut self) -> Vec<&mut Index> {
         match self {
-            Self::Coordinate(_, Some(index)) | Self::Velocity(_, Some(index)) | Self::Count(index) => vec![index],
+            Self::Coordinate(_, Some(index)) | Self::Velocity(_, Some(index)) | Self::Count(index) => {
+                vec![index]
+            }
             Self::Parameter(_, indices) => indices.iter_mut().collect(),
             Self::Sum(_, _, lower, upper, _) => vec![lower, upper],
             _ => Vec::new(),
         }
+    }
+
+    /// Whether it calls this function of the user's.
+    pub(super) fn calls(&self, function: usize) -> bool {
+        matches!(self, Self::Own(own, _) if *own == function)
+            || self.parts().into_iter().any(|part| part.calls(function))
     }
 
     pub(super) fn has_velocities(&self) -> bool {
@@ -119,10 +127,9 @@ impl Index {
         let terms = self.terms.iter().filter(|(atom, _)| *atom != Atom::Bound(level));
         let atom = |atom: &Atom| match atom {
             Atom::Bound(other) if *other > level => Atom::Bound(other - 1),
-            Atom::Remainder(value, modulus) => Atom::Remainder(
-                Box::new(value.without_level(level)),
-                Box::new(modulus.without_level(level)),
-            ),
+            Atom::Remainder(value, modulus) => {
+                Atom::Remainder(Box::new(value.without_level(level)), Box::new(modulus.without_level(level)))
+            }
             other => other.clone(),
         };
         Self {

@@ -30,7 +30,9 @@ impl<'a> Reader<'a> {
                 Lit::Float(value) => Formula::Number(value.to_string().leak()),
                 _ => panic!("no number"),
             },
-            Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => Formula::Negative(self.boxed(&unary.expr)),
+            Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+                Formula::Negative(self.boxed(&unary.expr))
+            }
             Expr::Binary(binary) => {
                 let (a, b) = (self.expr(&binary.left), self.expr(&binary.right));
                 match binary.op {
@@ -93,7 +95,9 @@ impl<'a> Reader<'a> {
     }
 
     fn sum(&mut self, name: &str, range: &Expr, body: &Expr) -> Formula {
-        let (Expr::Range(range), Expr::Closure(closure)) = (range, body) else { panic!("sum(range, closure)") };
+        let (Expr::Range(range), Expr::Closure(closure)) = (range, body) else {
+            panic!("sum(range, closure)")
+        };
         assert!(matches!(range.limits, RangeLimits::HalfOpen(_)));
         let end = |end: &Option<Box<Expr>>| self.index(end.as_ref().expect("a bound"));
         let (lower, upper) = (end(&range.start), end(&range.end));

@@ -27,8 +27,7 @@ pub(super) fn hold(
     points: &[Expected],
 ) -> Result<Claims, Difference> {
     let n = system.dimension();
-    let numbers =
-        if system.is_regular() { regular(n, points) } else { degenerate(n, partners, points) };
+    let numbers = if system.is_regular() { regular(n, points) } else { degenerate(n, partners, points) };
     let mut claims = Claims::new();
     for (name, possible) in numbers {
         let declared = expansion.constants[name];
@@ -63,11 +62,7 @@ fn degenerate(n: usize, partners: &[usize], points: &[Expected]) -> Vec<(&'stati
         let alone = |i: usize, j: usize| j == partners[i] || points.iter().all(|at| is_zero(entry(at, i, j)));
         involution && pairs(n).all(|(i, j)| alone(i, j))
     };
-    vec![
-        ("LINEAR", constant && free_of_time),
-        ("MATCHING", couples(&dalpha)),
-        ("CANONICAL", couples(&omega)),
-    ]
+    vec![("LINEAR", constant && free_of_time), ("MATCHING", couples(&dalpha)), ("CANONICAL", couples(&omega))]
 }
 
 fn regular(n: usize, points: &[Expected]) -> Vec<(&'static str, bool)> {

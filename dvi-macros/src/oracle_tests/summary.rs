@@ -66,6 +66,7 @@ impl Summary {
     }
 
     /// Prints what came out, and fails if anything differed.
+    #[expect(clippy::print_stdout, reason = "the distribution is read with --nocapture")]
     pub(super) fn conclude(self, what: &str) {
         println!("{what}: largest difference {:.1e} of the terms", self.largest);
         for (what, count) in &self.counts {
@@ -84,11 +85,13 @@ impl Summary {
 fn kind(verdict: &Verdict) -> Option<String> {
     match verdict {
         Verdict::Differs { what, .. } => Some(what.clone()),
-        Verdict::Refused(messages) => messages.iter().find(|message| refusal(message).is_none()).map(|message| {
-            // Names and numbers of the message aside.
-            let words = message.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() > 2);
-            format!("refused: {}", words.take(6).collect::<Vec<_>>().join(" "))
-        }),
+        Verdict::Refused(messages) => {
+            messages.iter().find(|message| refusal(message).is_none()).map(|message| {
+                // Names and numbers of the message aside.
+                let words = message.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() > 2);
+                format!("refused: {}", words.take(6).collect::<Vec<_>>().join(" "))
+            })
+        }
         Verdict::Agrees { .. } | Verdict::NoPoint | Verdict::OutOfRange => None,
     }
 }
@@ -103,8 +106,9 @@ pub(super) fn describe(system: &System, verdict: &Verdict) -> String {
     let sizes: Vec<String> = (0..system.sizes.len())
         .map(|size| format!("{} = {}", system.size_text(size), system.sizes[size].value))
         .collect();
-    let fields: Vec<String> =
-        system.fields.iter().map(|field| format!("{} = {:?}", field.name, field.values)).collect();
+    let attribute = system.attribute();
+    let used = system.fields.iter().filter(|field| attribute.contains(field.name));
+    let fields: Vec<String> = used.map(|field| format!("{} = {:?}", field.name, field.values)).collect();
     let found = match verdict {
         Verdict::Differs { details, .. } => details.clone(),
         Verdict::Refused(messages) => messages.join("\n"),
@@ -112,7 +116,7 @@ pub(super) fn describe(system: &System, verdict: &Verdict) -> String {
     };
     format!(
         "#[{name}({})]\n{}\n  sizes {}; {}\n  {found}",
-        system.attribute(),
+        attribute,
         system.item(),
         sizes.join(", "),
         fields.join(", ")

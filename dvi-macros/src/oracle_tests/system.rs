@@ -98,6 +98,10 @@ impl System {
         matches!(self.dynamics, Dynamics::Regular(_))
     }
 
+    pub(super) fn calls(&self, function: usize) -> bool {
+        self.clone().formulas_mut().into_iter().any(|formula| formula.calls(function))
+    }
+
     /// All formulas, to be changed in place.
     pub(super) fn formulas_mut(&mut self) -> Vec<&mut Formula> {
         let mut formulas = match &mut self.dynamics {

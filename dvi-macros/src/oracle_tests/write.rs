@@ -55,7 +55,7 @@ impl System {
         if !momenta.is_empty() {
             text += &format!(", momenta({})", momenta.join(", "));
         }
-        let used = OWN.iter().filter(|(name, _)| text.contains(&format!(" {name}(")) || text.contains(&format!("({name}(")));
+        let used = OWN.iter().enumerate().filter(|(number, _)| self.calls(*number)).map(|(_, row)| row);
         let own: Vec<String> = used.map(|(name, paths)| format!("{name} = [{}]", paths.join(", "))).collect();
         if own.is_empty() { text } else { text + &format!(", functions({})", own.join(", ")) }
     }
@@ -69,8 +69,7 @@ impl System {
             _ => None,
         });
         let generics: Vec<String> = lifetime.into_iter().chain(constants).collect();
-        let generics =
-            if generics.is_empty() { String::new() } else { format!("<{}>", generics.join(", ")) };
+        let generics = if generics.is_empty() { String::new() } else { format!("<{}>", generics.join(", ")) };
         let counts = self.sizes.iter().filter_map(|size| match size.kind {
             SizeKind::Field(name) => Some(format!("{name}: usize")),
             _ => None,
@@ -133,7 +132,8 @@ impl Writer<'_> {
                 postfix(format!("{}({})", self.velocity, self.place(*block, index.as_ref())))
             }
             Formula::Parameter(field, indices) => {
-                let indices: String = indices.iter().map(|index| format!("[{}]", self.index(index))).collect();
+                let indices: String =
+                    indices.iter().map(|index| format!("[{}]", self.index(index))).collect();
                 postfix(format!("{}{indices}", self.system.fields[*field].name))
             }
             Formula::Count(index) => postfix(format!("(({}) as f64)", self.index(index))),

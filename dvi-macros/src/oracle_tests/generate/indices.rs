@@ -31,7 +31,11 @@ impl Scope {
             let outer = outer.clone();
             range.clone().map(move |index| outer.iter().copied().chain([index]).collect::<Vec<i64>>())
         };
-        Self { values: self.values.iter().flat_map(extended).collect(), level: self.level + 1, names: self.names }
+        Self {
+            values: self.values.iter().flat_map(extended).collect(),
+            level: self.level + 1,
+            names: self.names,
+        }
     }
 
     pub(super) fn with_name(&self) -> Self {
@@ -114,12 +118,14 @@ impl Generator<'_> {
         let size = Index::atom(Atom::Size(self.random.below(self.system.sizes.len())));
         let whole = (Index::literal(0), size.clone());
         if scope.level == 0 || self.random.chance(45) {
-            return match self.random.below(if std::env::var("DVI_X").is_ok() { 0 } else { 0 } + 10).max(if std::env::var("DVI_X").is_ok() { 5 } else { 0 }) {
-                0 => (Index::literal(-1), Index::literal(2)),
-                1 => (Index::literal(-2), Index::literal(1)),
-                2 => (Index::literal(0), Index::literal(2)),
-                3 => (Index::literal(1), size),
-                4 => (Index::literal(-1), size.plus(-1)),
+            return match self.random.below(10) {
+                0 => match self.random.below(3) {
+                    0 => (Index::literal(-1), Index::literal(2)),
+                    1 => (Index::literal(-2), Index::literal(1)),
+                    _ => (Index::literal(-1), size.plus(-1)),
+                },
+                1 => (Index::literal(0), Index::literal(2)),
+                2 => (Index::literal(1), size),
                 _ => whole,
             };
         }
@@ -131,7 +137,7 @@ impl Generator<'_> {
             2 => (Index::literal(0), j),
             3 => (Index::literal(0), j.plus(1)),
             4 => (Index::literal(0), size.with(outer, -1)),
-            5 if std::env::var("DVI_X").is_err() => (j.clone().plus(-1), j.plus(2)),
+            5 => (j.clone().plus(-1), j.plus(2)),
             6 => (j.clone(), j.plus(2)),
             _ => (Index::literal(0), j.plus(2)),
         }

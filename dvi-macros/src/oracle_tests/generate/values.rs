@@ -108,7 +108,7 @@ impl Generator<'_> {
 
     fn leaf(&mut self, scope: &Scope) -> Formula {
         match self.random.below(20) {
-            0 => Formula::Number(*self.random.pick::<&'static str>(&NUMBERS)),
+            0 => Formula::Number(self.random.pick::<&'static str>(&NUMBERS)),
             1 => Formula::Time,
             2..=5 => self.parameter(scope),
             6 if scope.level > 0 => Formula::Count(self.count(scope)),
@@ -173,7 +173,7 @@ impl Generator<'_> {
             _ => {
                 let base = self.positive(a);
                 let exponent = if self.random.chance(70) {
-                    Formula::Number(*self.random.pick::<&'static str>(&["0.5", "1.5", "2.5", "3.0", "2"]))
+                    Formula::Number(self.random.pick::<&'static str>(&["0.5", "1.5", "2.5", "3.0", "2"]))
                 } else {
                     b
                 };

@@ -22,8 +22,11 @@ pub(super) enum Callee {
     Own(String),
 }
 
+type UnaryRow = (&'static str, fn(f64) -> f64);
+type BinaryRow = (&'static str, fn(f64, f64) -> f64);
+
 #[rustfmt::skip]
-const UNARY: &[(&str, fn(f64) -> f64)] = &[
+const UNARY: &[UnaryRow] = &[
     ("sqrt",  f64::sqrt),  ("cbrt",  f64::cbrt),  ("exp",   f64::exp),   ("exp2",   f64::exp2),
     ("exp_m1", f64::exp_m1), ("ln",  f64::ln),    ("ln_1p", f64::ln_1p), ("log2",   f64::log2),
     ("log10", f64::log10), ("sin",   f64::sin),   ("cos",   f64::cos),   ("tan",    f64::tan),
@@ -32,8 +35,7 @@ const UNARY: &[(&str, fn(f64) -> f64)] = &[
     ("atanh", f64::atanh), ("abs",   f64::abs),   ("signum", f64::signum),
 ];
 
-const BINARY: &[(&str, fn(f64, f64) -> f64)] =
-    &[("atan2", f64::atan2), ("hypot", f64::hypot), ("powf", f64::powf)];
+const BINARY: &[BinaryRow] = &[("atan2", f64::atan2), ("hypot", f64::hypot), ("powf", f64::powf)];
 
 /// The traits whose functions are generated.
 const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
@@ -60,7 +62,9 @@ fn scalar(name: &str) -> Callee {
     let unary = UNARY.iter().find(|(known, _)| *known == name).map(|(_, function)| Callee::Unary(*function));
     let binary =
         BINARY.iter().find(|(known, _)| *known == name).map(|(_, function)| Callee::Binary(*function));
-    unary.or(binary).unwrap_or_else(|| panic!("the interpreter does not know the method `{name}` of a scalar"))
+    unary
+        .or(binary)
+        .unwrap_or_else(|| panic!("the interpreter does not know the method `{name}` of a scalar"))
 }
 
 /// The relation that a variant of `Comparison` names.

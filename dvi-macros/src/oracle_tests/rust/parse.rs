@@ -156,9 +156,7 @@ impl Parser {
                 _ => unknown("operator", unary),
             },
             Expr::Binary(binary) => self.binary(binary),
-            Expr::Assign(assign) => {
-                Code::Assign(None, self.boxed(&assign.left), self.boxed(&assign.right))
-            }
+            Expr::Assign(assign) => Code::Assign(None, self.boxed(&assign.left), self.boxed(&assign.right)),
             Expr::Call(call) => {
                 let Expr::Path(path) = &*call.func else { unknown("call", call) };
                 let arguments = call.args.iter().map(|argument| self.expr(argument)).collect();
@@ -179,7 +177,8 @@ impl Parser {
             }
             Expr::Match(choice) => {
                 let value = self.boxed(&choice.expr);
-                let arms = choice.arms.iter().map(|arm| (arm_value(&arm.pat), self.expr(&arm.body))).collect();
+                let arms =
+                    choice.arms.iter().map(|arm| (arm_value(&arm.pat), self.expr(&arm.body))).collect();
                 Code::Match(value, arms)
             }
             Expr::ForLoop(repeated) => self.repeated(repeated),
@@ -242,7 +241,8 @@ impl Parser {
 
     fn repeated(&mut self, repeated: &syn::ExprForLoop) -> Code {
         let Expr::Range(range) = &*repeated.expr else { unknown("loop", repeated) };
-        let (Some(start), Some(end), RangeLimits::HalfOpen(_)) = (&range.start, &range.end, &range.limits) else {
+        let (Some(start), Some(end), RangeLimits::HalfOpen(_)) = (&range.start, &range.end, &range.limits)
+        else {
             unknown("range", range)
         };
         let (lower, upper) = (self.boxed(start), self.boxed(end));

@@ -120,7 +120,8 @@ impl Machine<'_> {
             }
             Code::Cast(of, kind) => Ok(cast(&self.run(of, slots)?, *kind)),
             Code::Tuple(parts) => {
-                let parts: Result<Vec<Value>, Jump> = parts.iter().map(|part| self.run(part, slots)).collect();
+                let parts: Result<Vec<Value>, Jump> =
+                    parts.iter().map(|part| self.run(part, slots)).collect();
                 Ok(Value::Tuple(parts?))
             }
             Code::Block(steps) => {
@@ -195,7 +196,8 @@ impl Machine<'_> {
             Value::Place(place) => match &**place {
                 Nested::List(entries) => {
                     let entry = usize::try_from(position).ok().and_then(|position| entries.get(position));
-                    let reason = || panicked(format!("index {position} of a field of length {}", entries.len()));
+                    let reason =
+                        || panicked(format!("index {position} of a field of length {}", entries.len()));
                     Ok(Value::Place(entry.ok_or_else(reason)?.clone()))
                 }
                 other => panic!("the interpreter does not index {other:?}"),
@@ -227,9 +229,7 @@ impl Machine<'_> {
             Callee::Number => Ok(Value::Real(real(0))),
             Callee::Unary(function) => Ok(Value::Real(function(real(0)))),
             Callee::Binary(function) => Ok(Value::Real(function(real(0), real(1)))),
-            Callee::Power => {
-                Ok(Value::Real(real(0).powi(i32::try_from(integer(1)).expect("an exponent"))))
-            }
+            Callee::Power => Ok(Value::Real(real(0).powi(i32::try_from(integer(1)).expect("an exponent")))),
             Callee::Choose => {
                 let Value::Text(relation) = &arguments[1] else { panic!("a choice compares") };
                 let holds = match relation.as_str() {
@@ -252,7 +252,8 @@ impl Machine<'_> {
                 Ok(if (0..length).contains(&index) {
                     Value::Unit
                 } else {
-                    Value::Failure(format!("index {index} of {:?}, of length {length}", arguments[0]))
+                    let Value::Text(array) = &arguments[0] else { panic!("an array has a name") };
+                    Value::Failure(format!("index {index} of `{array}`, of length {length}"))
                 })
             }
             Callee::Ok => Ok(arguments.into_iter().next().expect("a value")),

@@ -29,7 +29,11 @@ pub(crate) enum Value {
     Text(String),
     Tuple(Vec<Value>),
     /// A part of an array of the machine.
-    View { array: usize, start: usize, length: usize },
+    View {
+        array: usize,
+        start: usize,
+        length: usize,
+    },
     /// A place in the struct.
     Place(Rc<Nested>),
     /// The weights of the four blocks: qq, qv, vq, vv.

@@ -1,0 +1,157 @@
+//! Interior displacements: p0 = −D₁L_d and p1 = D₂L_d where L_d(q0, q1, δ) is stationary in δ.
+
+use dvi_core::prelude::*;
+use dvi_core::{FrequencyIn, State};
+use nalgebra::{DMatrix, DVector, RealField, convert};
+
+use super::equations::{Formula, defect, dual, interpolation, size};
+use super::systems::{Coupled, Fast, Magnetic, Shaken};
+use super::{Outcome, START, STEPS};
+
+/// The Lobatto rules of 3, 4 and 5 nodes on [0, 1] (Abramowitz & Stegun 1964, 25.4.32).
+fn lobatto(nodes: usize) -> (Vec<f64>, Vec<f64>) {
+    let (c, w) = match nodes {
+        3 => (vec![-1.0, 0.0, 1.0], vec![1.0 / 3.0, 4.0 / 3.0, 1.0 / 3.0]),
+        4 => {
+            let c = 0.2_f64.sqrt();
+            (vec![-1.0, -c, c, 1.0], vec![1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0])
+        }
+        _ => {
+            let c = (3.0_f64 / 7.0).sqrt();
+            let w = [0.1, 49.0 / 90.0, 32.0 / 45.0, 49.0 / 90.0, 0.1];
+            (vec![-1.0, -c, 0.0, c, 1.0], w.to_vec())
+        }
+    };
+    (c.iter().map(|c| (1.0 + c) / 2.0).collect(), w.iter().map(|w| w / 2.0).collect())
+}
+
+/// The derivative at `at` of the Lagrange polynomial of node k.
+fn lagrange_derivative(nodes: &[f64], k: usize, at: f64) -> f64 {
+    let factor = |m: usize| (at - nodes[m]) / (nodes[k] - nodes[m]);
+    let others = || (0..nodes.len()).filter(move |&m| m != k);
+    others().map(|m| others().filter(|&l| l != m).map(factor).product::<f64>() / (nodes[k] - nodes[m])).sum()
+}
+
+/// L_d(q0, q1, δ), the displacements of one interior node after the other.
+fn discrete_lagrangian<F: Formula, T: RealField + Copy>(
+    formula: &F,
+    (nodes, omega): (usize, f64),
+    [t, h]: [f64; 2],
+    [q0, q1, displacements]: [&[T]; 3],
+) -> T {
+    let (c, w) = lobatto(nodes);
+    let n = q0.len();
+    let mut sum = T::zero();
+    for j in 0..nodes {
+        let [b0, b1, d0, d1] = interpolation(c[j], omega * h).map(convert::<f64, T>);
+        let mut point: Vec<T> = (0..n).map(|i| b0 * q0[i] + b1 * q1[i]).collect();
+        let mut velocity: Vec<T> = (0..n).map(|i| d0 * q0[i] + d1 * q1[i]).collect();
+        for k in 1..nodes - 1 {
+            for i in 0..n {
+                let displacement = displacements[(k - 1) * n + i];
+                velocity[i] += convert::<f64, T>(lagrange_derivative(&c, k, c[j])) * displacement;
+                if j == k {
+                    point[i] += displacement;
+                }
+            }
+        }
+        velocity.iter_mut().for_each(|v| *v /= convert(h));
+        sum += convert::<f64, T>(h * w[j]) * formula.lagrangian(&point, &velocity, convert(t + c[j] * h));
+    }
+    sum
+}
+
+/// The displacements at which L_d is stationary: Newton with the differences of exact derivatives.
+fn stationary<F: Formula>(formula: &F, rule: (usize, f64), th: [f64; 2], [q0, q1]: [&[f64]; 2]) -> Vec<f64> {
+    let size = q0.len() * (rule.0 - 2);
+    let (q0, q1) = (dual(q0, None), dual(q1, None));
+    let gradient = |x: &DVector<f64>| {
+        let entry =
+            |i, _| discrete_lagrangian(formula, rule, th, [&q0, &q1, &dual(x.as_slice(), Some(i))]).eps;
+        DVector::from_fn(size, entry)
+    };
+    let mut x = DVector::zeros(size);
+    for _ in 0..12 {
+        let column = |j: usize| {
+            let shifted = |by: f64| {
+                let mut x = x.clone();
+                x[j] += by;
+                gradient(&x)
+            };
+            (shifted(1e-4) - shifted(-1e-4)) / 2e-4
+        };
+        let columns: Vec<DVector<f64>> = (0..size).map(column).collect();
+        let change = DMatrix::from_columns(&columns).lu().solve(&gradient(&x));
+        x -= change.expect("a regular matrix");
+    }
+    x.as_slice().to_vec()
+}
+
+fn check<S, F, const NODES: usize>(
+    system: &S,
+    method: Galerkin<NODES, F>,
+    omega: f64,
+    (q, v): (&[f64], &[f64]),
+) -> Outcome
+where
+    S: RegularLagrangian + Formula,
+    F: FrequencyIn<f64> + Copy,
+{
+    let name = S::REPORT.system;
+    let mut solvers = vec![Solver::Automatic, Solver::Newton];
+    if S::SEPARABLE {
+        solvers.push(Solver::FixedPoint);
+    }
+    for (h, solver) in STEPS.into_iter().flat_map(|h| solvers.iter().map(move |solver| (h, *solver))) {
+        let method = Galerkin { solver, ..method };
+        let state = S::State::read(|block| system.block_len(block), q, v);
+        let mut run = Integrator::new_at(system, method, START, h, state)?;
+        for step in 0..3 {
+            let (t, q0, p0) = (run.time(), run.q().to_vec(), run.memory().p().to_vec());
+            run.advance().map_err(|error| format!("{name}, {method:?}: {error}"))?;
+            let (q1, p1) = (run.q(), run.memory().p());
+            let rule = (NODES, omega);
+            let x = dual(&stationary(system, rule, [t, h], [&q0, q1]), None);
+            let value =
+                |a, b| discrete_lagrangian(system, rule, [t, h], [&dual(&q0, a), &dual(q1, b), &x]).eps;
+            let left: Vec<f64> = (0..q0.len()).map(|i| value(Some(i), None)).collect();
+            let right: Vec<f64> = (0..q0.len()).map(|i| value(None, Some(i))).collect();
+            let scale = 1.0 + size(&p0) + size(p1) + size(q1) / h.abs();
+            let found = defect(&p0, 1.0, &left).max(defect(p1, -1.0, &right)) / scale;
+            assert!(found < 4e-14, "{name}, {method:?}, h = {h}, step {step}: {found:e}");
+        }
+    }
+    Ok(())
+}
+
+fn check_nodes<const NODES: usize>() -> Outcome {
+    let planar: (&[f64], &[f64]) = (&[0.5, -0.2], &[0.4, -0.3]);
+    let line: (&[f64], &[f64]) = (&[0.2, -0.1, 0.4], &[0.3, 0.5, -0.2]);
+    let (shaken, magnetic, fast) = (Shaken { depth: 0.4 }, Magnetic { b: 0.7 }, Fast { field: 0.6 });
+    let coupled = Coupled { mass: vec![1.0, 2.0, 1.5] };
+    let linear = Galerkin::<NODES>::new();
+    check(&shaken, linear, 0.0, planar)?;
+    check(&coupled, linear, 0.0, line)?;
+    check(&magnetic, linear, 0.0, planar)?;
+    check(&fast, linear, 0.0, planar)?;
+    let fitted = linear.phase_fitted(Constant(1.3));
+    check(&shaken, fitted, 1.3, planar)?;
+    check(&coupled, fitted, 1.3, line)?;
+    check(&magnetic, fitted, 1.3, planar)?;
+    check(&fast, fitted, 1.3, planar)
+}
+
+#[test]
+fn three_nodes() -> Outcome {
+    check_nodes::<3>()
+}
+
+#[test]
+fn four_nodes() -> Outcome {
+    check_nodes::<4>()
+}
+
+#[test]
+fn five_nodes() -> Outcome {
+    check_nodes::<5>()
+}
