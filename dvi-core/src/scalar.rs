@@ -26,6 +26,10 @@ pub enum Comparison {
 macro_rules! scalar {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
         /// A number that a generated formula can be evaluated on.
+        #[diagnostic::on_unimplemented(
+            message = "a system is computed in real numbers, and `{Self}` is not a real number",
+            label = "write a number with a point, as in `1.0`"
+        )]
         pub trait Scalar:
             Copy
             + Debug
@@ -70,6 +74,7 @@ macro_rules! scalar {
             $($(#[$doc])* fn $name(self) -> Self;)*
         }
 
+        #[diagnostic::do_not_recommend]
         impl<T: RealField + Copy> Scalar for T {
             #[inline(always)]
             fn lift(value: f64) -> Self {
@@ -161,6 +166,11 @@ scalar! {
 /// A scalar with an order: what the solvers need to decide whether they are done.
 ///
 /// Implemented for every real field of nalgebra that is `Copy`.
+#[diagnostic::on_unimplemented(
+    message = "a system is computed in real numbers, and `{Self}` is not a real number",
+    label = "write a number with a point, as in `1.0`"
+)]
 pub trait Real: Scalar + RealField + Copy {}
 
+#[diagnostic::do_not_recommend]
 impl<T: RealField + Copy> Real for T {}

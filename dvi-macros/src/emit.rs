@@ -311,9 +311,8 @@ impl Function<'_> {
                 quote!(#scalar::powi(#of, #exponent))
             }
             Instruction::Call(function, order, of) => {
-                let path = &self.emitter.model.functions[*function as usize].derivatives[*order as usize];
-                let of = self.signed(*of);
-                quote!(#path(#of))
+                let (name, of) = (own_function(*function as usize, *order as usize), self.signed(*of));
+                quote!(Self::#name(#of))
             }
             Instruction::Choose(left, relation, right, then, otherwise) => {
                 let relation = match relation {
@@ -398,6 +397,11 @@ impl Emitter<'_> {
         }
         quote!(if #(#inside)&&* { #value } else { 0f64 })
     }
+}
+
+/// The function that calls the user's own: a mistake in its signature is one error, on its path.
+pub(crate) fn own_function(function: usize, order: usize) -> Ident {
+    format_ident!("__function{function}_{order}")
 }
 
 pub(crate) fn output_block(output: Output, block: u32) -> String {

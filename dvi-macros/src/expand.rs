@@ -7,6 +7,7 @@ use syn::{Item, ItemStruct};
 use crate::emit::Emitter;
 use crate::errors::Errors;
 use crate::implement;
+use crate::lower::lints::warnings;
 use crate::model::Model;
 use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm};
@@ -83,7 +84,10 @@ fn expand(
     let model = Model::new(&mut attribute, item, &mut errors);
     let mut stages = Stages { attribute, model, graph: Graph::new(), errors };
     match ending(&mut stages) {
-        Some(system) if stages.errors.is_empty() => system,
+        Some(system) if stages.errors.is_empty() => {
+            let warnings = stages.attribute.formulas().map(warnings);
+            quote!(#system #(#warnings)*)
+        }
         _ => {
             let errors = std::mem::take(&mut stages.errors);
             stand_in(&stages.emitter(), errors)

@@ -345,34 +345,3 @@ fn numbers_beyond_reason() {
         );
     }
 }
-
-#[test]
-fn zz_measure() {
-    for depth in [32, 64, 128, 200, 300] {
-        for kind in 0..3 {
-            let mut text = "x".to_string();
-            let mut lets = String::new();
-            if kind == 0 {
-                for _ in 0..depth {
-                    text = format!("{text}.sin()");
-                }
-            } else {
-                lets += "let a0 = x + y;";
-                for k in 1..=depth {
-                    if kind == 1 {
-                        lets += &format!("let a{k} = (a{} * 1.1 + x).sin();", k - 1);
-                    } else {
-                        lets += &format!("let a{k} = (a{0} * a{0} + x * y).sin() / (2.0 + a{0});", k - 1);
-                    }
-                }
-                text = format!("a{depth}");
-            }
-            let attribute: proc_macro2::TokenStream =
-                format!("coordinates(x, y), one_form = x * d(y), hamiltonian = {{ {lets} {text} }}").parse().unwrap();
-            let item: proc_macro2::TokenStream = "struct S;".parse().unwrap();
-            let start = std::time::Instant::now();
-            let out = crate::expand::degenerate_lagrangian(attribute, item).to_string();
-            eprintln!("depth {depth} kind {kind}: {:?}, {} bytes, error {}", start.elapsed(), out.len(), out.contains("compile_error"));
-        }
-    }
-}

@@ -144,7 +144,12 @@ impl Model {
         let text = path.to_token_stream().to_string().replace(' ', "");
         let known = self.parameters.iter().position(|parameter| parameter.text == text);
         let position = known.unwrap_or_else(|| {
-            self.parameters.push(ParameterName { text, tokens: quote!(#path), shape: Shape::Unknown, integer: false });
+            self.parameters.push(ParameterName {
+                text,
+                tokens: quote!(#path),
+                shape: Shape::Unknown,
+                integer: false,
+            });
             self.parameters.len() - 1
         });
         position as u32

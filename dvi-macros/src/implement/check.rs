@@ -86,8 +86,12 @@ impl Walk<'_> {
     fn access(&mut self, loops: &[Binder], free: u64, array: String, length: &TokenStream, index: &Index) {
         let (loops, guards) = relevant(loops, free);
         let guards = if index.is_plain() { Vec::new() } else { guards };
-        let access =
-            Access { loops: loops.clone(), guards: guards.clone(), array: array.clone(), index: index.clone() };
+        let access = Access {
+            loops: loops.clone(),
+            guards: guards.clone(),
+            array: array.clone(),
+            index: index.clone(),
+        };
         if !self.seen.insert(access) || self.is_whole_range(&loops, &array, index) {
             return;
         }
@@ -130,9 +134,13 @@ fn relevant(loops: &[Binder], free: u64) -> (Vec<Binder>, Vec<Binder>) {
         })
     };
     let needed = with_ranges(free);
-    let dependent = loops.iter().fold(needed, |levels, binder| {
-        if binder.free() & levels != 0 { levels | level(binder) } else { levels }
-    });
+    let dependent =
+        loops.iter().fold(
+            needed,
+            |levels, binder| {
+                if binder.free() & levels != 0 { levels | level(binder) } else { levels }
+            },
+        );
     let all = with_ranges(dependent);
     let kept = loops.iter().filter(|binder| all & level(binder) != 0).cloned();
     kept.partition(|binder| needed & level(binder) != 0)

@@ -44,7 +44,8 @@ impl Lowering<'_> {
                 let inside = inside.or_else(|| self.integer_division(&binary.right));
                 inside.or_else(|| {
                     let divides = matches!(binary.op, BinOp::Div(_));
-                    (divides && self.is_integer(&binary.left) && self.is_integer(&binary.right)).then_some(binary)
+                    (divides && self.is_integer(&binary.left) && self.is_integer(&binary.right))
+                        .then_some(binary)
                 })
             }
             _ => None,
@@ -55,7 +56,9 @@ impl Lowering<'_> {
     /// sizes and integer fields.
     fn is_integer(&mut self, syntax: &Syntax) -> bool {
         match syntax {
-            Syntax::Lit(literal) => matches!(&literal.lit, Lit::Int(value) if !value.suffix().starts_with('f')),
+            Syntax::Lit(literal) => {
+                matches!(&literal.lit, Lit::Int(value) if !value.suffix().starts_with('f'))
+            }
             Syntax::Paren(inner) => self.is_integer(&inner.expr),
             Syntax::Group(inner) => self.is_integer(&inner.expr),
             Syntax::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && self.is_integer(&unary.expr),

@@ -81,7 +81,8 @@ impl Walk<'_> {
             None => None,
         };
         let whole = upper.saturating_sub(lower) <= WHOLE;
-        let (first, last) = if whole { (lower..upper, upper..upper) } else { (lower..lower + END, upper - END..upper) };
+        let (first, last) =
+            if whole { (lower..upper, upper..upper) } else { (lower..lower + END, upper - END..upper) };
         for value in first.chain(last).filter(|value| Some(*value) != except) {
             values.push((level, value));
             self.passes(depth + 1, values)?;

@@ -68,9 +68,10 @@ pub(super) fn is_integer(ty: &Type) -> bool {
         Type::Paren(inner) => is_integer(&inner.elem),
         Type::Group(inner) => is_integer(&inner.elem),
         Type::Path(path) => path.path.segments.last().is_some_and(|last| match &last.arguments {
-            PathArguments::AngleBracketed(list) => {
-                list.args.iter().any(|argument| matches!(argument, GenericArgument::Type(ty) if is_integer(ty)))
-            }
+            PathArguments::AngleBracketed(list) => list
+                .args
+                .iter()
+                .any(|argument| matches!(argument, GenericArgument::Type(ty) if is_integer(ty))),
             _ => {
                 let integers =
                     ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];

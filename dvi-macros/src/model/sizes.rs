@@ -4,8 +4,8 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, ExprLit, GenericParam, Ident, Lit, Member};
 
-use super::{Model, ParameterName, SizeName};
 use super::shape::{Shape, shape};
+use super::{Model, ParameterName, SizeName};
 use crate::errors::text;
 use crate::symbolic::{Atom, Index, Size};
 
@@ -106,7 +106,9 @@ impl Model {
                 let (left, right) = (self.size_form(&binary.left)?, self.size_form(&binary.right)?);
                 match (binary.op, left.as_literal(), right.as_literal()) {
                     (BinOp::Add(_), ..) => Ok(left.plus(&right, 1)),
-                    (BinOp::Sub(_), Some(above), Some(below)) if above >= below => Ok(Index::literal(above - below)),
+                    (BinOp::Sub(_), Some(above), Some(below)) if above >= below => {
+                        Ok(Index::literal(above - below))
+                    }
                     (BinOp::Sub(_), Some(_), Some(_)) => Err(None),
                     // A difference below zero is zero, so it is no affine form but a size of its own.
                     (BinOp::Sub(_), ..) => {
@@ -142,11 +144,14 @@ impl Model {
         let constant = size.constant.unsigned_abs() as usize;
         let terms = size.terms.iter().map(|(atom, coefficient)| match atom {
             Atom::Size(Size(known)) => {
-                let (factor, tokens) = (coefficient.unsigned_abs() as usize, &self.sizes[*known as usize].tokens);
+                let (factor, tokens) =
+                    (coefficient.unsigned_abs() as usize, &self.sizes[*known as usize].tokens);
                 quote!(#factor * #tokens)
             }
             Atom::Bound(_) | Atom::Remainder(..) => {
-                quote!(::core::compile_error!("a size depends on an index; please report this as a mistake of dvi"))
+                quote!(::core::compile_error!(
+                    "a size depends on an index; please report this as a mistake of dvi"
+                ))
             }
         });
         quote!(#constant #(+ #terms)*)
