@@ -58,14 +58,15 @@ macro_rules! scalar {
             #[inline(always)]
             fn sign(self) -> Self {
                 let (zero, one) = (Self::lift(0.0), Self::lift(1.0));
-                let below = Self::choose(self, Comparison::Less, zero, -one, self - self);
+                let below = Self::choose(self, Comparison::Less, zero, -one, zero * self);
                 Self::choose(self, Comparison::Greater, zero, one, below)
             }
             /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a quotient
             /// where the term that it stands in has the limit 0.
             #[inline(always)]
             fn over_root(self, root: Self) -> Self {
-                Self::choose(root, Comparison::LessOrEqual, Self::lift(0.0), self - self, self / root)
+                let zero = Self::lift(0.0);
+                Self::choose(root, Comparison::LessOrEqual, zero, zero * self, self / root)
             }
             /// The error function 2/√π ∫ e^(−s²) ds from 0 to `self`.
             fn erf(self) -> Self {

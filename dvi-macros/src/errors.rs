@@ -96,9 +96,16 @@ pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 /// Code as it is usually written: `N + 1`, `self.p.m`, `x[j]`.
 pub(crate) fn text(code: &impl ToTokens) -> String {
     let mut text = code.to_token_stream().to_string();
-    for (spaced, tight) in
-        [(" . ", "."), (" [", "["), ("[ ", "["), (" ]", "]"), ("( ", "("), (" )", ")"), (" (", "(")]
-    {
+    for (spaced, tight) in [
+        (" . ", "."),
+        (" .. ", ".."),
+        (" [", "["),
+        ("[ ", "["),
+        (" ]", "]"),
+        ("( ", "("),
+        (" )", ")"),
+        (" (", "("),
+    ] {
         text = text.replace(spaced, tight);
     }
     text

@@ -11,7 +11,7 @@
 //! }
 //! ```
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
 
@@ -137,7 +137,10 @@ fn system(
 
 /// One method for each function of the user's own and each of its derivatives:
 /// ```text
-/// fn __function0_1<__T: Scalar>(__x: __T) -> __T { d_potential(__x) }
+/// fn __function0_1<__T: Scalar>(__x: __T) -> __T {
+///     let __function: fn(__T) -> __T = d_potential;
+///     __function(__x)
+/// }
 /// ```
 fn functions(emitter: &Emitter<'_>) -> TokenStream {
     let krate = emitter.krate();
@@ -146,9 +149,14 @@ fn functions(emitter: &Emitter<'_>) -> TokenStream {
     let functions = emitter.model.functions.iter().enumerate().flat_map(|(number, function)| {
         function.derivatives.iter().enumerate().map(move |(order, path)| {
             let name = own_function(number, order);
-            let argument = Ident::new("__x", Span::mixed_site());
-            let call = quote_spanned!(path.span()=> #path(#argument));
-            quote!(#[inline(always)] fn #name<__T: #krate::Scalar>(#argument: __T) -> __T { #call })
+            let value = quote_spanned!(path.span()=> #path);
+            quote! {
+                #[inline(always)]
+                fn #name<__T: #krate::Scalar>(__x: __T) -> __T {
+                    let __function: fn(__T) -> __T = #value;
+                    __function(__x)
+                }
+            }
         })
     });
     let functions: Vec<TokenStream> = functions.collect();

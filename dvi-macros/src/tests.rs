@@ -218,3 +218,22 @@ fn check_of_indices() {
         "#]],
     );
 }
+
+/// Each of these has as many functions inside one another as a long chain of `let` makes.
+#[test]
+fn long_chains_expand() {
+    let nested = format!("x{}", ".sin()".repeat(100));
+    let bindings: String = (1..60).map(|k| format!("let a{k} = (a{} * 1.1 + x).sin();", k - 1)).collect();
+    for formula in [nested, format!("{{ let a0 = x + y; {bindings} a59 }}")] {
+        let arguments = format!("coordinates(x, y), one_form = x * d(y), hamiltonian = {formula}");
+        let attribute: TokenStream = arguments.parse().expect("tokens");
+        let expansion = degenerate_lagrangian(
+            attribute,
+            quote!(
+                struct System;
+            ),
+        )
+        .to_string();
+        assert!(!expansion.contains("compile_error"), "{formula}");
+    }
+}

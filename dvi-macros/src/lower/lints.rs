@@ -1,9 +1,9 @@
 //! Warnings: names of a formula that nothing uses, and indices that hide others.
 //!
 //! Stable Rust lets a macro warn of nothing, but the compiler warns of what the macro writes. For a name
-//! without a use this is a binding without a use, at the place of that name:
+//! without a use this is an argument without a use, at the place of that name:
 //! ```text
-//! const _: () = { let radius = (); };
+//! const _: () = { fn unused(radius: ()) {} };
 //! ```
 //! For a hidden index it is the use of something deprecated, whose note is the warning.
 
@@ -30,7 +30,12 @@ struct Names {
 pub(crate) fn warnings(formula: &Expr) -> TokenStream {
     let mut names = Names::default();
     names.visit_expr(formula);
-    let unused = names.unused.iter().map(|name| quote!(const _: () = { let #name = (); };));
+    let unused = names.unused.iter().map(|name| {
+        quote!(const _: () = {
+            #[allow(dead_code, non_snake_case)]
+            fn unused(#name: ()) {}
+        };)
+    });
     let hidden = names.hidden.iter().map(|name| {
         let note =
             format!("it hides the index `{name}` of a sum around this one; give one of them another name");
