@@ -102,6 +102,21 @@ impl<'ast> Visit<'ast> for Names {
         self.close(outside);
     }
 
+    /// A component `|j| 0.0` of a one-form has its index by its place in the list.
+    fn visit_expr_array(&mut self, list: &'ast syn::ExprArray) {
+        for component in &list.elems {
+            let Expr::Closure(closure) = component else {
+                self.visit_expr(component);
+                continue;
+            };
+            let outside = self.open.len();
+            closure.inputs.iter().for_each(|input| self.bind(input, true));
+            self.open[outside..].iter_mut().for_each(|local| local.used = true);
+            self.visit_expr(&closure.body);
+            self.close(outside);
+        }
+    }
+
     fn visit_expr_path(&mut self, path: &'ast syn::ExprPath) {
         if let Some(name) = path.path.get_ident()
             && let Some(local) = self.open.iter_mut().rev().find(|local| local.name == *name)
