@@ -45,6 +45,10 @@ pub struct Weights<T> {
 }
 
 /// A mechanical system with Lagrangian L(q, v, t).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a system",
+    label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`"
+)]
 pub trait Lagrangian {
     /// The shape of the configuration space.
     type Space: Space;
@@ -94,6 +98,11 @@ pub trait Lagrangian {
 ///
 /// Dα is the matrix ∂αᵢ/∂qʲ. Its combinations a Dα + b (Dα)ᵀ are what a step solves with: Ω itself is
 /// a = −1, b = 1, the matrix of the explicit step a = 0, b = 1 (Rowley & Marsden 2002, eq. 17).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
+    label = "its Lagrangian is regular, or it has no attribute",
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin` or `Newmark`"
+)]
 pub trait DegenerateLagrangian: Lagrangian {
     /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
     const LINEAR: bool;
@@ -126,6 +135,11 @@ pub trait DegenerateLagrangian: Lagrangian {
 
 /// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform
 /// (q, v) ↦ (q, p = ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
+    label = "its Lagrangian is degenerate, or it has no attribute",
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `RungeKutta` or `Gauss`"
+)]
 pub trait RegularLagrangian: Lagrangian {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no
     /// term is linear in v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of

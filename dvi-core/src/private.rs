@@ -3,39 +3,11 @@
 #[cfg(feature = "alloc")]
 pub use alloc::vec::Vec;
 
+pub use crate::number::Number;
+
 #[cfg(feature = "alloc")]
 use crate::Scalar;
 use crate::error::{IndexError, LengthError};
-
-/// A parameter that a formula may use: a number, or a reference to one.
-#[diagnostic::on_unimplemented(
-    message = "a parameter of a formula must be a number, `{Self}` is not",
-    label = "not a number"
-)]
-pub trait Number: Copy {
-    /// Its value.
-    fn number(self) -> f64;
-}
-
-macro_rules! number {
-    ($($type:ty),*) => {$(
-        impl Number for $type {
-            #[inline(always)]
-            fn number(self) -> f64 {
-                self as f64
-            }
-        }
-    )*};
-}
-
-number!(f64, f32, i8, i16, i32, i64, isize, u8, u16, u32, u64, usize);
-
-impl<N: Number> Number for &N {
-    #[inline(always)]
-    fn number(self) -> f64 {
-        (*self).number()
-    }
-}
 
 /// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
 #[inline]

@@ -26,6 +26,10 @@ pub enum Comparison {
 macro_rules! scalar {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
         /// A number that a generated formula can be evaluated on.
+        #[diagnostic::on_unimplemented(
+            message = "a system is computed in real numbers, and `{Self}` is not a real number",
+            label = "write a number with a point, as in `1.0`"
+        )]
         pub trait Scalar:
             Copy
             + Debug
@@ -54,14 +58,15 @@ macro_rules! scalar {
             #[inline(always)]
             fn sign(self) -> Self {
                 let (zero, one) = (Self::lift(0.0), Self::lift(1.0));
-                let below = Self::choose(self, Comparison::Less, zero, -one, self - self);
+                let below = Self::choose(self, Comparison::Less, zero, -one, zero * self);
                 Self::choose(self, Comparison::Greater, zero, one, below)
             }
             /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a quotient
             /// where the term that it stands in has the limit 0.
             #[inline(always)]
             fn over_root(self, root: Self) -> Self {
-                Self::choose(root, Comparison::LessOrEqual, Self::lift(0.0), self - self, self / root)
+                let zero = Self::lift(0.0);
+                Self::choose(root, Comparison::LessOrEqual, zero, zero * self, self / root)
             }
             /// The error function 2/√π ∫ e^(−s²) ds from 0 to `self`.
             fn erf(self) -> Self {
@@ -70,6 +75,7 @@ macro_rules! scalar {
             $($(#[$doc])* fn $name(self) -> Self;)*
         }
 
+        #[diagnostic::do_not_recommend]
         impl<T: RealField + Copy> Scalar for T {
             #[inline(always)]
             fn lift(value: f64) -> Self {
@@ -161,6 +167,11 @@ scalar! {
 /// A scalar with an order: what the solvers need to decide whether they are done.
 ///
 /// Implemented for every real field of nalgebra that is `Copy`.
+#[diagnostic::on_unimplemented(
+    message = "a system is computed in real numbers, and `{Self}` is not a real number",
+    label = "write a number with a point, as in `1.0`"
+)]
 pub trait Real: Scalar + RealField + Copy {}
 
+#[diagnostic::do_not_recommend]
 impl<T: RealField + Copy> Real for T {}

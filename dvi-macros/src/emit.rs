@@ -83,7 +83,8 @@ impl Emitter<'_> {
             let inside = instruction.operands().into_iter().map(|operand| operand.0 as usize);
             let deepest = inside.filter(|operand| inlined[*operand]).map(|operand| nesting[operand]).max();
             nesting[position] = 1 + deepest.unwrap_or(0);
-            let is_short = uses[position] == 1 && !elsewhere[position] && nesting[position] < DEEPEST_EXPRESSION;
+            let is_short =
+                uses[position] == 1 && !elsewhere[position] && nesting[position] < DEEPEST_EXPRESSION;
             inlined[position] = is_short || matches!(instruction, Instruction::Literal(_));
         }
         Function { emitter: self, routine, inlined: &inlined }.steps(&routine.steps)
@@ -325,9 +326,8 @@ impl Function<'_> {
                 quote!(#scalar::powi(#of, #exponent))
             }
             Instruction::Call(function, order, of) => {
-                let path = &self.emitter.model.functions[*function as usize].derivatives[*order as usize];
-                let of = self.signed(*of);
-                quote!(#path(#of))
+                let (name, of) = (own_function(*function as usize, *order as usize), self.signed(*of));
+                quote!(Self::#name(#of))
             }
             Instruction::Choose(left, relation, right, then, otherwise) => {
                 let relation = match relation {
@@ -394,6 +394,11 @@ impl Function<'_> {
         let indices = parameter.indices.iter().map(|index| self.emitter.index(index));
         quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place #([#indices])*)))
     }
+}
+
+/// The function that calls the user's own: a mistake in its signature is one error, on its path.
+pub(crate) fn own_function(function: usize, order: usize) -> Ident {
+    format_ident!("__function{function}_{order}")
 }
 
 pub(crate) fn output_block(output: Output, block: u32) -> String {

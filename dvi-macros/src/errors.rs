@@ -58,6 +58,14 @@ pub(crate) fn nearest<'a>(name: &str, declared: impl IntoIterator<Item = &'a str
         .map(|(_, candidate)| candidate)
 }
 
+/// The three declared names that are nearest.
+pub(crate) fn similar<'a>(name: &str, declared: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut names: Vec<&str> = declared.into_iter().collect();
+    names.sort_by_key(|candidate| edit_distance(name, candidate));
+    names.truncate(3);
+    names
+}
+
 /// Levenshtein's distance, case folded.
 fn edit_distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) =
@@ -88,9 +96,16 @@ pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 /// Code as it is usually written: `N + 1`, `self.p.m`, `x[j]`.
 pub(crate) fn text(code: &impl ToTokens) -> String {
     let mut text = code.to_token_stream().to_string();
-    for (spaced, tight) in
-        [(" . ", "."), (" [", "["), ("[ ", "["), (" ]", "]"), ("( ", "("), (" )", ")"), (" (", "(")]
-    {
+    for (spaced, tight) in [
+        (" . ", "."),
+        (" .. ", ".."),
+        (" [", "["),
+        ("[ ", "["),
+        (" ]", "]"),
+        ("( ", "("),
+        (" )", ")"),
+        (" (", "("),
+    ] {
         text = text.replace(spaced, tight);
     }
     text

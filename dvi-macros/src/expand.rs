@@ -8,6 +8,7 @@ use crate::emit::Emitter;
 use crate::errors::Errors;
 use crate::implement;
 use crate::internal::guarded;
+use crate::lower::lints::warnings;
 use crate::model::Model;
 use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm};
@@ -104,7 +105,10 @@ fn expand(
         None
     });
     match system {
-        Some(system) if stages.errors.is_empty() => system,
+        Some(system) if stages.errors.is_empty() => {
+            let warnings = stages.attribute.formulas().map(warnings);
+            quote!(#system #(#warnings)*)
+        }
         _ => {
             let errors = std::mem::take(&mut stages.errors);
             stand_in(&stages.emitter(), errors)

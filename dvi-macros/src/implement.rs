@@ -12,9 +12,10 @@
 //! ```
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
+use syn::spanned::Spanned;
 
-use crate::emit::{Emitter, local, output_block};
+use crate::emit::{Emitter, local, output_block, own_function};
 use crate::program::{Output, Programs};
 use crate::routine::Routine;
 use crate::symbolic::Node;
@@ -117,6 +118,7 @@ fn system(
     let state = state(emitter);
     let lagrangian = lagrangian(emitter, programs, &state, &report, energy);
     let (item, state) = (&emitter.model.item, &state.item);
+    let functions = functions(emitter);
     let allow = allow();
     quote! {
         #[doc = #documentation]
@@ -129,7 +131,44 @@ fn system(
             #[automatically_derived]
             #allow
             #special
+            #functions
         };
+    }
+}
+
+/// One method for each function of the user's own and each of its derivatives:
+/// ```text
+/// fn __function0_1<__T: Scalar>(__x: __T) -> __T {
+///     let __function: fn(__T) -> __T = d_potential;
+///     __function(__x)
+/// }
+/// ```
+fn functions(emitter: &Emitter<'_>) -> TokenStream {
+    let krate = emitter.krate();
+    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
+    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    let functions = emitter.model.functions.iter().enumerate().flat_map(|(number, function)| {
+        function.derivatives.iter().enumerate().map(move |(order, path)| {
+            let name = own_function(number, order);
+            let value = quote_spanned!(path.span()=> #path);
+            quote! {
+                #[inline(always)]
+                fn #name<__T: #krate::Scalar>(__x: __T) -> __T {
+                    let __function: fn(__T) -> __T = #value;
+                    __function(__x)
+                }
+            }
+        })
+    });
+    let functions: Vec<TokenStream> = functions.collect();
+    if functions.is_empty() {
+        return TokenStream::new();
+    }
+    let allow = allow();
+    quote! {
+        #allow
+        #[allow(dead_code)]
+        impl #impl_generics #name #type_generics #where_clause { #(#functions)* }
     }
 }
 

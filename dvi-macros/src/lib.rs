@@ -36,7 +36,7 @@ use proc_macro::TokenStream;
 ///
 /// | argument | meaning |
 /// |---|---|
-/// | `coordinates(x, y[N])` | single coordinates and arrays; a size is a literal, a const generic, a `usize` field or `field.len()` |
+/// | `coordinates(x, y[N])` | single coordinates and arrays; a size is a literal, a const generic, a `usize` field, `field.len()`, or sums and multiples of these |
 /// | `one_form = …` | α, linear in `d(x)`; or its components `[a, b]`, with `\|i\| …` for an array |
 /// | `hamiltonian = …` | H |
 /// | `lagrangian = …` | instead of these two: L, affine in the velocities `dot(x)` |
@@ -46,10 +46,20 @@ use proc_macro::TokenStream;
 ///
 /// Formulas are Rust expressions over the coordinates, the fields of the struct by name, `PI` and other
 /// constants, and the time `t` (a coordinate or field of that name takes precedence): operators, methods
-/// of `f64`, `let` blocks, `if … else`, `as f64`. Index sums are `sum(0..n, |j| …)`,
-/// `sum_pairs(0..n, |j, k| …)` over j < k and `sum_ordered_pairs` over j ≠ k. Indices are sums,
-/// differences and literal multiples of bound indices, sizes and integers; `%` is the Euclidean
-/// remainder.
+/// of `f64` and `erf`, `let` blocks, `if … else`, `as f64`; `name.field` and `self.name.field` are fields of
+/// a field. Index sums are `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k and
+/// `sum_ordered_pairs` over j ≠ k. Indices are sums, differences and literal multiples of bound indices,
+/// sizes and integers; `%` is the Euclidean remainder.
+///
+/// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without
+/// the remainder, so `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient.
+///
+/// A derivative is a limit where there is one: those of `x.powf(1.5)` at 0 and of `(x*x + y*y).powf(1.5)` at
+/// the origin are 0. That of `x.abs()` at 0 is taken to be 0. Where a derivative does not exist, as that of
+/// `x.hypot(y)` at the origin, it is infinite or not a number.
+///
+/// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
+/// `Vec`, and the size of the system is known at run time only.
 ///
 /// For a struct `System` the attribute implements `dvi_core::Lagrangian` and
 /// `dvi_core::DegenerateLagrangian`, defines `SystemState` with the coordinates as fields, and continues

@@ -10,14 +10,16 @@ use syn::visit::Visit;
 use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
 
 use crate::errors::{Errors, listed, nearest};
-use crate::model::{Model, Shape, velocity_name};
+use crate::model::{Model, Shape};
 use crate::symbolic::{Atom, Expr, Fold, Graph, Id, Index, Loop, Node, Parameter, Range};
 
 mod admit;
 mod blocks;
 mod calls;
+mod habits;
 mod inside;
 mod integers;
+pub(crate) mod lints;
 mod names;
 mod reach;
 mod sums;
@@ -96,6 +98,12 @@ fn bound_name(pattern: &Pat) -> Option<String> {
         Pat::Wild(_) => Some("_".to_string()),
         _ => None,
     }
+}
+
+/// Whether a suffix is that of a number in Rust.
+fn is_number_type(suffix: &str) -> bool {
+    let digits = suffix.trim_start_matches(['i', 'u', 'f']);
+    suffix.len() > digits.len() && (digits == "size" || digits.parse::<u32>().is_ok())
 }
 
 impl<'a> Lowering<'a> {
@@ -200,7 +208,11 @@ impl<'a> Lowering<'a> {
     }
 
     fn too_deep(&mut self, syntax: &Syntax) -> Option<Expr> {
-        let message = "this formula is nested too deeply; give names to parts of about equal size with `let`";
+        let message = format!(
+            "more than {DEEPEST} operations stand inside one another here; write a long chain as \
+             `sum(0..n, |j| …)`, or declare a part as a function of your own, with its derivatives: \
+             `functions(f = [f, df, d2f])`"
+        );
         self.errors.push_once("depth", syntax, message);
         None
     }
@@ -239,7 +251,12 @@ impl<'a> Lowering<'a> {
             }
         };
         if !matches!(suffix, "" | "f64" | "f32") {
-            self.errors.push(literal, format!("formulas are real: write this number without `{suffix}`"));
+            let message = if is_number_type(suffix) {
+                format!("formulas are real: write this number without `{suffix}`")
+            } else {
+                format!("a product is written with `*`: `{digits} * {suffix}`")
+            };
+            self.errors.push(literal, message);
             return None;
         }
         let value = digits.parse::<f64>().ok();
@@ -250,6 +267,13 @@ impl<'a> Lowering<'a> {
     }
 
     fn binary(&mut self, syntax: &syn::ExprBinary) -> Option<Expr> {
+        if let (BinOp::Mul(_), Syntax::Unary(power)) = (syntax.op, &*syntax.right)
+            && matches!(power.op, UnOp::Deref(_))
+        {
+            self.expr(&syntax.left);
+            self.not_a_power(syntax, &syntax.left, &power.expr);
+            return None;
+        }
         let (left, right) = (self.expr(&syntax.left), self.expr(&syntax.right));
         match syntax.op {
             BinOp::Add(_) | BinOp::Sub(_) => {
@@ -306,9 +330,8 @@ impl<'a> Lowering<'a> {
         declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));
         declared.extend(self.scope.iter().map(|(name, _)| name.clone()));
         declared.extend(names::CONSTANTS.iter().map(|(name, _)| (*name).to_string()));
-        let velocity = self.model.blocks.iter().find(|block| velocity_name(&block.name) == *name);
-        if let Some(block) = velocity.filter(|_| self.model.has_velocities()) {
-            let message = format!("{what} `{name}`; the velocity of `{0}` is written `dot({0})`", block.name);
+        if let Some(written) = self.velocity_called(name) {
+            let message = format!("{what} `{name}`; {written}");
             self.errors.push_once(&format!("name {name}"), at, message);
             return;
         }

@@ -119,7 +119,8 @@ impl Model {
         }
         let array = size.as_ref().map(|size| {
             let index = self.declared_size(name, size).unwrap_or_else(|message| {
-                errors.push(size, message);
+                let kind = format!("size {}", size.to_token_stream());
+                errors.push_once(&kind, size, message);
                 self.lost_coordinates = true;
                 Index::literal(1)
             });

@@ -230,6 +230,12 @@ impl Attribute {
         self.one_form.as_ref().or(self.lagrangian.as_ref())
     }
 
+    /// All formulas as they were written.
+    pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expr> {
+        let dynamics = [&self.one_form, &self.hamiltonian, &self.lagrangian];
+        dynamics.into_iter().flatten().chain(self.momenta.iter().map(|momentum| &momentum.formula))
+    }
+
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
         let Argument { name, value } = argument;
         let keyword = name.to_string();

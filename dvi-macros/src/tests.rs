@@ -209,86 +209,21 @@ fn check_of_indices() {
     );
 }
 
+/// Each of these has as many functions inside one another as a long chain of `let` makes.
 #[test]
-fn scratch_validate() {
-    let degenerate = |a: &str, item: &str| {
-        let out = degenerate_lagrangian(a.parse().expect("tokens"), item.parse().expect("item"));
-        say(a, &out.to_string());
-    };
-    let regular = |a: &str, item: &str| {
-        let start = std::time::Instant::now();
-        let out = crate::expand::lagrangian(a.parse().expect("tokens"), item.parse().expect("item"));
-        println!("{:?}", start.elapsed());
-        say(a, &out.to_string());
-    };
-    fn say(a: &str, text: &str) {
-        let at = text.find("hecked").or_else(|| text.find("compile_error")).unwrap_or(0);
-        println!(
-            "{}\n   => {}",
-            a,
-            text[at..].chars().take(350).collect::<String>().split(". ").next().unwrap_or("")
-        );
+fn long_chains_expand() {
+    let nested = format!("x{}", ".sin()".repeat(100));
+    let bindings: String = (1..60).map(|k| format!("let a{k} = (a{} * 1.1 + x).sin();", k - 1)).collect();
+    for formula in [nested, format!("{{ let a0 = x + y; {bindings} a59 }}")] {
+        let arguments = format!("coordinates(x, y), one_form = x * d(y), hamiltonian = {formula}");
+        let attribute: TokenStream = arguments.parse().expect("tokens");
+        let expansion = degenerate_lagrangian(
+            attribute,
+            quote!(
+                struct System;
+            ),
+        )
+        .to_string();
+        assert!(!expansion.contains("compile_error"), "{formula}");
     }
-    let x3 = "struct S { k: f64, g: [f64; 3], n: usize }";
-    regular(
-        "coordinates(x[3], u), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) + dot(u).powi(2) - sum_pairs(0..3, |i, j| k * (x[i] + x[j] - u).powi(2)) / 4",
-        x3,
-    );
-    regular(
-        "coordinates(x[3], u), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) + dot(u).powi(2) - sum_pairs(0..3, |i, j| (u + x[i] - x[j]).powi(4))",
-        x3,
-    );
-    regular(
-        "coordinates(x[3], w), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) + dot(w).powi(2) - sum(0..2, |i| sum(0..2, |j| 1 / (w + x[i] + x[j])))",
-        x3,
-    );
-    regular(
-        "coordinates(x[N]), lagrangian = sum(0..N, |j| dot(x[j]).powi(2)) - sum(0..N, |i| g[i]) * sum_pairs(0..N, |i, j| x[j].powi(2)) + sum_pairs(0..N, |i, j| g[i] * x[j].powi(2))",
-        "struct S<const N: usize> { g: [f64; N] }",
-    );
-    regular(
-        "coordinates(x[3]), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) - (sum(0..3, |i| g[i] * x[i]) - sum(0..3, |i| g[i]) * sum(0..3, |i| x[i])) * sum(0..3, |i| x[i].powi(2))",
-        x3,
-    );
-    regular(
-        "coordinates(x[3]), lagrangian = sum(0..3, |j| (dot(x[j]) - 0.1 * sum(0..3, |k| dot(x[k]))).powi(2)) / 2",
-        x3,
-    );
-    degenerate(
-        "coordinates(x[N], y[N]), one_form = sum(0..N, |i| x[i] * d(y[i])) + x[0] * d(y[1]) + y[1] * d(x[0]), hamiltonian = sum(0..N, |i| x[i]*x[i] + y[i]*y[i])",
-        "struct S<const N: usize> { g: [f64; N] }",
-    );
-    degenerate(
-        "coordinates(x, y), one_form = 0.5 * (x * d(y) - y * d(x)) + t * d(x), hamiltonian = 2 * x",
-        "struct S { g: f64 }",
-    );
-    regular(
-        "coordinates(x[3]), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) - sum(-1..2, |k| x[k + 1].powi(4) * (k as f64 + 2.0))",
-        x3,
-    );
-    regular(
-        "coordinates(x[N]), lagrangian = sum(0..N, |j| dot(x[j]).powi(2)) - sum(0..N, |i| sum(i-1..i+2, |j| x[i] * x[j % N].powi(2)))",
-        "struct S<const N: usize> { g: [f64; N] }",
-    );
-    regular(
-        "coordinates(x[N], u), lagrangian = dot(u).powi(2) + sum(0..N, |j| dot(x[j]).powi(2)) - if u > 5 { sum(0..N, |i| (x[i] - 9).sqrt()) } else { u * u }",
-        "struct S<const N: usize> { g: [f64; N] }",
-    );
-    regular(
-        "coordinates(w, u), lagrangian = dot(u).powi(2) + dot(w).powi(2) - (w - u).atan2(-1) + (0.5 - u).signum() + 9.33e-302 * u + w",
-        "struct S { g: f64 }",
-    );
-    regular("coordinates(w), lagrangian = dot(w).powi(2) - w * consts::E", "struct S { g: f64 }");
-    regular(
-        "coordinates(x[N]), lagrangian = sum(0..N, |j| dot(x[j]).powi(2)) - product(0..N, |j| x[j]) - product(0..N, |j| 1 + x[j] * sum(0..N, |k| x[k]) * product(0..N, |k| 2 + x[k])).ln()",
-        "struct S<const N: usize> { g: [f64; N] }",
-    );
-    regular(
-        "coordinates(x[N]), lagrangian = sum(0..N, |j| dot(x[j]).powi(2)) - sum_pairs(0..N, |i, j| x[i + 1] * x[j])",
-        "struct S<const N: usize> { g: [f64; N] }",
-    );
-    regular(
-        "coordinates(x[4096], y[4096]), lagrangian = sum(0..4096, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)) - sum_pairs(0..4096, |i, j| ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2)).sqrt().recip())",
-        "struct S { g: f64 }",
-    );
 }

@@ -104,9 +104,9 @@ mod literal_as_a_coordinate {
     }
 }
 
-mod size_is_a_sum {
+mod size_is_a_quotient {
     use super::*;
-    #[degenerate_lagrangian(coordinates(x[N + 1], y[N + 1]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+    #[degenerate_lagrangian(coordinates(x[N / 2], y[N / 2]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
     pub struct System<const N: usize>;
     pub fn run() {
         let state = SystemState { x: [1.0; 4], y: [0.0; 4] };

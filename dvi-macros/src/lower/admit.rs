@@ -13,9 +13,9 @@ use crate::syntax::Kind;
 /// Far beyond what floating point can tell from 0 or ∞, and far from overflow.
 pub(super) const LARGEST_EXPONENT: u32 = 4096;
 
-/// Derivatives of functions of functions of functions grow with the depth; no formula on paper is
-/// nearly as deep.
-const DEEPEST_FUNCTION: u32 = 400;
+/// Derivatives of functions of functions of functions grow with the depth: at this one an expansion takes
+/// seconds.
+const DEEPEST_FUNCTION: u32 = 128;
 
 /// The degree of everything that is no polynomial of degree 0, 1 or 2.
 const BEYOND: u8 = 3;
@@ -102,9 +102,11 @@ impl Lowering<'_> {
             return None;
         }
         if self.measured(value).functions > DEEPEST_FUNCTION {
-            let message =
-                format!("functions nest deeper here than can be differentiated ({DEEPEST_FUNCTION})");
-            self.errors.push(syntax, message);
+            let message = format!(
+                "more than {DEEPEST_FUNCTION} functions stand inside one another here; declare the inner ones \
+                     as a function of your own, with its derivatives: `functions(f = [f, df, d2f])`"
+            );
+            self.errors.push_once("depth of functions", syntax, message);
             return None;
         }
         if self.model.kind == Kind::Regular || self.degree(value) < 2 {

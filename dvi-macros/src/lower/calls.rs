@@ -4,8 +4,9 @@ use syn::token::Dot;
 use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
+use super::habits::other_name;
 use super::{Lowering, Role};
-use crate::errors::{listed, nearest};
+use crate::errors::{listed, nearest, similar};
 use crate::symbolic::{Expr, Node, Relation, binary_by_name, unary_by_name, unary_names};
 use crate::syntax::Kind;
 
@@ -25,6 +26,9 @@ impl Lowering<'_> {
         }
         if self.model.functions.iter().any(|function| function.name == name) {
             self.errors.push(&call.method, format!("a function of your own is called as `{name}(…)`"));
+            return None;
+        }
+        if self.iterated(call) {
             return None;
         }
         let Some(arity) = arity(&name) else {
@@ -163,16 +167,30 @@ impl Lowering<'_> {
         if self.model.lost_functions {
             return;
         }
+        let kind = format!("function {name}");
+        if let Some(meant) = other_name(name) {
+            self.errors.push_once(&kind, at, format!("unknown function `{name}`; write `{meant}`"));
+            return;
+        }
         let own: Vec<String> =
             self.model.functions.iter().map(|function| function.name.to_string()).collect();
         let mut known: Vec<&str> = unary_names().collect();
         known.extend(ARITHMETIC.iter().map(|(name, _)| *name));
         known.extend(RESERVED);
         known.extend(own.iter().map(String::as_str));
-        let near = nearest(name, known.iter().copied())
-            .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        let message = format!("unknown function `{name}`{near}\nthe functions are {}", listed(known));
-        self.errors.push_once(&format!("function {name}"), at, message);
+        let mut message = format!("unknown function `{name}`");
+        match nearest(name, known.iter().copied()) {
+            Some(near) => message += &format!("; did you mean `{near}`?"),
+            None => {
+                let near = similar(name, known);
+                message += &format!(
+                    "; a function of your own is declared with its derivatives: \
+                     `functions({name} = [{name}, d{name}, d2{name}])`\nsimilar names are {}",
+                    listed(near)
+                );
+            }
+        }
+        self.errors.push_once(&kind, at, message);
     }
 
     /// `d(x)` in a one-form, `dot(x)` in a Lagrangian.

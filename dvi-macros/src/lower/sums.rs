@@ -210,7 +210,8 @@ impl Lowering<'_> {
                 }
                 if self.index_names.contains(&name) {
                     self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
-                } else {
+                } else if !self.model.lost_coordinates {
+                    // Where declarations were lost, it may be a size of one of them.
                     let suggestion = self.index_suggestion(&name);
                     self.errors
                         .push(path, format!("`{}` is not an index{suggestion}", path.to_token_stream()));

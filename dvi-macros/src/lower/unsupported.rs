@@ -6,6 +6,12 @@ use super::Lowering;
 
 impl Lowering<'_> {
     pub(super) fn unsupported(&mut self, syntax: &Syntax) {
+        if let Syntax::Binary(binary) = syntax
+            && matches!(binary.op, BinOp::BitXor(_))
+        {
+            self.not_a_power(binary, &binary.left, &binary.right);
+            return;
+        }
         let (kind, advice) = describe(syntax);
         self.errors.push_once(kind, syntax, format!("a formula cannot hold {kind}{advice}"));
     }
@@ -40,14 +46,13 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
         Syntax::Unary(_) => ("`!` outside of a condition", "; write `if !(a < b) { … } else { … }`"),
         Syntax::Binary(binary) => match binary.op {
             BinOp::Rem(_) => ("`%` outside of an index", "; in an index it is written `x[(j + 1) % n]`"),
-            BinOp::BitXor(_) => ("`^`", "; a power is written `x.powi(2)` or `x.powf(0.5)`"),
             BinOp::Eq(_) | BinOp::Ne(_) | BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) => {
                 ("a comparison outside of a condition", "; write `if a < b { … } else { … }`")
             }
             BinOp::And(_) | BinOp::Or(_) => {
                 ("logic outside of a condition", "; write `if a < b && c < d { … } else { … }`")
             }
-            BinOp::BitAnd(_) | BinOp::BitOr(_) | BinOp::Shl(_) | BinOp::Shr(_) => {
+            BinOp::BitXor(_) | BinOp::BitAnd(_) | BinOp::BitOr(_) | BinOp::Shl(_) | BinOp::Shr(_) => {
                 ("bit operations", "; all values are real numbers")
             }
             _ => ("an assignment", "; name a value with `let`"),

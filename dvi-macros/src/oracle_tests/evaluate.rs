@@ -130,11 +130,15 @@ impl<'a> Oracle<'a> {
                     return Err(Outside::Index);
                 }
                 let (lower, upper) = (self.index(lower)?, self.index(upper)?);
-                let mut sum = Jet::constant(0.0);
+                let mut sum = Jet::constant(if *loops == Loops::Product { 1.0 } else { 0.0 });
                 for first in lower..upper {
                     let seconds = match loops {
                         Loops::Single => {
                             sum = sum.plus(&self.inside(&[first], body)?);
+                            continue;
+                        }
+                        Loops::Product => {
+                            sum = sum.times(&self.inside(&[first], body)?);
                             continue;
                         }
                         Loops::Pairs => first + 1..upper,

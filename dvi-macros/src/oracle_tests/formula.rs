@@ -40,10 +40,11 @@ pub(super) enum Condition {
     Not(Box<Condition>),
 }
 
-/// `sum`, `sum_pairs` over j < k, `sum_ordered_pairs` over j ≠ k.
+/// `sum`, `product`, `sum_pairs` over j < k, `sum_ordered_pairs` over j ≠ k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Loops {
     Single,
+    Product,
     Pairs,
     OrderedPairs,
 }

@@ -176,6 +176,12 @@ impl Jet {
                 let r3 = r * r2;
                 (r, [a / r, b / r, b * b / r3, -a * b / r3, a * a / r3], r)
             }
+            BinaryFunction::Min | BinaryFunction::Max => {
+                // The smaller one, or the larger one, with all its derivatives; not near to where they meet.
+                let takes_self = (a < b) == (function == BinaryFunction::Min);
+                let far = (a - b).abs() > 1e-2;
+                return far.then(|| if takes_self { self.clone() } else { other.clone() });
+            }
             BinaryFunction::Powf => {
                 let (f, ln) = (a.powf(b), a.ln());
                 let fa = b * a.powf(b - 1.0);

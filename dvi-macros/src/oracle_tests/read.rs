@@ -103,6 +103,7 @@ impl<'a> Reader<'a> {
         let (lower, upper) = (end(&range.start), end(&range.end));
         let loops = match name {
             "sum" => Loops::Single,
+            "product" => Loops::Product,
             "sum_pairs" => Loops::Pairs,
             "sum_ordered_pairs" => Loops::OrderedPairs,
             _ => panic!("no sum {name}"),

@@ -45,7 +45,7 @@ fn smaller_formulas(formula: &Formula) -> Vec<Formula> {
         Formula::Sum(loops, level, .., body) => {
             let once = (**body).clone();
             variants.push(match loops {
-                Loops::Single => once.without_level(*level),
+                Loops::Single | Loops::Product => once.without_level(*level),
                 Loops::Pairs | Loops::OrderedPairs => once.without_level(level + 1).without_level(*level),
             });
         }

@@ -153,6 +153,8 @@ impl Writer<'_> {
                     BinaryFunction::Atan2 => "atan2",
                     BinaryFunction::Hypot => "hypot",
                     BinaryFunction::Powf => "powf",
+                    BinaryFunction::Min => "min",
+                    BinaryFunction::Max => "max",
                 };
                 method(a, name, self.text(b))
             }
@@ -170,6 +172,7 @@ impl Writer<'_> {
             Formula::Sum(loops, level, lower, upper, body) => {
                 let (name, indices) = match loops {
                     Loops::Single => ("sum", INDICES[*level].to_string()),
+                    Loops::Product => ("product", INDICES[*level].to_string()),
                     Loops::Pairs => ("sum_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1])),
                     Loops::OrderedPairs => {
                         ("sum_ordered_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1]))

@@ -56,12 +56,13 @@ fn sign(x: f64) -> f64 {
     } else if x < 0.0 {
         -1.0
     } else {
-        x - x
+        // Not a number stays what it is.
+        0.0 * x
     }
 }
 
 fn over_root(w: f64, root: f64) -> f64 {
-    if root <= 0.0 { w - w } else { w / root }
+    if root <= 0.0 { 0.0 * w } else { w / root }
 }
 
 /// The error function: its series 2/√π·e^(−x²)·Σ (2x²)ⁿ·x/(2n + 1)!!, in which no term is negative.

@@ -14,7 +14,7 @@ impl Generator<'_> {
         let less = depth - 1;
         match self.random.below(12) {
             0..=4 => {
-                let loops = self.any_loops();
+                let loops = self.any_sum();
                 match self.loops(scope, loops) {
                     Some((lower, upper, inside)) => {
                         let body = self.form(&inside, less);
@@ -47,7 +47,7 @@ impl Generator<'_> {
     /// Something affine in the velocities.
     pub(super) fn affine(&mut self, scope: &Scope, depth: usize) -> Formula {
         if depth > 2 && self.random.chance(50) {
-            let loops = self.any_loops();
+            let loops = self.any_sum();
             if let Some((lower, upper, inside)) = self.loops(scope, loops) {
                 let body = self.affine(&inside, depth - 1);
                 return Formula::Sum(loops, scope.level, lower, upper, Box::new(body));

@@ -50,7 +50,7 @@ impl Scope {
             for first in lower..upper {
                 let with = |more: &[i64]| outer.iter().chain(more).copied().collect::<Vec<i64>>();
                 match loops {
-                    Loops::Single => values.push(with(&[first])),
+                    Loops::Single | Loops::Product => values.push(with(&[first])),
                     Loops::Pairs => values.extend((first + 1..upper).map(|second| with(&[first, second]))),
                     Loops::OrderedPairs => {
                         let others = (lower..upper).filter(|second| *second != first);
@@ -59,7 +59,7 @@ impl Scope {
                 }
             }
         }
-        let level = self.level + if loops == Loops::Single { 1 } else { 2 };
+        let level = self.level + if matches!(loops, Loops::Single | Loops::Product) { 1 } else { 2 };
         let fits = !values.is_empty() && values.len() <= MOST_TERMS && level <= DEEPEST;
         fits.then_some(Self { values, level, names: self.names })
     }

@@ -91,8 +91,22 @@ impl Generator<'_> {
         }
     }
 
-    pub(super) fn any_loops(&mut self) -> Loops {
+    /// A sum: a form is linear in velocities.
+    pub(super) fn any_sum(&mut self) -> Loops {
         *self.random.pick(&[Loops::Single, Loops::Single, Loops::Single, Loops::Pairs, Loops::OrderedPairs])
+    }
+
+    fn any_loops(&mut self) -> Loops {
+        const MIX: [Loops; 7] = [
+            Loops::Single,
+            Loops::Single,
+            Loops::Single,
+            Loops::Product,
+            Loops::Pairs,
+            Loops::Pairs,
+            Loops::OrderedPairs,
+        ];
+        *self.random.pick(&MIX)
     }
 
     fn sum(&mut self, scope: &Scope, depth: usize) -> Formula {
@@ -169,7 +183,11 @@ impl Generator<'_> {
                 let b = self.positive(b);
                 Formula::Binary(BinaryFunction::Atan2, Box::new(a), Box::new(b))
             }
-            1 => Formula::Binary(BinaryFunction::Hypot, Box::new(a), Box::new(b)),
+            1 => {
+                let function =
+                    *self.random.pick(&[BinaryFunction::Hypot, BinaryFunction::Min, BinaryFunction::Max]);
+                Formula::Binary(function, Box::new(a), Box::new(b))
+            }
             _ => {
                 let base = self.positive(a);
                 let exponent = if self.random.chance(70) {

@@ -1,6 +1,7 @@
 //! What generated functions call: the methods of `Scalar`, the helpers of the library, each other, and
 //! the user's own.
 
+use super::super::functions::erf;
 use super::code::Operator;
 
 #[derive(Clone, Debug)]
@@ -32,10 +33,20 @@ const UNARY: &[UnaryRow] = &[
     ("log10", f64::log10), ("sin",   f64::sin),   ("cos",   f64::cos),   ("tan",    f64::tan),
     ("asin",  f64::asin),  ("acos",  f64::acos),  ("atan",  f64::atan),  ("sinh",   f64::sinh),
     ("cosh",  f64::cosh),  ("tanh",  f64::tanh),  ("asinh", f64::asinh), ("acosh",  f64::acosh),
-    ("atanh", f64::atanh), ("abs",   f64::abs),   ("signum", f64::signum),
+    ("atanh", f64::atanh), ("abs",   f64::abs),   ("signum", f64::signum), ("sign", sign), ("erf", erf),
 ];
 
-const BINARY: &[BinaryRow] = &[("atan2", f64::atan2), ("hypot", f64::hypot), ("powf", f64::powf)];
+const BINARY: &[BinaryRow] =
+    &[("atan2", f64::atan2), ("hypot", f64::hypot), ("powf", f64::powf), ("over_root", over_root)];
+
+/// Zero where the root is, as the documentation of `dvi_core::Scalar` has it.
+fn over_root(w: f64, root: f64) -> f64 {
+    if root > 0.0 { w / root } else { 0.0 }
+}
+
+fn sign(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { x.signum() }
+}
 
 /// The traits whose functions are generated.
 const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];

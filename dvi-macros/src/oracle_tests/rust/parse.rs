@@ -15,6 +15,8 @@ use super::value::{Kind, Value};
 pub(crate) struct Expansion {
     pub(super) functions: HashMap<String, Function>,
     pub(crate) constants: HashMap<String, bool>,
+    /// The paths of the user's functions by the names that formulas call them by.
+    pub(super) own: HashMap<String, String>,
 }
 
 const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
@@ -48,10 +50,23 @@ impl Expansion {
                     let name = implementation.trait_.as_ref().and_then(|(path, _)| path.segments.last());
                     if name.is_some_and(|name| TRAITS.iter().any(|known| name.ident == known)) {
                         implementation.items.iter().for_each(|item| self.member(item));
+                    } else if name.is_none() {
+                        implementation.items.iter().for_each(|item| self.own_function(item));
                     }
                 }
                 _ => {}
             }
+        }
+    }
+
+    /// `fn __function0_1<T>(x: T) -> T { let function: fn(T) -> T = path; function(x) }`
+    fn own_function(&mut self, item: &ImplItem) {
+        if let ImplItem::Fn(function) = item
+            && let Some(Stmt::Local(local)) = function.block.stmts.first()
+            && let Some(init) = &local.init
+        {
+            let path = init.expr.to_token_stream().to_string().replace(' ', "");
+            self.own.insert(function.sig.ident.to_string(), path);
         }
     }
 

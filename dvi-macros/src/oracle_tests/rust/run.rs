@@ -261,7 +261,15 @@ impl Machine<'_> {
                 let arguments = arguments.into_iter().filter(|value| !matches!(value, Value::System));
                 self.call(name, arguments.collect()).map_err(Jump::Panic)
             }
-            Callee::Own(path) => Ok(Value::Real((self.environment.own)(path, real(0)))),
+            Callee::Own(name) => {
+                let short = name.trim_start_matches("Self::");
+                let path = self
+                    .expansion
+                    .own
+                    .get(short)
+                    .unwrap_or_else(|| panic!("no function {name} was declared"));
+                Ok(Value::Real((self.environment.own)(path, real(0))))
+            }
         }
     }
 

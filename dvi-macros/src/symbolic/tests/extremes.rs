@@ -41,7 +41,7 @@ const ROWS: &[Row] = &[
     ("log10",  |x| 1.0 / x / LN_10, |x| -1.0 / x / x / LN_10, POSITIVE),
     ("sin",    f64::cos, |x| -x.sin(), WIDE),
     ("cos",    |x| -x.sin(), |x| -x.cos(), WIDE),
-    ("tan",    |x| x.cos().powi(-2), |x| 2.0 * x.tan() * x.cos().powi(-2), &[0.0, 1e-300, 1e-9, 0.3, 1.5, 1.570796, -20.0]),
+    ("tan",    |x| x.cos().powi(-2), |x| 2.0 * x.tan() * x.cos().powi(-2), &[0.0, 1e-300, 1e-9, 0.3, 1.5, core::f64::consts::FRAC_PI_2 - 1e-6, -20.0]),
     ("asin",   |x| 1.0 / rest(x).sqrt(), |x| x / rest(x).powf(1.5), UNIT),
     ("acos",   |x| -1.0 / rest(x).sqrt(), |x| -x / rest(x).powf(1.5), UNIT),
     ("atan",   |x| 1.0 / (1.0 + x * x), |x| -2.0 * x / (1.0 + x * x).powi(2), WIDE),

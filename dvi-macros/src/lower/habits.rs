@@ -1,0 +1,118 @@
+//! What people write who come from paper, Python, Mathematica or C, and what to write instead.
+
+use syn::{Expr as Syntax, ExprMethodCall, Pat};
+
+use super::{Lowering, Role};
+use crate::errors::text;
+use crate::model::velocity_name;
+
+/// Functions by other names.
+#[rustfmt::skip]
+const OTHER_NAMES: [(&str, &str); 22] = [
+    ("log",      "ln"),
+    ("loge",     "ln"),
+    ("lg",       "log10"),
+    ("lb",       "log2"),
+    ("log1p",    "ln_1p"),
+    ("expm1",    "exp_m1"),
+    ("pow",      "powi"),
+    ("sqr",      "powi"),
+    ("square",   "powi"),
+    ("squared",  "powi"),
+    ("root",     "sqrt"),
+    ("arcsin",   "asin"),
+    ("arccos",   "acos"),
+    ("arctan",   "atan"),
+    ("arctan2",  "atan2"),
+    ("arsinh",   "asinh"),
+    ("arcosh",   "acosh"),
+    ("artanh",   "atanh"),
+    ("sgn",      "signum"),
+    ("sign",     "signum"),
+    ("fabs",     "abs"),
+    ("inv",      "recip"),
+];
+
+/// The function that is meant by a name of another language, as it is written.
+pub(super) fn other_name(name: &str) -> Option<String> {
+    let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == name)?;
+    Some(match *meant {
+        "powi" => "powi(2)` or `powf(0.5)".to_string(),
+        "atan2" => "atan2(x)".to_string(),
+        plain => format!("{plain}()"),
+    })
+}
+
+impl Lowering<'_> {
+    /// `x ** 2` and `x ^ 2`, where the right side binds more loosely than a power does.
+    pub(super) fn not_a_power(&mut self, whole: &impl quote::ToTokens, base: &Syntax, exponent: &Syntax) {
+        let mut base = base;
+        while let Syntax::Binary(product) = base {
+            base = &product.right;
+        }
+        let function = match self.literal_index(exponent) {
+            Some(_) => "powi",
+            None => "powf",
+        };
+        let message = match base {
+            Syntax::Unary(_) | Syntax::Cast(_) => {
+                format!("a power is written `(…).{function}({})`", text(exponent))
+            }
+            _ => format!("a power is written `{}.{function}({})`", text(base), text(exponent)),
+        };
+        self.errors.push(whole, message);
+    }
+
+    /// What to write for `xdot`, `x_dot`, `dot_x`, `vx`, and `dy` of a coordinate.
+    pub(super) fn velocity_called(&self, name: &str) -> Option<String> {
+        let written = match self.role {
+            Role::OneForm => "d",
+            Role::Lagrangian => "dot",
+            Role::Momentum if self.model.has_velocities() => "dot",
+            Role::Component | Role::Hamiltonian | Role::Momentum => return None,
+        };
+        let block = self.model.blocks.iter().find(|block| {
+            let (dot, of) = (velocity_name(&block.name), &block.name);
+            let others = [format!("{of}dot"), format!("{of}_dot"), format!("dot{of}"), format!("d{of}")];
+            dot == *name || others.iter().any(|other| other == name)
+        })?;
+        let entry = if block.array.is_some() { "[j]" } else { "" };
+        Some(match written {
+            "d" => format!("the differential of `{0}` is written `d({0}{entry})`", block.name),
+            _ => format!("the velocity of `{0}` is written `dot({0}{entry})`", block.name),
+        })
+    }
+
+    /// `(0..3).map(|j| …).sum()` and `a.iter().map(|a| …).sum()`; whether it was one.
+    pub(super) fn iterated(&mut self, call: &ExprMethodCall) -> bool {
+        if !matches!(
+            call.method.to_string().as_str(),
+            "sum" | "map" | "fold" | "product" | "iter" | "into_iter"
+        ) {
+            return false;
+        }
+        let (mut source, mut closure) = (&*call.receiver, None);
+        loop {
+            match source {
+                Syntax::MethodCall(inner) => {
+                    if let Some(Syntax::Closure(body)) = inner.args.first() {
+                        closure = Some(body);
+                    }
+                    source = &inner.receiver;
+                }
+                Syntax::Paren(inner) => source = &inner.expr,
+                _ => break,
+            }
+        }
+        let index = match closure.map(|closure| closure.inputs.iter().collect::<Vec<_>>()).as_deref() {
+            Some([Pat::Ident(index)]) => index.ident.to_string(),
+            _ => "j".to_string(),
+        };
+        let advice = match source {
+            Syntax::Range(range) => format!("`sum({}, |{index}| …)`", text(range)),
+            other => format!("`sum(0..{0}.len(), |j| … {0}[j] …)`", text(other)),
+        };
+        self.errors.push(call, format!("a formula has no iterators; a sum is written {advice}"));
+        true
+    }
+}

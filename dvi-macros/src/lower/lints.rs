@@ -1,0 +1,127 @@
+//! Warnings: names of a formula that nothing uses, and indices that hide others.
+//!
+//! Stable Rust lets a macro warn of nothing, but the compiler warns of what the macro writes. For a name
+//! without a use this is an argument without a use, at the place of that name:
+//! ```text
+//! const _: () = { fn unused(radius: ()) {} };
+//! ```
+//! For a hidden index it is the use of something deprecated, whose note is the warning.
+
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+use syn::visit::Visit;
+use syn::{Expr, Ident, Pat, Stmt};
+
+/// A name of an inner scope.
+struct Local {
+    name: Ident,
+    index: bool,
+    used: bool,
+}
+
+#[derive(Default)]
+struct Names {
+    open: Vec<Local>,
+    unused: Vec<Ident>,
+    hidden: Vec<Ident>,
+}
+
+/// The warnings of a formula as items that the compiler warns of.
+pub(crate) fn warnings(formula: &Expr) -> TokenStream {
+    let mut names = Names::default();
+    names.visit_expr(formula);
+    let unused = names.unused.iter().map(|name| {
+        quote!(const _: () = {
+            #[allow(dead_code, non_snake_case)]
+            fn unused(#name: ()) {}
+        };)
+    });
+    let hidden = names.hidden.iter().map(|name| {
+        let note =
+            format!("it hides the index `{name}` of a sum around this one; give one of them another name");
+        let span = name.span();
+        let place = Ident::new("index", span);
+        quote_spanned! {span=>
+            const _: () = {
+                #[deprecated(note = #note)]
+                #[allow(non_upper_case_globals)]
+                const #place: () = ();
+                #place
+            };
+        }
+    });
+    quote!(#(#unused)* #(#hidden)*)
+}
+
+fn name_of(pattern: &Pat) -> Option<&Ident> {
+    match pattern {
+        Pat::Ident(name) => Some(&name.ident),
+        Pat::Type(typed) => name_of(&typed.pat),
+        _ => None,
+    }
+}
+
+impl Names {
+    fn bind(&mut self, pattern: &Pat, index: bool) {
+        let Some(name) = name_of(pattern) else { return };
+        if index && self.open.iter().any(|local| local.index && local.name == *name) {
+            self.hidden.push(name.clone());
+        }
+        self.open.push(Local { name: name.clone(), index, used: false });
+    }
+
+    fn close(&mut self, outside: usize) {
+        let closed = self.open.split_off(outside);
+        let unused =
+            closed.into_iter().filter(|local| !local.used && !local.name.to_string().starts_with('_'));
+        self.unused.extend(unused.map(|local| local.name));
+    }
+}
+
+impl<'ast> Visit<'ast> for Names {
+    fn visit_block(&mut self, block: &'ast syn::Block) {
+        let outside = self.open.len();
+        for statement in &block.stmts {
+            match statement {
+                Stmt::Local(local) => {
+                    if let Some(init) = &local.init {
+                        self.visit_expr(&init.expr);
+                    }
+                    self.bind(&local.pat, false);
+                }
+                other => self.visit_stmt(other),
+            }
+        }
+        self.close(outside);
+    }
+
+    fn visit_expr_closure(&mut self, closure: &'ast syn::ExprClosure) {
+        let outside = self.open.len();
+        closure.inputs.iter().for_each(|input| self.bind(input, true));
+        self.visit_expr(&closure.body);
+        self.close(outside);
+    }
+
+    /// A component `|j| 0.0` of a one-form has its index by its place in the list.
+    fn visit_expr_array(&mut self, list: &'ast syn::ExprArray) {
+        for component in &list.elems {
+            let Expr::Closure(closure) = component else {
+                self.visit_expr(component);
+                continue;
+            };
+            let outside = self.open.len();
+            closure.inputs.iter().for_each(|input| self.bind(input, true));
+            self.open[outside..].iter_mut().for_each(|local| local.used = true);
+            self.visit_expr(&closure.body);
+            self.close(outside);
+        }
+    }
+
+    fn visit_expr_path(&mut self, path: &'ast syn::ExprPath) {
+        if let Some(name) = path.path.get_ident()
+            && let Some(local) = self.open.iter_mut().rev().find(|local| local.name == *name)
+        {
+            local.used = true;
+        }
+    }
+}

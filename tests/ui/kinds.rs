@@ -1,0 +1,31 @@
+//! A method, a step or a state that does not fit its system.
+
+use dvi_core::prelude::*;
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + y * y)]
+pub struct Degenerate;
+
+#[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0 - x * x)]
+pub struct Regular;
+
+fn degenerate_method_on_a_regular_system() {
+    let state = RegularState { x: 1.0, dot_x: 0.0 };
+    let _ = Integrator::new(&Regular, Sigma::midpoint(), 0.1, state);
+}
+
+fn regular_method_on_a_degenerate_system() {
+    let state = DegenerateState { x: 1.0, y: 0.0 };
+    let _ = Integrator::new(&Degenerate, Variational::midpoint(), 0.1, state);
+}
+
+fn integer_step() {
+    let state = DegenerateState { x: 1.0, y: 0.0 };
+    let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 1, state);
+}
+
+fn integers_in_a_state() {
+    let state = DegenerateState { x: 1, y: 0 };
+    let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 0.1, state);
+}
+
+fn main() {}

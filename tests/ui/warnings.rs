@@ -1,0 +1,18 @@
+//! Warnings, turned into errors here so that they are seen.
+
+#![deny(unused_variables, deprecated)]
+
+use dvi_core::prelude::*;
+
+#[degenerate_lagrangian(
+    coordinates(x[3], y[3]),
+    one_form    = sum(0..3, |j| x[j] * d(y[j])),
+    hamiltonian = {
+        let stiffness = 2.0;
+        let _nothing = 1.0;
+        sum(0..3, |j| x[j] * y[j]) + sum(0..3, |k| x[0]) + sum(0..3, |j| sum(0..2, |j| x[j]) * y[j])
+    },
+)]
+pub struct System;
+
+fn main() {}
