@@ -139,6 +139,11 @@ impl Check<'_> {
                 if !outputs.is_moderate() {
                     continue;
                 }
+                if !outputs.sides.is_empty() && functions.reads_outside(self.graph, self.system.model, &point)
+                {
+                    trials.learn(NoValue::OutOfRange);
+                    continue;
+                }
                 accepted += 1;
                 sides.extend(&outputs.sides);
                 self.compare(&point, &outputs, functions, &mut checked)?;

@@ -159,17 +159,23 @@ impl Graph {
 
     fn difference_of_squares(&mut self, node: Id, e: u32, factors: &[(Id, u32)], by: Id) -> Option<Part> {
         let (constant, of) = self.constant_and_term(node)?;
-        let (other, _) = factors.iter().copied().find(|(other, exponent)| {
-            let mirrored = self.constant_and_term(*other);
-            *exponent == e && mirrored.is_some_and(|(c, term)| c == -constant && term == of)
-        })?;
+        // (s + c)(s − c) = s² − c² and (c + s)(c − s) = c² − s².
+        let sign = |(c, term): (f64, Expr)| match (c == constant, c == -constant) {
+            (_, true) if term == of => Some(1.0),
+            (true, _) if term == of.negated() => Some(-1.0),
+            _ => None,
+        };
+        let (other, sign) = factors
+            .iter()
+            .filter(|(_, exponent)| *exponent == e)
+            .find_map(|(other, _)| Some((*other, sign(self.constant_and_term(*other)?)?)))?;
         if multiplicity(factors, node) != e {
             return None;
         }
         let tangent = self.derivative(of, by);
         let both = self.multiply(node.into(), other.into());
         let powers = self.power(both, e - 1);
-        let derivative = self.product(&[powers, of, tangent]).scaled(2.0 * f64::from(e));
+        let derivative = self.product(&[powers, of, tangent]).scaled(sign * 2.0 * f64::from(e));
         Some(Part { factors: vec![(node, e), (other, e)], derivative })
     }
 

@@ -19,6 +19,8 @@ pub(super) struct Results {
     pub(super) value: f64,
     vectors: HashMap<Output, [f64; 2]>,
     pub(super) matrix: f64,
+    /// Whether an entry was read that is not there.
+    pub(super) reads_outside: bool,
 }
 
 impl Results {
@@ -140,7 +142,7 @@ impl Run<'_> {
         if value.negative { -register } else { register }
     }
 
-    fn instruction(&self, instruction: &Instruction) -> f64 {
+    fn instruction(&mut self, instruction: &Instruction) -> f64 {
         match instruction {
             Instruction::Leaf(id) => self.leaf(*id),
             Instruction::Literal(bits) => f64::from_bits(*bits),
@@ -172,21 +174,22 @@ impl Run<'_> {
         }
     }
 
-    fn leaf(&self, id: Id) -> f64 {
+    fn variable(&mut self, kind: Variable, coordinate: &Coordinate) -> f64 {
         let Machine { point, model, .. } = self.machine;
-        let variable = |kind: Variable, c: &Coordinate| {
-            let (block, index) = (c.block as usize, self.index(&c.index));
-            let size = point.length(&model.block_size(block));
-            // What is read where an inner loop is empty is not used.
-            if size.is_some_and(|size| (0..size).contains(&index)) {
-                point.variable(kind, block, index)
-            } else {
-                f64::NAN
-            }
-        };
-        match self.machine.graph.node(id) {
-            Node::Coordinate(coordinate) => variable(Variable::Position, coordinate),
-            Node::Velocity(coordinate) => variable(Variable::Velocity, coordinate),
+        let (block, index) = (coordinate.block as usize, self.index(&coordinate.index));
+        let size = point.length(&model.block_size(block));
+        if size.is_some_and(|size| (0..size).contains(&index)) {
+            return point.variable(kind, block, index);
+        }
+        self.results.reads_outside = true;
+        f64::NAN
+    }
+
+    fn leaf(&mut self, id: Id) -> f64 {
+        let Machine { graph, point, model, .. } = self.machine;
+        match graph.node(id) {
+            Node::Coordinate(coordinate) => self.variable(Variable::Position, coordinate),
+            Node::Velocity(coordinate) => self.variable(Variable::Velocity, coordinate),
             Node::Time => point.time(),
             Node::Parameter(parameter) => {
                 let indices: Vec<i64> = parameter.indices.iter().map(|index| self.index(index)).collect();

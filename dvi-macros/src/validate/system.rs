@@ -236,6 +236,17 @@ impl Functions<'_> {
         }
     }
 
+    /// Whether an instruction reads an entry that is not there: one side of a choice may need sizes that the
+    /// other does not, and the generated check asks for both.
+    pub(super) fn reads_outside(&self, graph: &Graph, model: &Model, point: &Point) -> bool {
+        let machine = Machine { graph, model, point, directions: Directions::ALL, partners: None };
+        let shared = self.shared();
+        [&shared.lagrangian]
+            .into_iter()
+            .chain(&shared.momenta)
+            .any(|routine| machine.run(routine).reads_outside)
+    }
+
     /// Each output of each function, along these directions.
     pub(super) fn carried_out(
         &self,

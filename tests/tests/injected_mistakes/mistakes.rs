@@ -1,0 +1,44 @@
+//! Mistakes of the kinds that compilers make: a sign, a factor, a condition, an order, a name.
+
+pub(crate) struct Mistake {
+    pub(crate) file: &'static str,
+    pub(crate) right: &'static str,
+    pub(crate) wrong: &'static str,
+}
+
+const fn mistake(file: &'static str, right: &'static str, wrong: &'static str) -> Mistake {
+    Mistake { file, right, wrong }
+}
+
+#[rustfmt::skip]
+pub(crate) const MISTAKES: &[Mistake] = &[
+    // A factor enters a sum that it depends on.
+    mistake("select.rs", "self.depth(*factor) > over.depth", "self.depth(*factor) > 64"),
+    mistake("select.rs", "if a == b { multiplicity(factors, a) / 2 }", "if a == b { multiplicity(factors, a) }"),
+    mistake("select.rs", "Instruction::Divide(numerator, divisor)", "Instruction::Multiply(numerator, divisor)"),
+    mistake("select.rs", "let negative = expr.scale < 0.0;", "let negative = expr.scale < -1.0;"),
+    mistake("select.rs", "if f64::from_bits(key.0) != 1.0 {", "if f64::from_bits(key.0) > 1.0 {"),
+    // The factors of a product that is not in the table.
+    mistake("select.rs", "None => self.expand(key),", "None => Vec::new(),"),
+    // A loop runs before the sum that its terms use.
+    mistake("schedule.rs", "self.code.reachable([register]).iter().map(|below| stages[below.0 as usize]).max().unwrap_or(0)", "stages[register.0 as usize].min(0)"),
+    // Sums over different ranges share a loop.
+    mistake("schedule.rs", "group.entry == entry && group.over == over", "group.entry == entry"),
+    mistake("schedule.rs", "group.entry >= entry && group.over == over", "group.over == over"),
+    mistake("symbolic/simplify.rs", "known.scale += term.scale", "known.scale = term.scale"),
+    mistake("symbolic/simplify.rs", "*known = known.saturating_add(exponent)", "*known = exponent"),
+    mistake("symbolic/simplify.rs", "Node::Reciprocal(inner) => Expr { scale, node: *inner }", "Node::Reciprocal(inner) => Expr { scale: 1.0, node: *inner }"),
+    mistake("symbolic/simplify.rs", "Expr::from(node).scaled(sign)", "Expr::from(node).scaled(sign.abs())"),
+    mistake("symbolic/simplify.rs", "self.power(id.into(), exponent - taken)", "self.power(id.into(), exponent)"),
+    mistake("symbolic/simplify.rs", "part.scaled(constant.scale)", "*part"),
+    mistake("symbolic/derivative.rs", "let (then, otherwise) = (self.derivative(then, by), self.derivative(otherwise, by));", "let (otherwise, then) = (self.derivative(then, by), self.derivative(otherwise, by));"),
+    // Pairs of variables of one family, or of two, are dropped or counted twice.
+    mistake("symbolic/derivative.rs", "if row <= column {", "if row < column {"),
+    mistake("symbolic/derivative.rs", "mirrored: row < column,", "mirrored: true,"),
+    mistake("symbolic/derivative.rs", "let mut weight = self.multiply(weight, partial);", "let mut weight = partial;"),
+    mistake("symbolic/derivative.rs", "range.without(Index::open(depth))", "range.clone()"),
+    mistake("symbolic/derivative.rs", "let range = outer.range.as_written();", "let range = outer.range.clone();"),
+    mistake("symbolic/rules.rs", "Unary::Cos    => self.unary(Unary::Sin, u).negated(),", "Unary::Cos    => self.unary(Unary::Sin, u),"),
+    // An index takes the name of that of a sum inside.
+    mistake("symbolic/graph.rs", "Node::Reduce { height, range, .. } => {\n                let rest", "Node::Reduce { height, range, .. } if *height > 9 => {\n                let rest"),
+];

@@ -1,0 +1,54 @@
+//! Systems in which each part of the compiler has something to do.
+
+/// Kind, attribute, struct.
+pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
+    (
+        "degenerate",
+        "coordinates(x[N], y[N]),
+         one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+         hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
+             * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
+         momenta(angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))))",
+        "struct Vortices<const N: usize> { gamma: [f64; N] }",
+    ),
+    (
+        "regular",
+        "coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / (x * x + y * y).sqrt()",
+        "struct Kepler { mu: f64 }",
+    ),
+    (
+        "regular",
+        "coordinates(x[N]), lagrangian = sum(0..N, |j| (dot(x[j]) - 0.1 * sum(0..N, |k| dot(x[k]))).powi(2)) / 2.0
+             - sum(0..N, |i| g[i]) * sum_pairs(0..N, |i, j| x[j].powi(2)) - sum_pairs(0..N, |i, j| g[i] * x[j].powi(2))",
+        "struct Masses<const N: usize> { g: [f64; N] }",
+    ),
+    (
+        "regular",
+        "coordinates(x[3], u), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) + dot(u).powi(2)
+             - sum_pairs(0..3, |i, j| k * (x[i] + x[j] - u).powi(2)) / 4 - sum(0..3, |i| 1 / (u + x[i])).powi(2)",
+        "struct Springs { k: f64 }",
+    ),
+    (
+        "regular",
+        "coordinates(x, y), lagrangian = dot(x).powi(2) * (2.0 + y.cos()) + dot(y).powi(2) + (-x).sin() * y.tan()
+             + x.powi(5) * y.powi(3) + if x > y * y { x.exp() } else { y * x } - 1.0 / (1.0 / (3.0 * x * y))",
+        "struct Functions;",
+    ),
+    (
+        "regular",
+        "coordinates(x[4]), lagrangian = sum(0..4, |j| dot(x[j]).powi(2)) - product(0..4, |j| 2.0 + x[j] * x[(j + 1) % 4])
+             - sum_ordered_pairs(0..4, |i, j| (x[i] * x[j]).atan())",
+        "struct Ring;",
+    ),
+    (
+        "degenerate",
+        "coordinates(x, y), one_form = (y.ln() / x) * d(x) + t * x * d(y), hamiltonian = x + y - x.ln() - 2.0 * y.ln()",
+        "struct Prey;",
+    ),
+    (
+        "regular",
+        "coordinates(x[N]), lagrangian = sum(0..N, |j| dot(x[j]).powi(2) / 2.0)
+             + (sum(0..N, |j| x[j] * sum(0..j + 1, |k| x[k])).sqrt() * sum(0..N, |j| x[j] * g[j])).sin()",
+        "struct Nested<const N: usize> { g: [f64; N] }",
+    ),
+];
