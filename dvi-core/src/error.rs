@@ -114,6 +114,19 @@ pub enum StepFailure {
         /// The largest candidate.
         pivot: f64,
     },
+    /// The parasitic mode of a two-step method has taken over: what the run computes is no longer its motion.
+    #[error(
+        "the parasitic mode has reached {relative:.3} times the smooth part of the second differences, amplitude \
+         {amplitude:e}; the limit is {limit}: take another sigma or method, or smaller steps for a later end"
+    )]
+    ParasiticMode {
+        /// Its amplitude in the coordinates.
+        amplitude: f64,
+        /// Its share, relative to what does not alternate.
+        relative: f64,
+        /// The largest share that was allowed.
+        limit: f64,
+    },
     /// The density of steps that a step control carries along is no density any more.
     #[error(
         "the density of steps became {density:e}; it must be positive and finite: a smaller epsilon helps"

@@ -6,7 +6,7 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::method::{Clock, Method, TwoPoint};
 use crate::norm::reported;
 use crate::run::{Run, flatten, velocities};
-use crate::sigma_family::{Sigma, SigmaMemory};
+use crate::sigma_family::{ParasiticMode, Sigma, SigmaMemory};
 use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
@@ -181,7 +181,14 @@ impl<S: DegenerateLagrangian, T: Real> Integrator<'_, S, Sigma<T>, T> {
         Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
     }
 
-    /// max |p − α(q)|, the amplitude of the parasitic mode in p.
+    /// The parasitic mode as it was measured last: see [`SigmaMemory::parasitic_mode`].
+    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
+        self.run.memory.parasitic_mode()
+    }
+
+    /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere it is of
+    /// order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be trusted; take
+    /// [`parasitic_mode`](Self::parasitic_mode).
     pub fn parasitic_amplitude(&self) -> T {
         SigmaMemory::parasitic_amplitude(&self.run.memory)
     }

@@ -119,7 +119,7 @@ pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};
-pub use sigma_family::{Sigma, SigmaMemory, Start};
+pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
 pub use solver::{Solver, Stopping};
 #[cfg(feature = "alloc")]
 pub use space::RunTime;

@@ -36,7 +36,7 @@ fn check<S: DegenerateLagrangian>(
 ) -> Outcome {
     for sigma in [0.0, 0.2, 0.5, 0.7, 1.0] {
         for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
-            let method = Sigma { solver, ..Sigma::new(sigma) };
+            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
             let mut run = Integrator::new(system, method, h, start.clone())?;
             let mut points = vec![run.q().to_vec()];
             while run.steps() < steps {

@@ -27,12 +27,16 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
     if step.method.sigma == T::lift(0.0) {
         let (taken, result) = leapfrog::steps(step.system, memory, q, Clock::new(step.t, step.h), 1);
         statistics.gradients += taken;
-        result
-    } else if step.method.sigma == T::lift(1.0) {
-        explicit_right(step, memory, q, statistics)
-    } else {
-        implicit(step, memory, q, statistics)
+        return result;
     }
+    memory.monitor.look(q)?;
+    if step.method.sigma == T::lift(1.0) {
+        explicit_right(step, memory, q, statistics)?;
+    } else {
+        implicit(step, memory, q, statistics)?;
+    }
+    memory.monitor.steps += 1;
+    Ok(())
 }
 
 /// σ = 1: DαΔ = c0, c1 = (Dα)ᵀΔ − h∇H(q1).

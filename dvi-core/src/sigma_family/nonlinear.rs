@@ -20,9 +20,24 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
+    memory.monitor.look(q)?;
     if step.method.sigma == T::lift(0.0) {
-        return one_solve(step, memory, q, statistics);
+        one_solve(step, memory, q, statistics)?;
+    } else {
+        implicit(step, memory, q, statistics)?;
     }
+    memory.monitor.steps += 1;
+    Ok(())
+}
+
+/// 0 < σ ≤ 1.
+#[inline]
+fn implicit<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
     if memory.newton_steps > 0 || step.method.solver == Solver::Newton {
         by_newton(step, memory, q, statistics)?;
     } else if let Err(failure) = fixed_point(step, memory, q, statistics) {
