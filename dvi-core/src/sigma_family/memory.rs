@@ -10,6 +10,7 @@ use super::monitor::{Monitor, ParasiticMode};
 use crate::error::StartError;
 use crate::form::{Combination, Form, Product};
 use crate::history::History;
+use crate::orientation::FormOrientation;
 use crate::solver::Solver;
 use crate::space::scratch;
 use crate::statistics::Statistics;
@@ -38,6 +39,7 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
     /// How many steps Newton takes before the fixed point is tried again.
     pub(super) newton_steps: u32,
     pub(super) monitor: Monitor<S, T>,
+    pub(super) orientation: FormOrientation<S, T>,
     pub(super) work: Work<S, T>,
 }
 
@@ -183,6 +185,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             newton,
             newton_steps: 0,
             monitor: Monitor::new(system, limit, !S::LINEAR),
+            orientation: FormOrientation::new(system, q, t),
             work,
         })
     }
