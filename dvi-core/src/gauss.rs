@@ -153,7 +153,7 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
         let size = memory.slopes.iter().fold(T::lift(0.0), |m, slope| m.max(norm::largest(slope)));
         let h_size = Scalar::abs(h);
         let scale = norm::largest(q) + h_size * size;
-        let mut convergence = Convergence::fixed_point(self.stopping, scale, self.stopping.max_iterations);
+        let mut convergence = Convergence::fixed_point(self.stopping, scale, q, self.stopping.max_iterations);
         let verdict = loop {
             let correction = h_size * memory.iterate(system, q, t, h, statistics)?;
             match convergence.judge(correction) {

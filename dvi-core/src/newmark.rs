@@ -186,7 +186,7 @@ impl<T: Real> Newmark<T> {
         let mut convergence = if solver == Solver::Newton {
             Convergence::new(self.stopping, scale, budget)
         } else {
-            Convergence::fixed_point(self.stopping, scale, budget)
+            Convergence::fixed_point(self.stopping, scale, q, budget)
         };
         let verdict = loop {
             memory.place(system, self.beta, q, [t, h], statistics);

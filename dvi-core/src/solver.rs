@@ -6,14 +6,14 @@
 //! corrections have stopped shrinking and are nothing but rounding errors of the coordinates.
 //!
 //! What a fixed point leaves over has the same direction in every step, and adds up to a drift however far below the
-//! rounding of one step it is. So a tolerance that asks for less than rounding takes a fixed point to the end, where
-//! corrections no longer shrink (Hairer, McLachlan & Razakarivony 2008); and as the largest coordinate then sets no
-//! scale, the small ones are as accurate as the large ones. Newton's method squares its error in the iteration that
+//! rounding of one step it is (Hairer, McLachlan & Razakarivony 2008). So a tolerance that asks for less than rounding
+//! is judged on the smallest coordinate of a fixed point, and rounding errors are those that no longer shrink at all:
+//! the small coordinates are then as accurate as the large ones. Newton's method squares its error in the iteration that
 //! is accepted, and is left at the tolerance.
 
 use crate::Real;
 use crate::error::{StartError, StepFailure};
-use crate::norm::reported;
+use crate::norm::{reported, smallest};
 
 /// The iteration that solves an implicit step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,10 +35,10 @@ pub struct Stopping {
     /// The largest error to accept, relative to max|q| + max|Δ| over all coordinates. Default: 1e-17, below the
     /// rounding of double precision.
     ///
-    /// Below the rounding of the arithmetic, a fixed point goes on until its corrections no longer shrink: what is
-    /// left over is then not of one sign, and small coordinates do not suffer from large ones. On four vortices
+    /// Below the rounding of the arithmetic, it is relative to the smallest |q| for a fixed point, which otherwise goes
+    /// on until its corrections no longer shrink: small coordinates do not suffer from large ones. On four vortices
     /// with σ = ½ and h = 0.1, ΣΓ|z|² then changes by less than 4e-19 a step over 4·10⁵ steps; an iteration that
-    /// stops as soon as an error of 1e-17 is predicted drifts by 1.2e-18. A larger tolerance is judged on the
+    /// stops as soon as an error of 1e-17 of the largest is predicted drifts by 1.2e-18. A larger tolerance is judged on the
     /// largest coordinate.
     pub tolerance: f64,
     /// The largest number of iterations. Default: 100.
@@ -88,7 +88,7 @@ pub(crate) struct Convergence<T> {
     growths: usize,
     pub(crate) iterations: usize,
     budget: usize,
-    /// The largest ratio of two corrections that counts as shrinking, where they are rounding errors.
+    /// The smallest ratio of two corrections that no longer counts as shrinking, where they are rounding errors.
     shrinking: T,
 }
 
@@ -107,12 +107,13 @@ impl<T: Real> Convergence<T> {
         }
     }
 
-    /// The same for a fixed point, which gains a constant factor in each iteration.
+    /// The same for a fixed point from `q`, which gains a constant factor in each iteration.
     #[inline(always)]
-    pub(crate) fn fixed_point(stopping: Stopping, scale: T, budget: usize) -> Self {
+    pub(crate) fn fixed_point(stopping: Stopping, scale: T, q: &[T], budget: usize) -> Self {
         let new = Self::new(stopping, scale, budget);
-        if T::lift(stopping.tolerance) < T::default_epsilon() {
-            Self { tolerance: T::lift(0.0), shrinking: T::lift(1.0), ..new }
+        let tolerance = T::lift(stopping.tolerance);
+        if tolerance < T::default_epsilon() {
+            Self { tolerance: tolerance * smallest(q, scale), shrinking: T::lift(1.0), ..new }
         } else {
             new
         }

@@ -44,7 +44,7 @@ fn solve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
 ) -> Result<(), StepFailure> {
     memory.guess(step, q);
     let mut convergence =
-        Convergence::fixed_point(step.method.stopping, memory.scale(), step.budget(q.len()));
+        Convergence::fixed_point(step.method.stopping, memory.scale(), q, step.budget(q.len()));
     let verdict = loop {
         memory.read_frequency(step, statistics)?;
         let correction = improve(step, memory, statistics);

@@ -139,7 +139,7 @@ fn fixed_point<S: DegenerateLagrangian, T: Real>(
         scale += norm::largest(&work.shift);
         &work.next
     };
-    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, step.budget(q.len()));
+    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, q, step.budget(q.len()));
     let verdict = loop {
         for ((point, &origin), &s) in point.iter_mut().zip(origin.iter()).zip(increment.iter()) {
             *point = origin + sigma * s;

@@ -98,7 +98,7 @@ fn fixed_point<S: DegenerateLagrangian, T: Real>(
     step.place(work, q, per_h);
     inverse.prepare(step.system, &work.point, step.node_time(), combination, &mut work.trial, statistics)?;
     let scale = norm::largest(q) + norm::largest(&work.increment);
-    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, step.budget(q.len()));
+    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, q, step.budget(q.len()));
     let verdict = loop {
         let Work { point, velocity, gradient, momentum, trial, increment, .. } = work;
         step.system.gradient(point, velocity, step.node_time(), gradient, momentum);
