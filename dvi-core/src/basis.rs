@@ -61,10 +61,15 @@ impl<T: Real> Pair<T> {
     fn at(u: T) -> Self {
         let z = u * u;
         if z <= T::lift(SERIES_TO) {
-            return Self { cosine: sum_series(&SERIES[0], z), sinc: sum_series(&SERIES[1], z) };
+            return Self::series(z);
         }
         let (sine, cosine) = nalgebra::ComplexField::sin_cos(u);
         Self { cosine, sinc: sine / u }
+    }
+
+    #[inline(always)]
+    fn series(z: T) -> Self {
+        Self { cosine: sum_series(&SERIES[0], z), sinc: sum_series(&SERIES[1], z) }
     }
 
     /// The pair at 2u.
@@ -134,9 +139,9 @@ impl<T: Real> Bases<T> {
     }
 }
 
-/// κ(z) and σ(z).
+/// κ(z) and σ(z). Near z = 0 without a root, which has no derivative there.
 fn pair<T: Real>(z: T) -> Pair<T> {
-    Pair::at(Scalar::sqrt(z))
+    if z <= T::lift(SERIES_TO) { Pair::series(z) } else { Pair::at(Scalar::sqrt(z)) }
 }
 
 /// The derivatives with respect to z of the coefficients of all nodes of `rule`.

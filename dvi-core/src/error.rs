@@ -62,6 +62,19 @@ pub enum StartError {
         /// Its value.
         value: f64,
     },
+    /// The energy, or a derivative of L, is infinite or not a number at the initial state.
+    #[error(
+        "{quantity} is {value} at the initial state: a parameter is not a number, or the state lies outside of the \
+         domain of the formulas"
+    )]
+    Undefined {
+        /// What was evaluated.
+        quantity: &'static str,
+        /// Its coordinate, counted from 0 in the flat state; `None` for the energy.
+        coordinate: Option<usize>,
+        /// Its value.
+        value: f64,
+    },
     /// An array of the state has the wrong length.
     #[error(transparent)]
     Length(#[from] LengthError),
@@ -113,6 +126,46 @@ pub enum StepFailure {
         column: usize,
         /// The largest candidate.
         pivot: f64,
+    },
+    /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::EnergyLimit)).
+    #[error(
+        "the energy was {start:e} at the start and would become {now:e}; the limit of its change is {limit:e}"
+    )]
+    Energy {
+        /// The energy at the start of the run.
+        start: f64,
+        /// The energy after the step that failed.
+        now: f64,
+        /// The largest change that was allowed.
+        limit: f64,
+    },
+    /// The parasitic mode of a two-step method has taken over: what the run computes is no longer its motion.
+    #[error(
+        "the parasitic mode has reached {relative:.3} times the smooth part of the second differences, amplitude \
+         {amplitude:e}; the limit is {limit}: take another sigma or method, or smaller steps for a later end"
+    )]
+    ParasiticMode {
+        /// Its amplitude in the coordinates.
+        amplitude: f64,
+        /// Its share, relative to what does not alternate.
+        relative: f64,
+        /// The largest share that was allowed.
+        limit: f64,
+    },
+    /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the
+    /// motion does not lead across.
+    #[error(
+        "{matrix} has changed its sign within the step, from {before:e} to {after:e}: it is singular in between, and \
+         the motion is not determined there"
+    )]
+    Orientation {
+        /// Which matrix.
+        matrix: &'static str,
+        /// At the start of the step: the entry of Ω that has changed its sign, if Ω couples the coordinates in pairs;
+        /// else the smallest pivot, with the sign of the Pfaffian of Ω or of the determinant of the mass matrix.
+        before: f64,
+        /// At its end.
+        after: f64,
     },
     /// The density of steps that a step control carries along is no density any more.
     #[error(

@@ -42,22 +42,31 @@ pub trait Frequency: Debug {
 
 /// A [`Frequency`] in the arithmetic of `T`, in radians per unit of time.
 pub trait FrequencyIn<T: Real>: Frequency {
-    /// The frequency of a coordinate, where it does not depend on the motion.
+    /// The frequency of a coordinate, where it does not depend on the motion: needed if
+    /// [`reading`](Frequency::reading) is `None`. Not a number unless it is given; a run that needs it is then
+    /// refused.
     fn fixed(&self, _coordinate: usize) -> T {
-        T::lift(0.0)
+        T::lift(f64::NAN)
     }
 
-    /// ω at (q, v), from the acceleration a = M⁻¹∂L/∂q.
+    /// ω at (q, v), from the acceleration a = M⁻¹∂L/∂q: needed if the frequency is read from the motion. Not a
+    /// number unless it is given; a step that needs it then fails.
     fn at(&self, _q: &[T], _v: &[T], _a: &[T]) -> T {
-        T::lift(0.0)
+        T::lift(f64::NAN)
     }
 
-    /// The derivatives of ω at (q, v, a): sets `dq`, `dv` and `da`, and returns ω.
-    fn derivatives(&self, _q: &[T], _v: &[T], _a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {
-        dq.fill(T::lift(0.0));
-        dv.fill(T::lift(0.0));
-        da.fill(T::lift(0.0));
-        T::lift(0.0)
+    /// ω at (q, v, a) after setting `dq`, `dv` and `da` to its derivatives: needed for
+    /// [`Reading::Variational`]. `None` unless they are given; a run with that reading is then refused.
+    fn derivatives(
+        &self,
+        _q: &[T],
+        _v: &[T],
+        _a: &[T],
+        _dq: &mut [T],
+        _dv: &mut [T],
+        _da: &mut [T],
+    ) -> Option<T> {
+        None
     }
 
     /// Checks the options against a system of `dimension` coordinates.
@@ -77,7 +86,12 @@ impl Frequency for Unfitted {
     const UNFITTED: bool = true;
 }
 
-impl<T: Real> FrequencyIn<T> for Unfitted {}
+impl<T: Real> FrequencyIn<T> for Unfitted {
+    #[inline(always)]
+    fn fixed(&self, _coordinate: usize) -> T {
+        T::lift(0.0)
+    }
+}
 
 /// One frequency for all coordinates and all times. Symplectic, and exact on oscillators of that frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,6 +138,38 @@ impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
     }
 }
 
+/// Whether `frequency` gives what its reading needs, and its options are in range.
+///
+/// # Errors
+/// [`StartError::Unsupported`] names the method of [`FrequencyIn`] that is missing; else as
+/// [`FrequencyIn::validate`].
+pub(crate) fn admit<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    frequency: &F,
+    system: &S,
+) -> Result<(), StartError> {
+    let space = system.space();
+    frequency.validate(space.dimension())?;
+    let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
+    match frequency.reading() {
+        None if !frequency.fixed(0).is_finite() => unsupported(
+            "a frequency that is not read from the motion",
+            "FrequencyIn::fixed does not give a finite number",
+        ),
+        Some(Reading::Variational) => {
+            let point = space.vector();
+            let [mut dq, mut dv, mut da] = [space.vector(), space.vector(), space.vector()];
+            match frequency.derivatives(&point, &point, &point, &mut dq, &mut dv, &mut da) {
+                Some(_) => Ok(()),
+                None => unsupported(
+                    "Reading::Variational",
+                    "FrequencyIn::derivatives is not implemented; take Reading::Averaged",
+                ),
+            }
+        }
+        None | Some(Reading::LeftFrozen | Reading::Averaged) => Ok(()),
+    }
+}
+
 fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
     if (0.0..f64::INFINITY).contains(&value) {
         Ok(())
@@ -160,7 +206,7 @@ impl<T: Real> FrequencyIn<T> for Curvature {
         Scalar::sqrt(square) / vv
     }
 
-    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {
+    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
         let omega = self.at(q, v, a);
         let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
         let two = T::lift(2.0);
@@ -172,7 +218,7 @@ impl<T: Real> FrequencyIn<T> for Curvature {
             da[i] = half * two * (a[i] - ratio * v[i]) / vv;
             dv[i] = half * two * (two * ratio * ratio * v[i] - aa / vv * v[i] - ratio * a[i]) / vv;
         }
-        omega
+        Some(omega)
     }
 }
 
@@ -198,7 +244,7 @@ impl<T: Real> FrequencyIn<T> for Radial {
         Scalar::sqrt(Scalar::sqrt(dot(a, a) * (T::lift(1.0) / dot(q, q))))
     }
 
-    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> T {
+    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
         let omega = self.at(q, v, a);
         let half = T::lift(0.5) * omega;
         let (per_a, per_q) = (half / dot(a, a), half / dot(q, q));
@@ -207,7 +253,7 @@ impl<T: Real> FrequencyIn<T> for Radial {
             da[i] = per_a * a[i];
             dq[i] = -per_q * q[i];
         }
-        omega
+        Some(omega)
     }
 }
 
@@ -277,8 +323,9 @@ impl<S: RegularLagrangian, T: Real> Local<S, T> {
         let [l_q, l_v] = &mut self.l;
         system.linearize(q, v, t, weights, l_q, l_v, hessian);
         mass.solve(l_q, &mut self.acceleration);
-        self.omega =
-            frequency.derivatives(q, v, &self.acceleration, &mut self.dq, &mut self.dv, &mut self.da);
+        let Self { acceleration, dq, dv, da, .. } = self;
+        // Refused at the start if there are none.
+        self.omega = frequency.derivatives(q, v, acceleration, dq, dv, da).unwrap_or(T::lift(f64::NAN));
         mass.solve(&self.da, l_v);
         crate::elimination::multiply_add(hessian, l_v, &mut self.dq);
         norm::finite(&self.dq)?;

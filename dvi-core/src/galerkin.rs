@@ -15,7 +15,7 @@ mod memory;
 mod separable;
 
 use crate::error::{StartError, StepFailure};
-use crate::frequency::{Frequency, FrequencyIn, Reading, Unfitted};
+use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::method::{Method, PreservedForm, Scheme, VariableStep};
 use crate::solver::{Solver, Stopping};
 use crate::statistics::Statistics;
@@ -112,7 +112,7 @@ impl<const NODES: usize, F: Frequency> Galerkin<NODES, F> {
             let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
             return unsupported("Solver::FixedPoint", reason);
         }
-        self.frequency.validate(crate::Space::dimension(system.space()))?;
+        frequency::admit(&self.frequency, system)?;
         self.stopping.validate()
     }
 }

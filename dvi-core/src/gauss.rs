@@ -7,6 +7,7 @@
 use crate::error::{StartError, StepFailure};
 use crate::method::{Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
+use crate::orientation::FormOrientation;
 use crate::solver::{Convergence, Stopping, Verdict};
 use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
@@ -100,6 +101,7 @@ pub struct GaussMemory<const STAGES: usize, S: Lagrangian, T: Real> {
     slopes: [Vector<S, T>; STAGES],
     updated: [Vector<S, T>; STAGES],
     point: Vector<S, T>,
+    orientation: FormOrientation<S, T>,
 }
 
 impl<const S: usize> Scheme for Gauss<S> {
@@ -133,6 +135,7 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
             slopes: vectors(),
             updated: vectors(),
             point: system.space().vector(),
+            orientation: FormOrientation::new(system, q, t),
         })
     }
 
@@ -150,7 +153,7 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
         let size = memory.slopes.iter().fold(T::lift(0.0), |m, slope| m.max(norm::largest(slope)));
         let h_size = Scalar::abs(h);
         let scale = norm::largest(q) + h_size * size;
-        let mut convergence = Convergence::new(self.stopping, scale, self.stopping.max_iterations);
+        let mut convergence = Convergence::fixed_point(self.stopping, scale, q, self.stopping.max_iterations);
         let verdict = loop {
             let correction = h_size * memory.iterate(system, q, t, h, statistics)?;
             match convergence.judge(correction) {
@@ -162,9 +165,10 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
         if verdict == Verdict::GiveUp {
             return Err(convergence.failure());
         }
-        let GaussMemory { tableau, slopes, completed, point, .. } = memory;
+        let GaussMemory { tableau, slopes, completed, point, orientation, .. } = memory;
         combine(q, h, &tableau.b, slopes, point);
         norm::finite(point)?;
+        orientation.check(system, point, t + h)?;
         q.copy_from_slice(point);
         for (completed, slope) in completed.iter_mut().zip(slopes.iter()) {
             completed.copy_from_slice(slope);
@@ -174,9 +178,10 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
 }
 
 impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> VariableStep<S, T> for Gauss<STAGES> {
-    /// The slopes of the last step, from which the next is guessed.
+    /// The slopes of the last step, from which the next is guessed, and the orientation of Ω.
     #[inline]
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.orientation.restore(&from.orientation);
         for (to, from) in to.completed.iter_mut().zip(&from.completed) {
             to.copy_from_slice(from);
         }

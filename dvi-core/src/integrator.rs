@@ -5,8 +5,8 @@ use core::fmt;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::method::{Clock, Method, TwoPoint};
 use crate::norm::reported;
-use crate::run::{Run, flatten, velocities};
-use crate::sigma_family::{Sigma, SigmaMemory};
+use crate::run::{Run, evaluate, flatten, velocities};
+use crate::sigma_family::{ParasiticMode, Sigma, SigmaMemory};
 use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
@@ -28,7 +28,8 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// # Errors
     /// [`StartError`] if a parameter array of the system or an array of the state has the wrong length,
     /// `h` is zero or not finite, a coordinate is not finite, an option of the method is out of range,
-    /// or the starting values cannot be computed.
+    /// the energy or a first derivative of L is not finite at the start ([`StartError::Undefined`]), or the
+    /// starting values cannot be computed.
     pub fn new(system: &'a S, method: M, h: T, start: S::State<T>) -> Result<Self, StartError> {
         Self::new_at(system, method, T::lift(0.0), h, start)
     }
@@ -40,6 +41,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
         validate(system, t, h)?;
         let [q, v] = flatten(system, &start)?;
+        evaluate(system, &q, &v, t)?;
         let memory = method.begin(system, &q, &v[..velocities(system)], t, h)?;
         Ok(Self::assemble(system, method, memory, q, t, h))
     }
@@ -157,6 +159,7 @@ impl<'a, S: Lagrangian, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         let t = T::lift(0.0);
         validate(system, t, h)?;
         let ([q0, _], [q1, _]) = (flatten(system, &first)?, flatten(system, &second)?);
+        evaluate(system, &q0, &system.space().vector(), t)?;
         let memory = method.begin_between(system, &q0, &q1, t, h)?;
         Ok(Self::assemble(system, method, memory, q0, t, h))
     }
@@ -181,7 +184,14 @@ impl<S: DegenerateLagrangian, T: Real> Integrator<'_, S, Sigma<T>, T> {
         Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
     }
 
-    /// max |p − α(q)|, the amplitude of the parasitic mode in p.
+    /// The parasitic mode as it was measured last: see [`SigmaMemory::parasitic_mode`].
+    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
+        self.run.memory.parasitic_mode()
+    }
+
+    /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere it is of
+    /// order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be trusted; take
+    /// [`parasitic_mode`](Self::parasitic_mode).
     pub fn parasitic_amplitude(&self) -> T {
         SigmaMemory::parasitic_amplitude(&self.run.memory)
     }

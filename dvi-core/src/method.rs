@@ -23,7 +23,8 @@ pub enum PreservedForm {
 
 /// What is known of a method before it meets a system.
 pub trait Scheme {
-    /// The order of convergence on general smooth systems.
+    /// The order of convergence on smooth systems whose Lagrangian does not depend on time. On others it is the
+    /// same, unless the documentation of the method says otherwise.
     fn order(&self) -> usize;
     /// Whether a step with −h undoes a step with h.
     fn is_symmetric(&self) -> bool;

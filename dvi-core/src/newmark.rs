@@ -183,7 +183,11 @@ impl<T: Real> Newmark<T> {
         let max = self.stopping.max_iterations;
         let budget = if solver == Solver::Automatic { max.min(24 + q.len()) } else { max };
         let scale = norm::largest(q) + norm::largest(&memory.work.increment);
-        let mut convergence = Convergence::new(self.stopping, scale, budget);
+        let mut convergence = if solver == Solver::Newton {
+            Convergence::new(self.stopping, scale, budget)
+        } else {
+            Convergence::fixed_point(self.stopping, scale, q, budget)
+        };
         let verdict = loop {
             memory.place(system, self.beta, q, [t, h], statistics);
             let correction = if solver == Solver::Newton {

@@ -14,6 +14,12 @@ pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)))
 }
 
+/// minᵢ |xᵢ|, at most `bound`.
+#[inline(always)]
+pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {
+    x.iter().map(|&x| Scalar::abs(x)).fold(bound, |smallest, x| if x < smallest { x } else { smallest })
+}
+
 /// maxᵢ |xᵢ − yᵢ|; an entry that is not a number does not count.
 #[inline(always)]
 pub(crate) fn distance<T: Real>(x: &[T], y: &[T]) -> T {

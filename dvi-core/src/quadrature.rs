@@ -19,11 +19,15 @@ pub trait Rule: Copy + core::fmt::Debug {
     /// The weights wⱼ.
     fn weights(&self) -> &[f64];
 
-    /// Whether c and 1 − c are nodes of the same weight, for every node c, up to rounding.
+    /// Whether c and 1 − c have the same weight, for every node c, up to rounding; a node that is given more than
+    /// once has the sum of its weights.
     fn is_symmetric(&self) -> bool {
         let near = |a: f64, b: f64| a - b <= 1e-15 && b - a <= 1e-15;
-        let entries = || self.nodes().iter().zip(self.weights());
-        entries().all(|(&c, &w)| entries().any(|(&d, &v)| near(c + d, 1.0) && near(v, w)))
+        let weight_at = |c: f64| {
+            let entries = self.nodes().iter().zip(self.weights());
+            entries.filter(|&(&d, _)| near(c, d)).map(|(_, &w)| w).sum::<f64>()
+        };
+        self.nodes().iter().all(|&c| near(weight_at(c), weight_at(1.0 - c)))
     }
 
     /// Whether a node is neither 0 nor 1.
@@ -222,6 +226,15 @@ mod tests {
         let beyond = moment(rule, degree + 1) - 1.0 / f64::from(degree + 2);
         assert!(beyond.abs() > 1e-7, "{rule:?}: {beyond:e}");
         assert!(rule.is_symmetric());
+    }
+
+    #[test]
+    fn a_node_that_is_given_twice_has_both_weights() -> Result<(), StartError> {
+        let third = 1.0 / 3.0;
+        assert!(!Quadrature::new(&[0.25, 0.25, 0.75], &[third; 3])?.is_symmetric());
+        assert!(Quadrature::new(&[0.25, 0.25, 0.75], &[0.25, 0.25, 0.5])?.is_symmetric());
+        assert!(Quadrature::new(&[0.0, 0.5, 1.0, 0.5], &[0.25; 4])?.is_symmetric());
+        Ok(())
     }
 
     #[test]

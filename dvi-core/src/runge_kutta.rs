@@ -5,6 +5,7 @@
 use crate::error::{StartError, StepFailure};
 use crate::method::{Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
+use crate::orientation::FormOrientation;
 use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
@@ -95,6 +96,7 @@ pub struct RungeKuttaMemory<S: Lagrangian, T: Real> {
     field: VectorField<S, T>,
     slopes: [Vector<S, T>; STAGES],
     point: Vector<S, T>,
+    orientation: FormOrientation<S, T>,
 }
 
 impl Scheme for RungeKutta {
@@ -117,6 +119,7 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
             field: VectorField::new(system, q, t).map_err(StartError::Starter)?,
             slopes: core::array::from_fn(|_| system.space().vector()),
             point: system.space().vector(),
+            orientation: FormOrientation::new(system, q, t),
         })
     }
 
@@ -131,22 +134,28 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Tableau { stages, a, b, c, .. } = self.tableau;
-        let RungeKuttaMemory { field, slopes, point } = memory;
+        let RungeKuttaMemory { field, slopes, point, orientation } = memory;
         for i in 0..(*stages).min(STAGES) {
             combine(q, h, &a[i], &slopes[..i], point);
+            if i > 0 {
+                orientation.compare(system, point, t + T::lift(c[i]) * h)?;
+            }
             field.evaluate(system, point, t + T::lift(c[i]) * h, &mut slopes[i], statistics)?;
         }
         combine(q, h, b, &slopes[..*stages], point);
         norm::finite(point)?;
+        orientation.check(system, point, t + h)?;
         q.copy_from_slice(point);
         Ok(())
     }
 }
 
 impl<S: DegenerateLagrangian, T: Real> VariableStep<S, T> for RungeKutta {
-    /// Nothing: a step depends on q only.
+    /// The orientation of Ω: else a step depends on q only.
     #[inline]
-    fn restore(&self, _from: &Self::Memory, _to: &mut Self::Memory) {}
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.orientation.restore(&from.orientation);
+    }
 }
 
 /// Sets `out` to q + h Σ wⱼ kⱼ.

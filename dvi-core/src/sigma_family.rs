@@ -11,6 +11,7 @@
 mod leapfrog;
 mod linear;
 mod memory;
+mod monitor;
 mod newton;
 mod nonlinear;
 mod start;
@@ -22,12 +23,14 @@ use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Real, Vector};
 
 pub use memory::SigmaMemory;
+pub use monitor::ParasiticMode;
 pub use start::Start;
 
 /// The σ-family: L_d(q0, q1) = α(q_σ)·(q1 − q0) − h H(q_σ), q_σ = (1−σ)q0 + σq1.
 ///
 /// Second order on nonlinear systems for every σ ∈ \[0, 1\]; symmetric for σ = ½; σ = (3 − √3)/6 is of
-/// fourth order on linear systems. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden
+/// fourth order on linear systems. Where α depends on time, other than by an added function of t alone, the order is
+/// one unless σ = ½. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden
 /// 2002, eq. 17) and, for symmetries that act by affine maps, the discrete momenta.
 ///
 /// | α | σ = 0 | 0 < σ < 1 | σ = 1 |
@@ -50,8 +53,10 @@ pub use start::Start;
 /// - σ ≠ ½, α nonlinear: the scheme is not zero-stable; runs end within some hundred steps.
 ///   σ = ½ grows at a rate that does not depend on h either.
 ///
-/// The amplitude can be read while a run goes on ([`SigmaMemory::defect`],
-/// [`crate::diagnostics::AlternatingComponent`]). On a linear oscillation of frequency ω the scheme is
+/// The mode is measured while a run goes on ([`ParasiticMode`]; [`Integrator::parasitic_mode`](crate::Integrator)
+/// reads it), and a run in which it has taken over ends with
+/// [`StepFailure::ParasiticMode`](crate::StepFailure): see [`parasitic_limit`](Self::parasitic_limit).
+/// On a linear oscillation of frequency ω the scheme is
 /// stable for |ωh| < 1/|1 − 2σ|.
 /// If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a singular matrix and cannot be stepped this way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,12 +69,26 @@ pub struct Sigma<T = f64> {
     pub solver: Solver,
     /// When an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
+    /// The largest [relative size](ParasiticMode::relative) of the parasitic mode, above which a step fails with
+    /// [`StepFailure::ParasiticMode`](crate::StepFailure) and the run stays where it is. Default: ½. `None` lets
+    /// the run go on whatever it has become.
+    ///
+    /// The limit is tested before each step if α is not affine, and before every 256th step if it is; not at σ = ½
+    /// with affine α, where the mode keeps its amplitude. A clean motion of frequency ω has about ωh/2, so that
+    /// steps with ωh near one, where the σ-family with σ = 0 becomes unstable, are refused too.
+    pub parasitic_limit: Option<f64>,
 }
 
 impl<T: Real> Sigma<T> {
     /// The member `sigma` with default options. The range is checked when a run begins.
     pub fn new(sigma: T) -> Self {
-        Self { sigma, start: Start::default(), solver: Solver::default(), stopping: Stopping::default() }
+        Self {
+            sigma,
+            start: Start::default(),
+            solver: Solver::default(),
+            stopping: Stopping::default(),
+            parasitic_limit: Some(PARASITIC_LIMIT),
+        }
     }
 
     /// σ = ½: symmetric; the implicit midpoint rule if α is affine.
@@ -92,14 +111,22 @@ impl<T: Real> Sigma<T> {
     }
 
     fn validate(&self) -> Result<(), StartError> {
-        if self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0) {
-            self.stopping.validate()
-        } else {
+        let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
+        if !in_range {
             let value = crate::norm::reported(self.sigma);
-            Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" })
+            return Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" });
+        }
+        match self.parasitic_limit {
+            Some(value) if value.is_nan() || value <= 0.0 => {
+                Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" })
+            }
+            _ => self.stopping.validate(),
         }
     }
 }
+
+/// The default of [`Sigma::parasitic_limit`].
+const PARASITIC_LIMIT: f64 = 0.5;
 
 /// One step: where it starts, how long it is, and which member of the family takes it.
 #[derive(Debug)]

@@ -13,7 +13,7 @@ mod separable;
 mod verlet;
 
 use crate::error::{StartError, StepFailure};
-use crate::frequency::{Frequency, FrequencyIn, Reading, Unfitted};
+use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::method::{Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
 use crate::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::solver::{Solver, Stopping};
@@ -193,7 +193,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
                 "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton",
             );
         }
-        self.frequency.validate(crate::Space::dimension(system.space()))?;
+        frequency::admit(&self.frequency, system)?;
         self.stopping.validate()
     }
 }

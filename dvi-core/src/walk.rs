@@ -7,12 +7,24 @@
 use crate::error::StepFailure;
 
 /// Steps between two examinations.
-const BLOCK: u64 = 64;
+pub(crate) const BLOCK: u64 = 256;
+
+/// Where in a block the points begin that are looked at.
+const WATCHED: u64 = BLOCK - 4;
 
 /// A state that moves from step to step, and the place where its last good value is kept.
 pub(crate) trait Walk {
     /// Takes the step with this number; numbers begin at zero.
     fn step(&mut self, number: u64);
+    /// Looks at the point before the step with this number, one of the last four of a block.
+    fn watch(&mut self, _number: u64) {}
+    /// Whether the run may go on where a block begins, with the step of this number.
+    ///
+    /// # Errors
+    /// Any [`StepFailure`]; the run then ends at the present point.
+    fn admit(&mut self, _number: u64) -> Result<(), StepFailure> {
+        Ok(())
+    }
     /// Whether all numbers are finite after `steps` steps.
     ///
     /// # Errors
@@ -24,13 +36,36 @@ pub(crate) trait Walk {
     fn go_back(&mut self);
 }
 
-/// Takes `count` steps, or as many as succeed, and returns how many; the last good state has been kept.
+/// Takes `count` steps after `before` steps of the run, or as many as succeed, and returns how many; the last good
+/// state has been kept. Blocks begin at the same steps, however many are taken at once.
 #[inline(always)]
-pub(crate) fn walk(mut state: impl Walk, count: u64) -> (u64, Result<(), StepFailure>) {
+pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Result<(), StepFailure>) {
+    if count == 1 && (1..WATCHED).contains(&(before % BLOCK)) {
+        // The usual case of a run that is read at each step.
+        state.step(0);
+        return match state.examine(1) {
+            Ok(()) => {
+                state.keep();
+                (1, Ok(()))
+            }
+            Err(failure) => (0, Err(failure)),
+        };
+    }
     let (mut taken, mut block) = (0, BLOCK);
     while taken < count {
-        let steps = block.min(count - taken);
-        for number in taken..taken + steps {
+        let position = (before + taken) % BLOCK;
+        if position == 0
+            && let Err(failure) = state.admit(taken)
+        {
+            return (taken, Err(failure));
+        }
+        let steps = block.min(count - taken).min(BLOCK - position);
+        let unseen = WATCHED.saturating_sub(position).min(steps);
+        for number in taken..taken + unseen {
+            state.step(number);
+        }
+        for number in taken + unseen..taken + steps {
+            state.watch(number);
             state.step(number);
         }
         match state.examine(steps) {

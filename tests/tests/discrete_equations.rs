@@ -36,7 +36,7 @@ fn check<S: DegenerateLagrangian>(
 ) -> Outcome {
     for sigma in [0.0, 0.2, 0.5, 0.7, 1.0] {
         for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
-            let method = Sigma { solver, ..Sigma::new(sigma) };
+            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
             let mut run = Integrator::new(system, method, h, start.clone())?;
             let mut points = vec![run.q().to_vec()];
             while run.steps() < steps {
@@ -178,7 +178,8 @@ fn an_explicit_step_costs_one_gradient_and_nothing_else() -> Outcome {
 #[test]
 fn an_implicit_step_by_fixed_point_needs_no_matrix() -> Outcome {
     let (system, start) = quasi_periodic();
-    for (tolerance, limit) in [(1e-12, 5), (Stopping::default().tolerance, 9)] {
+    // To the end, where corrections no longer shrink, it takes 9.7 iterations; 8.3 leave a bias behind.
+    for (tolerance, limit) in [(1e-12, 5), (Stopping::default().tolerance, 10)] {
         let stopping = Stopping { tolerance, ..Stopping::default() };
         let mut run = Integrator::new(&system, Sigma { stopping, ..Sigma::midpoint() }, 0.1, start)?;
         for _ in 0..1000 {

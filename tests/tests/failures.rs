@@ -74,26 +74,24 @@ fn index_errors_of_a_system_end_in_the_start_error() {
 }
 
 #[test]
-fn a_collision_is_reported_by_every_method() {
+fn a_start_in_a_collision_is_refused_by_every_method() {
     let system = PointVortices { gamma: [1.0; 3] };
     let start = PointVorticesState { x: [0.5, 0.5, -1.0], y: [0.25, 0.25, 0.0] };
-    let not_finite = |failure| matches!(failure, StepFailure::NotFinite { value, .. } if !value.is_finite());
+    // The gradient of ln r at r = 0.
+    let expected = |error: Option<StartError>| {
+        let quantity = "the gradient of H";
+        matches!(error, Some(StartError::Undefined { quantity: found, coordinate: Some(0), value })
+            if found == quantity && value.is_nan())
+    };
     for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
         let run = Integrator::new(&system, Sigma { solver, ..Sigma::midpoint() }, 0.1, start);
-        let Ok(mut run) = run else { panic!("the run begins: {run:?}") };
-        let error = run.advance();
-        let expected = matches!(error, Err(StepError { step: 0, failure, .. }) if not_finite(failure));
-        assert!(expected, "{solver:?}: {error:?}");
-        assert_eq!(run.state(), start);
+        assert!(expected(run.err()), "{solver:?}");
     }
     for sigma in [0.0, 0.3, 1.0] {
-        let error = Integrator::new(&system, Sigma::new(sigma), 0.1, start).err();
-        assert!(matches!(error, Some(StartError::Starter(failure)) if not_finite(failure)), "{error:?}");
+        assert!(expected(Integrator::new(&system, Sigma::new(sigma), 0.1, start).err()));
     }
-    let Ok(mut run) = Integrator::new(&system, RungeKutta::classical(), 0.1, start) else { panic!() };
-    assert!(matches!(run.advance(), Err(StepError { failure, .. }) if not_finite(failure)));
-    let Ok(mut run) = Integrator::new(&system, Gauss::<2>::new(), 0.1, start) else { panic!() };
-    assert!(matches!(run.advance(), Err(StepError { failure, .. }) if not_finite(failure)));
+    assert!(expected(Integrator::new(&system, RungeKutta::classical(), 0.1, start).err()));
+    assert!(expected(Integrator::new(&system, Gauss::<2>::new(), 0.1, start).err()));
 }
 
 #[test]
@@ -184,5 +182,97 @@ fn leaving_the_domain_of_a_formula_is_a_failure_and_not_a_number() -> Outcome {
     let failure = run.by_ref().take(1000).find_map(Result::err);
     assert!(failure.is_some());
     assert!(run.q().iter().all(|q| q.is_finite()), "{:?}", run.state());
+    Ok(())
+}
+
+#[test]
+fn parameters_that_are_not_numbers_are_refused_and_so_are_starts_outside_of_the_domain() {
+    let (mut system, start) = quasi_periodic();
+    system.gamma[2] = f64::NAN;
+    let error = Integrator::new(&system, Sigma::midpoint(), 0.1, start).err();
+    let Some(StartError::Undefined { quantity: "the one-form α", coordinate: Some(2), value }) = error
+    else {
+        panic!("{error:?}")
+    };
+    assert!(value.is_nan());
+    let prey = LotkaVolterra { a: [1.0, f64::INFINITY], b: [-1.0, -2.0] };
+    let inside = LotkaVolterraState { x: 1.3, y: 1.6 };
+    for error in [
+        Integrator::new(&prey, Gauss::<1>::new(), 0.1, inside).err(),
+        Integrator::new(&prey, RungeKutta::classical(), 0.1, inside).err(),
+    ] {
+        let value = f64::NEG_INFINITY;
+        let quantity = "the gradient of H";
+        assert_eq!(error, Some(StartError::Undefined { quantity, coordinate: Some(1), value }));
+    }
+    // α has no logarithm; H alone has none.
+    let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    let outside = LotkaVolterraState { x: -1.3, y: 1.6 };
+    let error = Integrator::new(&prey, Sigma::midpoint(), 0.1, outside).err();
+    assert!(
+        matches!(error, Some(StartError::Undefined { quantity: "the one-form α", coordinate: Some(1), .. })),
+        "{error:?}"
+    );
+    let error = Integrator::new(&Bounded, Sigma::midpoint(), 0.1, BoundedState { x: -1.0, y: 0.5 }).err();
+    let Some(StartError::Undefined { quantity: "the Hamiltonian", coordinate: None, value }) = error else {
+        panic!("{error:?}")
+    };
+    assert!(value.is_nan());
+}
+
+/// Its gradient exists where its value does not.
+#[dvi_core::degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (x * d(y) - y * d(x)) / 2.0,
+    hamiltonian = x.ln() + y * y / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Bounded;
+
+/// Ω = x: the motion x² = 1 − 2t ends at x = 0.
+#[dvi_core::degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = x * x / 2.0 * d(y),
+    hamiltonian = y,
+)]
+#[derive(Clone, Debug)]
+struct Vanishing;
+
+/// The same beside an oscillator, with a form that couples all coordinates.
+#[dvi_core::degenerate_lagrangian(
+    coordinates(x, y, u, w),
+    one_form    = [0.1 * u, x * x / 2.0 + 0.1 * w, 0.1 * y, u],
+    hamiltonian = y + (u * u + w * w) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Coupled;
+
+fn crossing<S: DegenerateLagrangian, M: dvi_core::Method<S, f64> + core::fmt::Debug>(
+    system: &S,
+    method: M,
+    h: f64,
+    start: S::State<f64>,
+) -> Outcome {
+    let name = format!("{method:?}");
+    let mut run = Integrator::new(system, method, h, start)?;
+    let error = (0..1000).find_map(|_| run.advance().err()).ok_or("no error")?;
+    assert!(run.q()[0] > 0.0, "{name}: {:?}", run.q());
+    assert_eq!((error.step, error.time), (run.steps(), run.time()), "{name}");
+    let StepFailure::Orientation { matrix: "Ω", before, after } = error.failure else {
+        return Err(format!("{name}: {error}").into());
+    };
+    assert!(before * after < 0.0, "{name}: {error}");
+    Ok(())
+}
+
+#[test]
+fn a_step_over_a_place_where_the_form_is_singular_is_an_error() -> Outcome {
+    let start = VanishingState { x: 1.0, y: 0.0 };
+    for h in [0.3, 0.07, 0.03] {
+        crossing(&Vanishing, RungeKutta::midpoint(), h, start)?;
+        crossing(&Vanishing, RungeKutta::classical(), h, start)?;
+        let start = CoupledState { x: 1.0, y: 0.0, u: 0.3, w: 0.1 };
+        crossing(&Coupled, RungeKutta::classical(), h, start)?;
+    }
     Ok(())
 }

@@ -119,3 +119,36 @@ fn regression_finds_slopes_and_refuses_what_has_none() {
     assert_eq!(convergence_order(&[(0.1, 0.0), (0.2, 1.0)]), None);
     assert_eq!(convergence_order(&[(0.1, f64::NAN), (0.2, 1.0)]), None);
 }
+
+/// α depends on time beyond an added function.
+#[dvi_core::degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (1.0 + t.sin() / 2.0) * (x * d(y) - y * d(x)) / 2.0,
+    hamiltonian = (x * x + y * y) / 2.0 + x.powi(4) / 4.0,
+)]
+#[derive(Clone, Debug)]
+struct Breathing;
+
+#[test]
+fn where_the_one_form_depends_on_time_the_order_is_one_unless_sigma_is_a_half() -> Outcome {
+    let start = BreathingState { x: 0.8, y: 0.3 };
+    let end = |sigma: f64, steps: u64| -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+        let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
+        let mut run = Integrator::new(&Breathing, method, 0.5 / steps as f64, start)?;
+        run.advance_by(steps)?;
+        Ok(run.q().to_vec())
+    };
+    let mut exact = Integrator::new(&Breathing, Gauss::<3>::new(), 0.5 / 512.0, start)?;
+    exact.advance_by(512)?;
+    for (sigma, expected) in [(0.25, 1.0), ((3.0 - 3.0_f64.sqrt()) / 6.0, 1.0), (0.5, 2.0)] {
+        let mut errors = Vec::new();
+        for steps in [64, 96, 128, 192] {
+            let found = end(sigma, steps)?;
+            let error = found.iter().zip(exact.q()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            errors.push((1.0 / steps as f64, error));
+        }
+        let order = convergence_order(&errors).ok_or("no slope")?;
+        assert!((order - expected).abs() < 0.1, "sigma = {sigma}: {order}");
+    }
+    Ok(())
+}

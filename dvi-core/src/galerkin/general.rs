@@ -193,5 +193,5 @@ fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
         step.system.force(next, &[], step.node_time(1.0), next_force);
         statistics.gradients += 1;
     }
-    memory.complete(step.h, q)
+    memory.complete(step.system, [step.h, step.node_time(1.0)], q)
 }

@@ -7,6 +7,7 @@ use crate::frequency::{FrequencyIn, Local};
 use crate::history::{History, is_similar};
 use crate::legendre::Legendre;
 use crate::mass::Mass;
+use crate::orientation::MassOrientation;
 use crate::quadrature::Quadrature;
 use crate::solver::Solver;
 use crate::statistics::Statistics;
@@ -26,6 +27,8 @@ pub struct GalerkinMemory<const NODES: usize, S: RegularLagrangian, T: Real> {
     pub(super) force: Vector<S, T>,
     /// Kept if L is separable.
     pub(super) mass: Option<Mass<S, T>>,
+    /// Kept if L is not separable.
+    orientation: Option<MassOrientation<S, T>>,
     /// δ/h² of each interior node and Δ/h, of the last steps; entry 0 is not used.
     histories: [History<S, T>; NODES],
     /// The length of the step before; zero before the first.
@@ -81,6 +84,8 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
         system.gradient(q, v, t, &mut force, &mut p);
         norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
         let mass = S::SEPARABLE.then(|| Mass::new(system, q, t)).transpose().map_err(StartError::Starter)?;
+        let orientation = (!S::SEPARABLE).then(|| MassOrientation::new(system, q, v, t));
+        let orientation = orientation.transpose().map_err(StartError::Starter)?;
         mean.copy_from_slice(v);
         let rule = Quadrature::lobatto(NODES)?;
         let a = differentiation(&rule);
@@ -95,6 +100,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
             p,
             force,
             mass,
+            orientation,
             histories,
             last_step: T::lift(0.0),
             newton: (method.solver != Solver::FixedPoint).then(|| Newton {
@@ -172,11 +178,22 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
         Ok(())
     }
 
-    /// Moves to `work.next`, `work.momentum` and `work.next_force`, if they are numbers.
+    /// Moves to `work.next`, `work.momentum` and `work.next_force` at the time `end`, if they are numbers and the mass
+    /// matrix has kept its orientation.
     #[inline(always)]
-    pub(super) fn complete(&mut self, h: T, q: &mut Vector<S, T>) -> Result<(), StepFailure> {
-        let Work { next, momentum, next_force, .. } = &self.work;
+    pub(super) fn complete(
+        &mut self,
+        system: &S,
+        [h, end]: [T; 2],
+        q: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        let Work { next, momentum, next_force, velocity, unknowns, .. } = &mut self.work;
         norm::finite(next).and(norm::finite(momentum))?;
+        if let Some(orientation) = &mut self.orientation {
+            velocity.copy_from_slice(&unknowns[NODES - 1]);
+            scale(velocity, T::lift(1.0) / h);
+            orientation.check(system, next, velocity, end)?;
+        }
         if S::SEPARABLE {
             norm::finite(next_force)?;
             self.force.copy_from_slice(next_force);
@@ -200,6 +217,9 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
     pub(super) fn restore(&mut self, from: &Self) {
         self.p.copy_from_slice(&from.p);
         self.force.copy_from_slice(&from.force);
+        if let (Some(orientation), Some(from)) = (&mut self.orientation, &from.orientation) {
+            orientation.restore(from);
+        }
         for (history, from) in self.histories.iter_mut().zip(&from.histories) {
             history.restore(from);
         }

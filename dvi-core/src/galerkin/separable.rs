@@ -43,7 +43,8 @@ fn solve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     memory.guess(step, q);
-    let mut convergence = Convergence::new(step.method.stopping, memory.scale(), step.budget(q.len()));
+    let mut convergence =
+        Convergence::fixed_point(step.method.stopping, memory.scale(), q, step.budget(q.len()));
     let verdict = loop {
         memory.read_frequency(step, statistics)?;
         let correction = improve(step, memory, statistics);
@@ -159,5 +160,5 @@ fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
         }
         mass.multiply_add(T::lift(1.0) / step.h, velocity, momentum);
     }
-    memory.complete(step.h, q)
+    memory.complete(step.system, [step.h, step.node_time(1.0)], q)
 }

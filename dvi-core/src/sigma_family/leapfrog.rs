@@ -10,6 +10,7 @@
 use super::SigmaMemory;
 use super::linear::add;
 use super::memory::Work;
+use super::monitor::Monitor;
 use crate::error::StepFailure;
 use crate::form::{Form, Product};
 use crate::method::Clock;
@@ -55,11 +56,12 @@ pub(super) fn steps<S: DegenerateLagrangian, T: Real>(
     clock: Clock<T>,
     count: u64,
 ) -> (u64, Result<(), StepFailure>) {
-    let SigmaMemory { defect, inverse, product, ahead, scale, work, .. } = memory;
+    let SigmaMemory { defect, inverse, product, ahead, scale, work, monitor, .. } = memory;
     // A run with σ = 0 and affine α has both.
     let (Some(product), Some(ahead)) = (product, ahead) else { return (0, Ok(())) };
-    let run = Run { system, inverse, product, work, defect, q, clock, count };
-    match ahead {
+    let from = monitor.steps;
+    let run = Run { system, inverse, product, work, monitor: &mut *monitor, defect, q, clock, count };
+    let (taken, result) = match ahead {
         Ahead::Reversal => run.steps(|q0, _, ahead| ahead.copy_from_slice(q0)),
         Ahead::Diagonal(factors) => run.steps(|q0, q1, ahead| {
             for i in 0..q0.len() {
@@ -77,7 +79,9 @@ pub(super) fn steps<S: DegenerateLagrangian, T: Real>(
                 ahead[i] += q1[i];
             }
         }),
-    }
+    };
+    monitor.steps = from + taken;
+    (taken, result)
 }
 
 /// What the steps work on.
@@ -86,6 +90,7 @@ struct Run<'a, S: Lagrangian, T: Real> {
     inverse: &'a Form<S, T>,
     product: &'a Product<S, T>,
     work: &'a mut Work<S, T>,
+    monitor: &'a mut Monitor<S, T>,
     defect: &'a mut Vector<S, T>,
     q: &'a mut Vector<S, T>,
     clock: Clock<T>,
@@ -96,7 +101,7 @@ impl<S: DegenerateLagrangian, T: Real> Run<'_, S, T> {
     /// With the rule that sets the point ahead, its last argument, from q0 and q1.
     #[inline(always)]
     fn steps(self, look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
-        let Self { system, inverse, product, work, defect, q, clock, count } = self;
+        let Self { system, inverse, product, work, monitor, defect, q, clock, count } = self;
         scratch!(q0 = system, work.point);
         scratch!(q1 = system, work.next);
         scratch!(q2 = system, work.trial);
@@ -107,10 +112,21 @@ impl<S: DegenerateLagrangian, T: Real> Run<'_, S, T> {
         q1.copy_from_slice(q);
         ahead.copy_from_slice(kept_ahead);
         let points = Points { q0, q1, q2, ahead, gradient, s };
-        walk(
-            Hops { system, inverse, product, clock, look_ahead, points, q, kept_ahead, defect, spare },
-            count,
-        )
+        let before = monitor.steps;
+        let hops = Hops {
+            system,
+            inverse,
+            product,
+            monitor,
+            clock,
+            look_ahead,
+            points,
+            q,
+            kept_ahead,
+            defect,
+            spare,
+        };
+        walk(hops, before, count)
     }
 }
 
@@ -129,6 +145,7 @@ struct Hops<'a, S: Lagrangian, T: Real, L> {
     system: &'a S,
     inverse: &'a Form<S, T>,
     product: &'a Product<S, T>,
+    monitor: &'a mut Monitor<S, T>,
     clock: Clock<T>,
     look_ahead: L,
     points: Points<'a, T>,
@@ -148,6 +165,16 @@ impl<S: DegenerateLagrangian, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for 
         q0.copy_from_slice(q1);
         q1.copy_from_slice(q2);
         (self.look_ahead)(q0, q1, ahead);
+    }
+
+    #[inline(always)]
+    fn watch(&mut self, number: u64) {
+        self.monitor.note(self.monitor.steps + number, self.points.q1);
+    }
+
+    #[inline(always)]
+    fn admit(&mut self, number: u64) -> Result<(), StepFailure> {
+        self.monitor.examine(self.monitor.steps + number, self.q)
     }
 
     #[inline(always)]

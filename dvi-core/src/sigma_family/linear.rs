@@ -27,12 +27,16 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
     if step.method.sigma == T::lift(0.0) {
         let (taken, result) = leapfrog::steps(step.system, memory, q, Clock::new(step.t, step.h), 1);
         statistics.gradients += taken;
-        result
-    } else if step.method.sigma == T::lift(1.0) {
-        explicit_right(step, memory, q, statistics)
-    } else {
-        implicit(step, memory, q, statistics)
+        return result;
     }
+    memory.monitor.look(q)?;
+    if step.method.sigma == T::lift(1.0) {
+        explicit_right(step, memory, q, statistics)?;
+    } else {
+        implicit(step, memory, q, statistics)?;
+    }
+    memory.monitor.steps += 1;
+    Ok(())
 }
 
 /// σ = 1: DαΔ = c0, c1 = (Dα)ᵀΔ − h∇H(q1).
@@ -135,7 +139,7 @@ fn fixed_point<S: DegenerateLagrangian, T: Real>(
         scale += norm::largest(&work.shift);
         &work.next
     };
-    let mut convergence = Convergence::new(step.method.stopping, scale, step.budget(q.len()));
+    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, q, step.budget(q.len()));
     let verdict = loop {
         for ((point, &origin), &s) in point.iter_mut().zip(origin.iter()).zip(increment.iter()) {
             *point = origin + sigma * s;

@@ -6,9 +6,11 @@
 
 use super::Sigma;
 use super::leapfrog::Ahead;
+use super::monitor::{Monitor, ParasiticMode};
 use crate::error::StartError;
 use crate::form::{Combination, Form, Product};
 use crate::history::History;
+use crate::orientation::FormOrientation;
 use crate::solver::Solver;
 use crate::space::scratch;
 use crate::statistics::Statistics;
@@ -36,6 +38,8 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
     pub(super) newton: Option<Matrix<S, T>>,
     /// How many steps Newton takes before the fixed point is tried again.
     pub(super) newton_steps: u32,
+    pub(super) monitor: Monitor<S, T>,
+    pub(super) orientation: FormOrientation<S, T>,
     pub(super) work: Work<S, T>,
 }
 
@@ -76,12 +80,19 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
 }
 
 impl<S: Lagrangian, T: Real> SigmaMemory<S, T> {
-    /// c = p − α(q) at the current point, one entry per coordinate: the parasitic mode in p.
+    /// c = p − α(q) at the current point, one entry per coordinate.
     pub fn defect(&self) -> &[T] {
         &self.defect
     }
 
-    /// max |c|.
+    /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is measured
+    /// before each step if α is not affine, and before every 256th step if it is.
+    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
+        self.monitor.latest()
+    }
+
+    /// max |c|: the amplitude of the parasitic mode in p if σ = ½ and α is affine. Elsewhere c is of order h(1 − 2σ)
+    /// on an orbit without such a mode, and says little of it; take [`parasitic_mode`](Self::parasitic_mode).
     pub fn parasitic_amplitude(&self) -> T {
         crate::norm::largest(&self.defect)
     }
@@ -160,6 +171,8 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         let newton = (!explicit && method.solver != Solver::FixedPoint).then(|| space.matrix());
         let mut one_form = space.vector();
         system.one_form(q, t, &mut one_form);
+        // With σ = ½ and affine α the mode is only reversed.
+        let limit = method.parasitic_limit.filter(|_| !(S::LINEAR && method.is_midpoint()));
         Ok(Self {
             defect: space.vector(),
             defect_vanishes: false,
@@ -171,6 +184,8 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             ahead,
             newton,
             newton_steps: 0,
+            monitor: Monitor::new(system, limit, !S::LINEAR),
+            orientation: FormOrientation::new(system, q, t),
             work,
         })
     }

@@ -20,9 +20,24 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
+    memory.monitor.look(q)?;
     if step.method.sigma == T::lift(0.0) {
-        return one_solve(step, memory, q, statistics);
+        one_solve(step, memory, q, statistics)?;
+    } else {
+        implicit(step, memory, q, statistics)?;
     }
+    memory.monitor.steps += 1;
+    Ok(())
+}
+
+/// 0 < σ ≤ 1.
+#[inline]
+fn implicit<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
     if memory.newton_steps > 0 || step.method.solver == Solver::Newton {
         by_newton(step, memory, q, statistics)?;
     } else if let Err(failure) = fixed_point(step, memory, q, statistics) {
@@ -43,7 +58,7 @@ fn one_solve<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, one_form, inverse, work, .. } = memory;
+    let SigmaMemory { defect, one_form, inverse, orientation, work, .. } = memory;
     let combination = fixed_point_matrix::<S, T>(step.method, step.h);
     step.system.hamiltonian_gradient(q, step.t, &mut work.gradient);
     statistics.gradients += 1;
@@ -58,6 +73,7 @@ fn one_solve<S: DegenerateLagrangian, T: Real>(
     norm::finite(&work.next)?;
     step.system.one_form(&work.next, step.t + step.h, &mut work.momentum);
     norm::finite(&work.momentum)?;
+    orientation.check(step.system, &work.next, step.t + step.h)?;
     q.copy_from_slice(&work.next);
     for i in 0..q.len() {
         defect[i] = one_form[i] - work.momentum[i];
@@ -82,7 +98,7 @@ fn fixed_point<S: DegenerateLagrangian, T: Real>(
     step.place(work, q, per_h);
     inverse.prepare(step.system, &work.point, step.node_time(), combination, &mut work.trial, statistics)?;
     let scale = norm::largest(q) + norm::largest(&work.increment);
-    let mut convergence = Convergence::new(step.method.stopping, scale, step.budget(q.len()));
+    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, q, step.budget(q.len()));
     let verdict = loop {
         let Work { point, velocity, gradient, momentum, trial, increment, .. } = work;
         step.system.gradient(point, velocity, step.node_time(), gradient, momentum);
@@ -147,7 +163,7 @@ fn finish<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, one_form, history, work, .. } = memory;
+    let SigmaMemory { defect, one_form, history, orientation, work, .. } = memory;
     step.place(work, q, T::lift(1.0) / step.h);
     let Work { point, velocity, gradient, momentum, trial, increment, next, .. } = work;
     step.system.gradient(point, velocity, step.node_time(), gradient, momentum);
@@ -162,6 +178,7 @@ fn finish<S: DegenerateLagrangian, T: Real>(
         momentum[i] += right_h * gradient[i] - trial[i];
     }
     norm::finite(momentum)?;
+    orientation.check(step.system, next, step.t + step.h)?;
     q.copy_from_slice(next);
     defect.copy_from_slice(momentum);
     one_form.copy_from_slice(trial);

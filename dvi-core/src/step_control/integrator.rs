@@ -5,7 +5,7 @@ use core::fmt;
 use super::{ControlledRun, Reversible, StepControl, reversible};
 use crate::error::{StartError, StepError};
 use crate::method::VariableStep;
-use crate::run::{flatten, validate, velocities};
+use crate::run::{evaluate, flatten, validate, velocities};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
 
@@ -51,6 +51,7 @@ where
     ) -> Result<Self, StartError> {
         validate(system, t)?;
         let [q, v] = flatten(system, &start)?;
+        evaluate(system, &q, &v, t)?;
         let v = &v[..velocities(system)];
         let (control_memory, h) = control.begin(system, &q, v, t)?;
         let controlled = ControlledRun::new(system, method, q, v, [t, h], C::REJECTS)?;

@@ -198,6 +198,8 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
         if self.h == step.h {
             return Ok(());
         }
+        // Should a coordinate be resonant, those before it have their new coefficients: no step may use them.
+        self.h = T::lift(0.0);
         for i in 0..self.mixed.len() {
             let u = step.method.frequency.fixed(i) * step.h;
             let mut uniform = Uniform::linear(&step.method.rule);

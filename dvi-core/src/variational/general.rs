@@ -270,7 +270,7 @@ fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
 ) -> Result<(), StepFailure> {
     differentiate(step, memory, q, statistics)?;
     let VariationalMemory { motion, work, .. } = memory;
-    let Motion { p, force, .. } = motion;
+    let Motion { p, force, orientation, .. } = motion;
     for i in 0..q.len() {
         work.next[i] = q[i] + work.increment[i];
         work.d2[i] += p[i];
@@ -281,6 +281,13 @@ fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
         statistics.gradients += 1;
         norm::finite(&work.trial)?;
         force.copy_from_slice(&work.trial);
+    }
+    if let Some(orientation) = orientation {
+        let per_h = T::lift(1.0) / step.h;
+        for (v, &delta) in work.velocity.iter_mut().zip(work.increment.iter()) {
+            *v = delta * per_h;
+        }
+        orientation.check(step.system, &work.next, &work.velocity, step.node_time(1.0))?;
     }
     q.copy_from_slice(&work.next);
     p.copy_from_slice(&work.d2);

@@ -7,6 +7,7 @@ use crate::frequency::{FrequencyIn, Local};
 use crate::history::{History, is_similar};
 use crate::legendre::Legendre;
 use crate::mass::Mass;
+use crate::orientation::MassOrientation;
 use crate::quadrature::Rule;
 use crate::solver::Solver;
 use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector, norm};
@@ -37,6 +38,8 @@ pub(super) struct Motion<S: RegularLagrangian, T: Real> {
     pub(super) force: Vector<S, T>,
     /// Kept if L is separable.
     pub(super) mass: Option<Mass<S, T>>,
+    /// Kept if L is not separable.
+    pub(super) orientation: Option<MassOrientation<S, T>>,
     /// The mean velocities Δ/h of the last steps.
     pub(super) history: History<S, T>,
     /// The length of the step before; zero before the first.
@@ -84,6 +87,8 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         system.gradient(q, v, t, &mut force, &mut p);
         norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
         let mass = S::SEPARABLE.then(|| Mass::new(system, q, t)).transpose().map_err(StartError::Starter)?;
+        let orientation = (!S::SEPARABLE).then(|| MassOrientation::new(system, q, v, t));
+        let orientation = orientation.transpose().map_err(StartError::Starter)?;
         let explicit = method.needs_forces_only::<S>() && method.is_explicit();
         let newton =
             (!explicit && method.solver != Solver::FixedPoint).then(|| [space.matrix(), space.matrix()]);
@@ -102,6 +107,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
             p,
             force,
             mass,
+            orientation,
             history: History::new(system, Some(mean)),
             last_step: T::lift(0.0),
             newton,
@@ -171,6 +177,9 @@ impl<S: RegularLagrangian, T: Real> Motion<S, T> {
     pub(super) fn restore(&mut self, from: &Self) {
         self.p.copy_from_slice(&from.p);
         self.force.copy_from_slice(&from.force);
+        if let (Some(orientation), Some(from)) = (&mut self.orientation, &from.orientation) {
+            orientation.restore(from);
+        }
         self.history.restore(&from.history);
         (self.last_step, self.newton_steps) = (from.last_step, from.newton_steps);
     }

@@ -128,7 +128,8 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     fn solve(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
         let stopping = self.step.method.stopping;
-        let mut convergence = Convergence::new(stopping, scale, self.step.budget(self.q.len()));
+        let mut convergence =
+            Convergence::fixed_point(stopping, scale, self.q, self.step.budget(self.q.len()));
         let verdict = loop {
             if self.step.method.reads_both_ends() {
                 self.read_both_ends()?;

@@ -35,7 +35,7 @@ pub(super) fn steps<S: RegularLagrangian, T: Real>(
     p1.copy_from_slice(p);
     f1.copy_from_slice(force);
     let half = T::lift(0.5) * clock.step_size();
-    walk(Kicks { system, mass, clock, half, q, p, force, q1, p1, f1, v }, count)
+    walk(Kicks { system, mass, clock, half, q, p, force, q1, p1, f1, v }, 0, count)
 }
 
 /// The present point, momentum and force, and where they are kept.

@@ -57,7 +57,11 @@ fn series(
     end: f64,
 ) -> Result<Series> {
     // The Runge–Kutta start leaves a parasitic mode of size h³, which then does what it does.
-    let method = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::new(sigma) };
+    let method = Sigma {
+        start: Start::RungeKutta(RungeKutta::midpoint()),
+        parasitic_limit: None,
+        ..Sigma::new(sigma)
+    };
     let mut run = Integrator::new(vortices, method, h, *start)?;
     let initial = run.energy();
     let (mut filter, mut points, mut largest) = (AlternatingComponent::new(vortices), Vec::new(), 0.0f64);

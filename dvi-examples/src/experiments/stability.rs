@@ -69,7 +69,9 @@ fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
 fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Result<f64> {
     let rotation = Rotation { omega };
     let [first, second] = [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
-    let mut run = Integrator::from_two_points(&rotation, Sigma::new(sigma), 1.0, first, second)?;
+    // Both modes are wanted.
+    let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
+    let mut run = Integrator::from_two_points(&rotation, method, 1.0, first, second)?;
     let mut largest = 0.0f64;
     job.repeat(steps, || {
         // Once it is large enough to be called unstable, there is no need to go on to infinity.

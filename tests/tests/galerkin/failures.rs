@@ -39,7 +39,12 @@ fn what_cannot_be_done_is_refused() {
     assert!(matches!(failure, Some(StartError::Parameter { name: "omega", .. })), "{failure:?}");
     let collision = KeplerState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 0.0 };
     let failure = Integrator::new(&KEPLER, method, 0.1, collision).err();
-    assert!(matches!(failure, Some(StartError::Starter(StepFailure::NotFinite { .. }))), "{failure:?}");
+    let undefined = |coordinate| coordinate == Some(0);
+    assert!(
+        matches!(failure, Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate, value })
+            if undefined(coordinate) && value.is_nan()),
+        "{failure:?}"
+    );
 }
 
 /// The failure of a run that must fail, which keeps its last good state.
@@ -66,8 +71,8 @@ fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
     let method = Galerkin::<4>::new();
     // At the pole the angle φ has no momentum.
     let pole = SphericalPendulumState { theta: 0.0, phi: 0.3, dot_theta: 0.0, dot_phi: 0.8 };
-    let found = failure((SphericalPendulum { g: 1.0 }, pole), method, 0.1)?;
-    assert!(matches!(found, StepFailure::Singular { column: 1, .. }), "{found:?}");
+    let found = Integrator::new(&SphericalPendulum { g: 1.0 }, method, 0.1, pole).err();
+    assert!(matches!(found, Some(StartError::Starter(StepFailure::Singular { column: 1, .. }))), "{found:?}");
     // Far beyond the speed of light in the first iterate.
     let found = failure(relativistic(), method, 50.0)?;
     assert!(matches!(found, StepFailure::NotFinite { .. }), "{found:?}");

@@ -19,7 +19,20 @@ fn steps_and_starts_that_are_none_are_refused() {
     let error = Integrator::new(&KEPLER, Variational::trapezoid(), 0.1, state(1.0, f64::NAN)).err();
     assert!(matches!(error, Some(StartError::NotFinite { coordinate: 3, .. })), "{error:?}");
     let collided = Integrator::new(&KEPLER, Variational::simpson(), 0.1, state(0.0, 1.0)).err();
-    assert!(matches!(collided, Some(StartError::Starter(StepFailure::NotFinite { .. }))), "{collided:?}");
+    let Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(0), value }) = collided
+    else {
+        panic!("{collided:?}")
+    };
+    assert!(value.is_nan());
+    let nothing =
+        Integrator::new(&Kepler { mu: f64::NAN }, Variational::trapezoid(), 0.1, state(1.0, 1.0)).err();
+    assert!(
+        matches!(
+            nothing,
+            Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(0), .. })
+        ),
+        "{nothing:?}"
+    );
     for omega in [-1.0, f64::NAN, f64::INFINITY] {
         let method = Variational::simpson().phase_fitted(Constant(omega));
         let error = Integrator::new(&KEPLER, method, 0.1, state(1.0, 1.0)).err();
@@ -106,13 +119,15 @@ struct Weighed {
 #[test]
 fn a_singular_mass_matrix_is_found() -> Outcome {
     let start: RisingState = RisingState { x: 0.0, dot_x: 0.0 };
+    let singular = StartError::Starter(StepFailure::Singular { column: 0, pivot: 0.0 });
     for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?] {
-        let mut run = Integrator::new(&Rising { rest: 0.0 }, Variational::new(rule), 0.1, start)?;
-        assert!(run.state().dot_x.is_nan());
-        let error = run.advance().err();
-        let singular = StepFailure::Singular { column: 0, pivot: 0.0 };
-        assert_eq!(error, Some(StepError { step: 0, time: 0.0, failure: singular }), "{rule:?}");
-        assert_eq!(run.q(), [0.0]);
+        for dot_x in [0.0, 1.0] {
+            let start = RisingState { dot_x, ..start };
+            let error = Integrator::new(&Rising { rest: 0.0 }, Variational::new(rule), 0.1, start).err();
+            assert_eq!(error, Some(singular), "{rule:?}");
+            let error = Integrator::new(&Rising { rest: 0.0 }, Galerkin::<3>::new(), 0.1, start).err();
+            assert_eq!(error, Some(singular));
+        }
     }
     let mut run = Integrator::new(&Rising { rest: 1.0 }, Variational::midpoint(), 0.1, start)?;
     assert!(matches!(run.next(), Some(Ok(_))));
@@ -136,6 +151,42 @@ fn a_step_over_half_a_turn_of_the_motion_is_refused() -> Outcome {
         };
         assert!(u >= core::f64::consts::PI, "{u}");
         assert_eq!(run.q(), [1.0, 0.0]);
+    }
+    Ok(())
+}
+
+/// Verlet steps over the centre of a head-on orbit and finds numbers on the other side.
+#[test]
+fn a_limit_of_the_energy_error_ends_a_run() -> Outcome {
+    let start = state(1.0, 0.0);
+    let (method, h) = (Variational::trapezoid(), 0.01);
+    let mut free = Integrator::new(&KEPLER, method, h, start)?;
+    let mut worst = 0.0_f64;
+    for _ in 0..300 {
+        free.advance()?;
+        worst = worst.max((free.energy() + 1.0).abs());
+    }
+    assert!(worst > 10.0, "{worst}");
+    let mut run = Integrator::new(&KEPLER, EnergyLimit { method, limit: 0.1 }, h, start)?;
+    let error = run.advance_by(300).err();
+    let Some(StepError { step, time, failure: StepFailure::Energy { start: initial, now, limit } }) = error
+    else {
+        return Err(format!("{error:?}").into());
+    };
+    assert_eq!((step, time, initial, limit), (run.steps(), run.time(), -1.0, 0.1));
+    assert!(
+        (now - initial).abs() > limit && (run.energy() - initial).abs() <= limit,
+        "{now} {}",
+        run.energy()
+    );
+    // The last good state is that of a run without a limit, bit by bit.
+    let mut same = Integrator::new(&KEPLER, method, h, start)?;
+    same.advance_by(step)?;
+    assert_eq!((run.q(), run.memory().inner().p()), (same.q(), same.memory().p()));
+    assert_eq!(run.advance().err(), error);
+    for limit in [0.0, -1.0, f64::NAN] {
+        let error = Integrator::new(&KEPLER, EnergyLimit { method, limit }, h, start).err();
+        assert!(matches!(error, Some(StartError::Parameter { name: "limit", .. })), "{error:?}");
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod barnes;
 mod equations;
 mod failures;
+mod frequencies;
 mod kepler;
 mod oscillator;
 mod phase_space;

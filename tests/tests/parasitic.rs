@@ -1,0 +1,210 @@
+//! The parasitic mode is measured for every σ, and a run in which it has taken over ends with an error.
+
+use dvi_core::Method;
+use dvi_core::prelude::*;
+use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
+use dvi_tests::systems::*;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// The σ of fourth order on linear systems.
+fn fourth_order() -> f64 {
+    (3.0 - 3.0_f64.sqrt()) / 6.0
+}
+
+fn prey() -> (LotkaVolterra, LotkaVolterraState) {
+    (LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] }, LotkaVolterraState { x: 1.3, y: 1.6 })
+}
+
+fn curved() -> (Curved, CurvedState) {
+    (Curved { kappa: 0.3 }, CurvedState { x: 0.8, y: 0.3 })
+}
+
+/// How far a run goes up to time `end`.
+struct Course {
+    steps: u64,
+    time: f64,
+    /// The largest |H − H(0)|.
+    energy_error: f64,
+    error: Option<StepError>,
+}
+
+fn course<S: DegenerateLagrangian, M: Method<S, f64>>(
+    mut run: Integrator<'_, S, M>,
+    end: f64,
+) -> Result<Course, Box<dyn core::error::Error>> {
+    let (initial, mut energy_error, mut error) = (run.energy(), 0.0_f64, None);
+    for _ in 0..(end / run.step_size()).round() as u64 {
+        error = run.advance().err();
+        if error.is_some() {
+            break;
+        }
+        energy_error = energy_error.max((run.energy() - initial).abs());
+    }
+    Ok(Course { steps: run.steps(), time: run.time(), energy_error, error })
+}
+
+/// A run that keeps its motion to time `end`, for three steps.
+fn healthy<S: DegenerateLagrangian>(
+    (system, start): &(S, S::State<f64>),
+    method: Sigma,
+    steps: [f64; 3],
+    end: f64,
+) -> Outcome {
+    for h in steps {
+        let run = Integrator::new(system, method, h, start.clone())?;
+        let initial = run.energy();
+        let Course { error, energy_error, .. } = course(run, end)?;
+        let name = S::REPORT.system;
+        assert_eq!(error, None, "{name}, σ = {}, h = {h}", method.sigma);
+        assert!(energy_error < 0.015 * initial.abs(), "{name}: not healthy: {energy_error:e}");
+    }
+    Ok(())
+}
+
+#[test]
+fn healthy_runs_go_on() -> Outcome {
+    let runge_kutta = Start::RungeKutta(RungeKutta::midpoint());
+    for start in [runge_kutta, Start::Consistent] {
+        let leapfrog = Sigma { start, ..Sigma::leapfrog() };
+        // 10⁵ steps of the longest.
+        healthy(&leapfrogging(), leapfrog, [2.0, 1.0, 0.5], 2e5)?;
+        healthy(&quasi_periodic(), Sigma { start, ..Sigma::midpoint() }, [0.1, 0.2, 0.25], 2e3)?;
+        healthy(&quasi_periodic(), Sigma { start, ..Sigma::new(0.25) }, [0.1, 0.05, 0.02], 2e3)?;
+    }
+    for sigma in [0.25, fourth_order()] {
+        let shorter = if sigma == 0.25 { 2e3 } else { 500.0 };
+        healthy(&quasi_periodic(), Sigma::new(sigma), [0.1, 0.05, 0.02], shorter)?;
+        healthy(&chaotic(), Sigma::new(sigma), [0.1, 0.05, 0.02], 500.0)?;
+    }
+    healthy(&chaotic(), Sigma::midpoint(), [0.1, 0.2, 0.5], 2e3)?;
+    healthy(&prey(), Sigma::midpoint(), [0.1, 0.05, 0.02], 200.0)?;
+    healthy(&curved(), Sigma::midpoint(), [0.1, 0.05, 0.02], 200.0)
+}
+
+/// A run that loses its motion before `end`, for three steps.
+fn spoilt<S: DegenerateLagrangian>(
+    (system, start): &(S, S::State<f64>),
+    sigma: f64,
+    steps: [f64; 3],
+    end: f64,
+) -> Outcome {
+    for h in steps {
+        let name = format!("{}, σ = {sigma}, h = {h}", S::REPORT.system);
+        let begin = |method| Integrator::new(system, method, h, start.clone());
+        // The implicit midpoint rule has one step, and no parasitic mode.
+        let clean = course(Integrator::new(system, Gauss::<1>::new(), h, start.clone())?, end)?;
+        assert_eq!(clean.error, None, "{name}");
+        // What an energy error has to be compared with: that of a clean run, or of the first four steps, in which an
+        // alternation cannot be seen yet.
+        let unseen = course(begin(Sigma::new(sigma))?, 4.0 * h)?.energy_error;
+        let usual = clean.energy_error.max(unseen);
+        let free = course(begin(Sigma { parasitic_limit: None, ..Sigma::new(sigma) })?, end)?;
+        let lost = free.error.is_some() || free.energy_error > 10.0 * usual;
+        assert!(lost, "{name}: not spoilt: {:e} of {usual:e}", free.energy_error);
+        let found = course(begin(Sigma::new(sigma))?, end)?;
+        let Some(StepError { step, time, failure }) = found.error else {
+            return Err(format!("{name}: not found").into());
+        };
+        let StepFailure::ParasiticMode { amplitude, relative, limit } = failure else {
+            return Err(format!("{name}: {failure}").into());
+        };
+        assert_eq!((step, time), (found.steps, found.time), "{name}");
+        assert!(limit == 0.5 && relative > limit && amplitude > 0.0, "{name}: {failure}");
+        assert!(found.energy_error < 10.0 * usual, "{name}: {:e}", found.energy_error);
+    }
+    Ok(())
+}
+
+#[test]
+fn spoilt_runs_end_before_their_energy_tells() -> Outcome {
+    spoilt(&chaotic(), 0.0, [0.1, 0.05, 0.02], 300.0)?;
+    for sigma in [0.25, fourth_order()] {
+        spoilt(&leapfrogging(), sigma, [0.5, 0.25, 0.125], 2000.0)?;
+    }
+    for sigma in [0.0, 0.25, fourth_order(), 0.75] {
+        spoilt(&prey(), sigma, [0.1, 0.05, 0.02], 10.0)?;
+    }
+    let far = (prey().0, LotkaVolterraState { x: 2.5, y: 2.0 });
+    spoilt(&far, 0.5, [0.1, 0.05, 0.02], 40.0)
+}
+
+/// On this system the energy error of the spoilt runs grows before the second differences alternate: the limit ends
+/// them all the same, long before the numbers do.
+#[test]
+fn runs_that_are_not_zero_stable_end_before_they_overflow() -> Outcome {
+    let (system, start) = curved();
+    for sigma in [0.0, 0.25, fourth_order()] {
+        for h in [0.1, 0.05, 0.02] {
+            let free = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
+            let free = course(Integrator::new(&system, free, h, start)?, 50.0)?;
+            let found = course(Integrator::new(&system, Sigma::new(sigma), h, start)?, 50.0)?;
+            assert!(free.error.is_some(), "σ = {sigma}, h = {h}");
+            let expected = matches!(
+                found.error,
+                Some(StepError { failure: StepFailure::ParasiticMode { limit: 0.5, .. }, .. })
+            );
+            assert!(expected && found.energy_error < 0.01, "σ = {sigma}, h = {h}: {:e}", found.energy_error);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_last_state_is_kept_and_the_limit_can_be_moved_or_switched_off() -> Outcome {
+    let (system, start) = chaotic();
+    let mut run = Integrator::new(&system, Sigma::leapfrog(), 0.1, start)?;
+    let error = run.advance_by(10_000).err();
+    let (state, steps) = (run.state(), run.steps());
+    assert!(steps % 256 == 0 && run.energy().is_finite(), "{steps}");
+    let Some(StepError { step, time, failure: StepFailure::ParasiticMode { amplitude, relative, limit } }) =
+        error
+    else {
+        return Err(format!("{error:?}").into());
+    };
+    assert_eq!((step, time, limit), (steps, run.time(), 0.5));
+    let mode = run.parasitic_mode().ok_or("measured")?;
+    assert_eq!(mode, ParasiticMode { amplitude, relative, is_significant: true });
+    // The step fails again.
+    assert_eq!((run.advance().err(), run.state(), run.steps()), (error, state, steps));
+    let mut free =
+        Integrator::new(&system, Sigma { parasitic_limit: None, ..Sigma::leapfrog() }, 0.1, start)?;
+    free.advance_by(steps)?;
+    assert_eq!(free.state(), state);
+    free.advance_by(1000)?;
+    let tolerant = Sigma { parasitic_limit: Some(2.0 * relative), ..Sigma::leapfrog() };
+    Integrator::new(&system, tolerant, 0.1, start)?.advance_by(steps + 1)?;
+    for value in [0.0, -1.0, f64::NAN] {
+        let method = Sigma { parasitic_limit: Some(value), ..Sigma::leapfrog() };
+        let error = Integrator::new(&system, method, 0.1, start).err();
+        assert!(matches!(error, Some(StartError::Parameter { name: "parasitic_limit", .. })), "{error:?}");
+    }
+    Ok(())
+}
+
+/// An alternating part that is put in is what is measured, for every σ.
+#[test]
+fn the_amplitude_is_that_of_the_alternating_part() -> Outcome {
+    let system = Oscillator { omega: 1.0 };
+    let h = 0.01_f64;
+    for sigma in [0.0, 0.25, fourth_order(), 0.5] {
+        let start = OscillatorState { x: 1.0, y: 0.0 };
+        // (−1)ᵏa on top of the motion.
+        let a = 1e-4;
+        let second = OscillatorState { x: h.cos() - 2.0 * a, y: h.sin() };
+        let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
+        let mut run = Integrator::from_two_points(&system, method, h, start, second)?;
+        assert_eq!(run.parasitic_mode(), None);
+        run.advance_by(257)?;
+        let Some(ParasiticMode { amplitude, relative, is_significant }) = run.parasitic_mode() else {
+            return Err("measured after 256 steps".into());
+        };
+        // The mode turns too, at (1 − 2σ)² times the rate of the motion; its norm is that of the second point.
+        assert!(amplitude > 0.7 * a && amplitude < 1.01 * a, "σ = {sigma}: {amplitude:e}");
+        // 16a alternates in the differences of D, and 2h² of a circle does not.
+        let expected = 8.0 * a / (2.0 * h * h);
+        assert!(relative > 0.5 * expected && relative < 8.0 * expected, "σ = {sigma}: {relative} {expected}");
+        assert!(is_significant);
+    }
+    Ok(())
+}

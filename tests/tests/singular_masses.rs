@@ -1,0 +1,59 @@
+//! A mass matrix that becomes singular ends a run: no step goes over to the other side.
+
+use dvi_core::Method;
+use dvi_core::prelude::*;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// A mass x, which the motion takes to zero.
+#[lagrangian(coordinates(x), lagrangian = x * dot(x).powi(2) / 2.0)]
+#[derive(Clone, Debug)]
+struct Melting;
+
+/// The same, coupled to a second coordinate.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = x * dot(x).powi(2) / 2.0 + 0.1 * dot(x) * dot(y) + dot(y).powi(2) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct MeltingPair;
+
+/// Whether the run ends because the mass has changed its sign; it may find no solution there instead.
+fn melts<S: RegularLagrangian, M: Method<S, f64> + core::fmt::Debug>(
+    system: &S,
+    method: M,
+    h: f64,
+    start: S::State<f64>,
+) -> Result<bool, Box<dyn core::error::Error>> {
+    let name = format!("{method:?}, h = {h}");
+    let mut run = Integrator::new(system, method, h, start)?;
+    let error = (0..1000).find_map(|_| run.advance().err()).ok_or("no error")?;
+    assert!(run.q()[0] > 0.0, "{name}: {:?}", run.q());
+    assert_eq!((error.step, error.time), (run.steps(), run.time()), "{name}");
+    match error.failure {
+        StepFailure::Orientation { matrix, before, after } => {
+            assert!(matrix == "the mass matrix" && before > 0.0 && after < 0.0, "{name}: {error}");
+            Ok(true)
+        }
+        _ => Ok(false),
+    }
+}
+
+#[test]
+fn no_step_goes_over_a_mass_of_zero() -> Outcome {
+    // x^(3/2) = 1 − 3t/2.
+    let start: MeltingState = MeltingState { x: 1.0, dot_x: -1.0 };
+    let pair: MeltingPairState = MeltingPairState { x: 1.0, y: 0.0, dot_x: -1.0, dot_y: 0.0 };
+    let mut found = 0;
+    for h in [1.0, 0.9, 0.7, 0.5, 0.3, 0.07] {
+        for rule in
+            [Quadrature::gauss(1)?, Quadrature::gauss(2)?, Quadrature::lobatto(2)?, Quadrature::sigma(0.0)]
+        {
+            found += u32::from(melts(&Melting, Variational::new(rule), h, start)?);
+            found += u32::from(melts(&MeltingPair, Variational::new(rule), h, pair)?);
+        }
+        found += u32::from(melts(&Melting, Galerkin::<3>::new(), h, start)?);
+    }
+    assert!(found > 5, "{found}");
+    Ok(())
+}

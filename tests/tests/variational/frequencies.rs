@@ -1,0 +1,118 @@
+//! Frequencies of the user's own, and steps that failed because of a frequency.
+
+use super::Outcome;
+use dvi_core::prelude::*;
+use dvi_core::{Frequency, FrequencyIn};
+use dvi_tests::zoo::regular::*;
+
+const KEPLER: Kepler = Kepler { mu: 1.0 };
+const START: KeplerState = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+
+/// r^(−3/2), without derivatives.
+#[derive(Clone, Copy, Debug)]
+struct Power(Option<Reading>);
+
+impl Frequency for Power {
+    fn reading(&self) -> Option<Reading> {
+        self.0
+    }
+}
+
+impl FrequencyIn<f64> for Power {
+    fn at(&self, q: &[f64], _v: &[f64], _a: &[f64]) -> f64 {
+        (q[0] * q[0] + q[1] * q[1]).powf(-0.75)
+    }
+}
+
+/// A frequency that gives nothing at all.
+#[derive(Clone, Copy, Debug)]
+struct Empty(Reading);
+
+impl Frequency for Empty {
+    fn reading(&self) -> Option<Reading> {
+        Some(self.0)
+    }
+}
+
+impl FrequencyIn<f64> for Empty {}
+
+#[test]
+fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
+    let begin = |reading| {
+        let method = Variational::simpson().phase_fitted(Power(reading));
+        Integrator::new(&KEPLER, method, 0.1, START)
+    };
+    assert_eq!(
+        begin(Some(Reading::Variational)).err(),
+        Some(StartError::Unsupported {
+            option: "Reading::Variational",
+            reason: "FrequencyIn::derivatives is not implemented; take Reading::Averaged",
+        })
+    );
+    let constant = StartError::Unsupported {
+        option: "a frequency that is not read from the motion",
+        reason: "FrequencyIn::fixed does not give a finite number",
+    };
+    assert_eq!(begin(None).err(), Some(constant));
+    let galerkin = Galerkin::<3>::new().phase_fitted(Power(None));
+    assert_eq!(Integrator::new(&KEPLER, galerkin, 0.1, START).err(), Some(constant));
+    for reading in [Reading::LeftFrozen, Reading::Averaged] {
+        begin(Some(reading))?.advance_by(10)?;
+        let empty = Variational::simpson().phase_fitted(Empty(reading));
+        let mut run = Integrator::new(&KEPLER, empty, 0.1, START)?;
+        let error = run.advance().err();
+        let resonance = |u: f64| u.is_nan();
+        assert!(
+            matches!(error, Some(StepError { step: 0, failure: StepFailure::Resonance { u, .. }, .. }) if resonance(u)),
+            "{reading:?}: {error:?}"
+        );
+        assert_eq!(run.q(), [0.8, 0.0]);
+    }
+    Ok(())
+}
+
+/// Two oscillators; steps of one length are resonant for the second only.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - (x * x + 4.0 * y * y) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Pair;
+
+#[test]
+fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
+    let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 2.0]));
+    let start: PairState = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
+    // A control that tries the resonant step before each of its own.
+    #[derive(Debug)]
+    struct Trying {
+        tries: bool,
+    }
+    impl dvi_core::StepControl<Pair, f64> for Trying {
+        type Memory = ();
+        const REJECTS: bool = true;
+        fn begin(&self, _system: &Pair, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
+            Ok(((), 0.1))
+        }
+        fn step<M: dvi_core::VariableStep<Pair, f64>>(
+            &self,
+            _memory: &mut (),
+            run: &mut dvi_core::ControlledRun<'_, Pair, M, f64>,
+            t: f64,
+        ) -> Result<f64, StepFailure> {
+            if self.tries {
+                let tried = run.step(t, core::f64::consts::FRAC_PI_2);
+                assert!(matches!(tried, Err(StepFailure::Resonance { .. })), "{tried:?}");
+            }
+            run.step(t, 0.1)?;
+            Ok(0.1)
+        }
+    }
+    let end = |tries| -> Result<[f64; 2], Box<dyn core::error::Error>> {
+        let mut run = ControlledIntegrator::new(&Pair, method, Trying { tries }, start.clone())?;
+        run.advance_by(200)?;
+        Ok([run.q()[0], run.q()[1]])
+    };
+    assert_eq!(end(true)?, end(false)?);
+    Ok(())
+}
