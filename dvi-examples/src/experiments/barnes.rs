@@ -13,10 +13,10 @@ use crate::figure::{Anchor, Axis, BLUE, Colour, Corner, Figure, GREEN, Panel, SE
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{Pendulum, PendulumState, Spring, SpringState};
-use crate::output::Table;
+use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "barnes", title: "Barnes's phase flows, and a circle carried along", run };
+    Experiment { name: "barnes", title: "Barnes's phase flows, and a circle carried along", share: 1.0, run };
 
 const H: f64 = 1.0 / 32.0;
 /// Until when phase curves are followed.
@@ -95,7 +95,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     if job.was_interrupted() {
         return Ok(Outcome::default());
     }
-    Ok(Outcome { claims: claims(&curves, &circles, &refined), notes: vec![] })
+    Ok(Outcome { claims: claims(&curves, &circles, &refined), references: vec![], notes: vec![] })
 }
 
 /// A regular polygon about (0, 1) at t = 0, 1, …, carried by the flow.
@@ -206,7 +206,7 @@ fn table(curves: &[Vec<Curve>], circles: &[Vec<Curve>]) -> Result<Table> {
     let mut table = Table::new(&["flow", "curve", "t", "x", "v"])?;
     for (flow, Flow { name, .. }) in FLOWS.iter().enumerate() {
         let mut row = |curve: &str, t: f64, [x, v]: [f64; 2]| {
-            table.row([name.replace('*', ""), curve.to_owned(), t.to_string(), x.to_string(), v.to_string()])
+            table.row([name.replace('*', ""), curve.to_owned(), number(t), number(x), number(v)])
         };
         for (curve, (x, _)) in curves[flow].iter().zip(STARTS) {
             for (k, &point) in curve.iter().enumerate() {

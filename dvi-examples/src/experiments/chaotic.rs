@@ -18,7 +18,7 @@ use crate::job::Job;
 use crate::models::{self, Case};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "fig5-chaotic", title: "Poincaré sections of a chaotic motion", run };
+    Experiment { name: "fig5-chaotic", title: "Poincaré sections of a chaotic motion", share: 1.0, run };
 
 const RUNS: [(Scheme, f64); 6] = [
     (Scheme::Vi2, 0.2),
@@ -49,7 +49,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
          between machines, and so do the last digits above."
             .to_owned(),
     );
-    Ok(Outcome { claims: claims(job, &all, &region, exponent), notes })
+    Ok(Outcome { claims: claims(job, &all, &region, exponent), references: vec![], notes })
 }
 
 /// A run that has become regular may never meet the section again; with the equal vortices in another

@@ -12,10 +12,14 @@ use crate::figure::{Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{DoublePendulum, DoublePendulumState};
-use crate::output::Table;
+use crate::output::{Table, number};
 
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "double-pendulum", title: "A chaotic double pendulum, variational against RK4", run };
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "double-pendulum",
+    title: "A chaotic double pendulum, variational against RK4",
+    share: 1.0,
+    run,
+};
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };
 /// Both rods horizontal, at rest.
@@ -47,7 +51,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
         runge_kutta(job, steps)?,
     ];
     job.publish(EXPERIMENT.name, figure(&all, end), table(&all)?)?;
-    Ok(Outcome { claims: claims(&all), notes: vec![] })
+    Ok(Outcome { claims: claims(&all), references: vec![], notes: vec![] })
 }
 
 fn variational<M>(job: &Job<'_>, name: &'static str, method: M, steps: u64) -> Result<Series>
@@ -183,7 +187,7 @@ fn table(all: &[Series; 3]) -> Result<Table> {
     let mut table = Table::new(&["method", "t", "lowest", "mean", "highest"])?;
     for Series { name, error, .. } in all {
         for row in error.rows() {
-            let numbers = row.map(|number| number.to_string());
+            let numbers = row.map(number);
             table.row([(*name).to_owned()].into_iter().chain(numbers))?;
         }
     }

@@ -10,10 +10,10 @@ use crate::figure::{AMBER, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, PURP
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{self, Case, FourVortices};
-use crate::output::Table;
+use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "momenta", title: "Conserved quantities, scheme by scheme", run };
+    Experiment { name: "momenta", title: "Conserved quantities, scheme by scheme", share: 1.0, run };
 
 const H: f64 = 0.1;
 const STEPS: u64 = 1000;
@@ -47,7 +47,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
         baseline(job, &case, "Gauss, order 4", Gauss::<2>::new())?,
     ];
     job.publish(EXPERIMENT.name, figure(&all), table(&all)?)?;
-    Ok(Outcome { claims: claims(&all), notes: vec![] })
+    Ok(Outcome { claims: claims(&all), references: vec![], notes: vec![] })
 }
 
 fn baseline(
@@ -160,8 +160,7 @@ fn figure(all: &[Drifts]) -> Figure {
 fn table(all: &[Drifts]) -> Result<Table> {
     let mut table = Table::new(&["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"])?;
     for drifts in all {
-        let numbers = QUANTITIES
-            .map(|Quantity { value, .. }| value(drifts).map_or(String::new(), |drift| drift.to_string()));
+        let numbers = QUANTITIES.map(|Quantity { value, .. }| value(drifts).map_or(String::new(), number));
         table.row([drifts.scheme.to_owned()].into_iter().chain(numbers))?;
     }
     Ok(table)

@@ -12,10 +12,12 @@ use crate::figure::{
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{self, Case, Rotation, RotationState};
-use crate::output::Table;
+use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "order", title: "Orders of convergence over σ, linear and vortices", run };
+    Experiment {
+        name: "order", title: "Orders of convergence over σ, linear and vortices", share: 1.0, run
+    };
 
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
 /// (3 − √3)/6, of fourth order on linear equations, and its mirror image.
@@ -60,7 +62,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
         let Row { sigma, linear, vortices } = row;
         format!("σ = {sigma:.4}: order {:.3} linear, {:.3} vortices.", linear.order, vortices.order)
     };
-    Ok(Outcome { claims: claims(&rows), notes: rows.iter().map(orders).collect() })
+    Ok(Outcome { claims: claims(&rows), references: vec![], notes: rows.iter().map(orders).collect() })
 }
 
 impl Convergence {
@@ -190,7 +192,7 @@ fn table(rows: &[Row]) -> Result<Table> {
     for Row { sigma, linear, vortices } in rows {
         for (problem, Convergence { errors, order }) in [("linear", linear), ("vortices", vortices)] {
             for (h, error) in errors {
-                let numbers = [sigma, h, error, order].map(|number| number.to_string());
+                let numbers = [*sigma, *h, *error, *order].map(number);
                 table.row([problem.to_owned()].into_iter().chain(numbers))?;
             }
         }

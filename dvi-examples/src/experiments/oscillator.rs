@@ -16,10 +16,10 @@ use crate::figure::{
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{Spring, SpringState};
-use crate::output::Table;
+use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "oscillator", title: "The harmonic oscillator, exact at any step", run };
+    Experiment { name: "oscillator", title: "The harmonic oscillator, exact at any step", share: 1.0, run };
 
 const SYSTEM: Spring = Spring { k: 1.0 };
 /// Where the phase is 45°: an error of the velocity shows as well as one of the position.
@@ -66,7 +66,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     if job.was_interrupted() {
         return Ok(Outcome::default());
     }
-    Ok(Outcome { claims: claims(&rows, &all)?, notes: vec![] })
+    Ok(Outcome { claims: claims(&rows, &all)?, references: vec![], notes: vec![] })
 }
 
 fn grid() -> impl Iterator<Item = f64> {
@@ -275,7 +275,7 @@ fn table(rows: &[Row], all: &[Errors]) -> Result<Table> {
         series.chain(all.iter().map(|errors| ("error from velocities", errors.name, &errors.errors)));
     for (quantity, name, curve) in series {
         for [u, value] in curve {
-            table.row([quantity.to_owned(), name.to_owned(), u.to_string(), value.to_string()])?;
+            table.row([quantity.to_owned(), name.to_owned(), number(*u), number(*value)])?;
         }
     }
     Ok(table)

@@ -14,8 +14,12 @@ use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models;
 
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "fig4-quasi-periodic", title: "Poincaré sections of a quasi-periodic motion", run };
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "fig4-quasi-periodic",
+    title: "Poincaré sections of a quasi-periodic motion",
+    share: 1.0,
+    run,
+};
 
 const RUNS: [(Scheme, f64); 6] = [
     (Scheme::Vi2, 0.1),
@@ -36,7 +40,11 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     let curve = Curve::through(&exact[0].places());
     let exponent = lyapunov_exponent(job, &case)?;
     job.publish(EXPERIMENT.name, figure(&all, &curve, end), sections::table(&all)?)?;
-    Ok(Outcome { claims: claims(job, &all, &curve, exponent), notes: sections::notes(&all) })
+    Ok(Outcome {
+        claims: claims(job, &all, &curve, exponent),
+        references: vec![],
+        notes: sections::notes(&all),
+    })
 }
 
 fn claims(job: &Job<'_>, all: &[Crossings], curve: &Curve, exponent: Option<f64>) -> Vec<Claim> {

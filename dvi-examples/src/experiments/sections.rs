@@ -13,7 +13,7 @@ use crate::figure::{Axis, Envelope, Panel, SEQUENCE, Stroke, thin};
 use crate::figure::{BLUE, Corner, GREEN, VERMILLION};
 use crate::job::Job;
 use crate::models::{Case, FourPoints, FourVortices};
-use crate::output::Table;
+use crate::output::{Table, number};
 
 pub const CAVEAT: &str =
     "*R*₁, *P*₁: a canonical pair of the reduced motion, not necessarily the paper's axes.";
@@ -249,7 +249,7 @@ pub fn table(all: &[Crossings]) -> Result<Table> {
     let mut table = Table::new(&["scheme", "h", "t", "R1", "P1"])?;
     for section in all {
         for [t, r1, p1] in thin(&section.points, SHOWN) {
-            let numbers = [section.h, t, r1, p1].map(|number| number.to_string());
+            let numbers = [section.h, t, r1, p1].map(number);
             table.row([section.scheme.name().to_owned()].into_iter().chain(numbers))?;
         }
     }

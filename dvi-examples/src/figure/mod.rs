@@ -18,7 +18,7 @@ use anyhow::Result;
 
 use crate::output::write_whole;
 
-pub use axis::{Axis, scientific};
+pub use axis::{Axis, at_most, scientific};
 pub use decimate::{Envelope, thin};
 pub use mark::{Fill, Stroke};
 pub use palette::*;
