@@ -8,7 +8,9 @@ use dvi_core::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim};
-use crate::figure::{Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION};
+use crate::figure::{
+    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most,
+};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{DoublePendulum, DoublePendulumState};
@@ -172,9 +174,14 @@ fn figure(all: &[Series; 3], end: f64) -> Figure {
     let energy = all.iter().zip(strokes).fold(energy, |panel, (series, stroke)| {
         panel.line(series.error.magnitude(), stroke).labelled(series.name)
     });
+    let told: Vec<String> =
+        all.iter().map(|series| format!("{} {}", series.name, at_most(series.largest))).collect();
     Figure::new(
-        "A chaotic double pendulum: the variational energy error does not grow",
-        format!("Two masses of 1 kg on rods of 1 m, released with both rods horizontal; *h* = {H} s"),
+        "A chaotic double pendulum: a path, and the energy errors of three methods",
+        format!(
+            "Masses of 1 kg, rods of 1 m, released with both rods horizontal, *h* = {H} s; max|Δ*E*| in J: {}",
+            told.join(", ")
+        ),
     )
     .row(470.0, vec![path, energy.legend_at(Corner::BottomRight)])
     .sequence_key("path: 0 s", format!("{SHOWN} s"))

@@ -46,7 +46,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     let rk2 = series(job, RungeKutta::midpoint(), 1.0, end)?;
     job.publish(EXPERIMENT.name, figure(&ve2, &rk2, end), table(&ve2, &rk2)?)?;
     // A time is no number that two runs share: short runs, which are compared, do without.
-    let times = job.choose(Some(()), None).map(|()| time_ratio(job)).transpose()?;
+    let times = job.choose(Some(()), None).map(|()| time_ratios(job)).transpose()?;
     let claims = claims(job, &ve2, &rk2, times);
     Ok(Outcome { claims, references: references(job, &ve2, &rk2), notes: vec![] })
 }
@@ -98,7 +98,7 @@ impl Series {
     }
 }
 
-fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series, times: Option<f64>) -> Vec<Claim> {
+fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series, times: Option<[f64; 2]>) -> Vec<Claim> {
     let grown = rk2.landmarks[0].zip(rk2.landmarks[1]).map(|(early, late)| late / early);
     let drift = Claim::new("Fig. 2", "RK2 shows a secular drift in the Hamiltonian")
         .check("ΔH of RK2 at t = 5·10⁴ / at t = 10⁴", grown, Bound::AtLeast(3.0))
@@ -114,51 +114,59 @@ fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series, times: Option<f64>) -> Vec<
             job.only_full(ve2.largest / ve2.largest_early),
             Bound::AtMost(1.02),
         );
+    let [read, bulk] = [0, 1].map(|i| times.map(|times| times[i]));
+    let [when_read, in_bulk] = ["every state read", "every hundredth state read"]
+        .map(|how| format!("time of RK2 / time of VE2, {how}, least of {TIMINGS} runs each"));
     let cost = Claim::new("section 5", "RK2 takes approximately four times the computational time of VE2")
-        .check(
-            format!("time of RK2 / time of VE2, every state read, least of {TIMINGS} runs each"),
-            times,
-            Bound::Near(4.0, 1.0),
-        );
+        .check(&when_read, read, Bound::Near(4.0, 1.0))
+        .check(&in_bulk, bulk, Bound::Near(4.0, 1.0))
+        .instead(
+            "it takes four times the evaluations of ∇H; the time depends on whether the states are read, because \
+             VE2 in this library then has more to write than to compute",
+        )
+        .check(when_read, read, Bound::AtLeast(1.2))
+        .check(in_bulk, bulk, Bound::AtLeast(2.0))
+        .check("evaluations of ∇H, RK2 / VE2", rk2.evaluations as f64 / ve2.evaluations as f64, Bound::Near(4.0, 0.01));
     vec![bounded, drift, cost]
 }
 
 /// Numbers of independent programs.
 fn references(job: &Job<'_>, ve2: &Series, rk2: &Series) -> Vec<Check> {
-    let evaluations = rk2.evaluations as f64 / ve2.evaluations as f64;
     vec![
         Check::new("max|ΔH| of VE2", job.only_full(ve2.largest), Bound::Near(3.268_824e-3, 1e-8)),
         Check::new("ΔH of RK2 at t = 10⁴", rk2.landmarks[0], Bound::Near(8.510_481_2e-3, 1e-9)),
         Check::new("ΔH of RK2 at t = 5·10⁴", rk2.landmarks[1], Bound::Near(0.035_429_685, 1e-8)),
         Check::new("ΔH of RK2 at t = 2·10⁵", job.only_full(rk2.last), Bound::Within(0.05, 0.13)),
-        Check::new("evaluations of ∇H, RK2 / VE2", evaluations, Bound::Near(4.0, 0.01)),
     ]
 }
 
 /// Runs of each scheme that are timed.
 const TIMINGS: u32 = 15;
 
-/// The time that RK2 takes for the run of Fig. 2 over the time that VE2 takes, each state being read.
-fn time_ratio(job: &Job<'_>) -> Result<f64> {
-    let mut least = [f64::INFINITY; 2];
+/// The time that RK2 takes for the run of Fig. 2 over the time that VE2 takes: each state being read, and none.
+fn time_ratios(job: &Job<'_>) -> Result<[f64; 2]> {
+    let mut least = [[f64::INFINITY; 2]; 2];
     for _ in 0..TIMINGS {
         if job.is_stopping() {
             job.cut_short();
             break;
         }
-        let seconds = [timed(starting_with_rk2(), 2.0)?, timed(RungeKutta::midpoint(), 1.0)?];
-        least = [0, 1].map(|i| least[i].min(seconds[i]));
+        for (stride, least) in [1, 100].into_iter().zip(&mut least) {
+            let seconds =
+                [timed(starting_with_rk2(), 2.0, stride)?, timed(RungeKutta::midpoint(), 1.0, stride)?];
+            *least = [0, 1].map(|i| least[i].min(seconds[i]));
+        }
     }
-    Ok(least[1] / least[0])
+    Ok(least.map(|[ve2, rk2]| rk2 / ve2))
 }
 
-/// The seconds of a run to t = 2·10⁴.
-fn timed(method: impl Method<FourVortices, f64>, h: f64) -> Result<f64> {
+/// The seconds of a run to t = 2·10⁴ whose state is read after every `stride` steps.
+fn timed(method: impl Method<FourVortices, f64>, h: f64, stride: u64) -> Result<f64> {
     let Case { vortices, start } = models::leapfrogging();
     let mut run = Integrator::new(&vortices, method, h, start)?;
     let begin = Instant::now();
-    for _ in 0..(2e4 / h) as u64 {
-        run.advance()?;
+    for _ in 0..(2e4 / h) as u64 / stride {
+        run.advance_by(stride)?;
         black_box(run.q());
     }
     Ok(begin.elapsed().as_secs_f64())

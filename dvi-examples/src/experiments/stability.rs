@@ -28,9 +28,9 @@ const SIGMAS: [f64; 18] = [
 const LARGE: f64 = 1e8;
 
 /// λh that damp, the first of which is drawn.
-const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.01, 0.3], [-10.0, 3.0]];
+const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
 /// Steps of the runs with them.
-const FEW: u64 = 4000;
+const FEW: u64 = 1000;
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
@@ -205,7 +205,7 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let growth = Panel::new(
         "λ*h* = −1 + i: growth of |*z*| in a step",
         sigma(),
-        Axis::linear("factor").within(0.8, 2.6),
+        Axis::linear("factor").within(0.8, 3.8),
     )
     .line(vec![[0.0, 1.0], [1.0, 1.0]], Stroke::dashed(SLATE).width(1.2))
     .labelled("neither growth nor decay")

@@ -71,6 +71,13 @@ impl Panel {
         self.with(Mark::Line(points, stroke))
     }
 
+    /// A line below everything that was added before.
+    pub fn below(mut self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+        self.marks.insert(0, Mark::Line(points, stroke));
+        self.legend.iter_mut().for_each(|(mark, _)| *mark += 1);
+        self
+    }
+
     /// The area between two curves, as [x, low, high].
     pub fn band(self, edges: Vec<[f64; 3]>, colour: Colour) -> Self {
         self.with(Mark::Band(edges, colour))
