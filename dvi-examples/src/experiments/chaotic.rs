@@ -18,7 +18,7 @@ use crate::job::Job;
 use crate::models::{self, Case};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "fig5-chaotic", title: "Poincaré sections of a chaotic motion", share: 1.0, run };
+    Experiment { name: "fig5-chaotic", title: "Poincaré sections of a chaotic motion", share: 70.0, run };
 
 const RUNS: [(Scheme, f64); 6] = [
     (Scheme::Vi2, 0.2),

@@ -19,7 +19,7 @@ use crate::output::{Table, number};
 pub const EXPERIMENT: Experiment = Experiment {
     name: "double-pendulum",
     title: "A chaotic double pendulum, variational against RK4",
-    share: 1.0,
+    share: 5.0,
     run,
 };
 

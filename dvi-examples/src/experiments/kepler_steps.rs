@@ -18,7 +18,7 @@ use crate::models::Orbit;
 use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "kepler-steps", title: "One third of the steps, in each reading", share: 1.0, run };
+    Experiment { name: "kepler-steps", title: "One third of the steps, in each reading", share: 25.0, run };
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];
 /// The eccentricity of the paper.

@@ -153,7 +153,7 @@ fn claims(rows: &[Row]) -> Vec<Claim> {
 
 fn figure(rows: &[Row]) -> Figure {
     let linear = error_panel("Linear: *z*' = i*z*, *t* = 10", rows, |row| &row.linear);
-    let linear = slope(slope(linear, 2, [0.0125, 6e-4]), 4, [0.025, 2e-9]).without_legend();
+    let linear = slope(slope(linear, 2, [0.0125, 3e-3]), 4, [0.025, 2e-9]).without_legend();
     let vortices = divided_panel("Four vortices, *t* = 4", rows).legend_at(Corner::Beside).weight(1.35);
     let orders = |of: fn(&Row) -> f64| rows.iter().map(|row| [row.sigma, of(row)]).collect::<Vec<_>>();
     let order = Axis::linear("fitted order").within(1.0, 5.0);

@@ -17,7 +17,7 @@ use crate::models;
 pub const EXPERIMENT: Experiment = Experiment {
     name: "fig4-quasi-periodic",
     title: "Poincaré sections of a quasi-periodic motion",
-    share: 1.0,
+    share: 25.0,
     run,
 };
 

@@ -15,7 +15,9 @@ use crate::models::{Linear, LinearState, Rotation, RotationState};
 use crate::output::Table;
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "stability", title: "The stability of the σ-family, by running it", share: 6.0, run };
+    Experiment {
+        name: "stability", title: "The stability of the σ-family, by running it", share: 20.0, run
+    };
 
 /// σ = ½ has no limit and is tested apart.
 #[rustfmt::skip]

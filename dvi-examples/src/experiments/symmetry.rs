@@ -154,7 +154,7 @@ fn claims(job: &Job<'_>, symmetric: &Series, displaced: &Series) -> Vec<Claim> {
             crate::claim::BEYOND,
             "with vortex 1 displaced by (0.05, 0.035) the motion is lost within the paper's time",
         )
-        .check(lost, displaced.lost, Bound::AtMost(PAPER)),
+        .check(format!("displaced: {lost}"), displaced.lost, Bound::AtMost(PAPER)),
     ]
 }
 
@@ -171,7 +171,7 @@ fn figure(all: &[Series; 2]) -> Figure {
         panel
             .line(vec![[PAPER, range[0]], [PAPER, range[1]]], Stroke::dashed(SLATE).width(1.2))
             .labelled("the paper's time")
-            .legend_at(Corner::TopLeft)
+            .legend_at(Corner::BottomRight)
     };
     let [symmetric, displaced] = all;
     Figure::new(

@@ -153,6 +153,7 @@ fn signed(value: f64, decimals: usize) -> String {
 pub fn scientific(value: f64) -> String {
     let text = format!("{value:.1e}");
     match text.split_once('e').map(|(mantissa, exponent)| (mantissa, exponent.parse())) {
+        Some((mantissa, Ok(0))) => mantissa.replace('-', "−"),
         Some((mantissa, Ok(exponent))) => {
             format!("{}·{}", mantissa.replace('-', "−"), power_of_ten(exponent))
         }
@@ -211,13 +212,13 @@ mod tests {
     #[test]
     fn scientific_numbers_are_typeset() {
         let shown = [3.847e-5, -0.2, 1e6, 0.0, f64::NAN].map(scientific);
-        assert_eq!(shown, ["3.8·10⁻⁵", "−2.0·10⁻¹", "1.0·10⁶", "0.0·10⁰", "NaN"]);
+        assert_eq!(shown, ["3.8·10⁻⁵", "−2.0·10⁻¹", "1.0·10⁶", "0.0", "NaN"]);
     }
 
     #[test]
     fn bounds_are_rounded_up() {
         let shown = [9.527e-8, 9.5e-8, 1.0, 9.99e-3, 0.0].map(at_most);
-        assert_eq!(shown, ["9.6·10⁻⁸", "9.5·10⁻⁸", "1.0·10⁰", "1.0·10⁻²", "0.0·10⁰"]);
+        assert_eq!(shown, ["9.6·10⁻⁸", "9.5·10⁻⁸", "1.0", "1.0·10⁻²", "0.0"]);
     }
 
     #[test]

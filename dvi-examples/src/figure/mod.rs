@@ -172,6 +172,7 @@ mod tests {
     fn a_figure_without_data_is_still_a_figure() {
         let empty = Panel::new("Empty", Axis::linear("*x*"), Axis::logarithmic("*y*"))
             .line(vec![[f64::NAN, 1.0]], Stroke::solid(BLUE))
+            .line(vec![[1.0, 2.0], [1.5, 1e40], [2.0, 3.0]], Stroke::solid(BLUE))
             .band(vec![[1.0, -1.0, f64::INFINITY]], BLUE)
             .dots(vec![], 1.0, PURPLE);
         let svg = Figure::new("", "").row(300.0, vec![empty]).svg();
