@@ -178,16 +178,11 @@ fn figure(all: &[Series; 3], end: f64) -> Figure {
         all.iter().map(|series| format!("{} {}", series.name, at_most(series.largest))).collect();
     Figure::new(
         "A chaotic double pendulum: a path, and the energy errors of three methods",
-        format!(
-            "Masses of 1 kg, rods of 1 m, released with both rods horizontal, *h* = {H} s; max|Δ*E*| in J: {}",
-            told.join(", ")
-        ),
+        format!("Masses of 1 kg, rods of 1 m, released with both rods horizontal; *h* = {H} s"),
     )
     .row(470.0, vec![path, energy.legend_at(Corner::BottomRight)])
     .sequence_key("path: 0 s", format!("{SHOWN} s"))
-    .footer(
-        "The path is that of Simpson's rule; the orbits of the three methods part within the first seconds.",
-    )
+    .footer(format!("The path is that of Simpson's rule. Largest |Δ*E*| in J: {}.", told.join("; ")))
 }
 
 fn table(all: &[Series; 3]) -> Result<Table> {

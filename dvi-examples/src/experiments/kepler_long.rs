@@ -255,13 +255,15 @@ fn figure(all: &[Series], periods: u64) -> Figure {
     let position = panel("Position", Axis::logarithmic(label).within(1e-8, 10.0), 2)
         .line(vec![[0.1, 2.0], [periods as f64, 2.0]], Stroke::dashed(INK).width(1.2))
         .labelled("the diameter of the orbit");
+    let reached = all.iter().filter_map(|series| series.rows.last()).map(|row| row[0].round());
+    let reached = reached.fold(0.0, f64::max);
     let told = |i: usize| {
         let course = all.get(i).map(|series| series.course).unwrap_or_default();
         format!("|Δ*E*| ≤ {} at {:.0} steps per period", at_most(course.energy), course.steps)
     };
     Figure::new(
         format!(
-            "A Kepler orbit with *e* = 0.95 over {periods} periods: largest errors in each interval of time"
+            "A Kepler orbit with *e* = 0.95 over {reached} periods: largest errors in each interval of time"
         ),
         format!("√(|*q*''|/|*q*|) in *L*_d: {}; left-frozen with (23) per arc, 3·10⁻⁶: {}", told(5), told(4)),
     )

@@ -278,7 +278,7 @@ fn figure(all: &[Contender], curves: &[Curve], periods: u64) -> Figure {
         energy(curves, one).zip(energy(curves, other)).map_or(f64::NAN, |(one, other)| one / other)
     });
     Figure::new(
-        format!("Kepler orbits: largest errors over {periods} periods against evaluations of the force"),
+        format!("Kepler orbits: largest errors over up to {periods} periods against evaluations of the force"),
         format!(
             "Reversible steps in proportion to *r*^(3/2); at *e* = 0.95, ε = 0.02 fitting divides |Δ*E*| of Simpson \
              by {gain:.0} (averaged), {best:.0} (variational)"

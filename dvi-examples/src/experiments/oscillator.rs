@@ -270,7 +270,7 @@ fn figure(rules: &[(&str, Quadrature)], rows: &[Row], all: &[Errors], many: u64)
     let recursion = recursion
         .note([std::f64::consts::FRAC_PI_2, 3e-8], Anchor::Middle, SLATE, "*S* = 0,")
         .note([std::f64::consts::FRAC_PI_2, 6e-9], Anchor::Middle, SLATE, "trapezoid")
-        .note([2.58, 3e-7], Anchor::Middle, INK, "*S* = 0, Gauss");
+        .note([2.5, 3e-7], Anchor::Middle, INK, "*S* = 0, Gauss");
     let factor = Panel::new("Momentum over velocity", u(), Axis::linear("*s* = *p*/*v*").within(-1.0, 4.0));
     let factor = SHOWN.into_iter().fold(factor, |panel, (name, colour)| {
         let measured = rows.iter().find(|row| row.name == name).map(|row| row.defect.clone());

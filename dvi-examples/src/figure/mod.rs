@@ -65,9 +65,10 @@ impl Figure {
         self
     }
 
-    /// Marks the figure as one of a run that was cut short.
+    /// Marks the figure as one of a run that was cut short; what its subtitle says of complete series goes.
     pub fn interrupted(mut self) -> Self {
         self.title += " — interrupted";
+        self.subtitle = "The run was interrupted: its series end early.".into();
         self
     }
 
@@ -147,6 +148,12 @@ mod tests {
         {
             assert!(texts.iter().any(|text| text == wanted), "`{wanted}` is not among {texts:?}");
         }
+    }
+
+    #[test]
+    fn an_interrupted_figure_says_nothing_of_complete_series() {
+        let svg = sample().interrupted().svg();
+        assert!(svg.contains("interrupted: its series end early") && !svg.contains("and more<"), "{svg}");
     }
 
     #[test]
