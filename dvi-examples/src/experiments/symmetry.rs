@@ -95,8 +95,7 @@ fn series(job: &Job<'_>, name: &str, colour: Colour, [dx, dy]: [f64; 2], end: f6
             *largest_asymmetry = largest_asymmetry.max(asymmetry(run.q()));
             *largest_error = largest_error.max(error);
         }
-        // Also where it is not a number.
-        if !(error <= LOST) {
+        if error.is_nan() || error > LOST {
             series.lost = t;
         }
     }
