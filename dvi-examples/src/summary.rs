@@ -169,12 +169,14 @@ pub fn tally<'a>(complete: impl Iterator<Item = &'a Outcome> + Clone) -> String 
         (references.iter().filter(|check| check.value.is_some() && !check.passes()).count(), "failed"),
         (references.iter().filter(|check| check.value.is_none()).count(), "not measured"),
     ]);
-    format!(
-        "{} of the papers: {of_papers}; {} beyond them: {of_ours}; {}: {judged}",
-        counted(printed.len(), "claim"),
-        counted(beyond.len(), "claim"),
-        counted(references.len(), "regression check"),
-    )
+    let mut tally = format!("{} of the papers: {of_papers}", counted(printed.len(), "claim"));
+    if !beyond.is_empty() {
+        let _ = write!(tally, "; {} beyond them: {of_ours}", counted(beyond.len(), "claim"));
+    }
+    if !references.is_empty() {
+        let _ = write!(tally, "; {}: {judged}", counted(references.len(), "regression check"));
+    }
+    tally
 }
 
 /// The counts that are not zero, with what is counted.

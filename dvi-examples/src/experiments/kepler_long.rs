@@ -108,10 +108,12 @@ impl Series {
     /// Each period counts as `cost` units of progress.
     fn follow(&mut self, job: &Job<'_>, run: &mut impl Run, periods: u64, cost: u64) {
         let mut interval = i64::MIN;
+        let last_interval = ((periods as f64).log10() * PER_DECADE).ceil() as i64 - 1;
         let (mut energy, mut position, mut whole) = (0.0f64, 0.0f64, 1.0);
         let course = follow(job, run, periods, |sample| {
             let (time, error) = (sample.t / TAU, ORBIT.error(sample.t, &sample.q));
-            let current = ((time.max(0.1)).log10() * PER_DECADE).floor() as i64;
+            // The end of the run belongs to the interval before it.
+            let current = (((time.max(0.1)).log10() * PER_DECADE).floor() as i64).min(last_interval);
             if current > interval {
                 interval = current;
                 self.rows.push([time, 0.0, 0.0]);
@@ -258,14 +260,18 @@ fn figure(all: &[Series], periods: u64) -> Figure {
     let reached = all.iter().filter_map(|series| series.rows.last()).map(|row| row[0].round());
     let reached = reached.fold(0.0, f64::max);
     let told = |i: usize| {
-        let course = all.get(i).map(|series| series.course).unwrap_or_default();
-        format!("|Δ*E*| ≤ {} at {:.0} steps per period", at_most(course.energy), course.steps)
+        let told = all.get(i).map(|Series { course, rows, .. }| {
+            let last = rows.last().map_or(0.0, |row| row[0].round());
+            let (error, steps) = (at_most(course.energy), course.steps);
+            format!("|Δ*E*| ≤ {error} over {last} periods of {steps:.0} steps")
+        });
+        told.unwrap_or_default()
     };
     Figure::new(
         format!(
             "A Kepler orbit with *e* = 0.95 over {reached} periods: largest errors in each interval of time"
         ),
-        format!("√(|*q*''|/|*q*|) in *L*_d: {}; left-frozen with (23) per arc, 3·10⁻⁶: {}", told(5), told(4)),
+        format!("In *L*_d: {}; left-frozen with (23) per arc, 3·10⁻⁶: {}", told(5), told(4)),
     )
     .row(470.0, vec![energy.without_legend(), position.legend_at(Corner::Beside).weight(1.45)])
     .footer(
