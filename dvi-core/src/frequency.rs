@@ -15,7 +15,7 @@ use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading {
     /// ω at (q0, v0), held constant: what Kosmas & Vlachos do. The step is neither symplectic (its defect is
-    /// O(h³)) nor reversible, and the energy drifts like O(h³)t.
+    /// O(h³)) nor reversible, and with fixed or with reversible steps the energy drifts like O(h³)t.
     LeftFrozen,
     /// The mean of ω at both ends, held constant in the derivatives of L_d. Reversible, hence without drift
     /// on reversible orbits; not symplectic.

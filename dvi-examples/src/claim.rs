@@ -3,6 +3,9 @@
 //! A verdict is never typed in: a claim is a list of checks, a check is a number and a bound, and the
 //! verdict is computed. Where the paper is known to err, the claim carries a second list, what holds
 //! instead, and the verdict is *differs* only if that list passes.
+//!
+//! A number that must be the one of an independent program, or of earlier runs, decides on no claim: it is a
+//! check by itself, of a regression.
 
 use std::fmt;
 
@@ -32,20 +35,22 @@ impl Bound {
 /// A measured number and what it must satisfy; `None` if this run was too short to measure it.
 #[derive(Clone, Debug)]
 pub struct Check {
-    quantity: String,
-    value: Option<f64>,
-    bound: Bound,
+    pub quantity: String,
+    pub value: Option<f64>,
+    pub bound: Bound,
 }
 
 /// What a paper says, with the checks that decide on it.
 #[derive(Clone, Debug)]
 pub struct Claim {
     /// Where the paper says it.
-    pub place: &'static str,
+    pub place: String,
     /// What it says.
     pub says: String,
-    printed: Vec<Check>,
-    instead: Option<(String, Vec<Check>)>,
+    /// The checks of what is printed.
+    pub printed: Vec<Check>,
+    /// What holds if that does not, with its own checks.
+    pub instead: Option<(String, Vec<Check>)>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,13 +64,13 @@ pub enum Verdict {
 }
 
 impl Claim {
-    pub fn new(place: &'static str, says: impl Into<String>) -> Self {
-        Self { place, says: says.into(), printed: Vec::new(), instead: None }
+    pub fn new(place: impl Into<String>, says: impl Into<String>) -> Self {
+        Self { place: place.into(), says: says.into(), printed: Vec::new(), instead: None }
     }
 
     /// Adds a check; after [`instead`](Self::instead), to the list of what holds instead.
     pub fn check(mut self, quantity: impl Into<String>, value: impl Into<Option<f64>>, bound: Bound) -> Self {
-        let check = Check { quantity: quantity.into(), value: value.into(), bound };
+        let check = Check::new(quantity, value, bound);
         match &mut self.instead {
             Some((_, checks)) => checks.push(check),
             None => self.printed.push(check),
@@ -117,30 +122,39 @@ impl Claim {
 }
 
 impl Check {
-    fn passes(&self) -> bool {
+    pub fn new(quantity: impl Into<String>, value: impl Into<Option<f64>>, bound: Bound) -> Self {
+        Self { quantity: quantity.into(), value: value.into(), bound }
+    }
+
+    pub fn passes(&self) -> bool {
         self.value.is_some_and(|value| self.bound.holds(value))
+    }
+
+    /// The number with what is required of it.
+    pub fn judged(&self) -> String {
+        match self.value {
+            None => format!("needs a longer run ({})", self.bound),
+            Some(value) if self.passes() => format!("{} ({})", measured(value), self.bound),
+            Some(value) => format!("{} (not {})", measured(value), self.bound),
+        }
     }
 }
 
 impl fmt::Display for Bound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Bound::AtMost(high) => write!(f, "at most {}", short(high)),
-            Bound::AtLeast(low) => write!(f, "at least {}", short(low)),
-            Bound::Within(low, high) => write!(f, "{} to {}", short(low), short(high)),
-            Bound::Near(target, tolerance) => write!(f, "{} ± {}", long(target), short(tolerance)),
+            Bound::AtMost(high) => write!(f, "at most {}", exact(high)),
+            Bound::AtLeast(low) => write!(f, "at least {}", exact(low)),
+            Bound::Within(low, high) => write!(f, "{} to {}", exact(low), exact(high)),
+            Bound::Near(target, tolerance) => write!(f, "{} ± {}", exact(target), exact(tolerance)),
         }
     }
 }
 
 impl fmt::Display for Check {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { quantity, value, bound } = self;
-        match *value {
-            None => write!(f, "{quantity}: needs a longer run"),
-            Some(value) if self.passes() => write!(f, "{quantity} = {} ({bound})", long(value)),
-            Some(value) => write!(f, "{quantity} = {} (not {bound})", long(value)),
-        }
+        let sign = if self.value.is_some() { " =" } else { ":" };
+        write!(f, "{}{sign} {}", self.quantity, self.judged())
     }
 }
 
@@ -155,13 +169,18 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// Up to four digits, for bounds.
-fn short(value: f64) -> String {
-    digits(value, 4)
+/// All digits, for bounds: rounded, a bound would be another one.
+pub fn exact(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&magnitude) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 /// Up to seven digits, for measured numbers.
-fn long(value: f64) -> String {
+pub fn measured(value: f64) -> String {
     digits(value, 7)
 }
 
@@ -216,5 +235,11 @@ mod tests {
     fn numbers_are_shown_with_the_digits_that_matter() {
         let shown = [3.268824e-3, 2.0, 6362.0, -0.06, 1.25e7, 0.0].map(|value| digits(value, 5));
         assert_eq!(shown, ["3.2688e-3", "2", "6362", "-0.06", "1.25e7", "0"]);
+    }
+
+    #[test]
+    fn bounds_are_shown_with_all_their_digits() {
+        let shown = [Bound::AtMost(0.333_349), Bound::Near(1.188_395_105_778, 1e-11)].map(|b| b.to_string());
+        assert_eq!(shown, ["at most 0.333349", "1.188395105778 ± 1e-11"]);
     }
 }

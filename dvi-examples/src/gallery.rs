@@ -1,15 +1,15 @@
-//! Runs experiments side by side, each with its own progress bar.
+//! Runs experiments side by side.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context as _, Result};
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
+use rayon::iter::{ParallelBridge as _, ParallelIterator as _};
 
-use crate::claim::Claim;
+use crate::claim::{Check, Claim};
 use crate::job::{Job, Length};
+use crate::progress::Progress;
 
 /// One model and one picture.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,8 @@ pub struct Experiment {
     /// What `--only` takes, and what its files are called.
     pub name: &'static str,
     pub title: &'static str,
+    /// Its rough share of the time that all take, in seconds of a full run: what the time left is computed from.
+    pub share: f64,
     pub run: fn(&Job<'_>) -> Result<Outcome>,
 }
 
@@ -24,6 +26,8 @@ pub struct Experiment {
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     pub claims: Vec<Claim>,
+    /// Numbers that must be those of independent programs or of earlier runs.
+    pub references: Vec<Check>,
     /// Sentences that belong to the numbers: conventions, endings of series.
     pub notes: Vec<String>,
 }
@@ -37,6 +41,7 @@ pub enum Ended {
     Failed(anyhow::Error),
 }
 
+/// Runs the experiments, the longest first, and returns how each has ended, in their order.
 pub fn run(
     experiments: &[Experiment],
     folder: &Path,
@@ -46,46 +51,41 @@ pub fn run(
 ) -> Result<Vec<Ended>> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
     let pool = pool.context("cannot start the threads")?;
-    let bars = MultiProgress::new();
-    let bars: Vec<_> = experiments.iter().map(|experiment| bars.add(bar(experiment))).collect();
-    let one = |(experiment, bar): (&Experiment, ProgressBar)| {
+    let progress = Progress::new(experiments);
+    let one = |number: usize| {
         if stop.load(Ordering::Relaxed) {
-            bar.abandon_with_message("not started");
-            return Ended::NotStarted;
+            progress.end(number, "not started");
+            return (number, Ended::NotStarted);
         }
-        bar.reset_elapsed();
-        bar.set_length(0);
-        bar.set_message("");
-        let job = Job::new(folder.to_owned(), length, bar.clone(), stop);
-        let result = (experiment.run)(&job);
-        let seconds = format!("{:.1} s", bar.elapsed().as_secs_f64());
-        match (result, job.was_interrupted()) {
-            (Ok(outcome), false) => {
-                bar.finish_with_message(seconds);
-                Ended::Complete(outcome)
-            }
-            (Ok(outcome), true) => {
-                bar.abandon_with_message(format!("interrupted after {seconds}"));
-                Ended::Interrupted(outcome)
-            }
-            (Err(error), _) => {
-                bar.abandon_with_message("failed");
-                Ended::Failed(error)
-            }
-        }
+        let job = Job::new(folder.to_owned(), length, progress.start(number), stop);
+        let (how, ended) = match ((experiments[number].run)(&job), job.was_interrupted()) {
+            (Ok(outcome), false) => ("done", Ended::Complete(outcome)),
+            (Ok(outcome), true) => ("interrupted", Ended::Interrupted(outcome)),
+            (Err(error), _) => ("failed", Ended::Failed(error)),
+        };
+        progress.end(number, how);
+        (number, ended)
     };
-    Ok(pool.install(|| experiments.par_iter().zip(bars).map(one).collect()))
+    let mut order: Vec<usize> = (0..experiments.len()).collect();
+    order.sort_by(|&i, &j| experiments[j].share.total_cmp(&experiments[i].share));
+    let finished = AtomicBool::new(false);
+    let mut ended: Vec<(usize, Ended)> = std::thread::scope(|scope| {
+        scope.spawn(|| progress.watch(|| finished.load(Ordering::Relaxed)));
+        let _guard = SetAtEnd(&finished);
+        // A bridge hands out one at a time, in this order.
+        pool.install(|| order.into_iter().par_bridge().map(one).collect())
+    });
+    ended.sort_by_key(|(number, _)| *number);
+    Ok(ended.into_iter().map(|(_, ended)| ended).collect())
 }
 
-fn bar(experiment: &Experiment) -> ProgressBar {
-    // Without any length it would look complete.
-    let bar = ProgressBar::new(1).with_prefix(experiment.name).with_message("waiting");
-    // The template is a constant: if it were wrong, the plain default would still do.
-    ProgressStyle::with_template("{prefix:<20} {bar:40.cyan/blue} {percent:>3} %  {msg}")
-        .map(|style| bar.set_style(style.progress_chars("━╸─")))
-        .unwrap_or_default();
-    bar.tick();
-    bar
+/// Sets a flag when it goes out of scope, also in a panic.
+struct SetAtEnd<'a>(&'a AtomicBool);
+
+impl Drop for SetAtEnd<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
 }
 
 #[cfg(test)]
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn one_failure_does_not_stop_the_others() {
-        let named = |name, run| Experiment { name, title: "", run };
+        let named = |name, run| Experiment { name, title: "", share: 1.0, run };
         let both = [named("a", broken as fn(&Job<'_>) -> _), named("b", quick)];
         let stop = AtomicBool::new(false);
         let ended = run(&both, Path::new("."), Length::Short, Some(2), &stop).expect("threads");
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn nothing_starts_after_an_interrupt() {
         let stop = AtomicBool::new(true);
-        let one = [Experiment { name: "a", title: "", run: broken }];
+        let one = [Experiment { name: "a", title: "", share: 1.0, run: broken }];
         let ended = run(&one, Path::new("."), Length::Full, None, &stop).expect("threads");
         assert!(matches!(&ended[..], [Ended::NotStarted]), "{ended:?}");
     }

@@ -17,6 +17,20 @@ pub enum Length {
     Short,
 }
 
+impl Length {
+    pub fn name(self) -> &'static str {
+        match self {
+            Length::Full => "full",
+            Length::Short => "short",
+        }
+    }
+
+    /// The form that has this name.
+    pub fn named(name: &str) -> Option<Self> {
+        [Length::Full, Length::Short].into_iter().find(|length| length.name() == name)
+    }
+}
+
 /// The surroundings of one experiment.
 #[derive(Debug)]
 pub struct Job<'a> {
@@ -88,6 +102,15 @@ impl<'a> Job<'a> {
             self.cut_short();
         }
         Ok(())
+    }
+
+    /// Like [`repeat`](Self::repeat), for runs that may be lost: the first failure ends them and is what is returned.
+    pub fn repeat_until_lost(
+        &self,
+        count: u64,
+        step: impl FnMut() -> Result<(), StepError>,
+    ) -> Option<StepError> {
+        self.repeat(count, step).err()
     }
 
     /// Writes the figure (SVG and PNG) and its data (CSV); the figure of an interrupted run says so.

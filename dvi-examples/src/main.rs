@@ -13,6 +13,8 @@ mod job;
 mod models;
 mod options;
 mod output;
+mod progress;
+mod record;
 mod summary;
 
 use std::io::Write as _;
@@ -21,10 +23,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context as _, Result};
 use clap::Parser as _;
+use console::Term;
 
 use crate::gallery::{Ended, Experiment};
 use crate::job::Length;
 use crate::options::Options;
+use crate::record::Part;
 
 static STOP: AtomicBool = AtomicBool::new(false);
 const INTERRUPTED: u8 = 130;
@@ -39,26 +43,51 @@ fn main() -> ExitCode {
 }
 
 fn list() -> Result<ExitCode> {
-    let line = |experiment: &Experiment| format!("{:<20} {}\n", experiment.name, experiment.title);
+    let width = width();
+    let line = |experiment: &Experiment| {
+        output::wrapped(&format!("{:<20} {}", experiment.name, experiment.title), 0, width)
+    };
     say(&experiments::ALL.iter().map(line).collect::<String>())?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn run(options: &Options) -> Result<ExitCode> {
-    output::prepare_folder(&options.out)?;
+    let folder = options.folder();
+    output::prepare_folder(&folder)?;
+    // A summary that cannot be completed is an error before the first number is computed.
+    record::load(&folder)?;
     ctrlc::set_handler(interrupt).context("cannot listen to Ctrl-C")?;
     let wanted = |experiment: &Experiment| {
         options.only.is_empty() || options.only.iter().any(|n| n == experiment.name)
     };
     let chosen: Vec<Experiment> = experiments::ALL.iter().copied().filter(wanted).collect();
     let length = if options.short { Length::Short } else { Length::Full };
-    eprintln!("experiments: {}; results go to {}", chosen.len(), options.out.display());
+    eprintln!("experiments: {}; results go to {}", chosen.len(), folder.display());
 
-    let ended = gallery::run(&chosen, &options.out, length, options.threads, &STOP)?;
+    let ended = gallery::run(&chosen, &folder, length, options.threads, &STOP)?;
     let results: Vec<_> = chosen.iter().zip(&ended).collect();
-    output::write_whole(&options.out.join("summary.md"), summary::markdown(&results, length).as_bytes())?;
-    say(&format!("\n{}", summary::plain(&results)))?;
+    let when = output::now();
+    let new =
+        results.iter().filter_map(|(experiment, ended)| Part::of(experiment.name, length, &when, ended));
+    let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
+    let parts = record::merged(record::load(&folder)?, new.collect(), &names);
+    record::save(&folder, &parts)?;
+    output::write_whole(&folder.join("summary.md"), summary::markdown(&parts, title).as_bytes())?;
+    say(&format!("\n{}", summary::plain(&results, width())))?;
     Ok(exit_code(&ended))
+}
+
+/// The title of an experiment.
+fn title(name: &str) -> &'static str {
+    experiments::ALL
+        .iter()
+        .find(|experiment| experiment.name == name)
+        .map_or("", |experiment| experiment.title)
+}
+
+/// The width of the terminal that reads the summary; `None` if none does.
+fn width() -> Option<usize> {
+    Term::stdout().size_checked().map(|(_, columns)| columns.into())
 }
 
 /// The first Ctrl-C lets the experiments write what they have; a second one does not wait for them.

@@ -11,13 +11,15 @@ use crate::experiments;
 ///
 /// Without options all experiments run at full length. Each writes a figure (SVG and PNG of the same
 /// picture) and its data (CSV); at the end `summary.md` says, claim by claim, what the paper says, what
-/// was measured, and whether it was reproduced.
+/// was measured, and whether it was reproduced, and `summary.csv` says the same to programs. A run replaces the
+/// parts of its own experiments in the summary of its folder and keeps the others.
 #[derive(Debug, Parser)]
 #[command(name = "dvi-examples", version, after_help = AFTER_HELP)]
 pub struct Options {
     /// The folder for figures, tables and the summary; it is created if it does not exist
-    #[arg(long, value_name = "DIR", default_value = "results")]
-    pub out: PathBuf,
+    /// [default: results, with --short results-short]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 
     /// Run the same experiments for shorter times; claims that need longer ones stay undecided
     #[arg(long)]
@@ -35,6 +37,13 @@ pub struct Options {
     /// Threads to use; the results are the same for every number [default: all processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+}
+
+impl Options {
+    pub fn folder(&self) -> PathBuf {
+        let default = if self.short { "results-short" } else { "results" };
+        self.out.clone().unwrap_or_else(|| default.into())
+    }
 }
 
 const AFTER_HELP: &str = "\

@@ -1,33 +1,43 @@
 //! The summary: claim by claim, what the paper says, what was measured, and the verdict.
+//!
+//! Claims decide on what a paper says, or on what we say beyond it. Regression checks compare a number with that of
+//! an independent program or of earlier runs; they decide on nothing and are counted apart.
 
 use std::fmt::Write as _;
 
-use crate::claim::{Claim, Verdict};
+use crate::claim::{Check, Claim, Verdict};
 use crate::gallery::{Ended, Experiment, Outcome};
 use crate::job::Length;
+use crate::output::wrapped;
+use crate::record::{Part, State};
 
-/// The experiments with how they ended.
-pub type Results<'a> = [(&'a Experiment, &'a Ended)];
-
-/// The summary as Markdown.
-pub fn markdown(results: &Results<'_>, length: Length) -> String {
+/// The summary of a folder as Markdown; `title` names the picture of an experiment.
+pub fn markdown(parts: &[Part], title: impl Fn(&str) -> &'static str) -> String {
     let mut text = String::from("# Claim by claim\n\n");
-    if length == Length::Short {
-        text += "This was the **short** form: shorter times, and claims that need longer ones stay undecided.\n\n";
+    for length in [Length::Full, Length::Short] {
+        let of = || parts.iter().filter(|part| part.length == length);
+        if of().next().is_some() {
+            let count = counted(of().count(), "experiment");
+            let complete = of().filter(|part| part.state == State::Complete).map(|part| &part.outcome);
+            let _ = writeln!(text, "**The {} form**, {count}: {}.\n", length.name(), tally(complete));
+        }
     }
-    let _ = writeln!(text, "{}.\n", tally(results));
-    for (experiment, ended) in results {
-        let Experiment { name, title, .. } = experiment;
-        let _ = writeln!(text, "## {name}: {title}\n");
-        match ended {
-            Ended::Failed(error) => {
-                let _ = writeln!(text, "**Failed**: {error:#}\n");
+    if parts.iter().any(|part| part.length == Length::Short) {
+        text +=
+            "The short form runs for shorter times; claims that need longer ones stay undecided in it.\n\n";
+    }
+    for part in parts {
+        let Part { experiment, length, when, state, outcome } = part;
+        let _ = writeln!(text, "## {experiment}: {}\n", title(experiment));
+        let _ = writeln!(text, "The {} form, {when}.\n", length.name());
+        match state {
+            State::Failed(error) => {
+                let _ = writeln!(text, "**Failed**: {error}\n");
             }
-            Ended::NotStarted => text += "**Interrupted** before it started.\n\n",
-            Ended::Complete(outcome) => section(&mut text, name, outcome, false),
-            Ended::Interrupted(outcome) => {
+            State::Complete => section(&mut text, experiment, outcome, false),
+            State::Interrupted => {
                 text += "**Interrupted**: the series end early, and no claim was decided.\n\n";
-                section(&mut text, name, outcome, true);
+                section(&mut text, experiment, outcome, true);
             }
         }
     }
@@ -36,7 +46,9 @@ pub fn markdown(results: &Results<'_>, length: Length) -> String {
 
 fn section(text: &mut String, name: &str, outcome: &Outcome, interrupted: bool) {
     let _ = writeln!(text, "![]({name}.png)\n");
-    *text += "| Claim | Measured (required) | Verdict |\n|---|---|---|\n";
+    if !outcome.claims.is_empty() {
+        *text += "| Claim | Measured (required) | Verdict |\n|---|---|---|\n";
+    }
     for claim in &outcome.claims {
         let says = cell(&claim.says);
         if interrupted {
@@ -49,6 +61,14 @@ fn section(text: &mut String, name: &str, outcome: &Outcome, interrupted: bool) 
         let _ = writeln!(text, "| {says} ({}) | {} | {verdict} |", claim.place, measured.join("<br>"));
     }
     *text += "\n";
+    if !outcome.references.is_empty() && !interrupted {
+        *text += "| Regression check | Measured (required) | |\n|---|---|---|\n";
+        for check in &outcome.references {
+            let (quantity, measured) = (cell(&check.quantity), cell(&check.judged()));
+            let _ = writeln!(text, "| {quantity} | {measured} | {} |", passes(check));
+        }
+        *text += "\n";
+    }
     for note in &outcome.notes {
         let _ = writeln!(text, "- {note}");
     }
@@ -57,39 +77,58 @@ fn section(text: &mut String, name: &str, outcome: &Outcome, interrupted: bool) 
     }
 }
 
+fn passes(check: &Check) -> &'static str {
+    match check.value {
+        None => "not measured",
+        Some(_) if check.passes() => "passes",
+        Some(_) => "**fails**",
+    }
+}
+
 /// Vertical bars would end the cell.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }
 
-/// The summary for a terminal.
-pub fn plain(results: &Results<'_>) -> String {
+/// The summary of a run for a terminal, in lines of at most `width` letters if there is a limit.
+pub fn plain(results: &[(&Experiment, &Ended)], width: Option<usize>) -> String {
     let mut text = String::new();
+    let mut line = |indent: usize, words: &str| text += &wrapped(words, indent, width);
     for (experiment, ended) in results {
-        let _ = writeln!(text, "{}: {}", experiment.name, experiment.title);
+        line(0, &format!("{}: {}", experiment.name, experiment.title));
         let (outcome, interrupted) = match ended {
             Ended::Complete(outcome) => (outcome, false),
             Ended::Interrupted(outcome) => (outcome, true),
             Ended::NotStarted => {
-                text += "  interrupted before it started\n\n";
+                line(2, "interrupted before it started");
+                line(0, "");
                 continue;
             }
             Ended::Failed(error) => {
-                let _ = writeln!(text, "  failed: {error:#}\n");
+                line(2, &format!("failed: {error:#}"));
+                line(0, "");
                 continue;
             }
         };
         for claim in &outcome.claims {
-            entry(&mut text, claim, interrupted);
+            entry(&mut line, claim, interrupted);
         }
-        text.push('\n');
+        for check in outcome.references.iter().filter(|_| !interrupted) {
+            let mark = if check.value.is_none() || check.passes() { "=" } else { "✗" };
+            line(2, &format!("{mark} {check}"));
+        }
+        line(0, "");
     }
-    text + &tally(results) + ".\n"
+    let complete = results.iter().filter_map(|(_, ended)| match ended {
+        Ended::Complete(outcome) => Some(outcome),
+        _ => None,
+    });
+    text + &wrapped(&format!("{}.", tally(complete)), 0, width)
 }
 
-fn entry(text: &mut String, claim: &Claim, interrupted: bool) {
+fn entry(line: &mut impl FnMut(usize, &str), claim: &Claim, interrupted: bool) {
     if interrupted {
-        let _ = writeln!(text, "  … {} ({}): interrupted", claim.says, claim.place);
+        line(2, &format!("… {} ({}): interrupted", claim.says, claim.place));
         return;
     }
     let mark = match claim.verdict() {
@@ -98,36 +137,57 @@ fn entry(text: &mut String, claim: &Claim, interrupted: bool) {
         Verdict::NotReproduced => "✗",
         Verdict::Undecided => "?",
     };
-    let _ = writeln!(text, "  {mark} {} ({})", claim.says, claim.place);
+    line(2, &format!("{mark} {} ({})", claim.says, claim.place));
     for check in claim.checks() {
-        let _ = writeln!(text, "      {check}");
+        line(6, &check.to_string());
     }
-    let _ = writeln!(text, "      → {}", claim.judgement());
+    line(6, &format!("→ {}", claim.judgement()));
 }
 
-/// Claims of the papers and claims beyond them, counted apart.
-fn tally(results: &Results<'_>) -> String {
-    let complete = results.iter().filter_map(|(_, ended)| match ended {
-        Ended::Complete(outcome) => Some(&outcome.claims),
-        _ => None,
-    });
-    let (printed, beyond): (Vec<&Claim>, Vec<&Claim>) =
-        complete.flatten().partition(|claim| claim.is_printed());
+/// Claims of the papers, claims beyond them, and regression checks, counted apart.
+pub fn tally<'a>(complete: impl Iterator<Item = &'a Outcome> + Clone) -> String {
+    let claims = complete.clone().flat_map(|outcome| &outcome.claims);
+    let (printed, beyond): (Vec<&Claim>, Vec<&Claim>) = claims.partition(|claim| claim.is_printed());
     let count = |claims: &[&Claim], wanted: fn(&Verdict) -> bool| {
         claims.iter().filter(|claim| wanted(&claim.verdict())).count()
     };
-    let parts = [
-        (count(&printed, |v| *v == Verdict::Reproduced), "reproduced"),
-        (count(&printed, |v| matches!(v, Verdict::Differs(_))), "differ from what is printed"),
-        (count(&printed, |v| *v == Verdict::NotReproduced), "not reproduced"),
-        (count(&printed, |v| *v == Verdict::Undecided), "undecided"),
-    ];
+    let of = |claims: &[&Claim], holds: [&'static str; 4]| {
+        let [reproduced, differs, not, undecided] = holds;
+        listed(&[
+            (count(claims, |v| *v == Verdict::Reproduced), reproduced),
+            (count(claims, |v| matches!(v, Verdict::Differs(_))), differs),
+            (count(claims, |v| *v == Verdict::NotReproduced), not),
+            (count(claims, |v| *v == Verdict::Undecided), undecided),
+        ])
+    };
+    let of_papers =
+        of(&printed, ["reproduced", "different from what is printed", "not reproduced", "undecided"]);
+    let of_ours = of(&beyond, ["true", "different", "false", "undecided"]);
+    let references: Vec<&Check> = complete.flat_map(|outcome| &outcome.references).collect();
+    let judged = listed(&[
+        (references.iter().filter(|check| check.passes()).count(), "passed"),
+        (references.iter().filter(|check| check.value.is_some() && !check.passes()).count(), "failed"),
+        (references.iter().filter(|check| check.value.is_none()).count(), "not measured"),
+    ]);
+    let mut tally = format!("{} of the papers: {of_papers}", counted(printed.len(), "claim"));
+    if !beyond.is_empty() {
+        let _ = write!(tally, "; {} beyond them: {of_ours}", counted(beyond.len(), "claim"));
+    }
+    if !references.is_empty() {
+        let _ = write!(tally, "; {}: {judged}", counted(references.len(), "regression check"));
+    }
+    tally
+}
+
+/// The counts that are not zero, with what is counted.
+fn listed(parts: &[(usize, &str)]) -> String {
     let shown = parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
     let shown: Vec<String> = shown.collect();
-    let shown = if shown.is_empty() { "none decided".into() } else { shown.join(", ") };
-    let holds = count(&beyond, |v| *v == Verdict::Reproduced);
-    let beyond = beyond.len();
-    format!("{} claims of the papers: {shown}; {beyond} beyond them: {holds} hold", printed.len())
+    if shown.is_empty() { "none decided".into() } else { shown.join(", ") }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]
@@ -137,35 +197,53 @@ mod tests {
 
     fn outcome() -> Outcome {
         let claim = |value| Claim::new("p. 1", "|x| is small").check("|x|", value, Bound::AtMost(1.0));
-        let beyond = Claim::new(BEYOND, "|x| is positive").check("|x|", 0.5, Bound::AtLeast(0.0));
-        Outcome { claims: vec![claim(0.5), claim(2.0), beyond], notes: vec!["A note.".into()] }
+        let beyond = |value: Option<f64>| {
+            Claim::new(BEYOND, "|x| is positive").check("|x|", value, Bound::AtLeast(0.0))
+        };
+        Outcome {
+            claims: vec![claim(0.5), claim(2.0), beyond(Some(0.5)), beyond(None)],
+            references: vec![Check::new("|x|", 0.5, Bound::Near(0.5, 1e-3))],
+            notes: vec!["A note.".into()],
+        }
     }
 
-    fn experiment() -> Experiment {
-        Experiment { name: "sample", title: "A sample", run: |_| Ok(Outcome::default()) }
+    fn part(ended: &Ended, length: Length) -> Part {
+        Part::of("sample", length, "today", ended).expect("it has started")
     }
 
     #[test]
     fn both_forms_tell_verdicts_and_numbers() {
-        let (experiment, ended) = (experiment(), Ended::Complete(outcome()));
-        let results = [(&experiment, &ended)];
-        let page = markdown(&results, Length::Short);
+        let ended = Ended::Complete(outcome());
+        let page = markdown(&[part(&ended, Length::Short)], |_| "A sample");
+        for wanted in [
+            "2 claims of the papers: 1 reproduced, 1 not reproduced; 2 claims beyond them: 1 true, 1 undecided; \
+             1 regression check: 1 passed.",
+            "| \\|x\\| is small (p. 1) | \\|x\\| = 0.5 (at most 1) | reproduced |",
+            "| \\|x\\| | 0.5 (0.5 ± 0.001) | passes |",
+            "The short form, today.",
+            "- A note.",
+        ] {
+            assert!(page.contains(wanted), "{page}");
+        }
+        let sample =
+            Experiment { name: "sample", title: "A sample", share: 1.0, run: |_| Ok(Outcome::default()) };
+        let shown = plain(&[(&sample, &ended)], None);
+        assert!(shown.contains("      |x| = 2 (not at most 1)\n"), "{shown}");
+    }
+
+    #[test]
+    fn a_folder_tells_what_made_each_of_its_parts() {
+        let ended = Ended::Complete(outcome());
+        let page = markdown(&[part(&ended, Length::Short), part(&ended, Length::Full)], |_| "A sample");
         assert!(
-            page.contains("2 claims of the papers: 1 reproduced, 1 not reproduced; 1 beyond them: 1 hold."),
+            page.contains("**The full form**, 1 experiment: ") && page.contains("**The short form**"),
             "{page}"
         );
-        assert!(
-            page.contains("| \\|x\\| is small (p. 1) | \\|x\\| = 0.5 (at most 1) | reproduced |"),
-            "{page}"
-        );
-        assert!(page.contains("short") && page.contains("- A note."), "{page}");
-        assert!(plain(&results).contains("      |x| = 2 (not at most 1)\n"), "{}", plain(&results));
     }
 
     #[test]
     fn an_interrupted_experiment_decides_nothing() {
-        let (experiment, ended) = (experiment(), Ended::Interrupted(outcome()));
-        let page = markdown(&[(&experiment, &ended)], Length::Full);
+        let page = markdown(&[part(&Ended::Interrupted(outcome()), Length::Full)], |_| "A sample");
         assert!(page.contains("| interrupted |") && !page.contains("| reproduced |"), "{page}");
         assert!(page.contains("0 claims of the papers: none decided"), "{page}");
     }

@@ -1,6 +1,6 @@
 //! The gallery as a person starts it: arguments, files, exit codes, interruption.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
@@ -38,7 +38,7 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     assert!(experiments.len() >= 15, "{experiments:?}");
     let files = |name: &String| ["svg", "png", "csv"].map(|extension| format!("{name}.{extension}"));
     let expected: BTreeSet<String> =
-        experiments.iter().flat_map(files).chain(["summary.md".into()]).collect();
+        experiments.iter().flat_map(files).chain(["summary.csv", "summary.md"].map(str::to_owned)).collect();
     assert_eq!(names(folder.path()), expected);
     for name in &experiments {
         let read = |extension| fs::read(folder.path().join(format!("{name}.{extension}"))).expect("readable");
@@ -54,10 +54,30 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     assert!(
         !summary.contains("not reproduced")
             && !summary.contains("does not hold")
+            && !summary.contains("**fails**")
             && !summary.contains("**Failed**"),
         "{summary}"
     );
     assert!(printed.contains("reproduced"), "{printed}");
+    same_claims(&fs::read_to_string(folder.path().join("summary.csv")).expect("readable"));
+}
+
+/// The verdicts of a summary: "undecided" or how a claim was decided.
+fn verdicts(table: &str) -> BTreeMap<[String; 3], String> {
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let rows = reader.records().map(|row| row.expect("a row"));
+    let claims = rows.filter(|row| &row[3] == "claim");
+    claims.map(|row| ([0, 4, 5].map(|i| row[i].to_owned()), row[10].to_owned())).collect()
+}
+
+/// The table of the full run that the README quotes has the claims of this program, and the same verdicts wherever
+/// the short form decides.
+fn same_claims(short: &str) {
+    let (short, full) = (verdicts(short), verdicts(include_str!("../full-run.csv")));
+    assert!(short.keys().eq(full.keys()), "full-run.csv is out of date: see tests/readme.rs");
+    for (claim, verdict) in short.iter().filter(|(_, verdict)| !verdict.starts_with("undecided")) {
+        assert_eq!(verdict, &full[claim], "{claim:?}: full-run.csv is out of date, see tests/readme.rs");
+    }
 }
 
 #[test]
@@ -73,14 +93,16 @@ fn results_are_the_same_for_every_number_of_threads() {
             "--threads",
             &threads.to_string(),
         ];
-        assert_eq!(run(&arguments, folder.path()).status.code(), Some(0));
+        let output =
+            gallery(&arguments, folder.path()).env("SOURCE_DATE_EPOCH", "0").output().expect("starts");
+        assert_eq!(output.status.code(), Some(0));
         names(folder.path())
             .into_iter()
             .map(|name| fs::read(folder.path().join(name)).expect("readable"))
             .collect()
     });
     let (one, two): (Vec<Vec<u8>>, Vec<Vec<u8>>) = (one, two);
-    assert_eq!(one.len(), 10);
+    assert_eq!(one.len(), 11);
     assert!(one == two);
 }
 
@@ -89,8 +111,54 @@ fn only_runs_what_is_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let below = folder.path().join("new/folder");
     assert_eq!(run(&["--short", "--only", "momenta"], &below).status.code(), Some(0));
-    let expected = ["momenta.csv", "momenta.png", "momenta.svg", "summary.md"];
+    let expected = ["momenta.csv", "momenta.png", "momenta.svg", "summary.csv", "summary.md"];
     assert_eq!(names(&below).into_iter().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn a_run_completes_the_summary_of_its_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["momenta", "barnes", "momenta"] {
+        let output = gallery(&["--short", "--only", name], folder.path())
+            .env("SOURCE_DATE_EPOCH", if name == "barnes" { "86400" } else { "0" })
+            .output()
+            .expect("starts");
+        assert_eq!(output.status.code(), Some(0));
+    }
+    let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
+    let section = |name: &str| summary.split("\n## ").find(|part| part.starts_with(name)).unwrap_or_default();
+    assert!(section("momenta: ").contains("The short form, 1970-01-01 00:00 UTC."), "{summary}");
+    assert!(section("barnes: ").contains("The short form, 1970-01-02 00:00 UTC."), "{summary}");
+    assert_eq!(summary.matches("\n## ").count(), 2, "{summary}");
+}
+
+#[test]
+fn a_summary_that_cannot_be_completed_is_refused_before_anything_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("summary.csv"), "a,b\n1,2\n").expect("written");
+    let output = run(&["--short", "--only", "momenta"], folder.path());
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("choose another folder"), "{message}");
+    assert_eq!(names(folder.path()).into_iter().collect::<Vec<_>>(), ["summary.csv"]);
+}
+
+#[test]
+fn short_results_have_a_folder_of_their_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dvi-examples"));
+    let output = command.args(["--short", "--only", "barnes"]).current_dir(folder.path()).output();
+    assert_eq!(output.expect("starts").status.code(), Some(0));
+    assert_eq!(names(folder.path()).into_iter().collect::<Vec<_>>(), ["results-short"]);
+}
+
+#[test]
+fn progress_without_a_terminal_is_plain_lines() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = run(&["--short", "--only", "barnes", "momenta"], folder.path());
+    let lines = String::from_utf8(output.stderr).expect("UTF-8");
+    assert!(lines.lines().all(|line| !line.contains('\u{1b}') && !line.contains('\r')), "{lines}");
+    assert!(lines.contains("(2 of 2)") && !lines.contains("waiting"), "{lines}");
 }
 
 #[test]

@@ -43,7 +43,8 @@ impl CentreSpeed {
 /// path in the Euclidean metric of the coordinates; a V that depends on time explicitly does so in a, but not in
 /// j. Not available on straight paths, which have no osculating circle.
 ///
-/// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method;
+/// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method. With the
+/// distance along the path it may also lock in to a periodic motion, and then they do not: the gallery shows both.
 /// [`Reversible`](super::Reversible) is better and cheaper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Osculating {

@@ -8,19 +8,21 @@ use anyhow::Result;
 use dvi_core::RegularLagrangian;
 use dvi_core::prelude::*;
 
-use crate::claim::{BEYOND, Bound, Claim};
+use crate::claim::{BEYOND, Bound, Check, Claim};
 use crate::figure::{Anchor, Axis, BLUE, Colour, Corner, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{Pendulum, PendulumState, Spring, SpringState};
-use crate::output::Table;
+use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "barnes", title: "Barnes's phase flows, and a circle carried along", run };
+    Experiment { name: "barnes", title: "Barnes's phase flows, and a circle carried along", share: 1.0, run };
 
 const H: f64 = 1.0 / 32.0;
-/// Until when phase curves are followed.
-const END: u32 = 8;
+/// Until when phase curves are followed: the pendulum from (3, 0) has the period 16.16.
+const END: u32 = 17;
+/// Where the values of the independent programs are.
+const COMPARED: u32 = 8;
 /// Until when the circle is.
 const CARRIED: u32 = 4;
 const STARTS: [(f64, Colour); 3] = [(1.0, BLUE), (2.0, GREEN), (3.0, VERMILLION)];
@@ -95,7 +97,8 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     if job.was_interrupted() {
         return Ok(Outcome::default());
     }
-    Ok(Outcome { claims: claims(&curves, &circles, &refined), notes: vec![] })
+    let (claims, references) = judged(&curves, &circles, &refined);
+    Ok(Outcome { claims, references, notes: vec![] })
 }
 
 /// A regular polygon about (0, 1) at t = 0, 1, …, carried by the flow.
@@ -117,7 +120,7 @@ fn area(polygon: &[[f64; 2]]) -> f64 {
     polygon.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() / 2.0
 }
 
-fn claims(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>]) -> Vec<Claim> {
+fn judged(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>]) -> (Vec<Claim>, Vec<Check>) {
     let contours = |flow: usize| {
         let energy = FLOWS[flow].energy;
         let departure = |curve: &Curve| {
@@ -135,13 +138,26 @@ fn claims(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>])
         (1, 0, [1_489.994_111_581_187, 1_490.175_648_915_25]),
         (2, 1, [1.944_208_266_518_613, 0.320_490_725_558_128_6]),
     ];
-    let values = Claim::new(BEYOND, "leapfrog at t = 8 agrees with independent programs to 1e-12");
-    let values = ends.into_iter().fold(values, |claim, (flow, start, exact)| {
-        let end = curves[flow][start].last().copied().unwrap_or([f64::NAN; 2]);
-        let error = |i: usize| (end[i] - exact[i]).abs() / exact[i].abs().max(1.0);
-        let quantity = format!("{} from ({}, 0): error", FLOWS[flow].name.replace('*', ""), STARTS[start].0);
-        claim.check(quantity, error(0).max(error(1)), Bound::AtMost(1e-12))
-    });
+    let mut references: Vec<Check> = ends
+        .map(|(flow, start, exact)| {
+            let end = curves[flow][start].get(steps(COMPARED) as usize).copied().unwrap_or([f64::NAN; 2]);
+            let error = |i: usize| (end[i] - exact[i]).abs() / exact[i].abs().max(1.0);
+            let name = FLOWS[flow].name.replace('*', "");
+            let quantity =
+                format!("{name} from ({}, 0) at t = 8: deviation from independent programs", STARTS[start].0);
+            Check::new(quantity, error(0).max(error(1)), Bound::AtMost(1e-12))
+        })
+        .to_vec();
+    references.push(Check::new(
+        "pendulum: area of 100 corners at t = 2",
+        area(&circles[2][2]),
+        Bound::Near(0.784_858_871_043, 1e-12),
+    ));
+    references.push(Check::new(
+        "pendulum: area of 100 corners at t = 4",
+        area(&circles[2][4]),
+        Bound::Near(0.784_780_953_139, 1e-12),
+    ));
     let changes =
         |flow: usize| circles[flow].iter().map(|polygon| (area(polygon) - AREA).abs()).fold(0.0, f64::max);
     let deficit = |circles: &Vec<Curve>| area(&circles[0]) - area(&circles[CARRIED as usize]);
@@ -151,10 +167,9 @@ fn claims(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>])
         .check("a = −x: largest change up to t = 4", changes(0), Bound::AtMost(1e-12))
         .check("a = +x: largest change up to t = 4", changes(1), Bound::AtMost(1e-12));
     let bent = Claim::new(BEYOND, "under the pendulum the polygon, not the flow, loses area")
-        .check("area at t = 2", area(&circles[2][2]), Bound::Near(0.784_858_871_043, 1e-12))
-        .check("area at t = 4", area(&circles[2][4]), Bound::Within(0.7847, 0.7848))
+        .check("deficit of 100 corners at t = 4", deficit(&circles[2]), Bound::AtLeast(1e-6))
         .check("order in 1/n of the deficit at t = 4", convergence_order(&deficits), Bound::Near(2.0, 0.01));
-    vec![phase_curves, values, linear, bent]
+    (vec![phase_curves, linear, bent], references)
 }
 
 fn figure(curves: &[Vec<Curve>], circles: &[Vec<Curve>]) -> Figure {
@@ -189,8 +204,8 @@ fn figure(curves: &[Vec<Curve>], circles: &[Vec<Curve>]) -> Figure {
         _ => panel.without_legend(),
     });
     Figure::new(
-        "Leapfrog on three flows: closed curves stay closed, and areas stay what they are",
-        "Kick–drift–kick with *h* = 1/32; above from (1, 0), (2, 0), (3, 0) to *t* = 8, below a circle about (0, 1)",
+        "Leapfrog on three flows: phase curves, and a circle carried along",
+        format!("Kick–drift–kick with *h* = 1/32; above from (1, 0), (2, 0), (3, 0) to *t* = {END}, below a circle about (0, 1)"),
     )
     .row(400.0, portraits.collect())
     .row(400.0, carried.collect())
@@ -206,7 +221,7 @@ fn table(curves: &[Vec<Curve>], circles: &[Vec<Curve>]) -> Result<Table> {
     let mut table = Table::new(&["flow", "curve", "t", "x", "v"])?;
     for (flow, Flow { name, .. }) in FLOWS.iter().enumerate() {
         let mut row = |curve: &str, t: f64, [x, v]: [f64; 2]| {
-            table.row([name.replace('*', ""), curve.to_owned(), t.to_string(), x.to_string(), v.to_string()])
+            table.row([name.replace('*', ""), curve.to_owned(), number(t), number(x), number(v)])
         };
         for (curve, (x, _)) in curves[flow].iter().zip(STARTS) {
             for (k, &point) in curve.iter().enumerate() {

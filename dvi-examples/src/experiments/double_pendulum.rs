@@ -8,14 +8,20 @@ use dvi_core::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim};
-use crate::figure::{Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION};
+use crate::figure::{
+    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most,
+};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{DoublePendulum, DoublePendulumState};
-use crate::output::Table;
+use crate::output::{Table, number};
 
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "double-pendulum", title: "A chaotic double pendulum, variational against RK4", run };
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "double-pendulum",
+    title: "A chaotic double pendulum, variational against RK4",
+    share: 5.0,
+    run,
+};
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };
 /// Both rods horizontal, at rest.
@@ -47,7 +53,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
         runge_kutta(job, steps)?,
     ];
     job.publish(EXPERIMENT.name, figure(&all, end), table(&all)?)?;
-    Ok(Outcome { claims: claims(&all), notes: vec![] })
+    Ok(Outcome { claims: claims(&all), references: vec![], notes: vec![] })
 }
 
 fn variational<M>(job: &Job<'_>, name: &'static str, method: M, steps: u64) -> Result<Series>
@@ -168,22 +174,22 @@ fn figure(all: &[Series; 3], end: f64) -> Figure {
     let energy = all.iter().zip(strokes).fold(energy, |panel, (series, stroke)| {
         panel.line(series.error.magnitude(), stroke).labelled(series.name)
     });
+    let told: Vec<String> =
+        all.iter().map(|series| format!("{} {}", series.name, at_most(series.largest))).collect();
     Figure::new(
-        "A chaotic double pendulum: the variational energy error does not grow",
-        format!("Two masses of 1 kg on rods of 1 m, released with both rods horizontal; *h* = {H} s"),
+        "A chaotic double pendulum: a path, and the energy errors of three methods",
+        format!("Masses of 1 kg, rods of 1 m, released with both rods horizontal; *h* = {H} s"),
     )
     .row(470.0, vec![path, energy.legend_at(Corner::BottomRight)])
     .sequence_key("path: 0 s", format!("{SHOWN} s"))
-    .footer(
-        "The path is that of Simpson's rule; the orbits of the three methods part within the first seconds.",
-    )
+    .footer(format!("The path is that of Simpson's rule. Largest |Δ*E*| in J: {}.", told.join("; ")))
 }
 
 fn table(all: &[Series; 3]) -> Result<Table> {
     let mut table = Table::new(&["method", "t", "lowest", "mean", "highest"])?;
     for Series { name, error, .. } in all {
         for row in error.rows() {
-            let numbers = row.map(|number| number.to_string());
+            let numbers = row.map(number);
             table.row([(*name).to_owned()].into_iter().chain(numbers))?;
         }
     }

@@ -102,6 +102,15 @@ pub fn osculating<M: VariableStep<Kepler, f64>>(
     ControlledIntegrator::new(&Kepler {}, method, control, orbit.pericentre())
 }
 
+/// A run with steps by (23), v_o read per unit of arc length.
+pub fn per_arc_length<M: VariableStep<Kepler, f64>>(
+    method: M,
+    orbit: Orbit,
+    tolerance: f64,
+) -> Result<ControlledIntegrator<'static, Kepler, M, Osculating>, StartError> {
+    ControlledIntegrator::new(&Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())
+}
+
 impl<M: Method<Kepler, f64>> Run for Integrator<'_, Kepler, M> {
     fn advance(&mut self) -> Result<(), StepError> {
         Integrator::advance(self)

@@ -6,14 +6,20 @@ use dvi_core::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{Bound, Claim};
-use crate::figure::{Axis, BLUE, Corner, Envelope, Figure, Fill, GREEN, Panel, SKY, Stroke, VERMILLION};
+use crate::figure::{
+    Axis, BLUE, Corner, Envelope, Figure, Fill, GREEN, Panel, SLATE, Stroke, VERMILLION, scientific,
+};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{self, Case, FourVortices};
 use crate::output::Table;
 
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "fig3-leapfrogging", title: "Trajectories of two leapfrogging pairs", run };
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "fig3-leapfrogging",
+    title: "Trajectories of two leapfrogging pairs",
+    share: 1.0,
+    run,
+};
 
 /// How long the trajectories are that the figure shows.
 const SHOWN: f64 = 200.0;
@@ -30,6 +36,8 @@ struct Series {
     extent: f64,
     /// The largest deviation from mirror symmetry about y = 0.
     asymmetry: f64,
+    /// The error that ended the run early.
+    failure: Option<StepError>,
 }
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
@@ -45,7 +53,11 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
         "RK2 at h = 2: the last overtaking is at t = {last}. The mirror symmetry breaks by rounding, so this \
          time is not reproducible from machine to machine; that the pairs come apart is."
     );
-    Ok(Outcome { claims: claims(job, &ve2, &rk2), notes: vec![note] })
+    let failures = [("VE2", &ve2), ("RK2", &rk2)].into_iter().filter_map(|(name, series)| {
+        series.failure.map(|error| format!("{name} at h = 2 ended early: {error}."))
+    });
+    let notes = [note].into_iter().chain(failures).collect();
+    Ok(Outcome { claims: claims(job, &ve2, &rk2), references: vec![], notes })
 }
 
 fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f64) -> Result<Series> {
@@ -58,15 +70,16 @@ fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f6
         end,
         extent: 0.0,
         asymmetry: 0.0,
+        failure: None,
     };
     let steps = (end / h) as u64;
     let mut lead = 0.0;
     series.note(0.0, run.q(), &mut lead);
-    job.repeat(steps, || {
+    series.failure = job.repeat_until_lost(steps, || {
         run.advance()?;
         series.note(run.time(), run.q(), &mut lead);
         Ok(())
-    })?;
+    });
     series.extent = run.q().iter().fold(0.0, |extent, q| q.abs().max(extent));
     Ok(series)
 }
@@ -88,7 +101,9 @@ impl Series {
     }
 
     fn longest_interval(&self) -> f64 {
-        let times = self.overtakings.iter().chain([&self.end]);
+        // A run that ended early has not overtaken since.
+        let reached = self.distance.end().min(self.end);
+        let times = self.overtakings.iter().chain([&reached]);
         let pairs = times.clone().zip(times.skip(1));
         pairs.map(|(before, after)| after - before).fold(0.0, f64::max)
     }
@@ -117,17 +132,22 @@ fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series) -> Vec<Claim> {
 }
 
 fn figure(ve2: &Series, rk2: &Series, exact: &Series) -> Figure {
-    let colours = [BLUE, VERMILLION, SKY, GREEN];
+    // Mirror partners have one colour: 1 and 3, 2 and 4.
+    let colours = [BLUE, VERMILLION, BLUE, VERMILLION];
     let place = |name: &str| Axis::linear(format!("*{name}*   [*L*]"));
     let mut paths =
         Panel::new("Trajectories: VE2 with *h* = 2 (dots) on accurate ones (lines)", place("x"), place("y"))
             .equal();
     for j in 0..4 {
-        paths = paths
-            .line(exact.trajectories[j].clone(), Stroke::solid(colours[j]).opacity(0.55))
-            .labelled(format!("vortex {}, Γ = {}", j + 1, if j < 2 { "1" } else { "−1" }))
-            .dots(ve2.trajectories[j].clone(), 1.9, colours[j])
-            .discs(ve2.trajectories[j].iter().take(1).copied().collect(), colours[j], Fill::Hollow);
+        paths = paths.line(exact.trajectories[j].clone(), Stroke::solid(colours[j]).opacity(0.55));
+        if j < 2 {
+            paths = paths.labelled(format!("vortex {} and its image {}", j + 1, j + 3));
+        }
+        paths = paths.dots(ve2.trajectories[j].clone(), 1.9, colours[j]).discs(
+            ve2.trajectories[j].iter().take(1).copied().collect(),
+            colours[j],
+            Fill::Hollow,
+        );
     }
     let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, ve2.end);
     let distance = Panel::new(
@@ -135,19 +155,24 @@ fn figure(ve2: &Series, rk2: &Series, exact: &Series) -> Figure {
         time,
         Axis::logarithmic("|*z*₁ − *z*₂|   [*L*]"),
     )
-    .band(rk2.distance.band(), VERMILLION)
-    .line(rk2.distance.mean(), Stroke::solid(VERMILLION))
+    .band(rk2.distance.band(), SLATE)
+    .line(rk2.distance.mean(), Stroke::solid(SLATE))
     .labelled("RK2, *h* = 2")
-    .band(ve2.distance.band(), BLUE)
-    .line(ve2.distance.mean(), Stroke::solid(BLUE))
+    .band(ve2.distance.band(), GREEN)
+    .line(ve2.distance.mean(), Stroke::solid(GREEN))
     .labelled("VE2, *h* = 2");
     Figure::new(
-        "Two leapfrogging pairs: at a step that VE2 can take for ever, RK2 loses the motion",
-        "Vortices 1, 2 and their mirror images 3, 4 travel to the right and overtake each other in turn",
+        "Two leapfrogging pairs with *h* = 2: trajectories, and the distance of two vortices with VE2 and RK2",
+        format!(
+            "Up to *t* = {}: the longest time without overtaking is {:.0} with VE2 and {:.0} with RK2",
+            scientific(ve2.distance.end()),
+            ve2.longest_interval(),
+            rk2.longest_interval()
+        ),
     )
     .row(400.0, vec![paths.legend_at(Corner::Beside)])
     .row(300.0, vec![distance.legend_at(Corner::Beside)])
-    .footer("After Rowley & Marsden 2002, Fig. 3. Γ and *L*: units of circulation and length.")
+    .footer("Γ = 1 above, Γ = −1 below. After Rowley & Marsden 2002, Fig. 3. Γ and *L*: units of circulation and length.")
 }
 
 fn table(ve2: &Series) -> Result<Table> {

@@ -18,6 +18,7 @@ mod quasi_periodic;
 mod rivals;
 mod sections;
 mod stability;
+mod symmetry;
 
 use crate::gallery::Experiment;
 
@@ -26,6 +27,7 @@ pub const ALL: &[Experiment] = &[
     order::EXPERIMENT,
     stability::EXPERIMENT,
     energy::EXPERIMENT,
+    symmetry::EXPERIMENT,
     leapfrogging::EXPERIMENT,
     quasi_periodic::EXPERIMENT,
     chaotic::EXPERIMENT,

@@ -120,7 +120,7 @@ pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> any
                 + square(du) / (OMEGA * OMEGA) * (0.5 * h - half)
                 + (u[0] * du[0] + u[1] * du[1]) * (sin / OMEGA).powi(2),
         );
-        // The recursion runs in both directions alike, rounding included, and so its errors do not add up.
+        // The recursion runs in both directions alike, rounding included.
         (u, next) = (next, [0, 1].map(|i| 2.0 * cos * next[i] - u[i]));
         du = velocity(u, next);
         let position = [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]];

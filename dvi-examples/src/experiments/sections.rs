@@ -13,10 +13,9 @@ use crate::figure::{Axis, Envelope, Panel, SEQUENCE, Stroke, thin};
 use crate::figure::{BLUE, Corner, GREEN, VERMILLION};
 use crate::job::Job;
 use crate::models::{Case, FourPoints, FourVortices};
-use crate::output::Table;
+use crate::output::{Table, number};
 
-pub const CAVEAT: &str =
-    "*R*₁, *P*₁: a canonical pair of the reduced motion, not necessarily the paper's axes.";
+pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
 
 /// More crossings than these make files larger, and no clearer.
 const SHOWN: usize = 15_000;
@@ -45,6 +44,8 @@ pub struct Crossings {
     pub error: Envelope,
     /// max |H − H(0)|.
     pub largest_error: f64,
+    /// The same in the first tenth of the time.
+    pub early_error: f64,
     /// H − H(0) at the end.
     pub last_error: f64,
     /// By what factor a displacement of 1e-10 at the end grows in 2000 units of time more.
@@ -99,6 +100,7 @@ pub fn crossings(
         points: Vec::new(),
         error: Envelope::new(end, 300),
         largest_error: 0.0,
+        early_error: 0.0,
         last_error: 0.0,
         growth: f64::NAN,
         failure: None,
@@ -137,6 +139,9 @@ where
             done = section.run().steps();
             result.last_error = section.run().energy() - initial;
             result.largest_error = result.largest_error.max(result.last_error.abs());
+            if section.run().time() <= 0.1 * end {
+                result.early_error = result.largest_error;
+            }
             result.error.push(section.run().time(), result.last_error);
             job.proceed(1);
         }
@@ -195,6 +200,11 @@ impl Crossings {
         format!("{} at h = {}", self.scheme.name(), self.h)
     }
 
+    /// max |H − H(0)| over all, over that of the first tenth.
+    pub fn growth_of_error(&self) -> f64 {
+        self.largest_error / self.early_error
+    }
+
     /// The time of the last crossing; 0 if there is none.
     pub fn last(&self) -> f64 {
         self.points.last().map_or(0.0, |&[t, ..]| t)
@@ -203,7 +213,7 @@ impl Crossings {
     /// Says so if the vortices are not in their given order.
     pub fn relabelling(&self) -> Option<String> {
         let [a, b, c, d] = self.labels.map(|j| j + 1);
-        (self.labels != LABELS[0]).then(|| format!("vortices in the order {a}, {b}, {c}, {d}"))
+        (self.labels != LABELS[0]).then(|| format!("*a* = 1, 2, 3, 4 are vortices {a}, {b}, {c}, {d}"))
     }
 
     /// (R₁, P₁) of each crossing.
@@ -238,7 +248,9 @@ pub fn energy_panel(all: &[Crossings], end: f64) -> Panel {
 
 /// The section coordinates, and the runs that were relabelled or ended early.
 pub fn notes(all: &[Crossings]) -> Vec<String> {
-    let relabelled = all.iter().filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?)));
+    let relabelled = all
+        .iter()
+        .filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?.replace('*', ""))));
     let ends =
         all.iter().filter_map(|run| run.failure.map(|error| format!("{} ended early: {error}.", run.name())));
     [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
@@ -249,7 +261,7 @@ pub fn table(all: &[Crossings]) -> Result<Table> {
     let mut table = Table::new(&["scheme", "h", "t", "R1", "P1"])?;
     for section in all {
         for [t, r1, p1] in thin(&section.points, SHOWN) {
-            let numbers = [section.h, t, r1, p1].map(|number| number.to_string());
+            let numbers = [section.h, t, r1, p1].map(number);
             table.row([section.scheme.name().to_owned()].into_iter().chain(numbers))?;
         }
     }

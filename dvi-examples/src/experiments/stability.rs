@@ -1,19 +1,23 @@
-//! The stability limit |λh| < 1/|1 − 2σ| on z' = λz, λ imaginary (Rowley & Marsden 2002, section 4.1),
-//! found by bisection and without use of the formula.
+//! Stability on z' = λz (Rowley & Marsden 2002, section 4.1), found by running and without use of formulas.
+//!
+//! For σ = ½ the region is the closed left half plane. For every other σ it is a part of the imaginary axis,
+//! |λh| < 1/|1 − 2σ|, and nothing beside it: where λ damps, the parasitic root grows.
 
 use anyhow::Result;
 use dvi_core::prelude::*;
 use rayon::prelude::*;
 
 use crate::claim::{Bound, Claim};
-use crate::figure::{Anchor, Axis, BLUE, Corner, Figure, Fill, Panel, SLATE, Stroke, VERMILLION};
+use crate::figure::{Anchor, Axis, BLUE, Corner, Figure, Fill, Panel, SLATE, Stroke, VERMILLION, at_most};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
-use crate::models::{Rotation, RotationState};
+use crate::models::{Linear, LinearState, Rotation, RotationState};
 use crate::output::Table;
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "stability", title: "The stability limit over σ, by bisection", run };
+    Experiment {
+        name: "stability", title: "The stability of the σ-family, by running it", share: 20.0, run
+    };
 
 /// σ = ½ has no limit and is tested apart.
 #[rustfmt::skip]
@@ -25,30 +29,68 @@ const SIGMAS: [f64; 18] = [
 /// the growth is linear and does not.
 const LARGE: f64 = 1e8;
 
+/// λh that damp, the first of which is drawn.
+const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
+/// Steps of the runs with them.
+const FEW: u64 = 1000;
+
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
     // A bisection takes some 32 runs.
-    job.expect(steps * (3 + 32 * SIGMAS.len() as u64));
+    job.expect(steps * (3 + 32 * SIGMAS.len() as u64) + FEW * (19 * DAMPED.len() + 1) as u64);
     let measured: Vec<[f64; 2]> =
         SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
     let [once, twice] = [steps, 2 * steps].map(|steps| largest_amplitude(job, 0.5, 1e3, steps));
     let growth = twice? / once?;
+    let sigmas = SIGMAS.into_iter().chain([0.5]);
+    let damped = sigmas.flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
+    let damped: Vec<Damped> =
+        damped.map(|(sigma, lambda)| Damped::new(job, sigma, lambda)).collect::<Result<_>>()?;
+    let right = Damped::new(job, 0.5, [0.01, 1.0])?;
+    job.publish(EXPERIMENT.name, figure(&measured, &damped), table(&measured, &damped)?)?;
+    let claims = claims(job, &measured, [growth, right.factor], &damped);
+    Ok(Outcome { claims, references: vec![], notes: vec![] })
+}
+
+/// The largest relative deviation of the limits from 1/|1 − 2σ|.
+fn deviation(measured: &[[f64; 2]]) -> f64 {
     let deviation = measured.iter().map(|[sigma, limit]| (limit * (1.0 - 2.0 * sigma).abs() - 1.0).abs());
-    let deviation = deviation.fold(0.0, f64::max);
-    let claims = vec![
-        Claim::new("section 4.1", "stable for imaginary λ only when |λh| < 1/|1 − 2σ|").check(
-            "largest relative deviation from the formula",
-            deviation,
-            Bound::AtMost(job.choose(1e-4, 1e-3)),
-        ),
-        Claim::new("section 4.1", "for σ = ½ there is no limit").check(
-            format!("growth of max|z| from step {steps} to twice that, λh = 1000i"),
-            growth,
-            Bound::AtMost(1.001),
-        ),
-    ];
-    job.publish(EXPERIMENT.name, figure(&measured), table(&measured)?)?;
-    Ok(Outcome { claims, notes: vec![] })
+    deviation.fold(0.0, f64::max)
+}
+
+fn claims(job: &Job<'_>, measured: &[[f64; 2]], [growth, right]: [f64; 2], damped: &[Damped]) -> Vec<Claim> {
+    let half = || damped.iter().filter(|run| run.sigma == 0.5);
+    let others = || damped.iter().filter(|run| run.sigma != 0.5);
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let smallest = others().map(|run| run.factor).fold(f64::INFINITY, f64::min);
+    let quarter = Damped::root(0.25, DAMPED[0]);
+    vec![
+        Claim::new("section 4.1", "stable only when λ is imaginary, with |λh| < 1/|1 − 2σ|")
+            .check(
+                "largest relative deviation of the limit from the formula, 18 values of σ",
+                deviation(measured),
+                Bound::AtMost(job.choose(1e-4, 1e-3)),
+            )
+            .check(
+                "smallest growth per step of 18 values of σ ≠ ½, five λ with negative real part",
+                smallest,
+                Bound::AtLeast(1.0 + 1e-6),
+            )
+            .check(
+                "largest deviation of that growth from the root of the recursion",
+                largest(&mut others().map(|run| (run.factor - Damped::root(run.sigma, run.lambda)).abs())),
+                Bound::AtMost(1e-3),
+            )
+            .check("the root for σ = ¼, λh = −1 + i", quarter, Bound::AtLeast(1.3)),
+        Claim::new("section 4.1", "for σ = ½ the region of stability is the closed left half plane")
+            .check("growth of max|z| from step N to step 2N, λh = 1000i", growth, Bound::AtMost(1.001))
+            .check(
+                "largest |z|, five λ with negative real part, both modes of size one",
+                largest(&mut half().map(|run| run.largest)),
+                Bound::AtMost(4.0),
+            )
+            .check("growth per step to the right of it, λh = 0.01 + i", right, Bound::AtLeast(1.001)),
+    ]
 }
 
 /// The largest ω at which runs with h = 1 stay bounded.
@@ -73,27 +115,85 @@ fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Resul
     let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
     let mut run = Integrator::from_two_points(&rotation, method, 1.0, first, second)?;
     let mut largest = 0.0f64;
+    let mut lost = false;
     job.repeat(steps, || {
-        // Once it is large enough to be called unstable, there is no need to go on to infinity.
-        if largest < LARGE {
-            run.advance()?;
+        // Once it is large enough to be called unstable, or ended, there is no need to go on to infinity.
+        if largest < LARGE && !lost {
+            lost = run.advance().is_err();
             largest = run.q().iter().fold(largest, |largest, q| q.abs().max(largest));
         }
         Ok(())
     })?;
-    Ok(largest)
+    Ok(if lost { LARGE } else { largest })
 }
 
-fn figure(measured: &[[f64; 2]]) -> Figure {
+/// A run with h = 1 and a λ off the imaginary axis.
+struct Damped {
+    sigma: f64,
+    lambda: [f64; 2],
+    /// What |z| is multiplied with in each step, in the second half of the run.
+    factor: f64,
+    largest: f64,
+}
+
+impl Damped {
+    fn new(job: &Job<'_>, sigma: f64, lambda: [f64; 2]) -> Result<Self> {
+        let [real, imaginary] = lambda;
+        let state = |z| LinearState { z, w: [0.0; 2] };
+        let system = Linear { real, imaginary };
+        let mut run = Integrator::from_two_points(
+            &system,
+            Sigma::new(sigma),
+            1.0,
+            state([1.0, 0.0]),
+            state([0.0, 1.0]),
+        )?;
+        let size = |q: &[f64]| q[0].hypot(q[1]);
+        let (mut sizes, mut before, mut lost) = (vec![1.0f64], 1.0f64, false);
+        job.repeat(FEW, || {
+            if before < 1e60 && !lost {
+                lost = run.advance().is_err();
+                // Two points, so that no oscillation is mistaken for decay.
+                let now = size(run.q());
+                sizes.push(before.max(now));
+                before = now;
+            }
+            Ok(())
+        })?;
+        let (middle, last) = (sizes.len() / 2, sizes.len() - 1);
+        let factor = (sizes[last] / sizes[middle]).powf(1.0 / (last - middle).max(1) as f64);
+        let largest = sizes.into_iter().fold(0.0, f64::max);
+        Ok(Self { sigma, lambda, factor, largest })
+    }
+
+    /// The larger modulus of the roots of (1 − bλ)ρ² − 2(1 − b)λρ − (1 + bλ) = 0, b = 2σ(1 − σ), h = 1: scheme (14)
+    /// on z' = λz.
+    fn root(sigma: f64, [x, y]: [f64; 2]) -> f64 {
+        let b = 2.0 * sigma * (1.0 - sigma);
+        let times = |a: [f64; 2], c: [f64; 2]| [a[0] * c[0] - a[1] * c[1], a[0] * c[1] + a[1] * c[0]];
+        let modulus = |a: [f64; 2]| a[0].hypot(a[1]);
+        // ρ = (m ± √(m² + 1 − b²λ²))/(1 − bλ) with m = (1 − b)λ.
+        let (lambda, m) = ([x, y], [(1.0 - b) * x, (1.0 - b) * y]);
+        let (mm, ll) = (times(m, m), times(lambda, lambda));
+        let square = [mm[0] + 1.0 - b * b * ll[0], mm[1] - b * b * ll[1]];
+        let (r, angle) = (modulus(square).sqrt(), 0.5 * square[1].atan2(square[0]));
+        let s = [r * angle.cos(), r * angle.sin()];
+        let plus = modulus([m[0] + s[0], m[1] + s[1]]);
+        let minus = modulus([m[0] - s[0], m[1] - s[1]]);
+        plus.max(minus) / modulus([1.0 - b * x, -b * y])
+    }
+}
+
+fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let formula = |sigma: f64| 1.0 / (1.0 - 2.0 * sigma).abs();
     let (bottom, top) = (0.5, 200.0);
-    let curve: Vec<[f64; 2]> =
-        (0..=1000).map(|i| f64::from(i) / 1000.0).map(|s| [s, formula(s).min(1e6)]).collect();
+    let sigmas = || (0..=1000).map(|i| f64::from(i) / 1000.0);
+    let curve: Vec<[f64; 2]> = sigmas().map(|s| [s, formula(s).min(1e6)]).collect();
     let stable = curve.iter().map(|&[sigma, limit]| [sigma, bottom, limit]).collect();
-    let sigma = Axis::linear("σ").within(-0.02, 1.02);
-    let panel = Panel::new(
-        "Runs on the border between bounded and unbounded",
-        sigma,
+    let sigma = || Axis::linear("σ").within(-0.02, 1.02);
+    let border = Panel::new(
+        "Imaginary λ: where runs turn from bounded to unbounded",
+        sigma(),
         Axis::logarithmic("|λ*h*|").within(bottom, top),
     )
     .band(stable, BLUE)
@@ -104,18 +204,42 @@ fn figure(measured: &[[f64; 2]]) -> Figure {
     .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
     .note([0.1, 20.0], Anchor::Middle, SLATE, "unstable")
     .legend_at(Corner::TopRight);
-    Figure::new(
-        "The σ-family is stable up to |λ*h*| = 1/|1 − 2σ|, and without limit for σ = ½",
-        "On *z*' = λ*z* with imaginary λ; found by bisection, without use of the formula",
+    let first = damped.iter().filter(|run| run.lambda == DAMPED[0]);
+    let first: Vec<[f64; 2]> = first.map(|run| [run.sigma, run.factor]).collect();
+    let growth = Panel::new(
+        "λ*h* = −1 + i: growth of |*z*| in a step",
+        sigma(),
+        Axis::linear("factor").within(0.8, 3.8),
     )
-    .row(470.0, vec![panel])
+    .line(vec![[0.0, 1.0], [1.0, 1.0]], Stroke::dashed(SLATE).width(1.2))
+    .labelled("neither growth nor decay")
+    .line(sigmas().map(|s| [s, Damped::root(s, DAMPED[0])]).collect(), Stroke::solid(BLUE))
+    .labelled("larger root of the recursion")
+    .discs(first, VERMILLION, Fill::Hollow)
+    .labelled("measured")
+    .legend_at(Corner::TopRight);
+    Figure::new(
+        "The stability of the σ-family on *z*' = λ*z*, on the imaginary axis and to the left of it",
+        format!(
+            "Found by running the schemes; the limits on the left are those of the formula to {}",
+            at_most(deviation(measured))
+        ),
+    )
+    .row(470.0, vec![border, growth])
     .footer("Rowley & Marsden 2002, section 4.1.")
 }
 
-fn table(measured: &[[f64; 2]]) -> Result<Table> {
-    let mut table = Table::new(&["sigma", "limit", "formula"])?;
+fn table(measured: &[[f64; 2]], damped: &[Damped]) -> Result<Table> {
+    let mut table =
+        Table::new(&["quantity", "sigma", "lambda_h_real", "lambda_h_imaginary", "measured", "formula"])?;
+    let mut row = |what: &str, numbers: [f64; 5]| {
+        table.row([what.to_owned()].into_iter().chain(numbers.map(crate::output::number)))
+    };
     for &[sigma, limit] in measured {
-        table.row([sigma, limit, 1.0 / (1.0 - 2.0 * sigma).abs()])?;
+        row("limit", [sigma, 0.0, limit, limit, 1.0 / (1.0 - 2.0 * sigma).abs()])?;
+    }
+    for &Damped { sigma, lambda: [x, y], factor, .. } in damped {
+        row("growth per step", [sigma, x, y, factor, Damped::root(sigma, [x, y])])?;
     }
     Ok(table)
 }

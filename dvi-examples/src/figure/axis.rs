@@ -153,11 +153,25 @@ fn signed(value: f64, decimals: usize) -> String {
 pub fn scientific(value: f64) -> String {
     let text = format!("{value:.1e}");
     match text.split_once('e').map(|(mantissa, exponent)| (mantissa, exponent.parse())) {
+        Some((mantissa, Ok(0))) => mantissa.replace('-', "−"),
         Some((mantissa, Ok(exponent))) => {
             format!("{}·{}", mantissa.replace('-', "−"), power_of_ten(exponent))
         }
         _ => text,
     }
+}
+
+/// The same, never less than the value: for bounds.
+pub fn at_most(value: f64) -> String {
+    let rounded = scientific(value);
+    if !value.is_finite() || value <= 0.0 {
+        return rounded;
+    }
+    let exponent = value.log10().floor() as i32;
+    let tenths = value / 10f64.powi(exponent - 1);
+    // What is a tenth up to rounding is one.
+    let up = (tenths - 1e-9).ceil();
+    scientific(up * 10f64.powi(exponent - 1))
 }
 
 /// 10ⁿ in Unicode.
@@ -198,7 +212,13 @@ mod tests {
     #[test]
     fn scientific_numbers_are_typeset() {
         let shown = [3.847e-5, -0.2, 1e6, 0.0, f64::NAN].map(scientific);
-        assert_eq!(shown, ["3.8·10⁻⁵", "−2.0·10⁻¹", "1.0·10⁶", "0.0·10⁰", "NaN"]);
+        assert_eq!(shown, ["3.8·10⁻⁵", "−2.0·10⁻¹", "1.0·10⁶", "0.0", "NaN"]);
+    }
+
+    #[test]
+    fn bounds_are_rounded_up() {
+        let shown = [9.527e-8, 9.5e-8, 1.0, 9.99e-3, 0.0].map(at_most);
+        assert_eq!(shown, ["9.6·10⁻⁸", "9.5·10⁻⁸", "1.0", "1.0·10⁻²", "0.0"]);
     }
 
     #[test]

@@ -60,6 +60,12 @@ impl Envelope {
         bin.count += 1;
     }
 
+    /// The end of the last interval that has values.
+    pub fn end(&self) -> f64 {
+        let filled = self.bins.iter().rposition(|bin| bin.count > 0).map_or(0, |last| last + 1);
+        self.end / self.bins.len() as f64 * filled as f64
+    }
+
     /// [t, lowest, mean, highest] of each interval that has values, at the middle of the interval.
     pub fn rows(&self) -> Vec<[f64; 4]> {
         let width = self.end / self.bins.len() as f64;
@@ -137,6 +143,7 @@ mod tests {
         envelope.push(0.0, 1.0);
         envelope.push(2.0, 1.0);
         assert_eq!(envelope.mean().len(), 2);
+        assert!((envelope.end() - 2.1).abs() < 1e-12, "{}", envelope.end());
     }
 
     #[test]

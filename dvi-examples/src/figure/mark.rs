@@ -74,6 +74,12 @@ impl Frame {
         [self.x.place(x), self.y.place(y)]
     }
 
+    /// Whether a pixel is on the page or not far from it: renderers do not take any number.
+    fn is_near(&self, [x, y]: [f64; 2]) -> bool {
+        const FAR: f64 = 1e4;
+        x.abs() < FAR && y.abs() < FAR
+    }
+
     pub(super) fn rectangle(&self) -> [f64; 4] {
         let ([left, right], [bottom, top]) = (self.x.pixels, self.y.pixels);
         [left, top, right - left, bottom - top]
@@ -93,7 +99,8 @@ impl Mark {
         let visible = |point: &[f64; 2]| x.shows(point[0]) && y.shows(point[1]);
         match self {
             Mark::Line(points, stroke) => {
-                for run in points.split(|point| !visible(point)).filter(|run| !run.is_empty()) {
+                let drawable = |point: &[f64; 2]| visible(point) && frame.is_near(frame.place(*point));
+                for run in points.split(|point| !drawable(point)).filter(|run| !run.is_empty()) {
                     let run = by_column(run.iter().map(|&point| frame.place(point)));
                     svg.stroke(&polyline(&run), stroke.pen());
                 }

@@ -18,7 +18,7 @@ use anyhow::Result;
 
 use crate::output::write_whole;
 
-pub use axis::{Axis, scientific};
+pub use axis::{Axis, at_most, scientific};
 pub use decimate::{Envelope, thin};
 pub use mark::{Fill, Stroke};
 pub use palette::*;
@@ -65,9 +65,10 @@ impl Figure {
         self
     }
 
-    /// Marks the figure as one of a run that was cut short.
+    /// Marks the figure as one of a run that was cut short; what its subtitle says of complete series goes.
     pub fn interrupted(mut self) -> Self {
         self.title += " — interrupted";
+        self.subtitle = "The run was interrupted: its series end early.".into();
         self
     }
 
@@ -150,6 +151,12 @@ mod tests {
     }
 
     #[test]
+    fn an_interrupted_figure_says_nothing_of_complete_series() {
+        let svg = sample().interrupted().svg();
+        assert!(svg.contains("interrupted: its series end early") && !svg.contains("and more<"), "{svg}");
+    }
+
+    #[test]
     fn long_series_do_not_make_large_files() {
         let size = sample().svg().len();
         assert!(size < 150_000, "{size} bytes");
@@ -172,6 +179,7 @@ mod tests {
     fn a_figure_without_data_is_still_a_figure() {
         let empty = Panel::new("Empty", Axis::linear("*x*"), Axis::logarithmic("*y*"))
             .line(vec![[f64::NAN, 1.0]], Stroke::solid(BLUE))
+            .line(vec![[1.0, 2.0], [1.5, 1e40], [2.0, 3.0]], Stroke::solid(BLUE))
             .band(vec![[1.0, -1.0, f64::INFINITY]], BLUE)
             .dots(vec![], 1.0, PURPLE);
         let svg = Figure::new("", "").row(300.0, vec![empty]).svg();

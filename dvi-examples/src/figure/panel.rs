@@ -45,8 +45,10 @@ const BOTTOM: f64 = 56.0;
 const TEXT: f64 = 13.0;
 /// The width of a letter of a name on the y axis, generously.
 const NAME: f64 = 8.0;
-/// The width of a legend beside its panel.
-const BESIDE: f64 = 190.0;
+/// The width of a letter of a legend, on average.
+const LETTER: f64 = 7.4;
+/// The least width of a legend beside its panel.
+const BESIDE: f64 = 150.0;
 
 impl Panel {
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
@@ -67,6 +69,13 @@ impl Panel {
     /// A line through the points; of long series, what the pixels can show.
     pub fn line(self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
         self.with(Mark::Line(points, stroke))
+    }
+
+    /// A line below everything that was added before.
+    pub fn below(mut self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+        self.marks.insert(0, Mark::Line(points, stroke));
+        self.legend.iter_mut().for_each(|(mark, _)| *mark += 1);
+        self
     }
 
     /// The area between two curves, as [x, low, high].
@@ -151,7 +160,7 @@ impl Panel {
     }
 
     pub(super) fn draw(&self, svg: &mut Svg, [left, top, width, height]: [f64; 4]) {
-        let beside = if self.corner == Corner::Beside { BESIDE } else { RIGHT };
+        let beside = if self.corner == Corner::Beside { self.legend_width() } else { RIGHT };
         let before = LEFT.max(self.y.longest_name() as f64 * NAME + 12.0);
         let inner = [left + before, top + TOP, width - before - beside, height - TOP - BOTTOM];
         let frame = self.frame(inner);
@@ -171,6 +180,13 @@ impl Panel {
             let label = Label::new(&note.text, at, TEXT);
             svg.label(Label { anchor: note.anchor, colour: note.colour, halo: true, ..label });
         }
+    }
+
+    /// What the longest text of the legend needs, with its sample.
+    fn legend_width(&self) -> f64 {
+        let letters = |text: &str| text.chars().filter(|&letter| letter != '*').count() as f64;
+        let longest = self.legend.iter().map(|(_, text)| letters(text)).fold(0.0, f64::max);
+        BESIDE.max(44.0 + LETTER * longest + 6.0)
     }
 
     fn draw_axes(&self, svg: &mut Svg, frame: &Frame) {

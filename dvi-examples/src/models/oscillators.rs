@@ -14,6 +14,20 @@ pub struct Rotation {
     pub omega: f64,
 }
 
+/// z' = λz for any complex λ, by L = w·(z' − λz) with a second variable w' = −λᵀw that stays zero if it begins so.
+#[degenerate_lagrangian(
+    coordinates(z[2], w[2]),
+    one_form = (w[0] * d(z[0]) + w[1] * d(z[1]) - z[0] * d(w[0]) - z[1] * d(w[1])) / 2.0,
+    hamiltonian = w[0] * (real * z[0] - imaginary * z[1]) + w[1] * (imaginary * z[0] + real * z[1]),
+)]
+#[derive(Clone, Debug)]
+pub struct Linear {
+    /// The real part of λ.
+    pub real: f64,
+    /// The imaginary part of λ.
+    pub imaginary: f64,
+}
+
 /// x'' = −kx: an oscillator of frequency √k, or, with negative k, what runs away from its origin.
 #[lagrangian(
     coordinates(x),

@@ -1,0 +1,159 @@
+//! What the README says of the experiments is what the full run has measured.
+//!
+//! `full-run.csv` is the `summary.csv` of a full run. After a change of the experiments:
+//! `cargo run --release -p dvi-examples && cp results/summary.csv dvi-examples/full-run.csv`, and write into the README
+//! what this test asks for. A test of the short run compares claims and verdicts with that table.
+
+/// One row of the table.
+struct Row {
+    experiment: String,
+    kind: String,
+    place: String,
+    text: String,
+    value: String,
+    verdict: String,
+}
+
+fn rows() -> Vec<Row> {
+    let mut reader = csv::Reader::from_reader(include_str!("../full-run.csv").as_bytes());
+    let rows = reader.records().map(|row| row.expect("a row"));
+    let row = |row: csv::StringRecord| {
+        assert_eq!(&row[1], "full", "a part of another form: {row:?}");
+        let cell = |i: usize| row[i].to_owned();
+        Row {
+            experiment: cell(0),
+            kind: cell(3),
+            place: cell(4),
+            text: cell(5),
+            value: cell(6),
+            verdict: cell(10),
+        }
+    };
+    rows.map(row).collect()
+}
+
+/// The number that the experiment has measured for the quantity.
+fn value(rows: &[Row], experiment: &str, quantity: &str) -> f64 {
+    let row = rows.iter().find(|row| row.experiment == experiment && row.text == quantity);
+    let row = row.unwrap_or_else(|| panic!("{experiment} does not measure `{quantity}`"));
+    row.value.parse().unwrap_or_else(|_| panic!("{experiment} has not measured `{quantity}`"))
+}
+
+/// Two digits and a power of ten, rounded up: for bounds.
+fn at_most(value: f64) -> String {
+    let mut exponent = value.log10().floor() as i32;
+    let mut tenths = (value / 10f64.powi(exponent - 1) - 1e-9).ceil();
+    if tenths >= 100.0 {
+        (tenths, exponent) = (10.0, exponent + 1);
+    }
+    power(tenths / 10.0, exponent)
+}
+
+/// Two digits and a power of ten.
+fn about(value: f64) -> String {
+    let text = format!("{value:.1e}");
+    let (mantissa, exponent) = text.split_once('e').expect("an exponent");
+    power(mantissa.parse().expect("a number"), exponent.parse().expect("a number"))
+}
+
+fn power(mantissa: f64, exponent: i32) -> String {
+    let superscript = |digit: char| match digit {
+        '-' => '⁻',
+        digit => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize - '0' as usize).expect("a digit"),
+    };
+    format!("{mantissa:.1}·10{}", exponent.to_string().chars().map(superscript).collect::<String>())
+}
+
+fn assert_said(sentences: &[String]) {
+    let readme = include_str!("../../README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    for sentence in sentences {
+        assert!(readme.contains(sentence.as_str()), "the README should say:\n{sentence}");
+    }
+}
+
+#[test]
+fn the_tally_is_that_of_the_full_run() {
+    let rows = rows();
+    let claims = || rows.iter().filter(|row| row.kind == "claim");
+    let printed = || claims().filter(|row| row.place != "beyond the paper");
+    let count = |wanted: fn(&str) -> bool| printed().filter(|row| wanted(&row.verdict)).count();
+    let (reproduced, differ) = (count(|v| v == "reproduced"), count(|v| v.starts_with("differs")));
+    assert_eq!(reproduced + differ, printed().count(), "a claim is not reproduced, or undecided");
+    let beyond = || claims().filter(|row| row.place == "beyond the paper");
+    assert!(beyond().all(|row| row.verdict == "holds"), "a claim of ours does not hold");
+    let checks = || rows.iter().filter(|row| row.kind == "reference");
+    assert!(checks().all(|row| row.verdict == "passes"), "a regression check fails");
+    assert_said(&[
+        format!(
+            "Of {} claims of the papers that were tested, the experiments reproduce {reproduced}; the other {differ} \
+             differ from what is printed, and the summary says how.",
+            printed().count()
+        ),
+        format!(
+            "{} claims that go beyond the papers hold, and {} numbers are those of independent programs or of \
+             earlier runs.",
+            beyond().count(),
+            checks().count()
+        ),
+    ]);
+}
+
+#[test]
+fn one_third_of_the_steps_is_said_of_each_reading() {
+    let rows = rows();
+    let ratio = |quantity: &str| value(&rows, "kepler-steps", quantity);
+    let third = "against midpoint and trapezoid";
+    let range = |how: &str, e: &str| {
+        [
+            ratio(&format!("{how}, e = {e}, {third}: smallest ratio")),
+            ratio(&format!("{how}, e = {e}, {third}: largest ratio")),
+        ]
+    };
+    let [low, high] = range("(23) as printed", "0.95");
+    let [_, at_lower] = range("(23) as printed", "0.8");
+    let [fixed_low, fixed_high] = range("fixed steps", "0.95");
+    let share = ratio("(23) as printed, e = 0.95: share of the ratios above one third");
+    let simpson = ratio("fixed steps, e = 0.95, against linear Simpson: smallest ratio");
+    let round = ratio("fixed steps, e = 0.2, against linear Simpson: largest ratio");
+    assert_said(&[
+        format!(
+            "With steps by (23) as printed, at e = 0.95 and against midpoint and trapezoid, phase fitting takes \
+             {low:.2} to {high:.2} of the steps, and in {:.0} % of the comparisons more than a third; at e = 0.8 it \
+             takes up to {at_lower:.2}.",
+            100.0 * share
+        ),
+        format!("With fixed steps it takes {fixed_low:.2} to {fixed_high:.2} at e = 0.95."),
+        format!(
+            "Against linear Simpson, with fixed steps, it takes at least {simpson:.2} at e = 0.95, and {round:.2} at \
+             e = 0.2."
+        ),
+    ]);
+}
+
+#[test]
+fn long_runs_last_as_long_as_it_is_said() {
+    let rows = rows();
+    let long = |quantity: &str| value(&rows, "kepler-long", quantity);
+    let symmetry = |quantity: &str| value(&rows, "fig2-symmetry", quantity);
+    let growth = long("(23) per arc length, 3e-6: max|ΔE| over 3000 periods / over 300 periods");
+    assert!(growth <= 1.001, "{growth}");
+    assert_said(&[
+        format!(
+            "read per unit of arc length, (23) locks in to the motion: with a tolerance of 3·10⁻⁶ the energy error is \
+             at most {} in the first 300 periods and in all of 3000, at {:.0} steps a period.",
+            at_most(long("(23) per arc length, 3e-6: max|ΔE|")),
+            long("(23) per arc length, 3e-6: steps per period")
+        ),
+        format!(
+            "keeps an orbit of eccentricity 0.95 within {} of its energy for 10⁵ periods at {:.0} steps a period.",
+            at_most(long("Lobatto-4: max|ΔE| over all")),
+            long("Lobatto-4: steps per period")
+        ),
+        format!(
+            "breaks up at t = {}, when rounding has broken the mirror symmetry that carries it; with one vortex \
+             displaced it breaks up at t = {}.",
+            about(symmetry("time at which |ΔH| exceeds 0.05")),
+            about(symmetry("displaced: time at which |ΔH| exceeds 0.05"))
+        ),
+    ]);
+}
