@@ -82,11 +82,7 @@ impl Lowering<'_> {
 
     /// The first of `values` where a ≤ b, the second elsewhere: `a.min(b)` is a where a ≤ b.
     fn smaller(&mut self, a: Expr, b: Expr, values: (Expr, Expr)) -> Expr {
-        match (a.as_number(), b.as_number()) {
-            (Some(left), Some(right)) if left <= right => values.0,
-            (Some(_), Some(_)) => values.1,
-            _ => self.graph.choose(a, Relation::LessOrEqual, b, values.0, values.1),
-        }
+        self.graph.choose(a, Relation::LessOrEqual, b, values.0, values.1)
     }
 
     /// A literal exponent.
