@@ -1,10 +1,12 @@
 //! The attribute macros of `dvi-core`: a small compiler from Lagrangians to integrators.
 //!
 //! A formula goes one way: `syntax` reads the attribute, `model` resolves its names, `lower` turns
-//! expressions into a graph (the last stage that can fail), `symbolic` simplifies and differentiates,
-//! `program` says what each generated function computes, `select` and `schedule` choose
-//! shared products and loops, `emit` and `implement` write Rust. `expand` tells that story on one
-//! screen for each attribute.
+//! expressions into a graph, `symbolic` simplifies and differentiates, `structure` sees what a system
+//! allows, `program` says what each generated function computes, `select` and `schedule` choose shared
+//! products and loops, which make a `routine`, `validate` holds every routine against the formulas as
+//! written, and `emit` and `implement` write Rust. `expand` tells that story on one screen for each
+//! attribute. Mistakes of the user are found by the stages up to `structure`; a mistake of the compiler is
+//! found by `validate`, or ends the expansion as an `internal` error.
 
 mod emit;
 mod errors;

@@ -6,13 +6,18 @@ use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use quote::ToTokens;
-use syn::{BinOp, Expr, ExprCall, ExprMethodCall, Lit, Pat, RangeLimits, Stmt, UnOp};
+use syn::{BinOp, Expr, ExprCall, ExprMethodCall, RangeLimits, Stmt, UnOp};
 
 use super::functions;
 use super::jet::Jet;
 use super::point::{Branches, Directions, Point, Variable};
 use crate::internal::internal;
 use crate::model::Model;
+
+mod indices;
+mod words;
+
+use words::{constant, exponent, literal_number, pattern, place_text};
 
 /// Why there is no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -385,113 +390,9 @@ impl<'a> Evaluation<'a> {
         self.scope.truncate(outside);
         value
     }
-
-    /// Whether an expression is index arithmetic: it names an index or a size.
-    fn is_index(&self, syntax: &Expr) -> bool {
-        match syntax {
-            Expr::Path(path) => {
-                let text = self.texts.of(syntax, || written(path));
-                match self.bound(&text) {
-                    Some(binding) => matches!(binding, Binding::Index(_)),
-                    None => self.size(&text).is_some(),
-                }
-            }
-            Expr::Paren(inner) => self.is_index(&inner.expr),
-            Expr::Group(inner) => self.is_index(&inner.expr),
-            Expr::Binary(binary) => self.is_index(&binary.left) || self.is_index(&binary.right),
-            Expr::MethodCall(call) => call.method == "len",
-            _ => false,
-        }
-    }
-
-    fn index(&mut self, syntax: &Expr) -> Value<i64> {
-        match syntax {
-            Expr::Lit(literal) => match &literal.lit {
-                Lit::Int(value) => Ok(value.base10_parse().unwrap_or_else(|_| unknown(syntax))),
-                _ => unknown(syntax),
-            },
-            Expr::Paren(inner) => self.index(&inner.expr),
-            Expr::Group(inner) => self.index(&inner.expr),
-            Expr::Unary(unary) => Ok(-self.index(&unary.expr)?),
-            Expr::Binary(binary) => {
-                let (left, right) = (self.index(&binary.left)?, self.index(&binary.right)?);
-                match binary.op {
-                    BinOp::Add(_) => Ok(left + right),
-                    BinOp::Sub(_) => Ok(left - right),
-                    BinOp::Mul(_) => Ok(left * right),
-                    BinOp::Rem(_) => left.checked_rem_euclid(right).ok_or(NoValue::OutOfRange),
-                    _ => unknown(syntax),
-                }
-            }
-            Expr::Path(_) | Expr::Field(_) | Expr::MethodCall(_) => {
-                let name = self.texts.of(syntax, || place_text(syntax));
-                match (self.bound(&name), self.size(&name)) {
-                    (Some(Binding::Index(index)), _) => Ok(index),
-                    (None, Some(size)) => Ok(size),
-                    _ => unknown(syntax),
-                }
-            }
-            _ => unknown(syntax),
-        }
-    }
 }
 
 /// What the stages before have admitted, and this one does not know.
 fn unknown(syntax: &impl ToTokens) -> ! {
     internal(format!("the self-check cannot read `{}`", syntax.to_token_stream()))
-}
-
-fn literal_number(literal: &Lit) -> f64 {
-    let value = match literal {
-        Lit::Float(value) => value.base10_parse(),
-        Lit::Int(value) => value.base10_digits().parse().map_err(|_| syn::Error::new(value.span(), "")),
-        _ => unknown(literal),
-    };
-    value.unwrap_or_else(|_| unknown(literal))
-}
-
-fn exponent(syntax: &Expr) -> i32 {
-    match syntax {
-        Expr::Paren(inner) => exponent(&inner.expr),
-        Expr::Group(inner) => exponent(&inner.expr),
-        Expr::Unary(unary) => -exponent(&unary.expr),
-        Expr::Lit(syn::ExprLit { lit: Lit::Int(value), .. }) => {
-            value.base10_parse().unwrap_or_else(|_| unknown(syntax))
-        }
-        _ => unknown(syntax),
-    }
-}
-
-/// The text of a place, which may begin with `self`.
-fn place_text(syntax: &Expr) -> String {
-    let text = written(syntax);
-    text.strip_prefix("self.").map_or(text.clone(), ToString::to_string)
-}
-
-fn pattern(pattern: &Pat) -> String {
-    match pattern {
-        Pat::Type(typed) => self::pattern(&typed.pat),
-        other => other.to_token_stream().to_string(),
-    }
-}
-
-#[rustfmt::skip]
-fn constant(text: &str) -> Option<f64> {
-    use std::f64::consts;
-    let name = ["std::f64::consts::", "core::f64::consts::", "::std::f64::consts::", "::core::f64::consts::"]
-        .iter()
-        .find_map(|prefix| text.strip_prefix(prefix))
-        .unwrap_or(text);
-    let value = match name {
-        "PI"        => consts::PI,
-        "TAU"       => consts::TAU,
-        "E"         => consts::E,
-        "SQRT_2"    => consts::SQRT_2,
-        "LN_2"      => consts::LN_2,
-        "LN_10"     => consts::LN_10,
-        "FRAC_PI_2" => consts::FRAC_PI_2,
-        "FRAC_1_PI" => consts::FRAC_1_PI,
-        _ => return None,
-    };
-    Some(value)
 }

@@ -14,7 +14,7 @@ const fn mistake(file: &'static str, right: &'static str, wrong: &'static str) -
 pub(crate) const MISTAKES: &[Mistake] = &[
     // A factor enters a sum that it depends on.
     mistake("select.rs", "self.depth(*factor) > over.depth", "self.depth(*factor) > 64"),
-    mistake("select.rs", "if a == b { multiplicity(factors, a) / 2 }", "if a == b { multiplicity(factors, a) }"),
+    mistake("select/share.rs", "if a == b { multiplicity(factors, a) / 2 }", "if a == b { multiplicity(factors, a) }"),
     mistake("select.rs", "Instruction::Divide(numerator, divisor)", "Instruction::Multiply(numerator, divisor)"),
     mistake("select.rs", "let negative = expr.scale < 0.0;", "let negative = expr.scale < -1.0;"),
     mistake("select.rs", "if f64::from_bits(key.0) != 1.0 {", "if f64::from_bits(key.0) > 1.0 {"),

@@ -1,0 +1,119 @@
+//! Indices, ranges and loops to tokens.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use syn::Ident;
+
+use super::{Emitter, local};
+use crate::internal::internal;
+use crate::symbolic::{Atom, Index, Loop, Range};
+
+fn open(depth: u32) -> Ident {
+    local(format_args!("i{depth}"))
+}
+
+fn plain(value: u64) -> Literal {
+    match usize::try_from(value) {
+        Ok(value) => Literal::usize_suffixed(value),
+        Err(_) => internal("an index beyond all sizes"),
+    }
+}
+
+impl Emitter<'_> {
+    /// An index as an expression of type `usize`; negative intermediate values do not occur.
+    pub(crate) fn index(&self, index: &Index) -> TokenStream {
+        self.difference(index, &quote!(wrapping_sub))
+    }
+
+    /// The bound of a range: a negative one is zero.
+    pub(crate) fn range_bound(&self, index: &Index) -> TokenStream {
+        self.difference(index, &quote!(saturating_sub))
+    }
+
+    fn difference(&self, index: &Index, subtract: &TokenStream) -> TokenStream {
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for (atom, coefficient) in index.counted_terms() {
+            let atom = self.atom(atom);
+            let factor = plain(coefficient.unsigned_abs());
+            let term = if coefficient.abs() == 1 { atom } else { quote!(#factor * #atom) };
+            if *coefficient > 0 { above.push(term) } else { below.push(term) }
+        }
+        let constant = plain(index.constant.unsigned_abs());
+        match index.constant {
+            0 if !above.is_empty() => {}
+            0.. => above.push(quote!(#constant)),
+            _ => below.push(quote!(#constant)),
+        }
+        let above = if above.is_empty() { quote!(0usize) } else { quote!(#(#above)+*) };
+        if below.is_empty() { above } else { quote!((#above).#subtract(#(#below)+*)) }
+    }
+
+    fn atom(&self, atom: &Atom) -> TokenStream {
+        match atom {
+            Atom::Open(depth) => {
+                let open = open(*depth);
+                quote!(#open)
+            }
+            Atom::Bound(_) => internal("an index outside of its sum"),
+            Atom::Size(size) => self.size(size.0),
+            Atom::Remainder(value, modulus) => {
+                let krate = self.krate();
+                let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
+                quote!(#krate::__private::wrap(#value, #modulus))
+            }
+        }
+    }
+
+    pub(crate) fn size(&self, size: u32) -> TokenStream {
+        self.model.sizes[size as usize].tokens.clone()
+    }
+
+    /// An index as an expression of type `i64`.
+    pub(crate) fn signed_index(&self, index: &Index) -> TokenStream {
+        let krate = self.krate();
+        let mut terms =
+            vec![Literal::i64_suffixed(index.constant)].into_iter().map(|c| quote!(#c)).collect::<Vec<_>>();
+        for (atom, coefficient) in index.counted_terms() {
+            let atom = match atom {
+                Atom::Remainder(value, modulus) => {
+                    let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
+                    quote!(#krate::__private::remainder(#value, #modulus))
+                }
+                Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => {
+                    let value = self.atom(atom);
+                    quote!((#value as i64))
+                }
+            };
+            let coefficient = Literal::i64_suffixed(*coefficient);
+            terms.push(quote!(#coefficient * #atom));
+        }
+        quote!((#(#terms)+*))
+    }
+
+    fn range(&self, range: &Range) -> TokenStream {
+        let (lower, upper) = (self.range_bound(&range.lower), self.range_bound(&range.upper));
+        quote!((#lower)..(#upper))
+    }
+
+    pub(crate) fn loop_over(&self, over: &Loop, body: &TokenStream) -> TokenStream {
+        let (index, range) = (open(over.depth), self.range(&over.range));
+        let except = over.range.left_out().map(|except| {
+            let except = self.index(except);
+            quote!(if #index == #except { continue; })
+        });
+        quote!(for #index in #range { #(#except)* #body })
+    }
+
+    /// Whether an index cannot leave 0..`length`, whatever the sizes are.
+    pub(crate) fn stays_inside(&self, index: &Index, length: &Index, loops: &[Loop]) -> bool {
+        let is_natural = |index: &Index| index.as_literal().is_some_and(|value| value >= 0);
+        match (index.constant, index.terms.as_slice()) {
+            (_, []) => is_natural(index) && length.as_literal().is_some_and(|length| index.constant < length),
+            (0, [(Atom::Open(depth), 1)]) => {
+                loops.iter().any(|over| over.depth == *depth && over.range.upper == *length)
+            }
+            (0, [(Atom::Remainder(_, modulus), 1)]) => **modulus == *length,
+            _ => false,
+        }
+    }
+}
