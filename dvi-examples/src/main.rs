@@ -67,8 +67,7 @@ fn run(options: &Options) -> Result<ExitCode> {
     let ended = gallery::run(&chosen, &folder, length, options.threads, &STOP)?;
     let results: Vec<_> = chosen.iter().zip(&ended).collect();
     let when = output::now();
-    let new =
-        results.iter().filter_map(|(experiment, ended)| Part::of(experiment.name, length, &when, ended));
+    let new = results.iter().map(|(experiment, ended)| Part::of(experiment.name, length, &when, ended));
     let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
     let parts = record::merged(record::load(&folder)?, new.collect(), &names);
     record::save(&folder, &parts)?;

@@ -33,30 +33,34 @@ pub struct Part {
 pub enum State {
     Complete,
     Interrupted,
+    /// Asked for, but the run was interrupted before.
+    NotStarted,
     /// With the words of the error.
     Failed(String),
 }
 
 impl Part {
-    /// The part of a run; `None` if the experiment did not start.
-    pub fn of(experiment: &str, length: Length, when: &str, ended: &Ended) -> Option<Self> {
+    /// The part of a run.
+    pub fn of(experiment: &str, length: Length, when: &str, ended: &Ended) -> Self {
         let (state, outcome) = match ended {
             Ended::Complete(outcome) => (State::Complete, outcome.clone()),
             Ended::Interrupted(outcome) => (State::Interrupted, outcome.clone()),
             Ended::Failed(error) => (State::Failed(format!("{error:#}")), Outcome::default()),
-            Ended::NotStarted => return None,
+            Ended::NotStarted => (State::NotStarted, Outcome::default()),
         };
         let (experiment, when) = (experiment.to_owned(), when.to_owned());
-        Some(Self { experiment, length, when, state, outcome })
+        Self { experiment, length, when, state, outcome }
     }
 }
 
-/// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of `names`.
+/// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of `names`. What
+/// did not start replaces nothing.
 pub fn merged(old: Vec<Part>, new: Vec<Part>, names: &[&str]) -> Vec<Part> {
     let mut parts = Vec::new();
     for name in names {
         let of = |parts: &[Part]| parts.iter().find(|part| part.experiment == *name).cloned();
-        parts.extend(of(&new).or_else(|| of(&old)));
+        let started = of(&new).filter(|part| part.state != State::NotStarted);
+        parts.extend(started.or_else(|| of(&old)).or_else(|| of(&new)));
     }
     parts
 }
@@ -64,7 +68,7 @@ pub fn merged(old: Vec<Part>, new: Vec<Part>, names: &[&str]) -> Vec<Part> {
 /// A row of the table; the columns that a kind of row does not use are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Row {
-    /// `complete`, `interrupted` or `failed` begin a part; `claim`, `check`, `instead`, `reference` and `note`.
+    /// `complete`, `interrupted`, `not started` or `failed` begin a part; `claim`, `check`, `instead`, `reference` and `note`.
     kind: String,
     place: String,
     text: String,
@@ -122,6 +126,7 @@ fn rows(part: &Part) -> Vec<Row> {
     let mut rows = vec![match &part.state {
         State::Complete => Row::new("complete", ""),
         State::Interrupted => Row::new("interrupted", ""),
+        State::NotStarted => Row::new("not started", ""),
         State::Failed(words) => Row::new("failed", words),
     }];
     let Outcome { claims, references, notes } = &part.outcome;
@@ -189,6 +194,7 @@ fn parse(text: &str) -> Result<Vec<Part>> {
         let state = match row.kind.as_str() {
             "complete" => Some(State::Complete),
             "interrupted" => Some(State::Interrupted),
+            "not started" => Some(State::NotStarted),
             "failed" => Some(State::Failed(row.text.clone())),
             _ => None,
         };
@@ -261,6 +267,10 @@ mod tests {
         let parts = merged(old, vec![part("b", Length::Short, None)], &["b", "a", "c"]);
         let shown: Vec<_> = parts.iter().map(|part| (part.experiment.as_str(), part.length)).collect();
         assert_eq!(shown, [("b", Length::Short), ("a", Length::Full)]);
+        let idle = |name| Part { state: State::NotStarted, ..part(name, Length::Short, None) };
+        let parts = merged(parts, vec![idle("a"), idle("c")], &["b", "a", "c"]);
+        let shown: Vec<_> = parts.into_iter().map(|part| part.state).collect();
+        assert_eq!(shown, [State::Complete, State::Complete, State::NotStarted]);
     }
 
     #[test]

@@ -34,6 +34,7 @@ pub fn markdown(parts: &[Part], title: impl Fn(&str) -> &'static str) -> String 
             State::Failed(error) => {
                 let _ = writeln!(text, "**Failed**: {error}\n");
             }
+            State::NotStarted => text += "**Interrupted** before it started.\n\n",
             State::Complete => section(&mut text, experiment, outcome, false),
             State::Interrupted => {
                 text += "**Interrupted**: the series end early, and no claim was decided.\n\n";
@@ -208,7 +209,7 @@ mod tests {
     }
 
     fn part(ended: &Ended, length: Length) -> Part {
-        Part::of("sample", length, "today", ended).expect("it has started")
+        Part::of("sample", length, "today", ended)
     }
 
     #[test]

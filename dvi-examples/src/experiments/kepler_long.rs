@@ -68,7 +68,7 @@ struct Series {
 }
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
-    let periods = job.choose(100_000, 400);
+    let periods = job.choose(100_000, 320);
     let locked = periods.min(LOCKED);
     job.expect(3 * periods + periods.min(LOST) + 2 * 12 * locked);
     let frozen = Variational::simpson().phase_fitted(Curvature(Reading::LeftFrozen));
