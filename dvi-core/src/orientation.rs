@@ -124,7 +124,7 @@ fn pfaffian_sign<T: Real>(a: &mut [T], n: usize) -> T {
         for i in k + 2..n {
             for j in k + 2..n {
                 let update = a[k * n + i] * a[j * n + k + 1] - a[k * n + j] * a[i * n + k + 1];
-                a[i * n + j] -= update / pivot;
+                a[i * n + j] += update / pivot;
             }
         }
     }

@@ -65,7 +65,7 @@ impl Checked {
         if self.points == 0 {
             return "Not checked: no point was found at which the formulas have a value.".to_string();
         }
-        let bound = 10_f64.powi(self.largest.max(1e-16).log10().ceil() as i32);
+        let bound = 10_f64.powi(self.largest.max(1e-15).log10().ceil() as i32);
         let side = if self.misses_a_side { " One side of a comparison was not reached." } else { "" };
         format!(
             "Checked when compiled: at {} points, every generated function agrees with the formulas as written, to \

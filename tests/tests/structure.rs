@@ -349,6 +349,7 @@ structure
   L = ½ v·M v − V(q, t) with a constant diagonal mass matrix M.
   The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no factorisation.
   L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.
+  Checked when compiled: at 2 points, every generated function agrees with the formulas as written, to 1e-15 of the sum of the absolute terms.
 operations of the residual
   once: 1 additions, 7 multiplications, 1 divisions, 1 calls
 operations of residual and Jacobian

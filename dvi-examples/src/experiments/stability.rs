@@ -143,7 +143,7 @@ impl Damped {
         let system = Linear { real, imaginary };
         let mut run = Integrator::from_two_points(
             &system,
-            Sigma::new(sigma),
+            Sigma { parasitic_limit: None, ..Sigma::new(sigma) },
             1.0,
             state([1.0, 0.0]),
             state([0.0, 1.0]),

@@ -67,7 +67,9 @@ fn series(job: &Job<'_>, name: &str, colour: Colour, [dx, dy]: [f64; 2], end: f6
     let Case { vortices, mut start } = models::leapfrogging();
     start.x[0] += dx;
     start.y[0] += dy;
-    let method = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() };
+    // The run goes on until its energy is lost, whatever the parasitic mode does.
+    let second_point = Start::RungeKutta(RungeKutta::midpoint());
+    let method = Sigma { start: second_point, parasitic_limit: None, ..Sigma::leapfrog() };
     let mut run = Integrator::new(&vortices, method, H, start)?;
     let initial = run.energy();
     let mut series =

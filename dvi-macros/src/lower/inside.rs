@@ -50,7 +50,7 @@ impl Lowering<'_> {
             form = form.plus(&Index::atom(open), -coefficient).plus(end, coefficient);
         }
         let least = form.terms.iter().try_fold(form.constant, |sum, (atom, coefficient)| match atom {
-            Atom::Size(size) if *coefficient > 0 => Some(sum + coefficient * self.least_size(*size, around)),
+            Atom::Size(size) if *coefficient > 0 => Some(sum + coefficient * least_size(*size, around)),
             Atom::Remainder(..) if *coefficient > 0 => Some(sum),
             Atom::Remainder(_, modulus) => Some(sum + coefficient * (modulus.as_literal()? - 1)),
             Atom::Size(_) | Atom::Open(_) => None,
@@ -58,15 +58,12 @@ impl Lowering<'_> {
         });
         least.is_some_and(|least| least >= 0)
     }
+}
 
-    /// Arrays of coordinates are checked not to be empty, and a loop that runs is not empty.
-    fn least_size(&self, size: Size, around: &[&Loop]) -> i64 {
-        let size = Index::size(size);
-        let blocks = self.model.blocks.iter().filter_map(|block| block.array.as_ref());
-        let is_positive = blocks.into_iter().any(|(length, _)| *length == size)
-            || around.iter().any(|over| over.range.upper == size);
-        i64::from(is_positive)
-    }
+/// A size may be zero, but a loop that runs up to it is not empty.
+fn least_size(size: Size, around: &[&Loop]) -> i64 {
+    let size = Index::size(size);
+    i64::from(around.iter().any(|over| over.range.upper == size))
 }
 
 /// Zero, in the loop at `depth`.

@@ -139,9 +139,7 @@ fn every_injected_mistake_is_caught() {
         copy.restore();
         copy.inject(mistake);
         let verdicts = copy.verdicts(mistake.right);
-        let caught = verdicts.iter().filter(|verdict| *verdict == "caught").count();
-        println!("{caught:>3} of {} systems: {} in {}", SYSTEMS.len(), mistake.right, mistake.file);
-        if caught == 0 {
+        if !verdicts.iter().any(|verdict| verdict == "caught") {
             survivors.push((mistake.file, mistake.right));
         }
     }

@@ -14,7 +14,7 @@ const fn mistake(file: &'static str, right: &'static str, wrong: &'static str) -
 pub(crate) const MISTAKES: &[Mistake] = &[
     // A factor enters a sum that it depends on.
     mistake("select.rs", "self.depth(*factor) > over.depth", "self.depth(*factor) > 64"),
-    mistake("select/share.rs", "if a == b { multiplicity(factors, a) / 2 }", "if a == b { multiplicity(factors, a) }"),
+    mistake("select.rs", "self.multiplied(&[a, b])", "self.multiplied(&[a, a])"),
     mistake("select.rs", "Instruction::Divide(numerator, divisor)", "Instruction::Multiply(numerator, divisor)"),
     mistake("select.rs", "let negative = expr.scale < 0.0;", "let negative = expr.scale < -1.0;"),
     mistake("select.rs", "if f64::from_bits(key.0) != 1.0 {", "if f64::from_bits(key.0) > 1.0 {"),
@@ -29,7 +29,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("symbolic/simplify.rs", "*known = known.saturating_add(exponent)", "*known = exponent"),
     mistake("symbolic/simplify.rs", "Node::Reciprocal(inner) => Expr { scale, node: *inner }", "Node::Reciprocal(inner) => Expr { scale: 1.0, node: *inner }"),
     mistake("symbolic/simplify.rs", "Expr::from(node).scaled(sign)", "Expr::from(node).scaled(sign.abs())"),
-    mistake("symbolic/simplify.rs", "self.power(id.into(), exponent - taken)", "self.power(id.into(), exponent)"),
+    mistake("symbolic/simplify.rs", "self.product(&kept).scaled(term.scale)", "self.product(&kept)"),
     mistake("symbolic/simplify.rs", "part.scaled(constant.scale)", "*part"),
     mistake("symbolic/derivative.rs", "let (then, otherwise) = (self.derivative(then, by), self.derivative(otherwise, by));", "let (otherwise, then) = (self.derivative(then, by), self.derivative(otherwise, by));"),
     // Pairs of variables of one family, or of two, are dropped or counted twice.

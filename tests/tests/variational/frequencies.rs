@@ -109,7 +109,7 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
         }
     }
     let end = |tries| -> Result<[f64; 2], Box<dyn core::error::Error>> {
-        let mut run = ControlledIntegrator::new(&Pair, method, Trying { tries }, start.clone())?;
+        let mut run = ControlledIntegrator::new(&Pair, method, Trying { tries }, start)?;
         run.advance_by(200)?;
         Ok([run.q()[0], run.q()[1]])
     };
