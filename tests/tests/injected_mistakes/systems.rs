@@ -51,4 +51,10 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
              + (sum(0..N, |j| x[j] * sum(0..j + 1, |k| x[k])).sqrt() * sum(0..N, |j| x[j] * g[j])).sin()",
         "struct Nested<const N: usize> { g: [f64; N] }",
     ),
+    (
+        "regular",
+        "coordinates(x[N], y[M]), lagrangian = sum(0..N, |j| dot(x[j]).powi(2) * (1.0 + x[j] * x[j]))
+             + sum(0..M, |j| dot(y[j]).powi(2) + y[j].sin())",
+        "struct TwoSizes<const N: usize, const M: usize>;",
+    ),
 ];
