@@ -2,10 +2,10 @@
 //!
 //! Energy and momenta are methods of [`Integrator`](crate::Integrator). The tangent maps here are those of the
 //! σ-family. The tangent map of any other method is its run on numbers that carry a derivative: runs are generic over
-//! [`Real`](crate::Real), which the dual numbers of the crate num-dual are. That is exact where a step is explicit, or
-//! solved by [`Solver::Newton`](crate::Solver). A fixed point decides by the values alone, because dual numbers are
-//! compared by their values; where these have converged before the derivatives, at an equilibrium for one, the
-//! derivatives are those of an iterate and no tangent map.
+//! [`Real`](crate::Real), which the dual numbers of the crate num-dual are. That is exact where a step is explicit. An
+//! iteration decides by the values alone, because dual numbers are compared by their values; where these have
+//! converged before the derivatives, at an equilibrium for one, the derivatives are those of an iterate and no tangent
+//! map.
 
 mod alternating;
 mod convergence;

@@ -114,22 +114,3 @@ fn compositions_preserve_what_their_method_does() -> Outcome {
     check(&kepler, Composition::suzuki(fitted), 0.1, &start)?;
     check(&kepler, Composition::suzuki(fitted.phase_fitted(Radial(Reading::Averaged))), 0.1, &start)
 }
-
-/// A pendulum of unit length in unit gravity.
-#[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + angle.cos())]
-struct Pendulum {}
-
-/// At an equilibrium the values of a fixed point have converged before it begins, and dual numbers are
-/// compared by their values: its derivatives are those of the first guess. Newton's method solves once more.
-#[test]
-fn at_an_equilibrium_a_fixed_point_has_no_tangent_map_and_newton_has() -> Outcome {
-    let rest = (vec![0.0], vec![0.0]);
-    let midpoint = Variational::midpoint();
-    let newton = Variational { solver: Solver::Newton, ..midpoint };
-    let fixed_point = Variational { solver: Solver::FixedPoint, ..midpoint };
-    let exact = symplectic_defect(&Pendulum {}, &newton, 0.1, &rest, 50)?;
-    assert!(exact < 1e-11, "{exact:e}");
-    let wrong = symplectic_defect(&Pendulum {}, &fixed_point, 0.1, &rest, 50)?;
-    assert!(wrong > 1e-2, "{wrong:e}");
-    Ok(())
-}
