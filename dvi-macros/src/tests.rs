@@ -194,8 +194,6 @@ fn check_of_indices() {
         "check",
         &expect![[r#"
             fn check() {
-                __private::check_index("q", 0i64, self.k.len())?;
-                __private::check_index("p", 0i64, self.k.len())?;
                 for __i0 in (0usize)..(self.k.len()) {
                     __private::check_index(
                         "mass",
