@@ -8,7 +8,7 @@
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, PreservedForm, Scheme, VariableStep};
+use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Vector};
 
@@ -177,9 +177,11 @@ impl<M: Scheme> Scheme for Composition<M> {
     }
 }
 
-impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
+impl<S: Lagrangian, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
     type Memory = CompositionMemory<M::Memory, Vector<S, T>>;
+}
 
+impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let begin = || self.method.begin(system, q, v, t, h);
         Ok(CompositionMemory { inner: begin()?, checkpoint: begin()?, q: q.clone() })
@@ -221,14 +223,14 @@ impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition
     ) -> Result<(), StepFailure> {
         self.method.velocity(system, &memory.inner, q, t, v)
     }
-}
 
-impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {
     #[inline]
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
         self.method.restore(&from.inner, &mut to.inner);
     }
 }
+
+impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {}
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,7 @@
 //! head-on Kepler orbit goes from energy −1 to 285 in one step, and nothing but the energy says so.
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, PreservedForm, Scheme, VariableStep};
+use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm::reported;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Scalar, Space, Vector};
@@ -52,9 +52,11 @@ impl<M: Scheme> Scheme for EnergyLimit<M> {
     }
 }
 
-impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for EnergyLimit<M> {
+impl<S: Lagrangian, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
     type Memory = EnergyLimitMemory<M::Memory, Vector<S, T>, T>;
+}
 
+impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         if self.limit.is_nan() || self.limit <= 0.0 {
             let (value, range) = (self.limit, "positive");
@@ -103,10 +105,10 @@ impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for EnergyLimit
     ) -> Result<(), StepFailure> {
         self.method.velocity(system, &memory.inner, q, t, v)
     }
-}
 
-impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
         self.method.restore(&from.inner, &mut to.inner);
     }
 }
+
+impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {}

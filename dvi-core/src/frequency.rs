@@ -9,7 +9,7 @@ use core::fmt::Debug;
 use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
 use crate::norm;
-use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 
 /// How a frequency that depends on the motion enters a step from q0 to q1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -263,7 +263,7 @@ fn dot<T: Real>(x: &[T], y: &[T]) -> T {
 
 /// ω and its gradient at one end of a step.
 #[derive(Debug)]
-pub(crate) struct Local<S: RegularLagrangian, T: Real> {
+pub(crate) struct Local<S: Lagrangian, T: Real> {
     pub(crate) omega: T,
     /// ∂ω/∂q, acceleration included.
     pub(crate) dq: Vector<S, T>,

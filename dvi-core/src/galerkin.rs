@@ -16,10 +16,10 @@ mod separable;
 
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
-use crate::method::{Method, PreservedForm, Scheme, VariableStep};
+use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::solver::{Solver, Stopping};
 use crate::statistics::Statistics;
-use crate::{Real, RegularLagrangian, Vector};
+use crate::{Lagrangian, Real, RegularLagrangian, Vector};
 
 pub use memory::GalerkinMemory;
 
@@ -132,11 +132,13 @@ impl<const S: usize, F: Frequency> Scheme for Galerkin<S, F> {
     }
 }
 
+impl<const NODES: usize, S: Lagrangian, F, T: Real> Carries<S, T> for Galerkin<NODES, F> {
+    type Memory = GalerkinMemory<NODES, S, T>;
+}
+
 impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T>
     for Galerkin<NODES, F>
 {
-    type Memory = GalerkinMemory<NODES, S, T>;
-
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         const { assert!(NODES >= 3 && NODES <= 5, "interior displacements are available with 3, 4 or 5 nodes") };
         self.validate::<S, T>(system)?;
@@ -171,13 +173,14 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Metho
     ) -> Result<(), StepFailure> {
         memory.velocity(system, q, t, v)
     }
+
+    #[inline]
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.restore(from);
+    }
 }
 
 impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> VariableStep<S, T>
     for Galerkin<NODES, F>
 {
-    #[inline]
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.restore(from);
-    }
 }

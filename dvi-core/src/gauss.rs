@@ -5,7 +5,7 @@
 //! down to rounding errors, from the collocation polynomial of the last step, continued.
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, PreservedForm, Scheme, VariableStep};
+use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
 use crate::orientation::FormOrientation;
 use crate::solver::{Convergence, Stopping, Verdict};
@@ -116,9 +116,11 @@ impl<const S: usize> Scheme for Gauss<S> {
     }
 }
 
-impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gauss<STAGES> {
+impl<const STAGES: usize, S: Lagrangian, T: Real> Carries<S, T> for Gauss<STAGES> {
     type Memory = GaussMemory<STAGES, S, T>;
+}
 
+impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gauss<STAGES> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
@@ -175,9 +177,7 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
         }
         Ok(())
     }
-}
 
-impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> VariableStep<S, T> for Gauss<STAGES> {
     /// The slopes of the last step, from which the next is guessed, and the orientation of Ω.
     #[inline]
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
@@ -187,6 +187,8 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> VariableStep<S, T> f
         }
     }
 }
+
+impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> VariableStep<S, T> for Gauss<STAGES> {}
 
 impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> GaussMemory<STAGES, S, T> {
     /// Continues the polynomial through the completed stages into the next step.

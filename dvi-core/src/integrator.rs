@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::error::{StartError, StepError, StepFailure};
-use crate::method::{Clock, Method, TwoPoint};
+use crate::method::{Carries, Clock, Method, TwoPoint};
 use crate::norm::reported;
 use crate::run::{Run, evaluate, flatten, velocities};
 use crate::sigma_family::{ParasiticMode, Sigma, SigmaMemory};
@@ -16,7 +16,7 @@ use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
 /// As an iterator it yields the state after each step, for ever, or up to the first failure; after that
 /// it yields `None`, and [`state`](Self::state) is the last good one. [`advance`](Self::advance) takes a
 /// step without building a state.
-pub struct Integrator<'a, S: Lagrangian, M: Method<S, T>, T: Real = f64> {
+pub struct Integrator<'a, S: Lagrangian, M: Carries<S, T>, T: Real = f64> {
     run: Run<'a, S, M, T>,
     /// At the start of the run.
     clock: Clock<T>,

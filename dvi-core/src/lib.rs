@@ -118,7 +118,7 @@ pub use galerkin::{Galerkin, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
-pub use method::{Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
+pub use method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
 pub use newmark::{Newmark, NewmarkMemory};
 pub use number::Number;
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};

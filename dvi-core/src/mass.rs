@@ -5,11 +5,13 @@
 
 use crate::error::StepFailure;
 use crate::norm::reported;
-use crate::{Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination};
+use crate::{
+    Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination,
+};
 
 /// M and M⁻¹.
 #[derive(Debug)]
-pub(crate) enum Mass<S: RegularLagrangian, T: Real> {
+pub(crate) enum Mass<S: Lagrangian, T: Real> {
     Diagonal { masses: Vector<S, T>, reciprocals: Vector<S, T> },
     Dense { matrix: Matrix<S, T>, factors: Matrix<S, T>, permutation: Permutation<S> },
 }

@@ -67,11 +67,17 @@ impl<T: Real> Clock<T> {
     }
 }
 
-/// A method that can step a system `S` in the arithmetic of `T`.
-pub trait Method<S: Lagrangian, T: Real>: Scheme {
+/// What runs of a method carry.
+///
+/// It is known for systems of either kind, so that a method meets the question whether it can step a system at one
+/// place only, where a run begins, and the user reads one error.
+pub trait Carries<S: Lagrangian, T: Real> {
     /// What a run carries from step to step besides the coordinates: momenta, guesses, work space.
     type Memory;
+}
 
+/// A method that can step a system `S` in the arithmetic of `T`.
+pub trait Method<S: Lagrangian, T: Real>: Scheme + Carries<S, T> {
     /// Prepares a run with step `h` from (`q`, `t`), with velocity `v` if the system is regular; for
     /// degenerate systems `v` is empty. Everything that needs memory is allocated here.
     ///
@@ -108,6 +114,11 @@ pub trait Method<S: Lagrangian, T: Real>: Scheme {
     ) -> Result<(), StepFailure> {
         Ok(())
     }
+
+    /// Sets the dynamical part of `to`, all that the result of the next step can depend on, to that of
+    /// `from`, without allocation. Both were made by [`begin`](Self::begin) of this method on one system and, unless
+    /// the method is a [`VariableStep`], with the same step.
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory);
 
     /// Takes `count` steps from the present time of `clock`, or as many as succeed, and counts them in
     /// `statistics.steps`. A method with something to gain from many steps at once does better than the
@@ -164,8 +175,4 @@ pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {
 
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
 /// may follow one another.
-pub trait VariableStep<S: Lagrangian, T: Real>: Method<S, T> {
-    /// Sets the dynamical part of `to`, all that the result of the next step can depend on, to that of
-    /// `from`, without allocation. Both were made by [`begin`](Method::begin) of this method on one system.
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory);
-}
+pub trait VariableStep<S: Lagrangian, T: Real>: Method<S, T> {}

@@ -10,7 +10,7 @@
 use crate::error::{StartError, StepFailure};
 use crate::history::{History, is_similar};
 use crate::mass::Mass;
-use crate::method::{Method, PreservedForm, Scheme};
+use crate::method::{Carries, Method, PreservedForm, Scheme};
 use crate::norm::{self, reported};
 use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Stopping, Verdict};
 use crate::statistics::Statistics;
@@ -44,7 +44,7 @@ impl<T> Newmark<T> {
 
 /// The momentum of a run of Newmark's method, its guesses and its work space.
 #[derive(Debug)]
-pub struct NewmarkMemory<S: RegularLagrangian, T: Real> {
+pub struct NewmarkMemory<S: Lagrangian, T: Real> {
     /// p at the current point.
     p: Vector<S, T>,
     /// ∂L/∂q at the current point.
@@ -243,9 +243,11 @@ impl<T: Real> Scheme for Newmark<T> {
     }
 }
 
-impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
+impl<S: Lagrangian, T: Real> Carries<S, T> for Newmark<T> {
     type Memory = NewmarkMemory<S, T>;
+}
 
+impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
             let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
@@ -301,6 +303,13 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
             momentum[i] = half[i] + kick * next_force[i];
         }
         memory.complete(h, q)
+    }
+
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.p.copy_from_slice(&from.p);
+        to.force.copy_from_slice(&from.force);
+        to.history.restore(&from.history);
+        (to.last_step, to.newton_steps) = (from.last_step, from.newton_steps);
     }
 
     fn velocity(

@@ -1,14 +1,14 @@
 //! What runs with fixed and with controlled steps have in common: a system, a method, and where they are.
 
 use crate::error::{StartError, StepError, StepFailure};
-use crate::method::{Clock, Method};
+use crate::method::{Carries, Clock, Method};
 use crate::norm::reported;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Space, State, Vector};
 
 /// A system, a method that steps it, and the point that they have reached. It does not know the time: who
 /// drives it does, an [`Integrator`](crate::Integrator) or a [`ControlledIntegrator`](crate::ControlledIntegrator).
-pub(crate) struct Run<'a, S: Lagrangian, M: Method<S, T>, T: Real> {
+pub(crate) struct Run<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
     pub(crate) system: &'a S,
     pub(crate) method: M,
     pub(crate) memory: M::Memory,

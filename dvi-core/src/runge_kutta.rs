@@ -3,7 +3,7 @@
 //! kᵢ = X(q + h Σⱼ aᵢⱼ kⱼ, t + cᵢh),   q⁺ = q + h Σᵢ bᵢ kᵢ
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Method, PreservedForm, Scheme, VariableStep};
+use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
 use crate::orientation::FormOrientation;
 use crate::statistics::Statistics;
@@ -111,9 +111,11 @@ impl Scheme for RungeKutta {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
+impl<S: Lagrangian, T: Real> Carries<S, T> for RungeKutta {
     type Memory = RungeKuttaMemory<S, T>;
+}
 
+impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         Ok(RungeKuttaMemory {
             field: VectorField::new(system, q, t).map_err(StartError::Starter)?,
@@ -148,15 +150,15 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
         q.copy_from_slice(point);
         Ok(())
     }
-}
 
-impl<S: DegenerateLagrangian, T: Real> VariableStep<S, T> for RungeKutta {
     /// The orientation of Ω: else a step depends on q only.
     #[inline]
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
         to.orientation.restore(&from.orientation);
     }
 }
+
+impl<S: DegenerateLagrangian, T: Real> VariableStep<S, T> for RungeKutta {}
 
 /// Sets `out` to q + h Σ wⱼ kⱼ.
 #[inline(always)]

@@ -17,10 +17,10 @@ mod nonlinear;
 mod start;
 
 use crate::error::{StartError, StepFailure};
-use crate::method::{Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
+use crate::method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
 use crate::solver::{Solver, Stopping};
 use crate::statistics::Statistics;
-use crate::{DegenerateLagrangian, Real, Vector};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Vector};
 
 pub use memory::SigmaMemory;
 pub use monitor::ParasiticMode;
@@ -168,9 +168,11 @@ impl<T: Real> Scheme for Sigma<T> {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
+impl<S: Lagrangian, T: Real> Carries<S, T> for Sigma<T> {
     type Memory = SigmaMemory<S, T>;
+}
 
+impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
         if S::LINEAR && self.is_midpoint() && self.start == Start::Consistent {
@@ -196,6 +198,10 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
         } else {
             nonlinear::step(&step, memory, q, statistics)
         }
+    }
+
+    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
+        to.restore(from);
     }
 
     #[inline]

@@ -14,11 +14,11 @@ mod verlet;
 
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
-use crate::method::{Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::method::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
 use crate::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::solver::{Solver, Stopping};
 use crate::statistics::Statistics;
-use crate::{Real, RegularLagrangian, Vector};
+use crate::{Lagrangian, Real, RegularLagrangian, Vector};
 
 pub use memory::VariationalMemory;
 
@@ -213,9 +213,11 @@ impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
     }
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
+impl<S: Lagrangian, F, R, T: Real> Carries<S, T> for Variational<F, R> {
     type Memory = VariationalMemory<S, T>;
+}
 
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate::<S, T>(system)?;
         VariationalMemory::new(system, self, q, v, t, h)
@@ -273,11 +275,11 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
             one_by_one(self, system, memory, q, clock, count, statistics)
         }
     }
-}
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
     #[inline]
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
         to.motion.restore(&from.motion);
     }
 }
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}

@@ -54,21 +54,3 @@ Exit status: 0 all experiments ran, 1 an error, 2 a bad argument, 130 interrupte
 fn names() -> Vec<&'static str> {
     experiments::ALL.iter().map(|experiment| experiment.name).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_definition_is_consistent() {
-        <Options as clap::CommandFactory>::command().debug_assert();
-    }
-
-    #[test]
-    fn unknown_experiments_and_zero_threads_are_refused() {
-        for arguments in [["", "--only", "fig9"], ["", "--threads", "0"]] {
-            let error = Options::try_parse_from(arguments).expect_err("refused");
-            assert_eq!(error.exit_code(), 2);
-        }
-    }
-}

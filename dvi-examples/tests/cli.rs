@@ -171,6 +171,7 @@ fn bad_arguments_are_refused_before_anything_is_written() {
         assert!(message.contains(hint), "{message}");
     };
     refused(&["--only", "fig2-energi"], "fig2-energy");
+    refused(&["--only", "fig9"], "fig2-energy");
     refused(&["--only"], "--only <NAME>");
     refused(&["--threads", "0"], "1..=1024");
     refused(&["--treads", "2"], "--threads");

@@ -214,7 +214,7 @@ impl Function<'_> {
             }
             Instruction::Power(of, exponent) => {
                 let of = self.register(*of);
-                let exponent = Literal::i32_suffixed(i32::try_from(*exponent).unwrap_or(i32::MAX));
+                let exponent = Literal::i32_suffixed(*exponent);
                 quote!(#scalar::powi(#of, #exponent))
             }
             Instruction::Call(function, order, of) => {

@@ -30,7 +30,7 @@ pub(crate) enum Instruction {
     Sum(Vec<Signed>),
     Unary(Unary, Signed),
     Binary(Binary, Signed, Signed),
-    Power(Register, u32),
+    Power(Register, i32),
     Call(u32, u32, Signed),
     Choose(Signed, Relation, Signed, Signed, Signed),
     Reduce(Fold, Loop, Signed),

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
 use crate::program::Statement;
-use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node};
+use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node, signed_exponent};
 
 mod share;
 
@@ -25,7 +25,7 @@ const LARGEST_EXPANDED: u32 = 32;
 enum Factor {
     Literal(u64),
     Node(Id),
-    Power(Id, u32),
+    Power(Id, i32),
     Pair(u32),
 }
 
@@ -193,7 +193,7 @@ impl Builder<'_> {
         }
         let mut add = |id: Id, exponent: u32| match exponent {
             0..=LARGEST_EXPANDED => factors.extend(std::iter::repeat_n(Factor::Node(id), exponent as usize)),
-            _ => factors.push(Factor::Power(id, exponent)),
+            _ => factors.push(Factor::Power(id, signed_exponent(exponent))),
         };
         match self.graph.node(key.1) {
             Node::Product(powers) => powers.iter().for_each(|(id, exponent)| add(*id, *exponent)),

@@ -1,6 +1,6 @@
 //! Instructions per step of the same kernels, counted under valgrind: these do not wobble.
 //!
-//! `cargo bench -p dvi-tests --bench instructions`. The program runs itself under
+//! `cargo bench -p dvi-benches --bench instructions`. The program runs itself under
 //! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up.
 
 #![allow(clippy::print_stdout)]

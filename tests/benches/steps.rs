@@ -1,6 +1,6 @@
 //! The generated steps beside the same schemes by hand: four vortices, and Kepler's problem.
 //!
-//! `cargo bench -p dvi-tests --bench steps`; the times of a pair are to be compared with each
+//! `cargo bench -p dvi-benches --bench steps`; the times of a pair are to be compared with each
 //! other, in one run.
 
 mod kernels;

@@ -1,7 +1,7 @@
 //! Compositions of the implicit midpoint rule: orders, reversal, and failures that leave no trace.
 
 use dvi_core::prelude::*;
-use dvi_core::{Composition, Method, Scheme, Statistics, StepFailure, VariableStep};
+use dvi_core::{Carries, Composition, Method, Scheme, Statistics, StepFailure, VariableStep};
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -91,12 +91,14 @@ impl Scheme for Failing {
     }
 }
 
-type Gauss1Memory = <Gauss<1> as Method<LotkaVolterra, f64>>::Memory;
+type Gauss1Memory = <Gauss<1> as Carries<LotkaVolterra, f64>>::Memory;
 type Point = dvi_core::Vector<LotkaVolterra, f64>;
 
-impl Method<LotkaVolterra, f64> for Failing {
+impl Carries<LotkaVolterra, f64> for Failing {
     type Memory = (Gauss1Memory, u64);
+}
 
+impl Method<LotkaVolterra, f64> for Failing {
     fn begin(
         &self,
         system: &LotkaVolterra,
@@ -124,13 +126,13 @@ impl Method<LotkaVolterra, f64> for Failing {
             self.method.step(system, &mut memory.0, q, t, h, statistics)
         }
     }
-}
 
-impl VariableStep<LotkaVolterra, f64> for Failing {
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
         self.method.restore(&from.0, &mut to.0);
     }
 }
+
+impl VariableStep<LotkaVolterra, f64> for Failing {}
 
 #[test]
 fn a_failure_on_the_way_leaves_no_trace() -> Outcome {

@@ -7,7 +7,7 @@
 //! Interpolation in barycentric form: Berrut & Trefethen 2004, eq. 4.2.
 
 use crate::error::StepError;
-use crate::{Integrator, Lagrangian, Method, Real, Scalar, Space, State, Vector};
+use crate::{Carries, Integrator, Lagrangian, Method, Real, Scalar, Space, State, Vector};
 
 const WINDOW: usize = 8;
 /// The interval of the window in which crossings are looked for.
@@ -41,7 +41,7 @@ pub struct Crossing<S, T> {
 /// It looks for sign changes between consecutive points, so a run that crosses twice within a step
 /// passes unseen. The run is four steps ahead of the interval that is searched: crossings in the last
 /// four steps before a failure are not reported.
-pub struct Section<'r, 'a, S: Lagrangian, M: Method<S, T>, T: Real, G> {
+pub struct Section<'r, 'a, S: Lagrangian, M: Carries<S, T>, T: Real, G> {
     run: &'r mut Integrator<'a, S, M, T>,
     g: G,
     direction: Direction,

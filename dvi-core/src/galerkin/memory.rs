@@ -15,7 +15,7 @@ use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Vec
 
 /// The momentum of a run with interior displacements, its guesses and its work space.
 #[derive(Debug)]
-pub struct GalerkinMemory<const NODES: usize, S: RegularLagrangian, T: Real> {
+pub struct GalerkinMemory<const NODES: usize, S: Lagrangian, T: Real> {
     pub(super) rule: Quadrature,
     differentiation: [[f64; NODES]; NODES],
     pub(super) coefficients: Coefficients<NODES, T>,

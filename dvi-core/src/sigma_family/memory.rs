@@ -148,6 +148,18 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         Ok(memory)
     }
 
+    /// Sets what the next step depends on to that of a run of the same method with the same step.
+    pub(super) fn restore(&mut self, from: &Self) {
+        self.defect.copy_from_slice(&from.defect);
+        self.defect_vanishes = from.defect_vanishes;
+        self.one_form.copy_from_slice(&from.one_form);
+        self.history.restore(&from.history);
+        self.newton_steps = from.newton_steps;
+        self.monitor.restore(&from.monitor);
+        self.orientation.restore(&from.orientation);
+        self.work.ahead.copy_from_slice(&from.work.ahead);
+    }
+
     fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
         let (space, sigma) = (system.space(), method.sigma);
         let left = T::lift(1.0) - sigma;

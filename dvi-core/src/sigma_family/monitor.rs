@@ -56,6 +56,13 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         Self { points, steps: 0, mask, limit, latest: None }
     }
 
+    pub(super) fn restore(&mut self, from: &Self) {
+        for (point, from) in self.points.iter_mut().zip(&from.points) {
+            point.copy_from_slice(from);
+        }
+        (self.steps, self.latest) = (from.steps, from.latest);
+    }
+
     pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
         self.latest
     }

@@ -3,14 +3,14 @@
 use core::fmt;
 
 use crate::error::{StartError, StepFailure};
-use crate::method::VariableStep;
+use crate::method::{Carries, VariableStep};
 use crate::norm::reported;
 use crate::run::Run;
 use crate::{Lagrangian, Real, Vector};
 
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the control
 /// [rejects](super::StepControl::REJECTS) steps, back.
-pub struct ControlledRun<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> {
+pub struct ControlledRun<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
     pub(super) run: Run<'a, S, M, T>,
     /// What can be gone back to.
     checkpoint: Option<(M::Memory, Vector<S, T>)>,

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::{ControlledRun, Reversible, StepControl, reversible};
 use crate::error::{StartError, StepError};
-use crate::method::VariableStep;
+use crate::method::{Carries, VariableStep};
 use crate::run::{evaluate, flatten, validate, velocities};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
@@ -14,8 +14,7 @@ use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
 /// It has the verbs of [`Integrator`](crate::Integrator): as an iterator it yields the state after each step, up
 /// to the first failure; [`state`](Self::state) is always the last good one. The velocity is taken along, so that
 /// a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-pub struct ControlledIntegrator<'a, S: Lagrangian, M: VariableStep<S, T>, C: StepControl<S, T>, T: Real = f64>
-{
+pub struct ControlledIntegrator<'a, S: Lagrangian, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64> {
     controlled: ControlledRun<'a, S, M, T>,
     control: C,
     control_memory: C::Memory,

@@ -14,7 +14,7 @@ use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector, norm};
 
 /// The momentum of a run of the quadrature family, its guesses and its work space.
 #[derive(Debug)]
-pub struct VariationalMemory<S: RegularLagrangian, T: Real> {
+pub struct VariationalMemory<S: Lagrangian, T: Real> {
     pub(super) interpolation: Interpolation<S, T>,
     /// The frequencies at both ends of the step.
     pub(super) ends: [Local<S, T>; 2],
@@ -31,7 +31,7 @@ pub(super) enum Interpolation<S: Lagrangian, T: Real> {
 
 /// Where a run is, how it got there, and work space.
 #[derive(Debug)]
-pub(super) struct Motion<S: RegularLagrangian, T: Real> {
+pub(super) struct Motion<S: Lagrangian, T: Real> {
     /// p at the current point.
     pub(super) p: Vector<S, T>,
     /// ∂L/∂q at the current point; kept if L is separable.

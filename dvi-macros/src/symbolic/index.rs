@@ -11,6 +11,8 @@
 //! Indices are mathematical integers; `%` is the Euclidean remainder. No index is negative: a sum
 //! whose range may begin below zero is shifted when it is made.
 
+use crate::internal::internal;
+
 /// A size that is not a literal: an entry of the model's table of sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Size(pub(crate) u32);
@@ -77,6 +79,10 @@ pub(crate) struct Renaming {
     pub(crate) to: Atom,
 }
 
+fn whole(sum: Option<i64>) -> i64 {
+    sum.unwrap_or_else(|| internal("an index has more than 63 bits"))
+}
+
 impl Index {
     pub(crate) fn literal(constant: i64) -> Self {
         Self { constant, terms: Vec::new() }
@@ -100,11 +106,12 @@ impl Index {
 
     pub(crate) fn plus(&self, other: &Self, factor: i64) -> Self {
         let mut sum = self.clone();
-        sum.constant = sum.constant.saturating_add(other.constant.saturating_mul(factor));
+        sum.constant =
+            whole(other.constant.checked_mul(factor).and_then(|term| sum.constant.checked_add(term)));
         for (atom, coefficient) in &other.terms {
-            let coefficient = coefficient.saturating_mul(factor);
+            let coefficient = whole(coefficient.checked_mul(factor));
             match sum.terms.iter_mut().find(|(known, _)| known == atom) {
-                Some((_, known)) => *known = known.saturating_add(coefficient),
+                Some((_, known)) => *known = whole(known.checked_add(coefficient)),
                 None => sum.terms.push((atom.clone(), coefficient)),
             }
         }

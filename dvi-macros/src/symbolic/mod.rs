@@ -20,3 +20,4 @@ pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Paramete
 pub(crate) use index::{Atom, Free, Index, Loop, Range, Renaming, Size};
 pub(crate) use print::{Names, print_coordinate, print_expr, print_loops, print_velocity};
 pub(crate) use rules::{binary_by_name, unary_by_name, unary_names};
+pub(crate) use simplify::signed_exponent;

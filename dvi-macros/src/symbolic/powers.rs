@@ -16,6 +16,7 @@
 //! because w² is one term of R² and no other is negative, and (R²)' vanishes because R² is smallest there.
 
 use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
+use crate::internal::internal;
 
 /// Factors that belong together.
 pub(super) struct Part {
@@ -39,7 +40,8 @@ fn multiplicity(factors: &[(Id, u32)], of: Id) -> u32 {
 fn take(factors: &mut Vec<(Id, u32)>, of: Id, exponent: u32) {
     for (id, left) in factors.iter_mut() {
         if *id == of {
-            *left = left.saturating_sub(exponent);
+            let rest = left.checked_sub(exponent);
+            *left = rest.unwrap_or_else(|| internal("a factor is taken out more often than it is there"));
         }
     }
     factors.retain(|(_, left)| *left > 0);

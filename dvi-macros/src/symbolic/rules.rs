@@ -5,6 +5,7 @@
 use core::f64::consts::{FRAC_2_SQRT_PI, LN_2, LOG2_E, LOG10_E};
 
 use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
+use crate::internal::internal;
 
 pub(super) type UnaryRow = (&'static str, Unary, fn(f64) -> f64, Option<f64>);
 pub(super) type BinaryRow = (&'static str, Binary, fn(f64, f64) -> f64);
@@ -79,20 +80,29 @@ fn erf(x: f64) -> f64 {
     core::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp() * sum
 }
 
-fn row(function: Unary) -> Option<&'static UnaryRow> {
-    UNARY.iter().find(|(_, known, _, _)| *known == function)
+fn row(function: Unary) -> &'static UnaryRow {
+    let row = UNARY.iter().find(|(_, known, ..)| *known == function);
+    row.unwrap_or_else(|| internal(format!("{function:?} is not in the table of functions")))
+}
+
+fn binary_row(function: Binary) -> &'static BinaryRow {
+    let row = BINARY.iter().find(|(_, known, ..)| *known == function);
+    row.unwrap_or_else(|| internal(format!("{function:?} is not in the table of functions")))
 }
 
 pub(super) fn parity(function: Unary) -> Option<f64> {
-    row(function).and_then(|(_, _, _, parity)| *parity)
+    let (_, _, _, parity) = row(function);
+    *parity
 }
 
 pub(super) fn evaluate_unary(function: Unary, x: f64) -> f64 {
-    row(function).map_or(f64::NAN, |(_, _, value, _)| value(x))
+    let (_, _, value, _) = row(function);
+    value(x)
 }
 
 pub(super) fn evaluate_binary(function: Binary, a: f64, b: f64) -> f64 {
-    BINARY.iter().find(|(_, known, _)| *known == function).map_or(f64::NAN, |(_, _, value)| value(a, b))
+    let (_, _, value) = binary_row(function);
+    value(a, b)
 }
 
 pub(crate) fn unary_by_name(name: &str) -> Option<Unary> {
@@ -113,13 +123,13 @@ pub(crate) fn unary_names() -> impl Iterator<Item = &'static str> {
 
 impl Unary {
     pub(crate) fn name(self) -> &'static str {
-        row(self).map_or("?", |(name, ..)| name)
+        row(self).0
     }
 }
 
 impl Binary {
     pub(crate) fn name(self) -> &'static str {
-        BINARY.iter().find(|(_, known, _)| *known == self).map_or("?", |(name, ..)| name)
+        binary_row(self).0
     }
 }
 

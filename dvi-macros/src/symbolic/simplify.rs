@@ -18,6 +18,16 @@ use crate::internal::internal;
 /// that many such products: written out they grow with the cube of the depth, as factors linearly.
 const MOST_FACTORS: usize = 12;
 
+/// The exponent as `powi` takes it.
+pub(crate) fn signed_exponent(exponent: u32) -> i32 {
+    whole(i32::try_from(exponent).ok())
+}
+
+/// Exponents add and multiply in 32 bits: no power of a user comes near the end of them.
+fn whole<N>(exponent: Option<N>) -> N {
+    exponent.unwrap_or_else(|| internal("an exponent has more than 31 bits"))
+}
+
 impl Graph {
     /// a + b + …: constants and like terms collect, and a positive factor common to all terms goes out. The
     /// signs stay where they were written, because the sign of a zero is that of the sum as it stands.
@@ -67,7 +77,7 @@ impl Graph {
         let mut collected: Vec<(Id, u32)> = Vec::new();
         let mut insert =
             |factor: Id, exponent: u32| match collected.iter_mut().find(|(known, _)| *known == factor) {
-                Some((_, known)) => *known = known.saturating_add(exponent),
+                Some((_, known)) => *known = whole(known.checked_add(exponent)),
                 None => collected.push((factor, exponent)),
             };
         for factor in factors {
@@ -138,7 +148,7 @@ impl Graph {
     }
 
     pub(crate) fn power(&mut self, base: Expr, exponent: u32) -> Expr {
-        let scale = base.scale.powi(i32::try_from(exponent).unwrap_or(i32::MAX));
+        let scale = base.scale.powi(signed_exponent(exponent));
         let node = match self.node(base.node) {
             Node::One => return Expr::number(scale),
             _ if exponent == 0 => return Expr::ONE,
@@ -147,7 +157,8 @@ impl Graph {
                 return self.chosen_product(base.node, exponent, &[]).scaled(scale);
             }
             Node::Product(inner) => {
-                let powers = inner.iter().map(|(id, known)| (*id, known.saturating_mul(exponent))).collect();
+                let powers =
+                    inner.iter().map(|(id, known)| (*id, whole(known.checked_mul(exponent)))).collect();
                 self.intern(Node::Product(powers))
             }
             _ => self.intern(Node::Product(vec![(base.node, exponent)])),

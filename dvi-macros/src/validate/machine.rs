@@ -153,9 +153,7 @@ impl Run<'_> {
             Instruction::Binary(function, a, b) => {
                 functions::printed_binary(function.name(), self.signed(*a), self.signed(*b))
             }
-            Instruction::Power(of, exponent) => {
-                self.register(*of).powi(i32::try_from(*exponent).unwrap_or(i32::MAX))
-            }
+            Instruction::Power(of, exponent) => self.register(*of).powi(*exponent),
             Instruction::Call(function, order, of) => {
                 functions::stand_in(*function as usize, *order, self.signed(*of))
             }

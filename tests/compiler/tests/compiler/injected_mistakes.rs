@@ -61,7 +61,7 @@ fn copy_sources(from: &Path, to: &Path) {
 
 impl Copy {
     fn new() -> Self {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dvi-macros");
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../dvi-macros");
         let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("injected-mistakes");
         let copy = Self { root, sources };
         copy.restore();

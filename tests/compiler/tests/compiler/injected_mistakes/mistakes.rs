@@ -26,7 +26,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("schedule.rs", "group.entry == entry && group.over == over", "group.entry == entry"),
     mistake("schedule.rs", "group.entry >= entry && group.over == over", "group.over == over"),
     mistake("symbolic/simplify.rs", "known.scale += term.scale", "known.scale = term.scale"),
-    mistake("symbolic/simplify.rs", "*known = known.saturating_add(exponent)", "*known = exponent"),
+    mistake("symbolic/simplify.rs", "*known = whole(known.checked_add(exponent))", "*known = exponent"),
     mistake("symbolic/simplify.rs", "Node::Reciprocal(inner) => Expr { scale, node: *inner }", "Node::Reciprocal(inner) => Expr { scale: 1.0, node: *inner }"),
     mistake("symbolic/simplify.rs", "Expr::from(node).scaled(sign)", "Expr::from(node).scaled(sign.abs())"),
     mistake("symbolic/simplify.rs", "self.product(&kept).scaled(term.scale)", "self.product(&kept)"),

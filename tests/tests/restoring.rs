@@ -1,0 +1,121 @@
+//! A run goes on from a copy of what another one carries, bit by bit, and ends where its energy goes astray.
+
+use dvi_core::prelude::*;
+use dvi_core::{Lagrangian, Method, Space, Statistics};
+use dvi_tests::configurations::quasi_periodic;
+use dvi_tests::systems::*;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / (x * x + y * y).sqrt(),
+)]
+#[derive(Clone, Debug)]
+struct Kepler;
+
+/// A mass that depends on the place.
+#[lagrangian(
+    coordinates(r, phi),
+    lagrangian = (dot(r).powi(2) + r * r * dot(phi).powi(2)) / 2.0 + 1.0 / r,
+)]
+#[derive(Clone, Debug)]
+struct Polar;
+
+/// A gauge in which the parasitic mode of σ = 0 grows by 7/3 a step.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = 0.3 * x * d(y) - 0.7 * y * d(x),
+    hamiltonian = (x * x + y * y) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Oblique;
+
+/// Restores the memory of a run, made another way, from one that has taken `before` steps, and goes on with both.
+fn check<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, q0: &[f64], v0: &[f64]) -> Outcome {
+    let (h, t) = (0.05, 0.3);
+    for before in [0, 1, 3, 40] {
+        let mut q = system.space().vector();
+        q.copy_from_slice(q0);
+        let mut statistics = Statistics::default();
+        let mut kept = method.begin(system, &q, v0, t, h)?;
+        let mut other = method.begin(system, &q, v0, t, h)?;
+        let mut elsewhere = q.clone();
+        for step in 0..17 {
+            method.step(system, &mut other, &mut elsewhere, t + f64::from(step) * h, h, &mut statistics)?;
+        }
+        for step in 0..before {
+            method.step(system, &mut kept, &mut q, t + f64::from(step) * h, h, &mut statistics)?;
+        }
+        method.restore(&kept, &mut other);
+        let mut same = q.clone();
+        for step in before..before + 20 {
+            let now = t + f64::from(step) * h;
+            method.step(system, &mut kept, &mut q, now, h, &mut statistics)?;
+            method.step(system, &mut other, &mut same, now, h, &mut statistics)?;
+            let bits = |q: &[f64]| q.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&q), bits(&same), "step {step} after {before}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn degenerate_runs_go_on_from_a_copy() -> Outcome {
+    let (vortices, start) = quasi_periodic();
+    let start = [start.x, start.y].concat();
+    for sigma in [0.0, 0.25, 0.5, 1.0] {
+        for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
+            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
+            check(&vortices, method, &start, &[])?;
+            check(&Curved { kappa: 0.3 }, method, &[0.4, 0.1], &[])?;
+        }
+    }
+    check(&vortices, Gauss::<2>::new(), &start, &[])?;
+    check(&vortices, RungeKutta::midpoint(), &start, &[])?;
+    check(&vortices, EnergyLimit { method: Sigma::leapfrog(), limit: 1.0 }, &start, &[])
+}
+
+#[test]
+fn regular_runs_go_on_from_a_copy() -> Outcome {
+    let (q, v) = ([0.7, 0.2], [0.3, 1.1]);
+    for beta in [0.0, 0.25] {
+        check(&Kepler, Newmark::new(beta), &q, &v)?;
+        check(&Kepler, EnergyLimit { method: Newmark::new(beta), limit: 1.0 }, &q, &v)?;
+    }
+    check(&Kepler, Variational::trapezoid(), &q, &v)?;
+    check(&Kepler, Variational::simpson(), &q, &v)?;
+    check(&Polar, Variational::midpoint(), &q, &v)?;
+    check(&Polar, Galerkin::<3>::new(), &q, &v)
+}
+
+/// The run ends at the state of the last step within the limit, which is that of a run without one, bit by bit.
+#[test]
+fn a_limit_of_the_energy_error_ends_any_run() -> Outcome {
+    let method = Sigma { parasitic_limit: None, ..Sigma::leapfrog() };
+    let start = ObliqueState { x: 1.0, y: 0.0 };
+    let mut run = Integrator::new(&Oblique, EnergyLimit { method, limit: 0.01 }, 0.1, start)?;
+    let error = run.advance_by(1000).err();
+    let Some(StepError { step, failure: StepFailure::Energy { start: 0.5, now, limit: 0.01 }, .. }) = error
+    else {
+        return Err(format!("{error:?}").into());
+    };
+    let mut same = Integrator::new(&Oblique, method, 0.1, start)?;
+    same.advance_by(step)?;
+    assert!(step > 3);
+    assert_eq!((run.steps(), run.q(), run.energy()), (step, same.q(), same.energy()));
+    assert_eq!(run.memory().inner().defect(), same.memory().defect());
+    same.advance()?;
+    assert_eq!(now, same.energy());
+    assert_eq!(run.advance().err(), error);
+
+    // β = 0 is Verlet, which steps over the centre of a head-on orbit.
+    let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+    let limited = EnergyLimit { method: Newmark::new(0.0), limit: 0.1 };
+    let error = Integrator::new(&Kepler, limited, 0.01, start)?.advance_by(300).err();
+    assert!(
+        matches!(error, Some(StepError { failure: StepFailure::Energy { start: -1.0, .. }, .. })),
+        "{error:?}"
+    );
+    Ok(())
+}
