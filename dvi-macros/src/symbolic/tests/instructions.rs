@@ -97,7 +97,7 @@ impl Machine<'_> {
             Instruction::Binary(function, a, b) => {
                 evaluate_binary(*function, self.signed(*a), self.signed(*b))
             }
-            Instruction::Power(of, exponent) => self.register(*of).powi(*exponent as i32),
+            Instruction::Power(of, exponent) => self.register(*of).powi(*exponent),
             Instruction::Call(_, order, of) => own_function(*order, self.signed(*of)),
             Instruction::Choose(left, relation, right, then, otherwise) => {
                 let chosen = holds(self.signed(*left), *relation, self.signed(*right));
