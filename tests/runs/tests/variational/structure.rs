@@ -114,3 +114,36 @@ fn compositions_preserve_what_their_method_does() -> Outcome {
     check(&kepler, Composition::suzuki(fitted), 0.1, &start)?;
     check(&kepler, Composition::suzuki(fitted.phase_fitted(Radial(Reading::Averaged))), 0.1, &start)
 }
+
+#[lagrangian(coordinates(theta), lagrangian = dot(theta).powi(2) / 2.0 + theta.cos())]
+#[derive(Clone, Debug)]
+struct Pendulum;
+
+#[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0)]
+#[derive(Clone, Debug)]
+struct Free;
+
+/// At an equilibrium the values have converged before the first iteration and nothing tells how far the derivatives
+/// are: what `diagnostics` says of the tangent map of a run on dual numbers.
+#[test]
+fn a_run_on_dual_numbers_is_a_tangent_map_where_the_step_is_explicit() -> Outcome {
+    let equilibrium = (vec![0.0], vec![0.0]);
+    let explicit = symplectic_defect(&Pendulum, &Variational::trapezoid(), 0.1, &equilibrium, 50)?;
+    assert!(explicit < 1e-13, "{explicit:e}");
+    let implicit = symplectic_defect(&Pendulum, &Variational::midpoint(), 0.1, &equilibrium, 50)?;
+    assert!(implicit > 1e-6, "the documentation promises less than this: {implicit:e}");
+    let beside = symplectic_defect(&Pendulum, &Variational::midpoint(), 0.1, &(vec![0.3], vec![0.1]), 50)?;
+    assert!(beside < 1e-11, "{beside:e}");
+    Ok(())
+}
+
+/// √z is not differentiable at z = (ωh/2)² = 0, the functions of it that a step uses are.
+#[test]
+fn a_frequency_of_zero_has_a_tangent_map() -> Outcome {
+    for reading in [Reading::Averaged, Reading::Variational] {
+        let method = Variational::simpson().phase_fitted(Curvature(reading));
+        let defect = symplectic_defect(&Free, &method, 0.1, &(vec![0.3, 0.2], vec![0.4, -0.6]), 4)?;
+        assert!(defect < 1e-13, "{reading:?}: {defect:e}");
+    }
+    Ok(())
+}
