@@ -207,12 +207,14 @@ fn check_of_indices() {
     );
 }
 
-/// Each of these has as many functions inside one another as a long chain of `let` makes.
+/// As many functions inside one another as a long chain of `let` makes; and squares that underflow on the way to a
+/// derivative of 10⁻¹²⁰.
 #[test]
-fn long_chains_expand() {
+fn extreme_formulas_expand() {
     let nested = format!("x{}", ".sin()".repeat(100));
     let bindings: String = (1..60).map(|k| format!("let a{k} = (a{} * 1.1 + x).sin();", k - 1)).collect();
-    for formula in [nested, format!("{{ let a0 = x + y; {bindings} a59 }}")] {
+    let small = "x + 16.0.powf(50 - y).powi(-2)".to_string();
+    for formula in [nested, format!("{{ let a0 = x + y; {bindings} a59 }}"), small] {
         let arguments = format!("coordinates(x, y), one_form = x * d(y), hamiltonian = {formula}");
         let attribute: TokenStream = arguments.parse().expect("tokens");
         let expansion = degenerate_lagrangian(

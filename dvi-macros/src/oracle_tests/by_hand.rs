@@ -20,6 +20,9 @@ const HAMILTONIANS: &[&str] = &[
     // Products of sums with the same factors.
     "sum(0..N, |i| g[i]) * sum_pairs(0..N, |i, j| x[j].powi(2)) + sum_pairs(0..N, |i, j| g[i] * x[j].powi(2))",
     "(sum(0..N, |i| g[i] * x[i]) - sum(0..N, |i| g[i]) * sum(0..N, |i| x[i])) * sum(0..N, |i| x[i].powi(2))",
+    // A bound on a function outside of its domain.
+    "u + w.acos().max(1)",
+    "w.max((u - 0.5).sqrt()) * w.min((u - 0.5).ln())",
     // One array at two depths.
     "sum(0..N, |j| (x[j] - sum(0..N, |k| x[k]) / (N as f64)).powi(2)) / (N as f64)",
     "sum_pairs(0..N, |i, j| x[j]) * sum(0..N, |i| x[i]).powi(2)",

@@ -63,8 +63,15 @@ impl<'a> Reader<'a> {
                 let argument = call.args.first();
                 match name.as_str() {
                     "powi" => Formula::Power(of, self.index(argument.expect("an exponent")).constant as i32),
-                    "atan2" => {
-                        Formula::Binary(BinaryFunction::Atan2, of, self.boxed(argument.expect("an argument")))
+                    "atan2" | "hypot" | "powf" | "min" | "max" => {
+                        let function = match name.as_str() {
+                            "atan2" => BinaryFunction::Atan2,
+                            "hypot" => BinaryFunction::Hypot,
+                            "powf" => BinaryFunction::Powf,
+                            "min" => BinaryFunction::Min,
+                            _ => BinaryFunction::Max,
+                        };
+                        Formula::Binary(function, of, self.boxed(argument.expect("an argument")))
                     }
                     _ => {
                         let function = UNARY.iter().find(|function| function.name == name);

@@ -318,7 +318,12 @@ impl<'a> Evaluation<'a> {
             ("min" | "max", [other]) => {
                 let (a, b) = (receiver.value().value, other.value().value);
                 let holds = if name == "min" { a <= b } else { a >= b };
-                if self.side(call, holds) { receiver } else { other.clone() }
+                match (self.side(call, holds), a.is_nan() || b.is_nan()) {
+                    // Which of the two is taken differs from what Rust does: such a point is drawn again.
+                    (_, true) => receiver.plus(other),
+                    (true, false) => receiver,
+                    (false, false) => other.clone(),
+                }
             }
             (name, []) => functions::unary(name, &receiver).unwrap_or_else(|| unknown(call)),
             (name, [other]) => functions::binary(name, &receiver, other).unwrap_or_else(|| unknown(call)),

@@ -57,4 +57,39 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
              + sum(0..M, |j| dot(y[j]).powi(2) + y[j].sin())",
         "struct TwoSizes<const N: usize, const M: usize>;",
     ),
+    // Powers that are differentiated as what they are.
+    (
+        "regular",
+        "coordinates(x, y), lagrangian = {
+             let r = (x * x + y * y).sqrt();
+             dot(x).powi(2) + dot(y).powi(2) - k * (x * x + y * y).powf(2.5) - x * r - 3.0 * x.powi(2) * x.powf(1.5)
+                 - y / (x * x + 2.0 * y * y).sqrt() - x / x.hypot(y) - y.hypot(3.0 * x).powi(3)
+                 - ((1.0 - x) * (1.0 + x)).powi(3) * y.powi(40) - (x.powi(2) * 4.0).sqrt().powi(3) * r * r
+         }",
+        "struct Central { k: f64 }",
+    ),
+    (
+        "degenerate",
+        "coordinates(x, y), one_form = (x * x + 2.0 * y * y).sqrt() * d(y) - y.hypot(x) * x * d(x),
+         hamiltonian = x.tanh() * y.abs() + x.atan2(y) * x.min(y * y) - x.max(2.0 * y).cosh() + (2.0 * x).erf()
+             + 3.0f64.powf(y) * x.exp_m1() - (0.3 * x).asin() * y.cbrt()",
+        "struct Functions;",
+    ),
+    // Sums of constants, and over ranges that depend on one another.
+    (
+        "regular",
+        "coordinates(x[N], u), lagrangian = sum(0..N, |j| dot(x[j]).powi(2) * (2.0 + sum(j..N, |k| x[k] * x[k - j])))
+             + dot(u).powi(2) * sum(0..N, |j| 1.5) + sum(-1..2, |k| u.powi(2) * (k as f64))
+             - product(0..N, |j| 1.0 + sum(0..N, |k| if x[k] > x[j] { x[j] * x[k] } else { u * x[j] }))
+             - sum(0..N, |j| g[j] * u / (1.0 + x[j] * x[j])) / sum(0..N, |j| g[j] * x[j].exp())",
+        "struct Ranges<const N: usize> { g: [f64; N] }",
+    ),
+    (
+        "degenerate",
+        "coordinates(q[n], p[n], w), one_form = sum(0..n, |j| (p[j] + t * q[j] * w) * d(q[j])) + w * q[0] * d(p[0]),
+         hamiltonian = sum(0..n, |j| p[j] * p[j] / (2.0 * m[j]) + own(q[(j + 1) % n] - q[j]) * (w * t).cos())
+             + sum_ordered_pairs(0..n, |j, k| own(q[j] * p[k]) / (w - 1.0)) + w.sqrt() * own(w),
+         momenta(total = sum(0..n, |j| p[j]), product = w * sum(0..n, |j| q[j] * p[j])), functions(own = [f, df, d2f])",
+        "struct Chain { n: usize, m: Vec<f64> }",
+    ),
 ];
