@@ -41,6 +41,7 @@ fn lotka_volterra<M: Method<LotkaVolterra, f64>>(
 #[test]
 fn the_midpoint_rule_gains_the_order_of_the_composition() -> Outcome {
     let reference = lotka_volterra(Composition::kahan_li_8(Gauss::<3>::new()), 100)?;
+    // The fine run still errs by more than rounding: 10⁻¹⁴ at twice 16 steps of Suzuki and Umeno.
     let steps = [64, 32, 20, 12, 14, 8];
     for (method, steps) in compositions::<1>().into_iter().zip(steps) {
         let error = |steps| -> Result<f64, Box<dyn core::error::Error>> {

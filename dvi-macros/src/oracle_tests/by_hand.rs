@@ -34,6 +34,8 @@ const HAMILTONIANS: &[&str] = &[
     "sum(0..N, |i| sum(i - 1..i + 2, |k| x[k % N] * y[i]))",
     // A branch that is not taken has no value.
     "if u > 5 { sum(0..N, |i| (x[i] - 9).sqrt()) } else { u * u }",
+    "if u > 5 || w > 5 { sum(0..N, |i| (x[i] - 9).sqrt()) } else { u * u }",
+    "if u > 5 || w > 5 { sum(0..N, |i| (x[i] - 9).sqrt() * w).powi(3) + w } else { if w > 4 { u.powi(2) } else { w.powi(2) } } * w.powi(2)",
     // A literal near the smallest number, beside one of ordinary size.
     "9.33e-305 * u + 10000.0 * w * w",
     "sum(0..N, |i| 9.33e-305 * x[i] + 10000.0 * y[i] * y[i])",

@@ -71,7 +71,8 @@ impl Graph {
     }
 
     /// a · b · …: factors merge into powers, literal factors multiply; a choice of zero chooses between the
-    /// whole product and zero, so that what the other factors are where they do not count is not asked.
+    /// whole product and zero, so that what the other factors are where they do not count is not asked; the same for
+    /// a sum of such choices.
     pub(crate) fn product(&mut self, factors: &[Expr]) -> Expr {
         let mut scale = 1.0;
         let mut collected: Vec<(Id, u32)> = Vec::new();
@@ -99,6 +100,13 @@ impl Graph {
                 collected.iter().map(|(id, exponent)| self.power((*id).into(), *exponent)).collect();
             return self.chosen_product(choice, exponent, &others).scaled(scale);
         }
+        if let Some(terms) = self.take_choices(&mut collected) {
+            let others: Vec<Expr> =
+                collected.iter().map(|(id, exponent)| self.power((*id).into(), *exponent)).collect();
+            let products: Vec<Expr> =
+                terms.into_iter().map(|term| self.product(&[others.as_slice(), &[term]].concat())).collect();
+            return self.sum(&products).scaled(scale);
+        }
         collected.sort_unstable();
         let node = match collected.as_slice() {
             [] => Self::ONE,
@@ -108,8 +116,25 @@ impl Graph {
         Expr { scale, node }
     }
 
+    /// Whether one side of a choice is zero, or of a choice inside of it.
     fn chooses_zero(&self, id: Id) -> bool {
-        matches!(self.node(id), Node::Choose { then, otherwise, .. } if then.is_zero() || otherwise.is_zero())
+        let Node::Choose { then, otherwise, .. } = self.node(id) else { return false };
+        [then, otherwise].iter().any(|side| side.is_zero() || self.chooses_zero(side.node))
+    }
+
+    /// Takes a sum of choices of zero out of several factors: all of its terms may be zero where the other factors are
+    /// no numbers, so the product is distributed over them.
+    fn take_choices(&self, factors: &mut Vec<(Id, u32)>) -> Option<Vec<Expr>> {
+        let is_of_choices = |(id, exponent): &(Id, u32)| match self.node(*id) {
+            Node::Sum(terms) => *exponent == 1 && terms.iter().all(|term| self.chooses_zero(term.node)),
+            _ => false,
+        };
+        let position = factors.iter().position(is_of_choices).filter(|_| factors.len() > 1)?;
+        let (sum, _) = factors.remove(position);
+        match self.node(sum) {
+            Node::Sum(terms) => Some(terms.clone()),
+            _ => internal("a sum was expected"),
+        }
     }
 
     /// The product of a choice, to a power, and others, chosen as a whole.

@@ -72,7 +72,8 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
         "degenerate",
         "coordinates(x, y), one_form = (x * x + 2.0 * y * y).sqrt() * d(y) - y.hypot(x) * x * d(x),
          hamiltonian = x.tanh() * y.abs() + x.atan2(y) * x.min(y * y) - x.max(2.0 * y).cosh() + (2.0 * x).erf()
-             + 3.0f64.powf(y) * x.exp_m1() - (0.3 * x).asin() * y.cbrt()",
+             + 3.0f64.powf(y) * x.exp_m1() - (0.3 * x).asin() * y.cbrt()
+             + ((x - 1.0) * (x + 1.0)).powi(2) * y + y.atan2(1.0) - x / (2.0 * x).hypot(y)",
         "struct Functions;",
     ),
     // Sums of constants, and over ranges that depend on one another.
