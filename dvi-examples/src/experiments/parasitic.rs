@@ -121,7 +121,7 @@ fn claims(leapfrogging: &[Series], chaotic: &[Series]) -> Vec<Claim> {
     let energy = |series: &Series| series.points.last().map_or(f64::NAN, |point| point[2]);
     let lost = Claim::new(
         BEYOND,
-        "with σ = 0 the chaotic motion of Fig. 5 is lost whatever the step, with σ = ½ not",
+        "with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not",
     );
     let lost = explicit().fold(lost, |claim, series| {
         claim.check(
