@@ -47,7 +47,7 @@ use proc_macro::TokenStream;
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
 /// Formulas are Rust expressions over the coordinates, the fields of the struct by name, `PI` and other
-/// constants, and the time `t` (a coordinate or field of that name takes precedence): operators, methods
+/// constants by their paths (`std::f64::consts::E`), and the time `t` (a coordinate or field of that name takes precedence): operators, methods
 /// of `f64` and `erf`, `let` blocks, `if … else`, `as f64`; `name.field` and `self.name.field` are fields of
 /// a field. Index sums are `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k and
 /// `sum_ordered_pairs` over j ≠ k. Indices are sums, differences and literal multiples of bound indices,
@@ -56,9 +56,12 @@ use proc_macro::TokenStream;
 /// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without
 /// the remainder, so `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient.
 ///
-/// A derivative is a limit where there is one: those of `x.powf(1.5)` at 0 and of `(x*x + y*y).powf(1.5)` at
-/// the origin are 0. That of `x.abs()` at 0 is taken to be 0. Where a derivative does not exist, as that of
-/// `x.hypot(y)` at the origin, it is infinite or not a number.
+/// Half-integer powers of a coordinate or of a sum of squares, powers of `x.hypot(y)`, and products of such a power with
+/// coordinates, have at zero the derivatives that are their limits: those of `x.powf(1.5)` at 0 and of
+/// `(x*x + y*y).powf(1.5)` at the origin are 0. That of `x.abs()` at 0 is taken to be 0. Where a derivative does not
+/// exist, as that of `x.hypot(y)` at the origin, it is infinite or not a number. So are, at such a point, the derivatives
+/// of other functions of a root, as of `x.powi(4).sqrt()`, of `x.hypot(y).cosh()` or of `(x*x + 4*y*y).powf(1.75)`, though
+/// they have limits.
 ///
 /// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
 /// `Vec`, and the size of the system is known at run time only.
@@ -68,7 +71,8 @@ use proc_macro::TokenStream;
 /// the documentation of the struct with its formulas.
 ///
 /// # Errors
-/// Each mistake is one error on the token at fault. Ω that is singular for certain is a mistake.
+/// Each mistake is one error on the token at fault. Ω with a row that is empty for certain is a mistake;
+/// another that is singular is an error where a run begins.
 #[proc_macro_attribute]
 pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand::degenerate_lagrangian(attribute.into(), item.into()).into()
@@ -92,7 +96,8 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// `dot_x` as fields, and continues the documentation of the struct with its formulas.
 ///
 /// # Errors
-/// Each mistake is one error on the token at fault. A mass matrix that is singular for certain is a mistake.
+/// Each mistake is one error on the token at fault. A mass matrix with an empty row is a mistake; another
+/// that is singular is an error where a run begins.
 #[proc_macro_attribute]
 pub fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand::lagrangian(attribute.into(), item.into()).into()

@@ -49,10 +49,22 @@ impl Role {
     }
 }
 
+/// What Rust takes a value for that a `let` names.
+#[derive(Clone, Debug)]
+enum Written {
+    Real,
+    Integer,
+    /// An integer with a division of integers in it, this one.
+    Quotient(Box<syn::ExprBinary>),
+}
+
 /// What a name of an inner scope stands for.
 #[derive(Clone, Debug)]
 enum Binding {
-    Value(Option<Expr>),
+    Value {
+        value: Option<Expr>,
+        written: Written,
+    },
     /// An index: its form in the open index of a loop, and that loop.
     Index {
         form: Index,
@@ -93,7 +105,9 @@ impl<'ast> Visit<'ast> for IndexNames {
 /// The name in `name`, `name: type` and `_`.
 fn bound_name(pattern: &Pat) -> Option<String> {
     match pattern {
-        Pat::Ident(name) if name.by_ref.is_none() && name.subpat.is_none() => Some(name.ident.to_string()),
+        Pat::Ident(name) if name.by_ref.is_none() && name.mutability.is_none() && name.subpat.is_none() => {
+            Some(name.ident.to_string())
+        }
         Pat::Type(typed) => bound_name(&typed.pat),
         Pat::Wild(_) => Some("_".to_string()),
         _ => None,
@@ -329,7 +343,7 @@ impl<'a> Lowering<'a> {
         declared.extend(self.model.parameters.iter().map(|parameter| parameter.text.clone()));
         declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));
         declared.extend(self.scope.iter().map(|(name, _)| name.clone()));
-        declared.extend(names::CONSTANTS.iter().map(|(name, _)| (*name).to_string()));
+        declared.push("PI".to_string());
         if let Some(written) = self.velocity_called(name) {
             let message = format!("{what} `{name}`; {written}");
             self.errors.push_once(&format!("name {name}"), at, message);

@@ -1,8 +1,8 @@
 //! Blocks with `let`, and choices.
 
-use syn::{BinOp, Expr as Syntax, ExprIf, Stmt, UnOp};
+use syn::{BinOp, Expr as Syntax, ExprIf, Pat, Stmt, UnOp};
 
-use super::{Binding, Lowering, bound_name};
+use super::{Binding, Lowering, Written, bound_name};
 use crate::symbolic::{Expr, Relation};
 
 impl Lowering<'_> {
@@ -43,10 +43,18 @@ impl Lowering<'_> {
                 None
             }
         };
+        let written = local.init.as_ref().map_or(Written::Real, |init| self.written(&init.expr));
         match bound_name(&local.pat) {
-            Some(name) => self.scope.push((name, Binding::Value(value))),
+            Some(name) => self.scope.push((name, Binding::Value { value, written })),
             None => {
-                self.errors.push(&local.pat, "write `let name = value;`: a formula binds one name at a time");
+                self.errors.push(
+                    &local.pat,
+                    "write `let name = value;`: a formula binds one name at a time, and it keeps its value",
+                );
+                // One error is enough for a name that is used further on.
+                if let Pat::Ident(name) = &local.pat {
+                    self.scope.push((name.ident.to_string(), Binding::Value { value: None, written }));
+                }
             }
         }
     }

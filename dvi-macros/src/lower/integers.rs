@@ -5,7 +5,7 @@
 
 use syn::{BinOp, Expr as Syntax, Lit, UnOp};
 
-use super::{Binding, Lowering};
+use super::{Binding, Lowering, Written};
 use crate::symbolic::Expr;
 
 impl Lowering<'_> {
@@ -16,6 +16,10 @@ impl Lowering<'_> {
             self.errors.push(&cast.ty, "formulas are real: only `as f64` is possible here");
             return None;
         }
+        if let Some(block) = block_with_names(&cast.expr) {
+            self.errors.push(block, "write `as f64` at the integers inside of this block");
+            return None;
+        }
         if let Some(division) = self.integer_division(&cast.expr) {
             let (left, right) = (&division.left, &division.right);
             let message = format!(
@@ -23,7 +27,7 @@ impl Lowering<'_> {
                 Self::as_real(left),
                 Self::as_real(right)
             );
-            self.errors.push(division, message);
+            self.errors.push(&division, message);
             return None;
         }
         if self.is_index(&cast.expr) {
@@ -34,8 +38,18 @@ impl Lowering<'_> {
     }
 
     /// The first division of two integers in an expression.
-    fn integer_division<'s>(&mut self, syntax: &'s Syntax) -> Option<&'s syn::ExprBinary> {
+    fn integer_division(&mut self, syntax: &Syntax) -> Option<syn::ExprBinary> {
         match syntax {
+            Syntax::Path(path) => match self.binding_of(&path.path.get_ident()?.to_string()) {
+                Some(Binding::Value { written: Written::Quotient(division), .. }) => {
+                    Some((**division).clone())
+                }
+                _ => None,
+            },
+            Syntax::Block(block) => match block.block.stmts.as_slice() {
+                [.., syn::Stmt::Expr(value, None)] => self.integer_division(value),
+                _ => None,
+            },
             Syntax::Paren(inner) => self.integer_division(&inner.expr),
             Syntax::Group(inner) => self.integer_division(&inner.expr),
             Syntax::Unary(unary) => self.integer_division(&unary.expr),
@@ -45,7 +59,7 @@ impl Lowering<'_> {
                 inside.or_else(|| {
                     let divides = matches!(binary.op, BinOp::Div(_));
                     (divides && self.is_integer(&binary.left) && self.is_integer(&binary.right))
-                        .then_some(binary)
+                        .then(|| binary.clone())
                 })
             }
             _ => None,
@@ -65,14 +79,28 @@ impl Lowering<'_> {
             Syntax::Binary(binary) => self.is_integer(&binary.left) && self.is_integer(&binary.right),
             Syntax::Path(path) => match path.path.get_ident() {
                 Some(name) => match self.binding_of(&name.to_string()) {
-                    Some(binding) => matches!(binding, Binding::Index { .. }),
+                    Some(Binding::Value { written, .. }) => !matches!(written, Written::Real),
+                    Some(Binding::Index { .. }) => true,
                     None => self.model.is_integer_field(syntax) || self.model.size(syntax).is_some(),
                 },
                 None => false,
             },
             Syntax::Field(_) | Syntax::Index(_) => self.model.is_integer_field(syntax),
             Syntax::MethodCall(call) => call.method == "len",
+            Syntax::Block(block) => match block.block.stmts.as_slice() {
+                [.., syn::Stmt::Expr(value, None)] => self.is_integer(value),
+                _ => false,
+            },
             _ => false,
+        }
+    }
+
+    /// What Rust takes a value for.
+    pub(super) fn written(&mut self, syntax: &Syntax) -> Written {
+        match (self.is_integer(syntax), self.integer_division(syntax)) {
+            (false, _) => Written::Real,
+            (true, None) => Written::Integer,
+            (true, Some(division)) => Written::Quotient(Box::new(division)),
         }
     }
 
@@ -82,5 +110,15 @@ impl Lowering<'_> {
             Syntax::Lit(syn::ExprLit { lit: Lit::Int(value), .. }) => format!("{}.0", value.base10_digits()),
             other => format!("({} as f64)", crate::errors::text(other)),
         }
+    }
+}
+
+/// A block that binds names, in parentheses or not.
+fn block_with_names(syntax: &Syntax) -> Option<&syn::ExprBlock> {
+    match syntax {
+        Syntax::Paren(inner) => block_with_names(&inner.expr),
+        Syntax::Group(inner) => block_with_names(&inner.expr),
+        Syntax::Block(block) => (block.block.stmts.len() > 1).then_some(block),
+        _ => None,
     }
 }

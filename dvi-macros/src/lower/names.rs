@@ -8,8 +8,10 @@ use super::{Binding, Lowering};
 use crate::model::Shape;
 use crate::symbolic::{Coordinate, Expr, Index, Node};
 
+/// Those of `std::f64::consts`, by their full paths. A single name may be that of another constant in the module of
+/// the user, which the macro cannot see; only `PI` is taken for what it says.
 #[rustfmt::skip]
-pub(super) const CONSTANTS: [(&str, f64); 8] = [
+const CONSTANTS: [(&str, f64); 8] = [
     ("PI",          consts::PI),
     ("TAU",         consts::TAU),
     ("E",           consts::E),
@@ -31,7 +33,7 @@ impl Lowering<'_> {
         };
         let name = ident.to_string();
         match self.binding_of(&name) {
-            Some(Binding::Value(value)) => return *value,
+            Some(Binding::Value { value, .. }) => return *value,
             Some(Binding::Index { .. }) => {
                 self.errors
                     .push(path, format!("`{name}` is an index: as a number it is written `{name} as f64`"));
@@ -53,14 +55,18 @@ impl Lowering<'_> {
         if let Some(size) = self.model.named_size(&name) {
             return Some(self.graph.count(size));
         }
-        if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
-            return Some(Expr::number(*value));
+        if name == "PI" {
+            return Some(Expr::number(consts::PI));
         }
         if name == "t" {
             return Some(self.graph.intern(Node::Time).into());
         }
         if self.index_names.contains(&name) {
             self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
+        } else if CONSTANTS.iter().any(|(known, _)| *known == name) {
+            let message =
+                format!("write `std::f64::consts::{name}`, or `self::{name}` for a constant of your own");
+            self.errors.push(path, message);
         } else {
             self.unknown_name(path, &name, "unknown name");
         }

@@ -50,7 +50,7 @@ impl Lowering<'_> {
         bindings
             .filter_map(|binding| match binding {
                 Binding::Index { over, .. } => Some(over),
-                Binding::Value(_) => None,
+                Binding::Value { .. } => None,
             })
             .collect()
     }

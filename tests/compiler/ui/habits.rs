@@ -222,4 +222,46 @@ mod velocity_with_d {
     }
 }
 
+mod quotient_under_a_name {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let a = 3; (a / 2) as f64 * y })]
+    pub struct System;
+}
+
+mod named_quotient {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let a = 7 / 2; a as f64 * y })]
+    pub struct System;
+}
+
+mod quotient_in_a_block {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ({ 7 / 2 }) as f64 * y)]
+    pub struct System;
+}
+
+mod cast_of_a_block {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ({ let a = 7; a / 2 }) as f64 * y)]
+    pub struct System;
+}
+
+mod mutable_name {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let mut s = y; s })]
+    pub struct System;
+}
+
+mod constant_of_one_name {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = E * x + y)]
+    pub struct System;
+}
+
 fn main() {}
