@@ -107,10 +107,11 @@ pub trait DegenerateLagrangian: Lagrangian {
     /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
     const LINEAR: bool;
     /// Whether Dα couples each coordinate to exactly one other, its partner, and to nothing else; then
-    /// a Dα + b (Dα)ᵀ is solved by one division per coordinate.
+    /// a Dα + b (Dα)ᵀ is solved by one division per coordinate. True of blocks of coordinates that are coupled index by
+    /// index; of other couplings it may be false, and the general solve is taken.
     const MATCHING: bool;
     /// Whether Ω = (Dα)ᵀ − Dα couples each coordinate to exactly one other. Weaker than
-    /// [`MATCHING`](Self::MATCHING): diagonal entries of Dα cancel in Ω.
+    /// [`MATCHING`](Self::MATCHING): diagonal entries of Dα cancel in Ω. True and false of the same couplings.
     const CANONICAL: bool;
 
     /// H(q, t).
