@@ -153,7 +153,8 @@ pub enum StepFailure {
         limit: f64,
     },
     /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the
-    /// motion does not lead across.
+    /// motion does not lead across. What is watched is the sign of a pair of coordinates, of the Pfaffian of Ω, or of the
+    /// determinant of the mass matrix: a step in which two eigenvalues of a mass matrix change their sign passes unseen.
     #[error(
         "{matrix} has changed its sign within the step, from {before:e} to {after:e}: it is singular in between, and \
          the motion is not determined there"

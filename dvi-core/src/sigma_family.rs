@@ -74,8 +74,9 @@ pub struct Sigma<T = f64> {
     /// the run go on whatever it has become.
     ///
     /// The limit is tested before each step if α is not affine, and before every 256th step if it is; not at σ = ½
-    /// with affine α, where the mode keeps its amplitude. A clean motion of frequency ω has about ωh/2, so that
-    /// steps with ωh near one, where the σ-family with σ = 0 becomes unstable, are refused too. The limit is one of the
+    /// with affine α, where the mode keeps its amplitude. At large steps 256 of them are long: the chaotic vortices of
+    /// Rowley & Marsden 2002, Fig. 5, with σ = 0 and h = 1 have lost their energy by then. A clean motion of frequency ω has about ωh/2, so that
+    /// long runs with ωh above about 0.7 are refused too, though they may be bounded. The limit is one of the
     /// mode and not of the energy: where α is far from affine, the energy error of short steps may have grown tenfold
     /// before. [`EnergyLimit`](crate::EnergyLimit) around the method limits that.
     pub parasitic_limit: Option<f64>,
