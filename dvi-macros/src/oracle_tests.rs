@@ -50,7 +50,7 @@ fn on_large_stack(run: impl FnOnce() + Send + 'static) {
 
 fn random_systems(part: u64) {
     on_large_stack(move || {
-        let (count, seed) = (setting("DVI_SYSTEMS", 600), setting("DVI_SEED", 0));
+        let (count, seed) = (setting("DVI_SYSTEMS", 1000), setting("DVI_SEED", 0));
         let mut summary = Summary::default();
         for number in (0..count).filter(|number| number % 2 == part) {
             let seed = (seed << 40) + number;

@@ -7,15 +7,6 @@ use dvi_tests::systems::*;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
-/// A gauge in which the shift of a step is a multiple of Δ that differs from coordinate to coordinate.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form    = 0.3 * x * d(y) - 0.7 * y * d(x),
-    hamiltonian = (x * x + y * y) / 2.0,
-)]
-#[derive(Clone, Debug)]
-struct Oblique;
-
 /// Compares one run in pieces with one step by step, up to `steps` or the first failure.
 fn check<S: DegenerateLagrangian>(
     system: &S,

@@ -4,15 +4,11 @@ use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Method, Space, Statistics};
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / (x * x + y * y).sqrt(),
-)]
-#[derive(Clone, Debug)]
-struct Kepler;
+const KEPLER: Kepler = Kepler { mu: 1.0 };
 
 /// A mass that depends on the place.
 #[lagrangian(
@@ -21,15 +17,6 @@ struct Kepler;
 )]
 #[derive(Clone, Debug)]
 struct Polar;
-
-/// A gauge in which the parasitic mode of σ = 0 grows by 7/3 a step.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form    = 0.3 * x * d(y) - 0.7 * y * d(x),
-    hamiltonian = (x * x + y * y) / 2.0,
-)]
-#[derive(Clone, Debug)]
-struct Oblique;
 
 /// Restores the memory of a run, made another way, from one that has taken `before` steps, and goes on with both.
 fn check<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, q0: &[f64], v0: &[f64]) -> Outcome {
@@ -80,11 +67,11 @@ fn degenerate_runs_go_on_from_a_copy() -> Outcome {
 fn regular_runs_go_on_from_a_copy() -> Outcome {
     let (q, v) = ([0.7, 0.2], [0.3, 1.1]);
     for beta in [0.0, 0.25] {
-        check(&Kepler, Newmark::new(beta), &q, &v)?;
-        check(&Kepler, EnergyLimit { method: Newmark::new(beta), limit: 1.0 }, &q, &v)?;
+        check(&KEPLER, Newmark::new(beta), &q, &v)?;
+        check(&KEPLER, EnergyLimit { method: Newmark::new(beta), limit: 1.0 }, &q, &v)?;
     }
-    check(&Kepler, Variational::trapezoid(), &q, &v)?;
-    check(&Kepler, Variational::simpson(), &q, &v)?;
+    check(&KEPLER, Variational::trapezoid(), &q, &v)?;
+    check(&KEPLER, Variational::simpson(), &q, &v)?;
     check(&Polar, Variational::midpoint(), &q, &v)?;
     check(&Polar, Galerkin::<3>::new(), &q, &v)
 }
@@ -112,7 +99,7 @@ fn a_limit_of_the_energy_error_ends_any_run() -> Outcome {
     // β = 0 is Verlet, which steps over the centre of a head-on orbit.
     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
     let limited = EnergyLimit { method: Newmark::new(0.0), limit: 0.1 };
-    let error = Integrator::new(&Kepler, limited, 0.01, start)?.advance_by(300).err();
+    let error = Integrator::new(&KEPLER, limited, 0.01, start)?.advance_by(300).err();
     assert!(
         matches!(error, Some(StepError { failure: StepFailure::Energy { start: -1.0, .. }, .. })),
         "{error:?}"

@@ -67,7 +67,7 @@ fn series(job: &Job<'_>, name: &str, colour: Colour, [dx, dy]: [f64; 2], end: f6
     let Case { vortices, mut start } = models::leapfrogging();
     start.x[0] += dx;
     start.y[0] += dy;
-    // The run goes on until its energy is lost, whatever the parasitic mode does.
+    // The run is to go on until its energy is lost, so the limit of the parasitic mode is off.
     let second_point = Start::RungeKutta(RungeKutta::midpoint());
     let method = Sigma { start: second_point, parasitic_limit: None, ..Sigma::leapfrog() };
     let mut run = Integrator::new(&vortices, method, H, start)?;

@@ -125,16 +125,20 @@ impl Graph {
     /// Takes a sum of choices of zero out of several factors: all of its terms may be zero where the other factors are
     /// no numbers, so the product is distributed over them.
     fn take_choices(&self, factors: &mut Vec<(Id, u32)>) -> Option<Vec<Expr>> {
-        let is_of_choices = |(id, exponent): &(Id, u32)| match self.node(*id) {
-            Node::Sum(terms) => *exponent == 1 && terms.iter().all(|term| self.chooses_zero(term.node)),
-            _ => false,
-        };
-        let position = factors.iter().position(is_of_choices).filter(|_| factors.len() > 1)?;
-        let (sum, _) = factors.remove(position);
-        match self.node(sum) {
-            Node::Sum(terms) => Some(terms.clone()),
-            _ => internal("a sum was expected"),
+        if factors.len() < 2 {
+            return None;
         }
+        let (position, terms) = factors.iter().enumerate().find_map(|(position, factor)| match *factor {
+            (id, 1) => match self.node(id) {
+                Node::Sum(terms) if terms.iter().all(|term| self.chooses_zero(term.node)) => {
+                    Some((position, terms.clone()))
+                }
+                _ => None,
+            },
+            _ => None,
+        })?;
+        factors.remove(position);
+        Some(terms)
     }
 
     /// The product of a choice, to a power, and others, chosen as a whole.

@@ -1,4 +1,4 @@
-//! A run on dual numbers is its own tangent map: exact derivatives of whole steps, whatever is in them.
+//! A run on dual numbers as its own tangent map: the derivatives of whole steps, except at an equilibrium.
 
 use dvi_core::prelude::*;
 use dvi_core::{Method, Space, State};
