@@ -1,0 +1,114 @@
+//! Functions of the text, and sums over its indices.
+
+use quote::ToTokens;
+use syn::{Expr, ExprCall, ExprMethodCall, RangeLimits};
+
+use super::super::functions;
+use super::super::jet::Jet;
+use super::super::point::Variable;
+use super::words::{exponent, pattern};
+use super::{Binding, Evaluation, Value, unknown, written};
+
+impl Evaluation<'_> {
+    pub(super) fn method(&mut self, call: &ExprMethodCall) -> Value<Jet> {
+        let name = self.texts.of(call, || call.method.to_string());
+        let receiver = self.number(&call.receiver)?;
+        self.function(call, &name, receiver, &call.args.iter().collect::<Vec<_>>())
+    }
+
+    /// A function of the language by its name.
+    fn function<T: ToTokens>(&mut self, call: &T, name: &str, receiver: Jet, rest: &[&Expr]) -> Value<Jet> {
+        if name == "powi" {
+            return Ok(receiver.power(exponent(rest[0])));
+        }
+        let mut arguments = Vec::new();
+        for argument in rest {
+            arguments.push(self.number(argument)?);
+        }
+        let degree = std::f64::consts::PI / 180.0;
+        let value = match (name, arguments.as_slice()) {
+            ("recip", []) => receiver.reciprocal(),
+            ("to_radians", []) => receiver.scaled(degree),
+            ("to_degrees", []) => receiver.scaled(1.0 / degree),
+            ("mul_add", [factor, term]) => receiver.times(factor).plus(term),
+            ("min" | "max", [other]) => {
+                let (a, b) = (receiver.value().value, other.value().value);
+                let holds = if name == "min" { a <= b } else { a >= b };
+                match (self.side(call, holds), a.is_nan() || b.is_nan()) {
+                    // Which of the two is taken differs from what Rust does: such a point is drawn again.
+                    (_, true) => receiver.plus(other),
+                    (true, false) => receiver,
+                    (false, false) => other.clone(),
+                }
+            }
+            (name, []) => functions::unary(name, &receiver).unwrap_or_else(|| unknown(call)),
+            (name, [other]) => functions::binary(name, &receiver, other).unwrap_or_else(|| unknown(call)),
+            _ => unknown(call),
+        };
+        Ok(value)
+    }
+
+    pub(super) fn call(&mut self, call: &ExprCall) -> Value<Jet> {
+        let name = self.texts.of(call, || written(&call.func));
+        if let Some(number) = self.functions.iter().position(|function| *function == name) {
+            let argument = self.number(&call.args[0])?;
+            return Ok(functions::own(number, &argument));
+        }
+        match &*name {
+            "sum" | "product" | "sum_pairs" | "sum_ordered_pairs" => self.fold(&name, call),
+            "d" | "dot" => {
+                let (name, indices) = self.place(&call.args[0])?;
+                let Some(block) = self.block(&name) else { unknown(call) };
+                self.variable(Variable::Velocity, block, indices.first().copied().unwrap_or(0))
+            }
+            // `f64::sin(x)` is `x.sin()`.
+            _ => match name.strip_prefix("f64::").or_else(|| name.strip_prefix("f32::")) {
+                Some(method) => {
+                    let receiver = self.number(&call.args[0])?;
+                    self.function(call, method, receiver, &call.args.iter().skip(1).collect::<Vec<_>>())
+                }
+                None => unknown(call),
+            },
+        }
+    }
+
+    fn fold(&mut self, name: &str, call: &ExprCall) -> Value<Jet> {
+        let (Expr::Range(range), Expr::Closure(closure)) = (&call.args[0], &call.args[1]) else {
+            unknown(call)
+        };
+        let lower = range.start.as_ref().map_or(Ok(0), |start| self.index(start))?;
+        let Some(end) = &range.end else { unknown(call) };
+        let upper = self.index(end)?;
+        let upper = match range.limits {
+            RangeLimits::HalfOpen(_) => upper,
+            RangeLimits::Closed(_) => upper + 1,
+        };
+        let mut total = Jet::number(if name == "product" { 1.0 } else { 0.0 });
+        for first in self.point.visited(lower, upper) {
+            let seconds = match name {
+                "sum" | "product" => {
+                    let term = self.closure(closure, &[first])?;
+                    total = if name == "sum" { total.plus(&term) } else { total.times(&term) };
+                    continue;
+                }
+                "sum_pairs" => self.point.visited(first + 1, upper),
+                _ => self.point.visited(lower, upper).into_iter().filter(|second| *second != first).collect(),
+            };
+            for second in seconds {
+                total = total.plus(&self.closure(closure, &[first, second])?);
+            }
+        }
+        Ok(total)
+    }
+
+    pub(super) fn closure(&mut self, closure: &syn::ExprClosure, indices: &[i64]) -> Value<Jet> {
+        let outside = self.scope.len();
+        for (input, index) in closure.inputs.iter().zip(indices) {
+            let name = self.texts.of(input, || pattern(input));
+            self.scope.push((name, Binding::Index(*index)));
+        }
+        let value = self.number(&closure.body);
+        self.scope.truncate(outside);
+        value
+    }
+}
