@@ -141,15 +141,15 @@ pub enum StepFailure {
     },
     /// The parasitic mode of a two-step method has taken over: what the run computes is no longer its motion.
     #[error(
-        "the parasitic mode has reached {relative:.3} times the smooth part of the second differences, amplitude \
+        "the parasitic mode has reached {relative:.3} times a quarter of the smooth second differences, amplitude \
          {amplitude:e}; the limit is {limit}: take another sigma or method, or smaller steps for a later end"
     )]
     ParasiticMode {
         /// Its amplitude in the coordinates.
         amplitude: f64,
-        /// Its share, relative to what does not alternate.
+        /// Its size, relative to h²q̈/4: see [`ParasiticMode::relative`](crate::ParasiticMode::relative).
         relative: f64,
-        /// The largest share that was allowed.
+        /// The largest relative size that was allowed.
         limit: f64,
     },
     /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the

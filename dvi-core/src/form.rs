@@ -141,6 +141,16 @@ impl<S: DegenerateLagrangian, T: Real> Product<S, T> {
         }
     }
 
+    /// Whether the combination is zero, seen from its product with a vector without pattern.
+    pub(crate) fn vanishes(&self, system: &S) -> bool {
+        let [mut x, mut product]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = T::lift(1.0) + Scalar::sin(T::lift(i as f64));
+        }
+        self.apply(system, &x, &mut product);
+        product.iter().all(|&entry| entry == T::lift(0.0))
+    }
+
     /// Sets `out` to (a Dα + b (Dα)ᵀ) x.
     #[inline(always)]
     pub(crate) fn apply(&self, system: &S, x: &[T], out: &mut [T]) {

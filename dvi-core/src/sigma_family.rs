@@ -73,12 +73,14 @@ pub struct Sigma<T = f64> {
     /// [`StepFailure::ParasiticMode`](crate::StepFailure) and the run stays where it is. Default: ½. `None` lets
     /// the run go on whatever it has become.
     ///
-    /// The limit is tested before each step if α is not affine, and before every 256th step if it is; not at σ = ½
-    /// with affine α, where the mode keeps its amplitude. At large steps 256 of them are long: the chaotic vortices of
-    /// Rowley & Marsden 2002, Fig. 5, with σ = 0 and h = 1 have lost their energy by then. A clean motion of frequency ω has about ωh/2, so that
-    /// long runs with ωh above about 0.7 are refused too, though they may be bounded. The limit is one of the
-    /// mode and not of the energy: where α is far from affine, the energy error of short steps may have grown tenfold
-    /// before. [`EnergyLimit`](crate::EnergyLimit) around the method limits that.
+    /// The limit is tested before each step, except in two cases. If Dα is constant and antisymmetric and σ ≠ ½, the
+    /// mode is measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow; there a mode
+    /// that is large from the first steps on may become three times as large, if that is more than the limit. If α is
+    /// affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
+    ///
+    /// The limit is one of the mode and not of the energy: where α is far from affine, the energy error of short steps
+    /// may have grown tenfold before. A motion that turns by more than 70° in a step cannot be told from the mode.
+    /// [`EnergyLimit`](crate::EnergyLimit) around the method limits the energy.
     pub parasitic_limit: Option<f64>,
 }
 

@@ -6,16 +6,20 @@
 
 use crate::error::StepFailure;
 
-/// Steps between two examinations.
+/// The largest number of steps between two examinations.
 pub(crate) const BLOCK: u64 = 256;
 
-/// Where in a block the points begin that are looked at.
-const WATCHED: u64 = BLOCK - 4;
+/// How many points are looked at before a block ends.
+const WATCHED: u64 = 4;
 
 /// A state that moves from step to step, and the place where its last good value is kept.
 pub(crate) trait Walk {
     /// Takes the step with this number; numbers begin at zero.
     fn step(&mut self, number: u64);
+    /// The number of steps in the block at hand, a power of two up to [`BLOCK`].
+    fn block(&self) -> u64 {
+        BLOCK
+    }
     /// Looks at the point before the step with this number, one of the last four of a block.
     fn watch(&mut self, _number: u64) {}
     /// Whether the run may go on where a block begins, with the step of this number.
@@ -40,7 +44,8 @@ pub(crate) trait Walk {
 /// state has been kept. Blocks begin at the same steps, however many are taken at once.
 #[inline(always)]
 pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Result<(), StepFailure>) {
-    if count == 1 && (1..WATCHED).contains(&(before % BLOCK)) {
+    let position = before & (state.block() - 1);
+    if count == 1 && position != 0 && position + WATCHED < state.block() {
         // The usual case of a run that is read at each step.
         state.step(0);
         return match state.examine(1) {
@@ -51,16 +56,18 @@ pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Resul
             Err(failure) => (0, Err(failure)),
         };
     }
-    let (mut taken, mut block) = (0, BLOCK);
+    let (mut taken, mut at_once) = (0, BLOCK);
     while taken < count {
-        let position = (before + taken) % BLOCK;
-        if position == 0
+        if (before + taken) & (state.block() - 1) == 0
             && let Err(failure) = state.admit(taken)
         {
             return (taken, Err(failure));
         }
-        let steps = block.min(count - taken).min(BLOCK - position);
-        let unseen = WATCHED.saturating_sub(position).min(steps);
+        // What admits may have set another block.
+        let block = state.block();
+        let position = (before + taken) & (block - 1);
+        let steps = at_once.min(count - taken).min(block - position);
+        let unseen = block.saturating_sub(WATCHED).saturating_sub(position).min(steps);
         for number in taken..taken + unseen {
             state.step(number);
         }
@@ -76,7 +83,7 @@ pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Resul
             Err(failure) if steps == 1 => return (taken, Err(failure)),
             Err(_) => {
                 state.go_back();
-                block = 1;
+                at_once = 1;
             }
         }
     }

@@ -168,6 +168,11 @@ impl<S: DegenerateLagrangian, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for 
     }
 
     #[inline(always)]
+    fn block(&self) -> u64 {
+        self.monitor.period()
+    }
+
+    #[inline(always)]
     fn watch(&mut self, number: u64) {
         self.monitor.note(self.monitor.steps + number, self.points.q1);
     }

@@ -6,7 +6,7 @@
 
 use super::Sigma;
 use super::leapfrog::Ahead;
-use super::monitor::{Monitor, ParasiticMode};
+use super::monitor::{Monitor, Pace, ParasiticMode};
 use crate::error::StartError;
 use crate::form::{Combination, Form, Product};
 use crate::history::History;
@@ -86,7 +86,8 @@ impl<S: Lagrangian, T: Real> SigmaMemory<S, T> {
     }
 
     /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is measured
-    /// before each step if α is not affine, and before every 256th step if it is.
+    /// before each step; if Dα is constant and antisymmetric, after 4 to 256 steps, the sooner the larger the mode and
+    /// the longer the steps; without a limit, or where α is affine and σ = ½, before every 256th step.
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
         self.monitor.latest()
     }
@@ -183,8 +184,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         let newton = (!explicit && method.solver != Solver::FixedPoint).then(|| space.matrix());
         let mut one_form = space.vector();
         system.one_form(q, t, &mut one_form);
-        // With σ = ½ and affine α the mode is only reversed.
-        let limit = method.parasitic_limit.filter(|_| !(S::LINEAR && method.is_midpoint()));
+        let (limit, pace) = pace(system, method, q, t);
         Ok(Self {
             defect: space.vector(),
             defect_vanishes: false,
@@ -196,7 +196,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             ahead,
             newton,
             newton_steps: 0,
-            monitor: Monitor::new(system, limit, !S::LINEAR),
+            monitor: Monitor::new(system, limit, pace),
             orientation: FormOrientation::new(system, q, t),
             work,
         })
@@ -211,6 +211,26 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             *scaled = c * *scale;
         }
         inverse.solve(system, scaled, &mut work.shift);
+    }
+}
+
+/// The limit of the parasitic mode, and when the mode is measured.
+fn pace<S: DegenerateLagrangian, T: Real>(
+    system: &S,
+    method: &Sigma<T>,
+    q: &[T],
+    t: T,
+) -> (Option<f64>, Pace) {
+    let one = T::lift(1.0);
+    match method.parasitic_limit {
+        // The mode is only reversed.
+        _ if S::LINEAR && method.is_midpoint() => (None, Pace::Seldom),
+        None => (None, Pace::Seldom),
+        // Where Dα is antisymmetric, K' = −K: c is reversed, and a gradient added to it.
+        limit if S::LINEAR && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) => {
+            (limit, Pace::WithTheFlow)
+        }
+        limit => (limit, Pace::EachStep),
     }
 }
 

@@ -6,14 +6,15 @@ mod vortices_by_hand;
 use dvi_core::prelude::*;
 use dvi_core::{Frequency, FrequencyIn, Rule};
 use dvi_tests::configurations;
-use dvi_tests::systems::PointVortices;
+use dvi_tests::systems::{PointVortices, PointVorticesState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 7] = [
+pub(crate) const KERNELS: [[&str; 2]; 8] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
+    ["explicit, parasitic mode limited/generated", "explicit, parasitic mode limited/by hand"],
     ["fixed point/generated", "fixed point/by hand"],
     ["newton/generated", "newton/by hand"],
     ["Kepler, Verlet/generated", "Kepler, Verlet/by hand"],
@@ -22,6 +23,8 @@ pub(crate) const KERNELS: [[&str; 2]; 7] = [
 ];
 
 const H: f64 = 0.1;
+/// The step on two leapfrogging pairs.
+const LONG: f64 = 1.0;
 const GAMMA: [f64; 4] = [1.0; 4];
 
 fn start() -> vortices_by_hand::State {
@@ -45,6 +48,8 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
         }),
         "fixed point/generated" => generated(implicit(Solver::FixedPoint), |run| run.advance_by(steps)),
         "newton/generated" => generated(implicit(Solver::Newton), |run| run.advance_by(steps)),
+        "explicit, parasitic mode limited/generated" => limited(steps),
+        "explicit, parasitic mode limited/by hand" => limited_by_hand(steps),
         "explicit/by hand" => {
             let mut leapfrog = vortices_by_hand::Leapfrog::new(field, H, start());
             (0..steps).for_each(|_| leapfrog.step());
@@ -100,6 +105,7 @@ fn stopping() -> Stopping {
 const KEPLER_H: f64 = core::f64::consts::TAU / 200.0;
 
 #[inline(always)]
+#[inline(never)]
 fn kepler<F: FrequencyIn<f64>, R: Rule>(method: Variational<F, R>, steps: u64) -> f64 {
     let system = black_box(Kepler { mu: 1.0 });
     let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
@@ -115,13 +121,39 @@ fn explicit() -> Sigma {
     Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), parasitic_limit: None, ..Sigma::leapfrog() }
 }
 
+/// On pairs that keep their motion.
+#[inline(never)]
+fn limited(steps: u64) -> f64 {
+    let limited = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() };
+    generated_from(configurations::leapfrogging(), limited, LONG, |run| run.advance_by(steps))
+}
+
+#[inline(never)]
+fn limited_by_hand(steps: u64) -> f64 {
+    let (PointVortices { gamma }, PointVorticesState { x, y }) = configurations::leapfrogging();
+    let field = vortices_by_hand::Field::new(black_box(gamma));
+    let start = std::array::from_fn(|i| if i < 4 { x[i] } else { y[i - 4] });
+    let mut leapfrog = vortices_by_hand::Leapfrog::new(field, LONG, start);
+    (0..steps).for_each(|_| leapfrog.step());
+    leapfrog.z[0]
+}
+
 type Run<'a> = Integrator<'a, PointVortices<4>, Sigma>;
 
 #[inline(always)]
 fn generated(method: Sigma, take: impl FnOnce(&mut Run<'_>) -> Result<(), StepError>) -> f64 {
-    let (system, state) = configurations::quasi_periodic();
+    generated_from(configurations::quasi_periodic(), method, H, take)
+}
+
+#[inline(always)]
+fn generated_from(
+    (system, state): (PointVortices<4>, PointVorticesState<4>),
+    method: Sigma,
+    h: f64,
+    take: impl FnOnce(&mut Run<'_>) -> Result<(), StepError>,
+) -> f64 {
     let system = black_box(system);
-    let Ok(mut run) = Integrator::new(&system, method, H, state) else { return f64::NAN };
+    let Ok(mut run) = Integrator::new(&system, method, h, state) else { return f64::NAN };
     match take(&mut run) {
         Ok(()) => run.q()[0],
         Err(_) => f64::NAN,

@@ -20,6 +20,23 @@ fn curved() -> (Curved, CurvedState) {
     (Curved { kappa: 0.3 }, CurvedState { x: 0.8, y: 0.3 })
 }
 
+/// A one-form that is not affine, and circles.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (x.powi(3) / 3 + x) / 2 * d(y) - (y.powi(3) / 3 + y) / 2 * d(x),
+    hamiltonian = (x * x + y * y) / 2,
+)]
+struct Cubic;
+
+/// The chaotic four, and a pair that turns faster far away.
+fn beside_a_fast_pair() -> (PointVortices<6>, PointVorticesState<6>) {
+    let PointVorticesState { x, y } = chaotic().1;
+    let far = |near: [f64; 4], fifth: f64, sixth: f64| {
+        core::array::from_fn(|i| near.get(i).copied().unwrap_or(if i == 4 { fifth } else { sixth }))
+    };
+    (PointVortices { gamma: [1.0; 6] }, PointVorticesState { x: far(x, 50.0, 50.3), y: far(y, 0.0, 0.0) })
+}
+
 /// How far a run goes up to time `end`.
 struct Course {
     steps: u64,
@@ -44,20 +61,31 @@ fn course<S: DegenerateLagrangian, M: Method<S, f64>>(
     Ok(Course { steps: run.steps(), time: run.time(), energy_error, error })
 }
 
-/// A run that keeps its motion to time `end`, for three steps.
+/// A run that keeps its motion to time `end`, for some steps.
 fn healthy<S: DegenerateLagrangian>(
-    (system, start): &(S, S::State<f64>),
+    system_and_start: &(S, S::State<f64>),
     method: Sigma,
-    steps: [f64; 3],
+    steps: &[f64],
     end: f64,
 ) -> Outcome {
-    for h in steps {
+    bounded(system_and_start, method, steps, end, 0.015)
+}
+
+/// A run that goes on to time `end`, for some steps, with an energy error below this fraction of the energy.
+fn bounded<S: DegenerateLagrangian>(
+    (system, start): &(S, S::State<f64>),
+    method: Sigma,
+    steps: &[f64],
+    end: f64,
+    bound: f64,
+) -> Outcome {
+    for &h in steps {
         let run = Integrator::new(system, method, h, start.clone())?;
         let initial = run.energy();
         let Course { error, energy_error, .. } = course(run, end)?;
         let name = S::REPORT.system;
         assert_eq!(error, None, "{name}, σ = {}, h = {h}", method.sigma);
-        assert!(energy_error < 0.015 * initial.abs(), "{name}: not healthy: {energy_error:e}");
+        assert!(energy_error < bound * initial.abs(), "{name}, h = {h}: not healthy: {energy_error:e}");
     }
     Ok(())
 }
@@ -68,28 +96,36 @@ fn healthy_runs_go_on() -> Outcome {
     for start in [runge_kutta, Start::Consistent] {
         let leapfrog = Sigma { start, ..Sigma::leapfrog() };
         // 10⁵ steps of the longest.
-        healthy(&leapfrogging(), leapfrog, [2.0, 1.0, 0.5], 2e5)?;
-        healthy(&quasi_periodic(), Sigma { start, ..Sigma::midpoint() }, [0.1, 0.2, 0.25], 2e3)?;
-        healthy(&quasi_periodic(), Sigma { start, ..Sigma::new(0.25) }, [0.1, 0.05, 0.02], 2e3)?;
+        healthy(&leapfrogging(), leapfrog, &[2.5, 2.0, 1.0, 0.5], 2e5)?;
+        healthy(&quasi_periodic(), Sigma { start, ..Sigma::midpoint() }, &[0.1, 0.2, 0.25], 2e3)?;
+        healthy(&quasi_periodic(), Sigma { start, ..Sigma::new(0.25) }, &[0.1, 0.05, 0.02], 2e3)?;
     }
     for sigma in [0.25, fourth_order()] {
         let shorter = if sigma == 0.25 { 2e3 } else { 500.0 };
-        healthy(&quasi_periodic(), Sigma::new(sigma), [0.1, 0.05, 0.02], shorter)?;
-        healthy(&chaotic(), Sigma::new(sigma), [0.1, 0.05, 0.02], 500.0)?;
+        healthy(&quasi_periodic(), Sigma::new(sigma), &[0.1, 0.05, 0.02], shorter)?;
+        healthy(&chaotic(), Sigma::new(sigma), &[0.1, 0.05, 0.02], 500.0)?;
     }
-    healthy(&chaotic(), Sigma::midpoint(), [0.1, 0.2, 0.5], 2e3)?;
-    healthy(&prey(), Sigma::midpoint(), [0.1, 0.05, 0.02], 200.0)?;
-    healthy(&curved(), Sigma::midpoint(), [0.1, 0.05, 0.02], 200.0)
+    healthy(&chaotic(), Sigma::midpoint(), &[0.1, 0.2, 0.5], 2e3)?;
+    healthy(&prey(), Sigma::midpoint(), &[0.1, 0.05, 0.02], 200.0)?;
+    healthy(&curved(), Sigma::midpoint(), &[0.1, 0.05, 0.02], 200.0)?;
+    let cubic = (Cubic, CubicState { x: 0.8, y: 0.3 });
+    healthy(&cubic, Sigma::midpoint(), &[0.5, 0.2, 0.1], 2e3)?;
+    // Long steps: the energy error is larger, and bounded; the mode is large from the start and stays as it is.
+    bounded(&cubic, Sigma::midpoint(), &[1.0], 2e4, 0.08)?;
+    let oscillator = (Oscillator { omega: 1.0 }, OscillatorState { x: 1.0, y: 0.2 });
+    bounded(&oscillator, Sigma::leapfrog(), &[0.5, 0.7], 1e4, 0.5)?;
+    bounded(&oscillator, Sigma::new(0.25), &[0.7, 0.9, 1.05, 1.3], 1e4, 0.7)?;
+    bounded(&oscillator, Sigma::new(fourth_order()), &[0.7, 0.9, 1.05, 1.3], 1e4, 0.7)
 }
 
-/// A run that loses its motion before `end`, for three steps.
+/// A run that loses its motion before `end`, for some steps.
 fn spoilt<S: DegenerateLagrangian>(
     (system, start): &(S, S::State<f64>),
     sigma: f64,
-    steps: [f64; 3],
+    steps: &[f64],
     end: f64,
 ) -> Outcome {
-    for h in steps {
+    for &h in steps {
         let name = format!("{}, σ = {sigma}, h = {h}", S::REPORT.system);
         let begin = |method| Integrator::new(system, method, h, start.clone());
         // The implicit midpoint rule has one step, and no parasitic mode.
@@ -110,7 +146,7 @@ fn spoilt<S: DegenerateLagrangian>(
             return Err(format!("{name}: {failure}").into());
         };
         assert_eq!((step, time), (found.steps, found.time), "{name}");
-        assert!(limit == 0.5 && relative > limit && amplitude > 0.0, "{name}: {failure}");
+        assert!(limit >= 0.5 && relative > limit && amplitude > 0.0, "{name}: {failure}");
         assert!(found.energy_error < 10.0 * usual, "{name}: {:e}", found.energy_error);
     }
     Ok(())
@@ -118,15 +154,17 @@ fn spoilt<S: DegenerateLagrangian>(
 
 #[test]
 fn spoilt_runs_end_before_their_energy_tells() -> Outcome {
-    spoilt(&chaotic(), 0.0, [0.1, 0.05, 0.02], 300.0)?;
+    spoilt(&chaotic(), 0.0, &[1.0, 0.7, 0.5, 0.2, 0.1, 0.05, 0.02], 300.0)?;
+    spoilt(&quasi_periodic(), 0.0, &[0.25, 0.2, 0.1], 2e3)?;
     for sigma in [0.25, fourth_order()] {
-        spoilt(&leapfrogging(), sigma, [0.5, 0.25, 0.125], 2000.0)?;
+        spoilt(&leapfrogging(), sigma, &[4.0, 3.0, 2.0, 1.0, 0.5, 0.25, 0.125], 2000.0)?;
     }
     for sigma in [0.0, 0.25, fourth_order(), 0.75] {
-        spoilt(&prey(), sigma, [0.1, 0.05, 0.02], 10.0)?;
+        spoilt(&prey(), sigma, &[0.1, 0.05, 0.02], 10.0)?;
     }
     let far = (prey().0, LotkaVolterraState { x: 2.5, y: 2.0 });
-    spoilt(&far, 0.5, [0.1, 0.05, 0.02], 40.0)
+    spoilt(&far, 0.5, &[0.1, 0.05, 0.02], 40.0)?;
+    spoilt(&beside_a_fast_pair(), 0.0, &[0.02, 0.01, 0.005], 300.0)
 }
 
 /// On this system the energy error of the spoilt runs grows before the second differences alternate: the limit ends
@@ -156,7 +194,7 @@ fn the_last_state_is_kept_and_the_limit_can_be_moved_or_switched_off() -> Outcom
     let mut run = Integrator::new(&system, Sigma::leapfrog(), 0.1, start)?;
     let error = run.advance_by(10_000).err();
     let (state, steps) = (run.state(), run.steps());
-    assert!(steps % 256 == 0 && run.energy().is_finite(), "{steps}");
+    assert!(steps % 4 == 0 && run.energy().is_finite(), "{steps}");
     let Some(StepError { step, time, failure: StepFailure::ParasiticMode { amplitude, relative, limit } }) =
         error
     else {
