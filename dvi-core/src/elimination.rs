@@ -3,12 +3,15 @@
 //!
 //! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were
 //! subtracted to form its column: |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. The test does not change when the
-//! matrix is multiplied by a constant.
+//! matrix is multiplied by a constant, unless pivots become so small that their reciprocals overflow.
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
-use crate::norm::{larger, reported};
+use crate::norm::{larger, singular};
 use crate::{Real, Scalar};
+
+/// What a pivot is compared with at least: n ε times this still has a finite reciprocal.
+const LEAST: f64 = 1e-290;
 
 /// Overwrites the n×n `matrix` with L (unit diagonal, not stored) and U, and `permutation` with the row
 /// that was exchanged with row k at stage k. n is the length of `permutation`.
@@ -21,11 +24,11 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
         let (row, pivot) = pivot_row(matrix, n, k);
-        let above = (0..k).fold(T::lift(0.0), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
+        let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
         // A pivot that is not a number is no use either.
         let usable = pivot > rounding * above;
         if !usable {
-            return Err(StepFailure::Singular { column: k, pivot: reported(pivot) });
+            return Err(singular(pivot, k));
         }
         permutation[k] = row;
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
@@ -93,10 +96,10 @@ pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), St
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
         let (row, pivot) = pivot_row(matrix, n, k);
-        let above = (0..k).fold(T::lift(0.0), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
+        let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
         let usable = pivot > rounding * above;
         if !usable {
-            return Err(StepFailure::Singular { column: k, pivot: reported(pivot) });
+            return Err(singular(pivot, k));
         }
         let begin = if n <= SHORT { 0 } else { (k + 1) & !3 };
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);

@@ -153,8 +153,8 @@ pub enum StepFailure {
         limit: f64,
     },
     /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the
-    /// motion does not lead across. What is watched is the sign of a pair of coordinates, of the Pfaffian of Ω, or of the
-    /// determinant of the mass matrix: a step in which two eigenvalues of a mass matrix change their sign passes unseen.
+    /// motion does not lead across. What is watched is the sign of a pair of coordinates, the sign of the Pfaffian of Ω, or
+    /// the number of negative eigenvalues of the mass matrix.
     #[error(
         "{matrix} has changed its sign within the step, from {before:e} to {after:e}: it is singular in between, and \
          the motion is not determined there"
@@ -162,8 +162,9 @@ pub enum StepFailure {
     Orientation {
         /// Which matrix.
         matrix: &'static str,
-        /// At the start of the step: the entry of Ω that has changed its sign, if Ω couples the coordinates in pairs;
-        /// else the smallest pivot, with the sign of the Pfaffian of Ω or of the determinant of the mass matrix.
+        /// At the start of the step: the entry of Ω that has changed its sign, if Ω couples the coordinates in pairs; else
+        /// the smallest pivot of Ω, with the sign of the Pfaffian; or the smallest pivot of the mass matrix on the side of
+        /// zero that has been left.
         before: f64,
         /// At its end.
         after: f64,

@@ -6,10 +6,9 @@
 //! factored.
 
 use crate::error::StepFailure;
-use crate::norm::reported;
 use crate::statistics::Statistics;
 use crate::{
-    DegenerateLagrangian, Lagrangian, Matrix, Permutation, Real, Scalar, Space, Vector, elimination,
+    DegenerateLagrangian, Lagrangian, Matrix, Permutation, Real, Scalar, Space, Vector, elimination, norm,
 };
 
 /// The coefficients of a combination a Dα + b (Dα)ᵀ.
@@ -70,13 +69,7 @@ impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
             Self::Reciprocals(reciprocals) => {
                 system.partner_entries(q, t, a, b, entries);
                 for j in 0..entries.len() {
-                    let entry = entries[system.partner(j)];
-                    // An entry that is not a number is no use either.
-                    let usable = Scalar::abs(entry) > T::lift(0.0);
-                    if !usable {
-                        return Err(StepFailure::Singular { column: j, pivot: reported(entry) });
-                    }
-                    reciprocals[j] = T::lift(1.0) / entry;
+                    reciprocals[j] = norm::reciprocal(entries[system.partner(j)], j)?;
                 }
                 Ok(())
             }

@@ -84,6 +84,7 @@ mod frequency;
 mod galerkin;
 mod gauss;
 mod history;
+mod inertia;
 mod integrator;
 mod lagrangian;
 mod legendre;

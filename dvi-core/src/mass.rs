@@ -4,9 +4,8 @@
 //! elimination otherwise.
 
 use crate::error::StepFailure;
-use crate::norm::reported;
 use crate::{
-    Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination,
+    Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Vector, Weights, elimination, norm,
 };
 
 /// M and M⁻¹.
@@ -26,12 +25,7 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
             system.gradient(q, &v, t, &mut l_q, &mut l_v);
             let (masses, mut reciprocals) = (l_v, v);
             for (column, (&mass, reciprocal)) in masses.iter().zip(reciprocals.iter_mut()).enumerate() {
-                // A mass that is not a number is no use either.
-                let usable = Scalar::abs(mass) > T::lift(0.0);
-                if !usable {
-                    return Err(StepFailure::Singular { column, pivot: reported(mass) });
-                }
-                *reciprocal = T::lift(1.0) / mass;
+                *reciprocal = norm::reciprocal(mass, column)?;
             }
             return Ok(Self::Diagonal { masses, reciprocals });
         }

@@ -14,6 +14,19 @@ pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)))
 }
 
+/// 1/`pivot`, for a pivot of a matrix: an error if that is not a finite number.
+#[inline(always)]
+pub(crate) fn reciprocal<T: Real>(pivot: T, column: usize) -> Result<T, StepFailure> {
+    let reciprocal = T::lift(1.0) / pivot;
+    if reciprocal.is_finite() { Ok(reciprocal) } else { Err(singular(pivot, column)) }
+}
+
+/// The error of a pivot that is no use.
+#[cold]
+pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
+    StepFailure::Singular { column, pivot: reported(pivot) }
+}
+
 /// minᵢ |xᵢ|, at most `bound`.
 #[inline(always)]
 pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {

@@ -1,17 +1,18 @@
 //! Whether Ω and the mass matrix keep their orientation from step to step.
 //!
 //! Where Ω or ∂²L/∂v∂v is singular, the motion is not determined, and no step may pass: on the other side there is
-//! another system. A step that jumps over such a place finds regular matrices at both ends, but the Pfaffian of Ω, the
-//! determinant of the mass matrix, has changed its sign. Two passages within one step are not seen, nor are two pivots
-//! that vanish together, unless Ω couples the coordinates in pairs, whose entries are compared one by one.
+//! another system. A step that jumps over such a place finds regular matrices at both ends, but another number of
+//! negative eigenvalues of the mass matrix, or another sign of the Pfaffian of Ω. Two passages within one step are not
+//! seen, nor eigenvalues of a mass matrix that change their signs in opposite directions, nor two pivots of Ω that vanish
+//! together, unless Ω couples the coordinates in pairs, whose entries are compared one by one.
 //!
 //! The Pfaffian comes from skew elimination, A = P L T Lᵀ Pᵀ (Wimmer 2012, ACM TOMS 38, algorithm 923).
 
 use crate::error::StepFailure;
+use crate::inertia::{Inertia, inertia};
 use crate::norm::reported;
 use crate::{
-    DegenerateLagrangian, Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, Vector,
-    Weights, elimination,
+    DegenerateLagrangian, Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights,
 };
 
 /// Ω at the end of the last step; nothing if it is the same everywhere.
@@ -67,13 +68,13 @@ impl<S: DegenerateLagrangian, T: Real> FormOrientation<S, T> {
             Self::Pairs([entries, next]) => {
                 system.partner_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
                 for (&before, &after) in entries.iter().zip(next.iter()) {
-                    compare("Ω", before, after)?;
+                    compare(before, after)?;
                 }
                 Ok(T::lift(0.0))
             }
             Self::Pfaffian(before, matrix) => {
                 let after = Self::pfaffian(system, q, t, matrix);
-                compare("Ω", *before, after)?;
+                compare(*before, after)?;
                 Ok(after)
             }
         }
@@ -134,10 +135,8 @@ fn pfaffian_sign<T: Real>(a: &mut [T], n: usize) -> T {
 /// The mass matrix at the end of the last step, and storage.
 #[derive(Debug)]
 pub(crate) struct MassOrientation<S: Lagrangian, T: Real> {
-    /// The sign of the determinant times the smallest pivot.
-    sign: T,
+    inertia: Inertia<T>,
     matrix: Matrix<S, T>,
-    permutation: Permutation<S>,
     l_q: Vector<S, T>,
     l_v: Vector<S, T>,
 }
@@ -149,15 +148,9 @@ impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
     /// [`StepFailure::Singular`].
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StepFailure> {
         let space = system.space();
-        let mut new = Self {
-            sign: T::lift(0.0),
-            matrix: space.matrix(),
-            permutation: space.permutation(),
-            l_q: space.vector(),
-            l_v: space.vector(),
-        };
-        new.sign = new.evaluate(system, q, v, t)?;
-        Ok(new)
+        let (mut matrix, mut l_q, mut l_v) = (space.matrix(), space.vector(), space.vector());
+        let inertia = Self::evaluate(system, q, v, t, &mut matrix, [&mut l_q, &mut l_v])?;
+        Ok(Self { inertia, matrix, l_q, l_v })
     }
 
     /// Compares the mass matrix at (`q`, `v`, `t`), the end of a step, with the last, and keeps it.
@@ -165,39 +158,43 @@ impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] and [`StepFailure::Orientation`]; the last is kept then.
     pub(crate) fn check(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<(), StepFailure> {
-        let after = self.evaluate(system, q, v, t)?;
-        compare("the mass matrix", self.sign, after)?;
-        self.sign = after;
-        Ok(())
+        let Self { matrix, l_q, l_v, .. } = self;
+        let after = Self::evaluate(system, q, v, t, matrix, [l_q, l_v])?;
+        let before = core::mem::replace(&mut self.inertia, after);
+        if after.negative == before.negative {
+            return Ok(());
+        }
+        self.inertia = before;
+        // Those that crossed zero went from one side to the other.
+        let [from, to] = if after.negative > before.negative { [0, 1] } else { [1, 0] };
+        let [before, after] = [before.least[from], after.least[to]].map(reported);
+        Err(StepFailure::Orientation { matrix: "the mass matrix", before, after })
     }
 
     /// Takes over what another has kept.
     pub(crate) fn restore(&mut self, from: &Self) {
-        self.sign = from.sign;
+        self.inertia = from.inertia;
     }
 
-    fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<T, StepFailure> {
-        let Self { matrix, permutation, l_q, l_v, .. } = self;
-        let (zero, n) = (T::lift(0.0), q.len());
+    fn evaluate(
+        system: &S,
+        q: &[T],
+        v: &[T],
+        t: T,
+        matrix: &mut [T],
+        [l_q, l_v]: [&mut Vector<S, T>; 2],
+    ) -> Result<Inertia<T>, StepFailure> {
+        let zero = T::lift(0.0);
         matrix.fill(zero);
         let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
         system.linearize(q, v, t, weights, l_q, l_v, matrix);
-        elimination::factor(matrix, permutation)?;
-        let (mut sign, mut smallest) = (T::lift(1.0), Scalar::abs(matrix[0]));
-        for k in 0..n {
-            let pivot = matrix[k * n + k];
-            if (pivot < zero) != (permutation[k] != k) {
-                sign = -sign;
-            }
-            let size = Scalar::abs(pivot);
-            smallest = if size < smallest { size } else { smallest };
-        }
-        Ok(sign * smallest)
+        // The gradients are not needed.
+        inertia(matrix, l_q)
     }
 }
 
 #[inline(always)]
-fn compare<T: Real>(matrix: &'static str, before: T, after: T) -> Result<(), StepFailure> {
+fn compare<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
     // A product would underflow; what is not a number has no sign. A matrix that was singular has none to lose.
     let zero = T::lift(0.0);
     let same = (before > zero && after > zero) || (before < zero && after < zero);
@@ -205,7 +202,7 @@ fn compare<T: Real>(matrix: &'static str, before: T, after: T) -> Result<(), Ste
         return Ok(());
     }
     let [before, after] = [before, after].map(reported);
-    Err(StepFailure::Orientation { matrix, before, after })
+    Err(StepFailure::Orientation { matrix: "Ω", before, after })
 }
 
 #[cfg(test)]

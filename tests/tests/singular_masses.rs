@@ -57,3 +57,58 @@ fn no_step_goes_over_a_mass_of_zero() -> Outcome {
     assert!(found > 5, "{found}");
     Ok(())
 }
+
+/// Two masses that vanish together, at t = 1.
+#[lagrangian(coordinates(x, y), lagrangian = (1 - t) * (dot(x).powi(2) + dot(y).powi(2)) / 2)]
+#[derive(Clone, Debug)]
+struct Vanishing;
+
+/// The same two, coupled so that the matrix is not diagonal.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (1 - t) * (dot(x).powi(2) + dot(x) * dot(y) + dot(y).powi(2)) / 2,
+)]
+#[derive(Clone, Debug)]
+struct VanishingPair;
+
+#[test]
+fn two_masses_that_change_their_sign_together_end_a_run() -> Outcome {
+    fn check<S: RegularLagrangian>(system: &S, start: &S::State<f64>) -> Outcome {
+        for h in [0.3, 0.35, 0.7] {
+            for rule in [Quadrature::gauss(1)?, Quadrature::gauss(2)?, Quadrature::lobatto(2)?] {
+                let mut run = Integrator::new(system, Variational::new(rule), h, start.clone())?;
+                let error = (0..10).find_map(|_| run.advance().err()).ok_or("no error")?;
+                assert!(run.time() < 1.0, "h = {h}: {}", run.time());
+                let StepFailure::Orientation { matrix: "the mass matrix", before, after } = error.failure else {
+                    return Err(format!("h = {h}: {error}").into());
+                };
+                assert!(before > 0.0 && after < 0.0, "{error}");
+            }
+        }
+        Ok(())
+    }
+    check(&Vanishing, &VanishingState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 0.5 })?;
+    check(&VanishingPair, &VanishingPairState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 0.5 })
+}
+
+/// A body on a spring.
+#[lagrangian(coordinates(x), lagrangian = m * dot(x).powi(2) / 2 - x * x / 2)]
+#[derive(Clone, Debug)]
+struct Body {
+    m: f64,
+}
+
+/// 1/m overflows.
+#[test]
+fn a_mass_too_small_to_divide_by_is_singular() -> Outcome {
+    fn check<M: Method<Body, f64>>(method: M) -> Outcome {
+        let start = BodyState { x: 1.0, dot_x: 0.0 };
+        match Integrator::new(&Body { m: 1e-320 }, method, 0.1, start).err() {
+            Some(StartError::Starter(StepFailure::Singular { column: 0, pivot })) if pivot == 1e-320 => Ok(()),
+            other => Err(format!("{other:?}").into()),
+        }
+    }
+    check(Variational::trapezoid())?;
+    check(Variational::midpoint())?;
+    check(Galerkin::<3>::new())
+}
