@@ -117,6 +117,12 @@ pub enum StepFailure {
         /// it in place of S.
         kernel: f64,
     },
+    /// The frequency of a phase-fitted interpolation is not a number, or infinite.
+    #[error("phase fitting breaks down: the frequency is {omega}; it is not defined at this state")]
+    Frequency {
+        /// The frequency, or its product with the step.
+        omega: f64,
+    },
     /// A matrix that must be solved with is singular to working precision.
     #[error(
         "singular matrix: pivot {pivot:e} in column {column}; the discrete Lagrangian is degenerate here"

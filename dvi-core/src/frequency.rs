@@ -302,7 +302,7 @@ impl<S: RegularLagrangian, T: Real> Local<S, T> {
     ) -> Result<(), StepFailure> {
         mass.solve(force, &mut self.acceleration);
         self.omega = frequency.at(q, v, &self.acceleration);
-        norm::finite(&[self.omega])
+        defined(self.omega)
     }
 
     /// ω and its gradient at (`q`, `v`): da = M⁻¹∂²L/∂q∂q dq.
@@ -325,10 +325,22 @@ impl<S: RegularLagrangian, T: Real> Local<S, T> {
         mass.solve(l_q, &mut self.acceleration);
         let Self { acceleration, dq, dv, da, .. } = self;
         // Refused at the start if there are none.
-        self.omega = frequency.derivatives(q, v, acceleration, dq, dv, da).unwrap_or(T::lift(f64::NAN));
+        let Some(omega) = frequency.derivatives(q, v, acceleration, dq, dv, da) else {
+            return Err(StepFailure::Frequency { omega: f64::NAN });
+        };
+        self.omega = omega;
         mass.solve(&self.da, l_v);
         crate::elimination::multiply_add(hessian, l_v, &mut self.dq);
         norm::finite(&self.dq)?;
-        norm::finite(&[self.omega])
+        defined(self.omega)
     }
+}
+
+/// Whether a frequency, or its product with the step, is a finite number.
+///
+/// # Errors
+/// [`StepFailure::Frequency`].
+#[inline(always)]
+pub(crate) fn defined<T: Real>(omega: T) -> Result<(), StepFailure> {
+    if omega.is_finite() { Ok(()) } else { Err(StepFailure::Frequency { omega: norm::reported(omega) }) }
 }

@@ -39,7 +39,7 @@ impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
             return norm::finite(v);
         }
         let stopping = Stopping::default();
-        let mut convergence = Convergence::new(stopping, norm::largest(v), stopping.max_iterations);
+        let mut convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
         loop {
             let correction = self.improve(system, q, p, t, v)?;
             match convergence.judge(correction) {

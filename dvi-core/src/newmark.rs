@@ -184,7 +184,7 @@ impl<T: Real> Newmark<T> {
         let budget = if solver == Solver::Automatic { max.min(24 + q.len()) } else { max };
         let scale = norm::largest(q) + norm::largest(&memory.work.increment);
         let mut convergence = if solver == Solver::Newton {
-            Convergence::new(self.stopping, scale, budget)
+            Convergence::new(self.stopping, scale, q, budget)
         } else {
             Convergence::fixed_point(self.stopping, scale, q, budget)
         };

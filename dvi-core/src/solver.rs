@@ -7,9 +7,9 @@
 //!
 //! What a fixed point leaves over has the same direction in every step, and adds up to a drift however far below the
 //! rounding of one step it is (Hairer, McLachlan & Razakarivony 2008). So a tolerance that asks for less than rounding
-//! is judged on the smallest coordinate of a fixed point, and rounding errors are those that no longer shrink at all:
-//! the small coordinates are then as accurate as the large ones. Newton's method squares its error in the iteration that
-//! is accepted, and is left at the tolerance.
+//! is judged on the smallest coordinate, and rounding errors of a fixed point are those that no longer shrink at all: the
+//! small coordinates are then as accurate as the large ones. Newton's method squares its error in the iteration that is
+//! accepted, and leaves nothing over.
 
 use crate::Real;
 use crate::error::{StartError, StepFailure};
@@ -35,8 +35,8 @@ pub struct Stopping {
     /// The largest error to accept, relative to max|q| + max|Δ| over all coordinates. Default: 1e-17, below the
     /// rounding of double precision.
     ///
-    /// Below the rounding of the arithmetic, it is relative to the smallest |q| for a fixed point, which otherwise goes
-    /// on until its corrections no longer shrink: small coordinates do not suffer from large ones. On four vortices
+    /// Below the rounding of the arithmetic, it is relative to the smallest |q|, and an iteration that cannot reach that
+    /// goes on until its corrections no longer shrink: small coordinates do not suffer from large ones. On four vortices
     /// with σ = ½ and h = 0.1, ΣΓ|z|² then changes by less than 4e-19 a step over 4·10⁵ steps; an iteration that
     /// stops as soon as an error of 1e-17 of the largest is predicted drifts by 1.2e-18. A larger tolerance is judged on the
     /// largest coordinate.
@@ -92,12 +92,19 @@ pub(crate) struct Convergence<T> {
     shrinking: T,
 }
 
+/// Whether less is asked for than the arithmetic gives.
+#[inline(always)]
+fn is_below_rounding<T: Real>(stopping: Stopping) -> bool {
+    T::lift(stopping.tolerance) < T::default_epsilon()
+}
+
 impl<T: Real> Convergence<T> {
-    /// Of an iteration that may take `budget` iterations, for numbers of size `scale`.
+    /// Of an iteration that may take `budget` iterations, from `q`, for numbers of size `scale`.
     #[inline(always)]
-    pub(crate) fn new(stopping: Stopping, scale: T, budget: usize) -> Self {
+    pub(crate) fn new(stopping: Stopping, scale: T, q: &[T], budget: usize) -> Self {
+        let judged = if is_below_rounding::<T>(stopping) { smallest(q, scale) } else { scale };
         Self {
-            tolerance: T::lift(stopping.tolerance) * scale,
+            tolerance: T::lift(stopping.tolerance) * judged,
             floor: T::lift(FLOOR) * T::default_epsilon() * scale,
             correction: T::lift(0.0),
             growths: 0,
@@ -110,13 +117,8 @@ impl<T: Real> Convergence<T> {
     /// The same for a fixed point from `q`, which gains a constant factor in each iteration.
     #[inline(always)]
     pub(crate) fn fixed_point(stopping: Stopping, scale: T, q: &[T], budget: usize) -> Self {
-        let new = Self::new(stopping, scale, budget);
-        let tolerance = T::lift(stopping.tolerance);
-        if tolerance < T::default_epsilon() {
-            Self { tolerance: tolerance * smallest(q, scale), shrinking: T::lift(1.0), ..new }
-        } else {
-            new
-        }
+        let new = Self::new(stopping, scale, q, budget);
+        if is_below_rounding::<T>(stopping) { Self { shrinking: T::lift(1.0), ..new } } else { new }
     }
 
     /// Takes note of the size of the latest correction and decides.

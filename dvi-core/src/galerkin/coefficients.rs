@@ -9,6 +9,7 @@
 
 use crate::basis::Bases;
 use crate::error::StepFailure;
+use crate::frequency;
 use crate::norm::reported;
 use crate::quadrature::{self, Quadrature, Rule};
 use crate::{Real, Scalar, elimination};
@@ -90,6 +91,7 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         let kernel = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
         let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
         if !determined {
+            frequency::defined(u)?;
             let u = reported(u);
             return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
         }

@@ -39,7 +39,7 @@ pub(super) fn solve<S: DegenerateLagrangian, T: Real>(
     let sigma = step.method.sigma;
     let scale = norm::largest(q) + norm::largest(&work.increment);
     let stopping = step.method.stopping;
-    let mut convergence = Convergence::new(stopping, scale, stopping.max_iterations);
+    let mut convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
     // Only a run by fixed point alone has no storage, and it never comes here.
     let Some(matrix) = storage else { return Err(convergence.failure()) };
     let (weights, left_h) = (mixed_weights(sigma, step.h), (T::lift(1.0) - sigma) * step.h);

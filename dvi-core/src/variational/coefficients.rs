@@ -9,7 +9,7 @@ use super::memory::Work;
 use super::{Fitting, Step};
 use crate::basis::{self, Bases, Basis};
 use crate::error::StepFailure;
-use crate::frequency::{Frequency, FrequencyIn};
+use crate::frequency::{self, Frequency, FrequencyIn};
 use crate::norm::reported;
 use crate::quadrature::{NODES, Rule};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector};
@@ -100,6 +100,7 @@ impl<T: Real> Uniform<T> {
         if !determined {
             // Not the coefficients of any step.
             self.u = T::lift(f64::NAN);
+            frequency::defined(u)?;
             let u = reported(u);
             return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
         }

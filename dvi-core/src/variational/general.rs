@@ -44,7 +44,7 @@ fn solve<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
 ) -> Result<(), StepFailure> {
     let stopping = step.method.stopping;
     let scale = norm::largest(q) + norm::largest(&memory.work.increment);
-    let mut convergence = Convergence::new(stopping, scale, stopping.max_iterations);
+    let mut convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
     let verdict = loop {
         differentiate(step, memory, q, statistics)?;
         correct(step, memory, q, statistics)?;

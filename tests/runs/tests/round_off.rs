@@ -66,3 +66,35 @@ fn a_large_coordinate_does_not_spoil_the_others() -> Outcome {
     compare(Gauss::<1>::new())?;
     compare(Gauss::<2>::new())
 }
+
+/// The same oscillator as a regular system, and a body far away.
+#[dvi_core::lagrangian(
+    coordinates(x, y, far),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(far).powi(2)) / 2.0
+        - (x * x + y * y) / 2.0 - x.powi(4) / 4.0 - x * y / 5.0,
+)]
+#[derive(Clone, Debug)]
+struct Distant;
+
+#[test]
+fn a_far_body_does_not_spoil_the_others() -> Outcome {
+    fn check<M: Method<Distant, f64> + Copy + core::fmt::Debug>(method: M) -> Outcome {
+        let end = |far| -> Result<[f64; 2], Box<dyn core::error::Error>> {
+            let start = DistantState { x: 1.0, y: 0.3, far, dot_x: 0.2, dot_y: 0.0, dot_far: 1.0 };
+            let mut run = Integrator::new(&Distant, method, 0.1, start)?;
+            run.advance_by(1000)?;
+            Ok([run.q()[0], run.q()[1]])
+        };
+        let [near, far] = [end(0.3)?, end(1e9)?];
+        let error = near.iter().zip(far).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(error < 2e-12, "{method:?}: {error:e}");
+        Ok(())
+    }
+    for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
+        check(Variational { solver, ..Variational::midpoint() })?;
+        check(Variational { solver, ..Variational::simpson() })?;
+        check(Galerkin::<3> { solver, ..Galerkin::new() })?;
+        check(Newmark { solver, ..Newmark::new(0.25) })?;
+    }
+    Ok(())
+}

@@ -2,6 +2,7 @@
 
 use super::Outcome;
 use dvi_core::prelude::*;
+use dvi_core::{Frequency, FrequencyIn, Method};
 use dvi_tests::zoo::regular::*;
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
@@ -187,6 +188,59 @@ fn a_limit_of_the_energy_error_ends_a_run() -> Outcome {
     for limit in [0.0, -1.0, f64::NAN] {
         let error = Integrator::new(&KEPLER, EnergyLimit { method, limit }, h, start).err();
         assert!(matches!(error, Some(StartError::Parameter { name: "limit", .. })), "{error:?}");
+    }
+    Ok(())
+}
+
+/// A frequency that is defined where x > 0.9 only.
+#[derive(Clone, Copy, Debug)]
+struct Partial(Reading);
+
+impl Frequency for Partial {
+    fn reading(&self) -> Option<Reading> {
+        Some(self.0)
+    }
+}
+
+impl FrequencyIn<f64> for Partial {
+    fn at(&self, q: &[f64], _v: &[f64], _a: &[f64]) -> f64 {
+        (q[0] - 0.9).sqrt()
+    }
+
+    fn derivatives(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        a: &[f64],
+        dq: &mut [f64],
+        dv: &mut [f64],
+        da: &mut [f64],
+    ) -> Option<f64> {
+        let omega = self.at(q, v, a);
+        dq.copy_from_slice(&[0.5 / omega, 0.0]);
+        dv.fill(0.0);
+        da.fill(0.0);
+        Some(omega)
+    }
+}
+
+#[test]
+fn a_frequency_that_is_not_defined_is_an_error_of_its_own() -> Outcome {
+    fn check<M: Method<Kepler, f64>>(method: M) -> Outcome {
+        let mut run = Integrator::new(&KEPLER, method, 0.05, state(1.0, 1.0))?;
+        let error = run.advance_by(100).err().ok_or("no error")?;
+        assert!(run.q()[0] > 0.85 && run.steps() > 3, "{error}");
+        assert!(
+            matches!(error.failure, StepFailure::Frequency { omega } if omega.is_nan()),
+            "{error}"
+        );
+        Ok(())
+    }
+    for reading in [Reading::LeftFrozen, Reading::Averaged, Reading::Variational] {
+        check(Variational::simpson().phase_fitted(Partial(reading)))?;
+    }
+    for reading in [Reading::Averaged, Reading::Variational] {
+        check(Galerkin::<3>::new().phase_fitted(Partial(reading)))?;
     }
     Ok(())
 }
