@@ -56,12 +56,14 @@ use proc_macro::TokenStream;
 /// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without
 /// the remainder, so `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient.
 ///
-/// Half-integer powers of a coordinate or of a sum of squares, powers of `x.hypot(y)`, and products of such a power with
-/// coordinates, have at zero the derivatives that are their limits: those of `x.powf(1.5)` at 0 and of
-/// `(x*x + y*y).powf(1.5)` at the origin are 0. That of `x.abs()` at 0 is taken to be 0. Where a derivative does not
-/// exist, as that of `x.hypot(y)` at the origin, it is infinite or not a number. So are, at such a point, the derivatives
-/// of other functions of a root, as of `x.powi(4).sqrt()`, of `x.hypot(y).cosh()` or of `(x*x + 4*y*y).powf(1.75)`, though
-/// they have limits.
+/// Where the rules of differentiation give 0/0 and a limit exists, the derivative is the limit in these cases: half-integer
+/// powers of a coordinate; powers above ½ of a sum of squares with positive literal coefficients, and of `x.hypot(y)`;
+/// their products with coordinates and smooth functions, and sums of these; even roots of even powers, and third and
+/// higher powers of `cbrt`. So those of `x.powf(1.5)` at 0 and of `(x*x + y*y).powf(1.5)` at the origin are 0. Of `cos`
+/// and `cosh` of such a root the first derivatives are 0 there, the second not a number. The derivative of `x.abs()` at 0
+/// is taken to be 0. Where a derivative does not exist, as that of `x.hypot(y)` at the origin, it is infinite or not a
+/// number; so is at such a point that of a root with coefficients that are not literal, as of
+/// `(x*x + k*y*y).powf(1.5)`, though it has a limit for k > 0.
 ///
 /// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
 /// `Vec`, and the size of the system is known at run time only.

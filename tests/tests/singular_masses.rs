@@ -79,7 +79,8 @@ fn two_masses_that_change_their_sign_together_end_a_run() -> Outcome {
                 let mut run = Integrator::new(system, Variational::new(rule), h, start.clone())?;
                 let error = (0..10).find_map(|_| run.advance().err()).ok_or("no error")?;
                 assert!(run.time() < 1.0, "h = {h}: {}", run.time());
-                let StepFailure::Orientation { matrix: "the mass matrix", before, after } = error.failure else {
+                let StepFailure::Orientation { matrix: "the mass matrix", before, after } = error.failure
+                else {
                     return Err(format!("h = {h}: {error}").into());
                 };
                 assert!(before > 0.0 && after < 0.0, "{error}");
@@ -104,7 +105,9 @@ fn a_mass_too_small_to_divide_by_is_singular() -> Outcome {
     fn check<M: Method<Body, f64>>(method: M) -> Outcome {
         let start = BodyState { x: 1.0, dot_x: 0.0 };
         match Integrator::new(&Body { m: 1e-320 }, method, 0.1, start).err() {
-            Some(StartError::Starter(StepFailure::Singular { column: 0, pivot })) if pivot == 1e-320 => Ok(()),
+            Some(StartError::Starter(StepFailure::Singular { column: 0, pivot })) if pivot == 1e-320 => {
+                Ok(())
+            }
             other => Err(format!("{other:?}").into()),
         }
     }

@@ -40,7 +40,8 @@ fn solve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let stopping = step.method.stopping;
-    let mut convergence = Convergence::new(stopping, memory.scale(), &memory.work.unknowns[0], stopping.max_iterations);
+    let mut convergence =
+        Convergence::new(stopping, memory.scale(), &memory.work.unknowns[0], stopping.max_iterations);
     let verdict = loop {
         memory.read_frequency(step, statistics)?;
         differentiate(step, memory, statistics)?;

@@ -120,13 +120,16 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
     /// [`StepFailure::ParasiticMode`] if the run is lost.
     #[inline(always)]
     pub(super) fn look(&mut self, q: &[T]) -> Result<(), StepFailure> {
-        if (self.steps + KEPT as u64) & (self.period - 1) > KEPT as u64 { Ok(()) } else { self.look_closely(q) }
+        if (self.steps + KEPT as u64) & (self.period - 1) > KEPT as u64 {
+            Ok(())
+        } else {
+            self.look_closely(q)
+        }
     }
 
     #[inline(never)]
     fn look_closely(&mut self, q: &[T]) -> Result<(), StepFailure> {
-        let verdict =
-            if self.steps & (self.period - 1) == 0 { self.examine(self.steps, q) } else { Ok(()) };
+        let verdict = if self.steps & (self.period - 1) == 0 { self.examine(self.steps, q) } else { Ok(()) };
         self.note(self.steps, q);
         verdict
     }
@@ -183,7 +186,8 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
             size = larger(size, Scalar::abs(e));
             increment = larger(increment, Scalar::abs(delta));
         }
-        let (floor, mut relative) = (T::lift(FLOOR) * largest, larger(zero, Scalar::sqrt(alternated / turned)));
+        let (floor, mut relative) =
+            (T::lift(FLOOR) * largest, larger(zero, Scalar::sqrt(alternated / turned)));
         for (i, &e) in q.iter().enumerate() {
             relative = larger(relative, Scalar::abs(alternating(i, e)) / larger(sizes[i], floor));
         }

@@ -36,8 +36,8 @@ const EPSILON: f64 = 0.02;
 const TOLERANCE: f64 = 0.01;
 /// After so many periods of steps by (23) as printed there is nothing left of the orbit.
 const LOST: u64 = 1000;
-/// Steps per unit of arc length are short: these runs take so many periods.
-const LOCKED: u64 = 3000;
+/// Steps per unit of arc length are short: a period takes so many times as long as one with reversible steps.
+const SHORT_STEPS: u64 = 12;
 /// Periods after which the early energy errors are noted.
 const EARLY: f64 = 100.0;
 const SETTLED: f64 = 300.0;
@@ -69,8 +69,7 @@ struct Series {
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose(100_000, 320);
-    let locked = periods.min(LOCKED);
-    job.expect(3 * periods + periods.min(LOST) + 2 * 12 * locked);
+    job.expect((3 + 2 * SHORT_STEPS) * periods + periods.min(LOST));
     let frozen = Variational::simpson().phase_fitted(Curvature(Reading::LeftFrozen));
     let lobatto = Variational::new(Quadrature::lobatto(4)?).phase_fitted(Radial(Reading::Variational));
     let follow = |contender: usize| {
@@ -82,8 +81,8 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
             }
             1 => series.follow(job, &mut osculating(frozen, ORBIT, TOLERANCE)?, periods.min(LOST), 1),
             2 => series.follow(job, &mut reversible(frozen, ORBIT, EPSILON)?, periods, 1),
-            3 => series.follow(job, &mut per_arc_length(frozen, ORBIT, 1e-5)?, locked, 12),
-            4 => series.follow(job, &mut per_arc_length(frozen, ORBIT, 3e-6)?, locked, 12),
+            3 => series.follow(job, &mut per_arc_length(frozen, ORBIT, 1e-5)?, periods, SHORT_STEPS),
+            4 => series.follow(job, &mut per_arc_length(frozen, ORBIT, 3e-6)?, periods, SHORT_STEPS),
             _ => series.follow(job, &mut reversible(lobatto, ORBIT, EPSILON)?, periods, 1),
         }
         anyhow::Ok(series)
@@ -95,7 +94,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     all.sort_by_key(|(contender, _)| *contender);
     let all: Vec<Series> = all.into_iter().map(|(_, series)| series).collect();
     job.publish(EXPERIMENT.name, figure(&all, periods), table(&all)?)?;
-    Ok(Outcome { claims: claims(job, &all), references: references(&all), notes: notes(&all) })
+    Ok(Outcome { claims: claims(job, &all), references: references(job, &all), notes: notes(&all) })
 }
 
 impl Series {
@@ -152,7 +151,7 @@ impl Series {
 
 fn claims(job: &Job<'_>, all: &[Series]) -> Vec<Claim> {
     let [verlet, printed, frozen, coarse, fine, lobatto] = all else { return Vec::new() };
-    let growth = "max|ΔE| over 3000 periods / over 300 periods";
+    let growth = "max|ΔE| over all / over 300 periods";
     let saturates = |series: &Series| job.only_full(series.course.position);
     vec![
         Claim::new(
@@ -176,7 +175,8 @@ fn claims(job: &Job<'_>, all: &[Series]) -> Vec<Claim> {
                 saturates(fine),
                 Bound::Within(1.0, 2.1),
             )
-            .check("(23) per arc length, 1e-5: the same", saturates(coarse), Bound::Within(1.0, 2.1)),
+            // Its orbit turns: two points of two such orbits are up to twice the aphelion distance apart.
+            .check("(23) per arc length, 1e-5: the same", saturates(coarse), Bound::Within(1.0, 3.9)),
         Claim::new(
             BEYOND,
             "with (23) as printed the orbit is lost, and with reversible steps the left-frozen method drifts",
@@ -211,7 +211,7 @@ fn claims(job: &Job<'_>, all: &[Series]) -> Vec<Claim> {
 }
 
 /// Numbers of independent programs.
-fn references(all: &[Series]) -> Vec<Check> {
+fn references(job: &Job<'_>, all: &[Series]) -> Vec<Check> {
     let [verlet, _, _, coarse, fine, lobatto] = all else { return Vec::new() };
     vec![
         Check::new("Lobatto-4: max|ΔE| over 100 periods", lobatto.early, Bound::Within(9.4e-8, 9.6e-8)),
@@ -225,7 +225,11 @@ fn references(all: &[Series]) -> Vec<Check> {
             fine.course.steps,
             Bound::Near(5708.0, 3.0),
         ),
-        Check::new("(23) per arc length, 1e-5: max|ΔE|", coarse.course.energy, Bound::Within(3e-3, 9e-3)),
+        Check::new(
+            "(23) per arc length, 1e-5: max|ΔE| over 10⁵ periods",
+            job.only_full(coarse.course.energy),
+            Bound::Near(8.428e-3, 1e-6),
+        ),
     ]
 }
 

@@ -71,11 +71,12 @@ impl Graph {
                 let tangents: Vec<Expr> = terms.iter().map(|term| self.derivative(*term, by)).collect();
                 self.factored_sum(&tangents)
             }
-            Node::Product(factors) => self.product_derivative(&factors, by),
+            Node::Product(factors) => self.product_derivative(&factors, &[], by),
             Node::Reciprocal(u) => self.reciprocal_derivative(of, u, by),
-            Node::Unary(function, u) => {
-                self.chain(u, by, |graph| graph.unary_derivative(function, u, of.into()))
-            }
+            Node::Unary(function, u) => match self.function_of_root(function, u, of, by) {
+                Some(derivative) => derivative,
+                None => self.chain(u, by, |graph| graph.unary_derivative(function, u, of.into())),
+            },
             Node::Call(function, order, u) => self.chain(u, by, |graph| graph.call(function, order + 1, u)),
             Node::Binary(function, a, b) => {
                 let tangents = [self.derivative(a, by), self.derivative(b, by)];

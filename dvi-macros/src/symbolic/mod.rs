@@ -8,6 +8,7 @@ mod derivative;
 mod energy;
 mod graph;
 mod index;
+mod limits;
 mod powers;
 mod print;
 mod rules;

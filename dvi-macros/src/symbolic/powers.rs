@@ -8,12 +8,11 @@
 //! |---|---|
 //! | uᵐ·√uᵏ, m ≥ 1 | (m + k/2)·uᵐ⁻¹·√uᵏ·u' |
 //! | Rᵏ, k ≥ 2, R = √u or √(a² + b²) | (k/2)·Rᵏ⁻²·(R²)' |
-//! | w·R, where R² = w² + terms that are never negative | the part of R' is (w/R)·(R²)'/2 |
+//! | cᵏ, k ≥ 3, c = ∛u | (k/3)·cᵏ⁻³·u' |
 //! | w·(1/R), R = √(w² + b²) | (b/R)·((b/R)·w' − (w/R)·b')/R |
 //! | (s + c)ᵉ·(s − c)ᵉ | 2e·((s + c)(s − c))ᵉ⁻¹·s·s' |
 //!
-//! In the third line the quotient w/R is taken to be 0 at R = 0. The term has the limit 0 there: |w| ≤ R
-//! because w² is one term of R² and no other is negative, and (R²)' vanishes because R² is smallest there.
+//! What stands beside a root is in [`limits`](super::limits).
 
 use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
 use crate::internal::internal;
@@ -27,7 +26,7 @@ pub(super) struct Part {
 
 /// A node whose square is smooth where it is not: √u, or √(a² + b²).
 #[derive(Clone, Copy)]
-enum Root {
+pub(super) enum Root {
     Sqrt(Expr),
     Hypot(Expr, Expr),
 }
@@ -37,7 +36,7 @@ fn multiplicity(factors: &[(Id, u32)], of: Id) -> u32 {
 }
 
 /// Takes `exponent` of the factor `of` away.
-fn take(factors: &mut Vec<(Id, u32)>, of: Id, exponent: u32) {
+pub(super) fn take(factors: &mut Vec<(Id, u32)>, of: Id, exponent: u32) {
     for (id, left) in factors.iter_mut() {
         if *id == of {
             let rest = left.checked_sub(exponent);
@@ -48,15 +47,21 @@ fn take(factors: &mut Vec<(Id, u32)>, of: Id, exponent: u32) {
 }
 
 impl Graph {
-    /// The derivative of a product along `by`: the sum over its parts of (the derivative of the part)·(the
-    /// others).
-    pub(super) fn product_derivative(&mut self, factors: &[(Id, u32)], by: Id) -> Expr {
+    /// The derivative of a product along `by`, times the factors `beside` it: the sum over its parts of (the derivative
+    /// of the part)·(the others).
+    pub(super) fn product_derivative(&mut self, factors: &[(Id, u32)], beside: &[(Id, u32)], by: Id) -> Expr {
         let parts = self.parts(factors, by);
         let mut terms = Vec::new();
         for (position, part) in parts.iter().enumerate().filter(|(_, part)| !part.derivative.is_zero()) {
             let others = parts.iter().enumerate().filter(|(other, _)| *other != position);
             let mut others: Vec<(Id, u32)> =
                 others.flat_map(|(_, part)| part.factors.iter().copied()).collect();
+            for (id, exponent) in beside {
+                match others.iter_mut().find(|(known, _)| known == id) {
+                    Some((_, sum)) => *sum += exponent,
+                    None => others.push((*id, *exponent)),
+                }
+            }
             let derivative = self.limit(part, &mut others, by).unwrap_or(part.derivative);
             let mut term = vec![derivative];
             term.extend(others.iter().map(|(factor, exponent)| self.power((*factor).into(), *exponent)));
@@ -70,6 +75,7 @@ impl Graph {
         let mut parts = Vec::new();
         for (factor, exponent) in factors {
             let part = self.power_of_root(*factor, *exponent, &left, by);
+            let part = part.or_else(|| self.power_of_cube_root(*factor, *exponent, &left, by));
             let part = part.or_else(|| self.transverse(*factor, &left, by));
             let part = part.or_else(|| self.difference_of_squares(*factor, *exponent, &left, by));
             if let Some(part) = part {
@@ -90,7 +96,7 @@ impl Graph {
         parts
     }
 
-    fn root(&self, node: Id) -> Option<Root> {
+    pub(super) fn root(&self, node: Id) -> Option<Root> {
         match self.node(node) {
             Node::Unary(Unary::Sqrt, u) => Some(Root::Sqrt(*u)),
             Node::Binary(Binary::Hypot, a, b) => Some(Root::Hypot(*a, *b)),
@@ -99,7 +105,7 @@ impl Graph {
     }
 
     /// (R²)'/2
-    fn half_of_square(&mut self, root: Root, by: Id) -> Expr {
+    pub(super) fn half_of_square(&mut self, root: Root, by: Id) -> Expr {
         match root {
             Root::Sqrt(u) => self.derivative(u, by).scaled(0.5),
             Root::Hypot(a, b) => {
@@ -140,6 +146,16 @@ impl Graph {
         };
         let factors = taken.into_iter().filter(|(_, exponent)| *exponent > 0).chain([(node, k)]).collect();
         Some(Part { factors, derivative })
+    }
+
+    fn power_of_cube_root(&mut self, node: Id, k: u32, factors: &[(Id, u32)], by: Id) -> Option<Part> {
+        let Node::Unary(Unary::Cbrt, u) = *self.node(node) else { return None };
+        if k < 3 || multiplicity(factors, node) != k {
+            return None;
+        }
+        let (rest, tangent) = (self.power(node.into(), k - 3), self.derivative(u, by));
+        let derivative = self.multiply(rest, tangent).scaled(f64::from(k) / 3.0);
+        Some(Part { factors: vec![(node, k)], derivative })
     }
 
     /// a·(1/R), R = √(a² + b²), of which the product rule makes 1/R − a²/R³.
@@ -189,38 +205,6 @@ impl Graph {
                 _ => None,
             },
             _ => None,
-        }
-    }
-
-    /// The derivative of the part R with one w of the others taken in: (w/R)·(R²)'/2.
-    fn limit(&mut self, part: &Part, others: &mut Vec<(Id, u32)>, by: Id) -> Option<Expr> {
-        let [(node, 1)] = *part.factors.as_slice() else { return None };
-        let root = self.root(node)?;
-        let (w, _) = others.iter().copied().find(|(w, _)| self.is_below(*w, root))?;
-        take(others, w, 1);
-        let half = self.half_of_square(root, by);
-        let quotient = self.over_root(w.into(), node);
-        Some(self.multiply(quotient, half))
-    }
-
-    fn over_root(&mut self, w: Expr, root: Id) -> Expr {
-        let quotient = self.binary(Binary::OverRoot, w.node.into(), root.into());
-        quotient.scaled(w.scale)
-    }
-
-    /// Whether w² is a term of R², and no other term can be negative.
-    fn is_below(&self, w: Id, root: Root) -> bool {
-        match root {
-            Root::Hypot(a, b) => a.node == w || b.node == w,
-            Root::Sqrt(u) => {
-                let terms = match self.node(u.node) {
-                    Node::Sum(terms) => terms.clone(),
-                    _ => vec![u.node.into()],
-                };
-                let even = |term: &Expr| self.factors(term.node).iter().all(|(_, e)| e.is_multiple_of(2));
-                terms.iter().all(|term| term.scale * u.scale > 0.0 && even(term))
-                    && terms.iter().any(|term| self.factors(term.node) == [(w, 2)])
-            }
         }
     }
 }

@@ -206,6 +206,11 @@ impl Graph {
         if let Some(value) = of.as_number() {
             return Expr::number(rules::evaluate_unary(function, value));
         }
+        if function == Unary::Sqrt
+            && let Some(root) = self.root_of_square(of)
+        {
+            return root;
+        }
         let sign = if of.scale < 0.0 { rules::parity(function) } else { None };
         match sign {
             Some(sign) => {

@@ -104,7 +104,6 @@ fn stopping() -> Stopping {
 /// e = 0.2, 200 steps a period.
 const KEPLER_H: f64 = core::f64::consts::TAU / 200.0;
 
-#[inline(always)]
 #[inline(never)]
 fn verlet(steps: u64) -> f64 {
     kepler(Variational::trapezoid(), steps)

@@ -5,6 +5,7 @@ mod gauges;
 mod indices;
 mod language;
 mod lattices;
+mod limits;
 mod oracle;
 mod particles;
 mod regular;

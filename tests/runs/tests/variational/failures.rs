@@ -230,10 +230,7 @@ fn a_frequency_that_is_not_defined_is_an_error_of_its_own() -> Outcome {
         let mut run = Integrator::new(&KEPLER, method, 0.05, state(1.0, 1.0))?;
         let error = run.advance_by(100).err().ok_or("no error")?;
         assert!(run.q()[0] > 0.85 && run.steps() > 3, "{error}");
-        assert!(
-            matches!(error.failure, StepFailure::Frequency { omega } if omega.is_nan()),
-            "{error}"
-        );
+        assert!(matches!(error.failure, StepFailure::Frequency { omega } if omega.is_nan()), "{error}");
         Ok(())
     }
     for reading in [Reading::LeftFrozen, Reading::Averaged, Reading::Variational] {

@@ -1,0 +1,183 @@
+//! Derivatives at the zeros of a root, where the rules give 0/0 and a limit exists.
+//!
+//! R is √u or √(a² + b²). At an inner point of its domain where R = 0, R² is smallest, so that (R²)' is 0 there. A factor
+//! w is *below* R where |w| ≤ C·R for some C: then w/R stays bounded, and (w/R)·(R²)' has the limit 0. The quotient is
+//! taken to be 0 at R = 0 ([`Binary::OverRoot`]), which makes the product what it is in the limit:
+//!
+//! | | derivative |
+//! |---|---|
+//! | w·R | of its factor R: (w/R)·(R²)'/2 |
+//! | f(R) where f' is below R, such as cos R | (f'(R)/R)·(R²)'/2 |
+//! | w·(R + …) | term by term |
+//! | w·uᵖ, where w and u' are below √u | of its factor uᵖ: p·uᵖ·(w/√u)·(u'/√u) |
+//! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
+
+use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
+use super::powers::{Part, Root, take};
+
+/// The odd functions with a finite slope at 0: |f(w)| ≤ C·|w| near it.
+const BOUNDED_BY_ARGUMENT: [Unary; 12] = [
+    Unary::Sin,
+    Unary::Tan,
+    Unary::Asin,
+    Unary::Atan,
+    Unary::Sinh,
+    Unary::Tanh,
+    Unary::Asinh,
+    Unary::Atanh,
+    Unary::Erf,
+    Unary::Abs,
+    Unary::ExpM1,
+    Unary::Ln1p,
+];
+
+impl Graph {
+    /// The derivative of `part` with a factor of the others taken in.
+    pub(super) fn limit(&mut self, part: &Part, others: &mut Vec<(Id, u32)>, by: Id) -> Option<Expr> {
+        let [(node, 1)] = *part.factors.as_slice() else { return None };
+        if let Some(root) = self.root(node) {
+            let (w, _) = others.iter().copied().find(|(w, _)| self.is_below(*w, root))?;
+            take(others, w, 1);
+            let half = self.half_of_square(root, by);
+            let quotient = self.over_root(w.into(), node);
+            return Some(self.multiply(quotient, half));
+        }
+        if let Node::Sum(terms) = self.node(node).clone() {
+            return self.limit_of_sum(&terms, others, by);
+        }
+        let Node::Binary(Binary::Powf, u, exponent) = *self.node(node) else { return None };
+        let p = exponent.as_number().filter(|p| *p > 0.0)?;
+        let root = Root::Sqrt(u);
+        let (w, _) = others.iter().copied().find(|(w, _)| self.is_below(*w, root))?;
+        let tangent = self.derivative(u, by);
+        if !self.is_below(tangent.node, root) {
+            return None;
+        }
+        take(others, w, 1);
+        let length = self.unary(Unary::Sqrt, u);
+        let quotients = [w.into(), tangent].map(|w: Expr| self.quotient(w, length));
+        Some(self.product(&[node.into(), quotients[0], quotients[1]]).scaled(p))
+    }
+
+    /// The derivative of a sum with all of `others` taken in, term by term, if one is below a root in a term.
+    fn limit_of_sum(&mut self, terms: &[Expr], others: &mut Vec<(Id, u32)>, by: Id) -> Option<Expr> {
+        let beside = others.clone();
+        let is_beside_root = |factor: &(Id, u32)| {
+            let root = match *self.node(factor.0) {
+                Node::Binary(Binary::Powf, u, _) => Some(Root::Sqrt(u)),
+                _ => self.root(factor.0),
+            };
+            root.is_some_and(|root| beside.iter().any(|(w, _)| self.is_below(*w, root)))
+        };
+        if !terms.iter().any(|term| self.factors(term.node).iter().any(is_beside_root)) {
+            return None;
+        }
+        others.clear();
+        let tangents: Vec<Expr> = terms
+            .iter()
+            .map(|term| self.product_derivative(&self.factors(term.node), &beside, by).scaled(term.scale))
+            .collect();
+        Some(self.factored_sum(&tangents))
+    }
+
+    /// The derivative of f(u) along `by`, if u is a root that f' is below; `f` is the node f(u).
+    pub(super) fn function_of_root(&mut self, function: Unary, u: Expr, f: Id, by: Id) -> Option<Expr> {
+        let root = self.root(u.node)?;
+        let slope = self.unary_derivative(function, u, f.into());
+        if !self.is_below(slope.node, root) {
+            return None;
+        }
+        let half = self.half_of_square(root, by);
+        let quotient = self.over_root(slope, u.node);
+        Some(self.multiply(quotient, half).scaled(u.scale))
+    }
+
+    pub(super) fn over_root(&mut self, w: Expr, root: Id) -> Expr {
+        let quotient = self.binary(Binary::OverRoot, w.node.into(), root.into());
+        quotient.scaled(w.scale)
+    }
+
+    /// w/`length`, 0 where that is 0.
+    fn quotient(&mut self, w: Expr, length: Expr) -> Expr {
+        self.over_root(w, length.node).scaled(1.0 / length.scale)
+    }
+
+    /// Whether |w| ≤ C·R near the zeros of R.
+    fn is_below(&self, w: Id, root: Root) -> bool {
+        if self.is_part_of(w, root) {
+            return true;
+        }
+        match self.node(w) {
+            Node::Sum(terms) => terms.iter().all(|term| self.is_below(term.node, root)),
+            Node::Product(factors) => factors.iter().any(|(factor, _)| self.is_below(*factor, root)),
+            Node::Unary(function, of) if BOUNDED_BY_ARGUMENT.contains(function) => {
+                self.is_below(of.node, root)
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether w is R itself, or w² is a term of R²; and no term of R² can be negative, so that its zeros are inner
+    /// points (√x is no such root: its domain ends at 0).
+    fn is_part_of(&self, w: Id, root: Root) -> bool {
+        match root {
+            Root::Hypot(a, b) => {
+                let itself = Node::Binary(Binary::Hypot, a, b);
+                a.node == w || b.node == w || *self.node(w) == itself
+            }
+            Root::Sqrt(u) => {
+                let terms = match self.node(u.node) {
+                    Node::Sum(terms) => terms.clone(),
+                    _ => vec![u.node.into()],
+                };
+                let belongs = *self.node(w) == Node::Unary(Unary::Sqrt, u)
+                    || terms.iter().any(|term| self.factors(term.node) == [(w, 2)]);
+                belongs && u.scale > 0.0 && self.is_never_negative(u.node)
+            }
+        }
+    }
+
+    /// Whether only even powers are multiplied.
+    fn is_square(&self, node: Id) -> bool {
+        self.factors(node).iter().all(|(_, exponent)| exponent.is_multiple_of(2))
+    }
+
+    /// √u, if u is a product of even powers.
+    pub(super) fn root_of_square(&mut self, u: Expr) -> Option<Expr> {
+        if u.scale <= 0.0 || u.node == Self::ONE || !self.is_square(u.node) {
+            return None;
+        }
+        let mut factors = vec![Expr::number(u.scale.sqrt())];
+        for (base, exponent) in self.factors(u.node) {
+            let half = exponent / 2;
+            let size = if self.is_never_negative(base) || half.is_multiple_of(2) {
+                base.into()
+            } else {
+                self.unary(Unary::Abs, base.into())
+            };
+            let rest = self.power(base.into(), half - 1);
+            factors.extend([rest, size]);
+        }
+        Some(self.product(&factors))
+    }
+
+    fn is_never_negative(&self, node: Id) -> bool {
+        match self.node(node) {
+            Node::One => true,
+            Node::Sum(terms) => {
+                terms.iter().all(|term| term.scale > 0.0 && self.is_never_negative(term.node))
+            }
+            Node::Product(factors) => {
+                let even = |(base, exponent): &(Id, u32)| {
+                    exponent.is_multiple_of(2) || self.is_never_negative(*base)
+                };
+                factors.iter().all(even)
+            }
+            Node::Unary(function, _) => {
+                [Unary::Sqrt, Unary::Exp, Unary::Exp2, Unary::Cosh, Unary::Abs].contains(function)
+            }
+            Node::Binary(function, ..) => *function == Binary::Hypot,
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Derivatives at points where the rules of differentiation give 0/0, against limits found by hand.
+
+use dvi_core::prelude::*;
+use dvi_core::{Space, Weights};
+
+type Outcome = Result<(), String>;
+
+/// ∇H and ∂²H/∂q∂q at the origin of the plane.
+fn at_origin<S: DegenerateLagrangian>(system: &S) -> ([f64; 2], [f64; 4]) {
+    let space = system.space();
+    let (q, v) = (space.vector::<f64>(), space.vector::<f64>());
+    let (mut gradient, mut momentum) = (space.vector::<f64>(), space.vector::<f64>());
+    let mut matrix = space.matrix::<f64>();
+    let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
+    system.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut matrix);
+    // L = α·v − H with v = 0.
+    let second = core::array::from_fn(|k| -matrix[k]);
+    system.hamiltonian_gradient(&q, 0.0, &mut gradient);
+    ([gradient[0], gradient[1]], second)
+}
+
+/// Each: a name, H(x, y), and its second derivatives at the origin, row by row; the first are zero.
+macro_rules! limits {
+    ($($name:ident: $hamiltonian:expr => $second:expr;)*) => {
+        $(
+            #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = $hamiltonian)]
+            struct $name;
+        )*
+
+        #[test]
+        fn derivatives_at_the_origin_are_limits() -> Outcome {
+            $(
+                let (first, second) = at_origin(&$name);
+                let expected: [f64; 4] = $second;
+                if first != [0.0; 2] || second != expected {
+                    return Err(format!("{}: {first:?}, {second:?}", stringify!($hamiltonian)));
+                }
+            )*
+            Ok(())
+        }
+    };
+}
+
+limits! {
+    PowerOfX: x.powf(1.5) * x.powf(1.5) + y * y => [0.0, 0.0, 0.0, 2.0];
+    Cube: (x * x + y * y).powf(1.5) => [0.0; 4];
+    SquareOfHypot: x.hypot(y).powi(2) => [2.0, 0.0, 0.0, 2.0];
+    RootOfFourth: x.powi(4).sqrt() + y.powi(2) => [2.0, 0.0, 0.0, 2.0];
+    RootOfSquare: (x * x + y * y).powi(2).sqrt() => [2.0, 0.0, 0.0, 2.0];
+    CubeRoot: x.cbrt().powi(6) + y.cbrt().powi(9) => [2.0, 0.0, 0.0, 0.0];
+    Quarter: (x * x + 4 * y * y).powf(1.75) => [0.0; 4];
+    TimesCosine: (x * x + y * y).powf(1.5) * x.cos() => [0.0; 4];
+    TimesX: { let r = x.hypot(y); r * r * r * x } => [0.0; 4];
+    Product: (x * y).powi(2).powf(1.5) => [0.0; 4];
+    SeveralTerms: (x * x + y * y).powf(1.5) * y.exp() + (x * x + 3 * y * y).powf(2.5) - x.hypot(y).powi(3) * x
+        => [0.0; 4];
+    Fifth: x.hypot(y).powi(5) * (1 + x) + y.powi(2) => [0.0, 0.0, 0.0, 2.0];
+}
+
+/// The first derivative alone has a limit that the compiler finds; the second is not a number, never another number.
+macro_rules! first_limits {
+    ($($name:ident: $hamiltonian:expr;)*) => {
+        $(
+            #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = $hamiltonian)]
+            struct $name;
+        )*
+
+        #[test]
+        fn second_derivatives_without_a_limit_are_no_numbers() -> Outcome {
+            $(
+                let (first, second) = at_origin(&$name);
+                if first != [0.0; 2] || !second[0].is_nan() || !second[3].is_nan() {
+                    return Err(format!("{}: {first:?}, {second:?}", stringify!($hamiltonian)));
+                }
+            )*
+            Ok(())
+        }
+    };
+}
+
+first_limits! {
+    Cosine: x.hypot(y).cos();
+    HyperbolicCosine: x.hypot(y).cosh();
+    CosineOfRoot: (x * x + y * y).sqrt().cos();
+}
+
+/// At the end of a domain the limit is another one: ∂(√x sin √x)/∂x is 1 at 0, and is not found.
+#[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x.sqrt() * x.sqrt().sin() + y)]
+struct EndOfDomain;
+
+#[test]
+fn no_limit_is_made_up_at_the_end_of_a_domain() {
+    let (first, _) = at_origin(&EndOfDomain);
+    assert!(first[0].is_nan(), "{first:?}");
+}
