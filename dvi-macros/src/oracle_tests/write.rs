@@ -1,5 +1,7 @@
 //! Systems to text: the attribute and the struct as a user writes them.
 
+use std::cell::Cell;
+
 use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
 use super::functions::{BinaryFunction, OWN};
 use super::system::{Container, Dynamics, Field, SizeKind, System};
@@ -22,6 +24,18 @@ pub(super) struct Writer<'a> {
     pub(super) system: &'a System,
     /// `d` or `dot`.
     pub(super) velocity: &'static str,
+    spelling: Spelling,
+}
+
+/// Where the language has two spellings, sometimes the other one is taken: the same ones for the same system.
+struct Spelling(Cell<u32>);
+
+impl Spelling {
+    fn is_other(&self) -> bool {
+        let next = self.0.get().wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        self.0.set(next);
+        next >> 30 == 0
+    }
 }
 
 impl System {
@@ -32,7 +46,7 @@ impl System {
             Some(size) => format!("{}[{}]", block.name, self.size_text(size)),
         });
         let mut text = format!("coordinates({})", blocks.collect::<Vec<_>>().join(", "));
-        let writer = |velocity| Writer { system: self, velocity };
+        let writer = |velocity| Writer::new(self, velocity);
         let (d, dot) = (writer("d"), writer("dot"));
         text += &match &self.dynamics {
             Dynamics::OneForm(one_form, hamiltonian) => {
@@ -105,7 +119,11 @@ impl System {
     }
 }
 
-impl Writer<'_> {
+impl<'a> Writer<'a> {
+    pub(super) fn new(system: &'a System, velocity: &'static str) -> Self {
+        Self { system, velocity, spelling: Spelling(Cell::new(system.fields.len() as u32)) }
+    }
+
     pub(super) fn text(&self, formula: &Formula) -> String {
         self.bound(formula, Binding::Block)
     }
@@ -134,7 +152,8 @@ impl Writer<'_> {
             Formula::Parameter(field, indices) => {
                 let indices: String =
                     indices.iter().map(|index| format!("[{}]", self.index(index))).collect();
-                postfix(format!("{}{indices}", self.system.fields[*field].name))
+                let of_self = if self.spelling.is_other() { "self." } else { "" };
+                postfix(format!("{of_self}{}{indices}", self.system.fields[*field].name))
             }
             Formula::Count(index) => postfix(format!("(({}) as f64)", self.index(index))),
             Formula::Negative(of) => (format!("-{}", self.bound(of, Sign)), Sign),
@@ -147,6 +166,9 @@ impl Writer<'_> {
                 (format!("{} / {}", self.bound(a, Product), self.bound(b, Sign)), Product)
             }
             Formula::Power(of, exponent) => method(of, "powi", exponent.to_string()),
+            Formula::Unary(function, of) if self.spelling.is_other() => {
+                postfix(format!("f64::{}({})", function.name, self.text(of)))
+            }
             Formula::Unary(function, of) => method(of, function.name, String::new()),
             Formula::Binary(function, a, b) => {
                 let name = match function {
@@ -178,8 +200,14 @@ impl Writer<'_> {
                         ("sum_ordered_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1]))
                     }
                 };
-                let (lower, upper) = (self.index(lower), self.index(upper));
-                postfix(format!("{name}({lower}..{upper}, |{indices}| {})", self.text(body)))
+                let lower = self.index(lower);
+                let range = if self.spelling.is_other() {
+                    let last = Index { constant: upper.constant - 1, ..upper.clone() };
+                    format!("{lower}..={}", self.index(&last))
+                } else {
+                    format!("{lower}..{}", self.index(upper))
+                };
+                postfix(format!("{name}({range}, |{indices}| {})", self.text(body)))
             }
         }
     }
