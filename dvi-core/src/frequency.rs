@@ -151,6 +151,10 @@ pub(crate) fn admit<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     frequency.validate(space.dimension())?;
     let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
     match frequency.reading() {
+        Some(_) if F::PER_COORDINATE => unsupported(
+            "frequencies per coordinate",
+            "they cannot be read from the motion: FrequencyIn::reading must be None",
+        ),
         None if !frequency.fixed(0).is_finite() => unsupported(
             "a frequency that is not read from the motion",
             "FrequencyIn::fixed does not give a finite number",
@@ -331,8 +335,8 @@ impl<S: RegularLagrangian, T: Real> Local<S, T> {
         self.omega = omega;
         mass.solve(&self.da, l_v);
         crate::elimination::multiply_add(hessian, l_v, &mut self.dq);
-        norm::finite(&self.dq)?;
-        defined(self.omega)
+        defined(self.omega)?;
+        norm::finite(&self.dq)
     }
 }
 

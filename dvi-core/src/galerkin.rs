@@ -17,7 +17,7 @@ mod separable;
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
-use crate::solver::{Solver, Stopping};
+use crate::solve::{Solver, Stopping};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, RegularLagrangian, Vector};
 
@@ -82,13 +82,6 @@ impl<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real> Step<'_, N
     #[inline(always)]
     fn node_time(&self, c: f64) -> T {
         self.t + T::lift(c) * self.h
-    }
-
-    /// How many iterations the fixed point gets; fewer where Newton stands by.
-    #[inline(always)]
-    fn budget(&self, dimension: usize) -> usize {
-        let max = self.method.stopping.max_iterations;
-        if self.method.solver == Solver::Automatic { max.min(24 + dimension) } else { max }
     }
 }
 
@@ -156,10 +149,19 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Metho
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self, t, h };
+        let GalerkinMemory { ladder, path } = memory;
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
+        let q0 = &*q;
+        ladder.solve(
+            path,
+            statistics,
+            |path, statistics| separable::fixed_point(&step, path, q0, budget, statistics),
+            |path, newton, guess, statistics| general::newton(&step, path, q0, newton, guess, statistics),
+        )?;
         if S::SEPARABLE {
-            separable::step(&step, memory, q, statistics)
+            separable::finish(&step, path, q, statistics)
         } else {
-            general::step(&step, memory, q, statistics)
+            general::finish(&step, path, q, statistics)
         }
     }
 
@@ -171,7 +173,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Metho
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.velocity(system, q, t, v)
+        memory.path.inertial.velocity(system, &memory.path.phase, q, t, v)
     }
 
     #[inline]

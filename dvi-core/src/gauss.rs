@@ -8,7 +8,7 @@ use crate::error::{StartError, StepFailure};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
 use crate::orientation::FormOrientation;
-use crate::solver::{Convergence, Stopping, Verdict};
+use crate::solve::{Convergence, Stopping, iterate};
 use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Scalar, Space, Vector};
@@ -155,18 +155,10 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
         let size = memory.slopes.iter().fold(T::lift(0.0), |m, slope| m.max(norm::largest(slope)));
         let h_size = Scalar::abs(h);
         let scale = norm::largest(q) + h_size * size;
-        let mut convergence = Convergence::fixed_point(self.stopping, scale, q, self.stopping.max_iterations);
-        let verdict = loop {
-            let correction = h_size * memory.iterate(system, q, t, h, statistics)?;
-            match convergence.judge(correction) {
-                Verdict::Continue => {}
-                verdict => break verdict,
-            }
-        };
-        statistics.iterations += convergence.iterations as u64;
-        if verdict == Verdict::GiveUp {
-            return Err(convergence.failure());
-        }
+        let convergence = Convergence::fixed_point(self.stopping, scale, q, self.stopping.max_iterations);
+        iterate(convergence, statistics, |statistics| {
+            Ok(h_size * memory.iterate(system, q, t, h, statistics)?)
+        })?;
         let GaussMemory { tableau, slopes, completed, point, orientation, .. } = memory;
         combine(q, h, &tableau.b, slopes, point);
         norm::finite(point)?;

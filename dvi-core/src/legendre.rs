@@ -4,7 +4,8 @@
 //! (Marsden & West 2001, section 1.4).
 
 use crate::error::StepFailure;
-use crate::solver::{Convergence, Stopping, Verdict};
+use crate::solve::{Convergence, Stopping, iterate};
+use crate::statistics::Statistics;
 use crate::{Matrix, Real, RegularLagrangian, Space, Vector, Weights, elimination, norm};
 
 /// Storage for the transform.
@@ -39,15 +40,9 @@ impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
             return norm::finite(v);
         }
         let stopping = Stopping::default();
-        let mut convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
-        loop {
-            let correction = self.improve(system, q, p, t, v)?;
-            match convergence.judge(correction) {
-                Verdict::Continue => {}
-                Verdict::Accept => return norm::finite(v),
-                Verdict::GiveUp => return Err(convergence.failure()),
-            }
-        }
+        let convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
+        iterate(convergence, &mut Statistics::default(), |_| self.improve(system, q, p, t, v))?;
+        norm::finite(v)
     }
 
     /// One iteration; returns the size of its correction.

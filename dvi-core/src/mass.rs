@@ -10,13 +10,27 @@ use crate::{
 
 /// M and M⁻¹.
 #[derive(Debug)]
-pub(crate) enum Mass<S: Lagrangian, T: Real> {
-    Diagonal { masses: Vector<S, T>, reciprocals: Vector<S, T> },
-    Dense { matrix: Matrix<S, T>, factors: Matrix<S, T>, permutation: Permutation<S> },
+pub(crate) struct Mass<S: Lagrangian, T: Real> {
+    /// The diagonal of M, and one over it; zeros if M is not diagonal.
+    masses: Vector<S, T>,
+    reciprocals: Vector<S, T>,
+    /// If M is not diagonal.
+    dense: Option<Dense<S, T>>,
+}
+
+/// A matrix and its factors.
+#[derive(Debug)]
+struct Dense<S: Lagrangian, T: Real> {
+    matrix: Matrix<S, T>,
+    factors: Matrix<S, T>,
+    permutation: Permutation<S>,
 }
 
 impl<S: RegularLagrangian, T: Real> Mass<S, T> {
     /// Of a separable `system`; M does not depend on the point (`q`, `t`) at which it is evaluated.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`].
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Result<Self, StepFailure> {
         let space = system.space();
         let [mut v, mut l_q, mut l_v]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
@@ -27,7 +41,7 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
             for (column, (&mass, reciprocal)) in masses.iter().zip(reciprocals.iter_mut()).enumerate() {
                 *reciprocal = norm::reciprocal(mass, column)?;
             }
-            return Ok(Self::Diagonal { masses, reciprocals });
+            return Ok(Self { masses, reciprocals, dense: None });
         }
         let (mut matrix, mut permutation) = (space.matrix(), space.permutation());
         let zero = T::lift(0.0);
@@ -35,23 +49,23 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut matrix);
         let mut factors = matrix.clone();
         elimination::factor(&mut factors, &mut permutation)?;
-        Ok(Self::Dense { matrix, factors, permutation })
+        let [masses, reciprocals] = [space.vector(), space.vector()];
+        Ok(Self { masses, reciprocals, dense: Some(Dense { matrix, factors, permutation }) })
     }
 
     /// Sets `v` to M⁻¹`p`.
     #[inline(always)]
     pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {
-        match self {
-            Self::Diagonal { reciprocals, .. } => {
-                for ((v, &p), &reciprocal) in v.iter_mut().zip(p).zip(reciprocals.iter()) {
-                    *v = p * reciprocal;
-                }
-            }
-            // Never built for such a system; saying so keeps elimination out of its steps.
-            Self::Dense { .. } if S::DIAGONAL_MASS => {}
-            Self::Dense { factors, permutation, .. } => {
+        // What is known when compiled keeps elimination out of the steps with a diagonal matrix.
+        match &self.dense {
+            Some(Dense { factors, permutation, .. }) if !S::DIAGONAL_MASS => {
                 v.copy_from_slice(p);
                 elimination::solve(factors, permutation, v);
+            }
+            _ => {
+                for ((v, &p), &reciprocal) in v.iter_mut().zip(p).zip(self.reciprocals.iter()) {
+                    *v = p * reciprocal;
+                }
             }
         }
     }
@@ -59,17 +73,16 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
     /// Adds `factor` M`x` to `p`.
     #[inline(always)]
     pub(crate) fn multiply_add(&self, factor: T, x: &[T], p: &mut [T]) {
-        match self {
-            Self::Diagonal { masses, .. } => {
-                for ((p, &x), &mass) in p.iter_mut().zip(x).zip(masses.iter()) {
-                    *p += factor * mass * x;
-                }
-            }
-            Self::Dense { .. } if S::DIAGONAL_MASS => {}
-            Self::Dense { matrix, .. } => {
+        match &self.dense {
+            Some(Dense { matrix, .. }) if !S::DIAGONAL_MASS => {
                 for (p, row) in p.iter_mut().zip(matrix.chunks_exact(x.len())) {
                     let product = row.iter().zip(x).fold(T::lift(0.0), |sum, (&m, &x)| sum + m * x);
                     *p += factor * product;
+                }
+            }
+            _ => {
+                for ((p, &x), &mass) in p.iter_mut().zip(x).zip(self.masses.iter()) {
+                    *p += factor * mass * x;
                 }
             }
         }

@@ -7,12 +7,13 @@
 //! dq ∧ dp (Kane, Marsden, Ortiz & West 2000, section 3.2; Newmark 1959). Here it is written with momenta, as
 //! p½ = p0 + (h/2)F0,   x1 = x0 + h M⁻¹[p½ + βh(F1 − F0)],   p1 = p½ + (h/2)F1.
 
+use crate::discrete::Interval;
 use crate::error::{StartError, StepFailure};
-use crate::history::{History, is_similar};
 use crate::mass::Mass;
 use crate::method::{Carries, Method, PreservedForm, Scheme};
 use crate::norm::{self, reported};
-use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Stopping, Verdict};
+use crate::phase::{Arrival, PhasePoint};
+use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination};
 
@@ -42,21 +43,13 @@ impl<T> Newmark<T> {
     }
 }
 
-/// The momentum of a run of Newmark's method, its guesses and its work space.
+/// The phase point of a run of Newmark's method, and its work space.
 #[derive(Debug)]
 pub struct NewmarkMemory<S: Lagrangian, T: Real> {
-    /// p at the current point.
-    p: Vector<S, T>,
-    /// ∂L/∂q at the current point.
-    force: Vector<S, T>,
+    phase: PhasePoint<S, T>,
     mass: Mass<S, T>,
-    /// The mean velocities Δ/h of the last steps.
-    history: History<S, T>,
-    /// The length of the step before; zero before the first.
-    last_step: T,
-    newton: Option<Matrix<S, T>>,
-    /// How many steps Newton takes before the fixed point is tried again.
-    newton_steps: u32,
+    /// With the matrix of Newton's method; explicit steps do not use it.
+    ladder: Ladder<Matrix<S, T>>,
     work: Work<S, T>,
 }
 
@@ -68,8 +61,8 @@ struct Work<S: Lagrangian, T: Real> {
     increment: Vector<S, T>,
     next: Vector<S, T>,
     next_force: Vector<S, T>,
-    /// The momentum that carries q0 to q1, or the residual.
-    carrier: Vector<S, T>,
+    /// The momentum that takes q0 to q1, or the residual.
+    transfer: Vector<S, T>,
     velocity: Vector<S, T>,
     /// p1
     momentum: Vector<S, T>,
@@ -78,156 +71,116 @@ struct Work<S: Lagrangian, T: Real> {
 impl<S: RegularLagrangian, T: Real> NewmarkMemory<S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        &self.p
+        &self.phase.p
+    }
+}
+
+/// A step as it is being solved: `work.increment` becomes Δ.
+struct Attempt<'a, S: RegularLagrangian, T: Real> {
+    system: &'a S,
+    beta: T,
+    interval: Interval<T>,
+    stopping: Stopping,
+    budget: usize,
+    q: &'a [T],
+    phase: &'a PhasePoint<S, T>,
+    mass: &'a Mass<S, T>,
+    work: &'a mut Work<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> Attempt<'_, S, T> {
+    /// Δ ← h M⁻¹[p½ + βh(F1 − F0)].
+    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        self.guess();
+        let convergence = Convergence::fixed_point(self.stopping, self.scale(), self.q, self.budget);
+        iterate(convergence, statistics, |statistics| {
+            self.place(statistics);
+            Ok(self.carry())
+        })?;
+        norm::finite(&self.work.increment)
     }
 
-    /// Sets `increment` to the guess of Δ: extrapolated from the steps before if they had about this length, and
-    /// that of a free motion elsewhere.
-    fn guess(&mut self, h: T) {
-        if is_similar(h, self.last_step) {
-            self.history.extrapolate(&mut self.work.increment);
-        } else {
-            self.mass.solve(&self.work.half, &mut self.work.increment);
+    /// The same by Newton: (M − βh² ∂²L/∂q∂q)d = MΔ − h[p½ + βh(F1 − F0)], Δ ← Δ − d.
+    fn newton(
+        &mut self,
+        matrix: &mut Matrix<S, T>,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        match guess {
+            Guess::Extrapolated => self.guess(),
+            Guess::Zero => self.work.increment.fill(T::lift(0.0)),
         }
-        for delta in self.work.increment.iter_mut() {
-            *delta *= h;
-        }
+        let max = self.stopping.max_iterations;
+        let convergence = Convergence::new(self.stopping, self.scale(), self.q, max);
+        iterate(convergence, statistics, |statistics| {
+            self.place(statistics);
+            self.improve(matrix, statistics)
+        })?;
+        norm::finite(&self.work.increment)
     }
 
-    /// Sets `next` to q1, `next_force` to F(q1), and `carrier` to p½ + βh(F1 − F0).
-    fn place(&mut self, system: &S, beta: T, q: &[T], [t, h]: [T; 2], statistics: &mut Statistics) {
-        let Work { half, increment, next, next_force, carrier, .. } = &mut self.work;
-        for i in 0..q.len() {
-            next[i] = q[i] + increment[i];
+    fn guess(&mut self) {
+        let Work { half, increment, .. } = &mut *self.work;
+        self.phase.guess(Some(self.mass), half, self.interval.h, increment);
+    }
+
+    fn scale(&self) -> T {
+        norm::largest(self.q) + norm::largest(&self.work.increment)
+    }
+
+    /// Sets `next` to q1, `next_force` to F(q1), and `transfer` to p½ + βh(F1 − F0).
+    fn place(&mut self, statistics: &mut Statistics) {
+        let Work { half, increment, next, next_force, transfer, .. } = &mut *self.work;
+        for i in 0..self.q.len() {
+            next[i] = self.q[i] + increment[i];
         }
-        system.force(next, &[], t + h, next_force);
+        self.system.force(next, &[], self.interval.time(T::lift(1.0)), next_force);
         statistics.gradients += 1;
-        for i in 0..q.len() {
-            carrier[i] = half[i] + beta * h * (next_force[i] - self.force[i]);
+        for i in 0..self.q.len() {
+            transfer[i] = half[i] + self.beta * self.interval.h * (next_force[i] - self.phase.force[i]);
         }
     }
 
-    /// Sets `increment` to h M⁻¹`carrier` and returns by how much it has changed.
-    fn carry(&mut self, h: T) -> T {
-        let Work { increment, carrier, velocity, .. } = &mut self.work;
-        self.mass.solve(carrier, velocity);
+    /// Sets `increment` to h M⁻¹`transfer` and returns by how much it has changed.
+    fn carry(&mut self) -> T {
+        let Work { increment, transfer, velocity, .. } = &mut *self.work;
+        self.mass.solve(transfer, velocity);
         let mut change = T::lift(0.0);
         for (delta, &velocity) in increment.iter_mut().zip(velocity.iter()) {
-            let new = h * velocity;
+            let new = self.interval.h * velocity;
             change = norm::larger(change, Scalar::abs(new - *delta));
             *delta = new;
         }
         change
     }
 
-    /// Improves `increment` by Newton: (M − βh² ∂²L/∂q∂q)d = MΔ − h `carrier`, Δ ← Δ − d. Returns the size of d.
-    fn improve(
-        &mut self,
-        system: &S,
-        beta: T,
-        [t, h]: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let Some(matrix) = &mut self.newton else { return Ok(zero) };
-        let Work { increment, next, carrier, velocity, momentum, next_force, .. } = &mut self.work;
-        for carrier in carrier.iter_mut() {
-            *carrier *= -h;
+    /// One iteration of Newton's method; returns the size of d.
+    fn improve(&mut self, matrix: &mut Matrix<S, T>, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let (zero, one, h) = (T::lift(0.0), T::lift(1.0), self.interval.h);
+        let Work { increment, next, transfer, velocity, momentum, next_force, .. } = &mut *self.work;
+        for transfer in transfer.iter_mut() {
+            *transfer *= -h;
         }
-        self.mass.multiply_add(one, increment, carrier);
-        norm::finite(carrier)?;
+        self.mass.multiply_add(one, increment, transfer);
+        norm::finite(transfer)?;
         matrix.fill(zero);
-        let weights = Weights { qq: -(beta * h * h), qv: zero, vq: zero, vv: one };
-        system.linearize(next, velocity, t + h, weights, next_force, momentum, matrix);
+        let weights = Weights { qq: -(self.beta * h * h), qv: zero, vq: zero, vv: one };
+        let end = self.interval.time(one);
+        self.system.linearize(next, velocity, end, weights, next_force, momentum, matrix);
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        elimination::eliminate(matrix, carrier)?;
-        for (delta, &change) in increment.iter_mut().zip(carrier.iter()) {
+        elimination::eliminate(matrix, transfer)?;
+        for (delta, &change) in increment.iter_mut().zip(transfer.iter()) {
             *delta -= change;
         }
-        Ok(norm::largest(carrier))
-    }
-
-    /// Moves to `next`, `momentum` and `next_force`, if they are numbers.
-    fn complete(&mut self, h: T, q: &mut Vector<S, T>) -> Result<(), StepFailure> {
-        let Work { increment, next, momentum, next_force, .. } = &mut self.work;
-        norm::finite(next).and(norm::finite(momentum)).and(norm::finite(next_force))?;
-        q.copy_from_slice(next);
-        self.p.copy_from_slice(momentum);
-        self.force.copy_from_slice(next_force);
-        if !is_similar(h, self.last_step) {
-            self.history.clear();
-        }
-        self.last_step = h;
-        self.history.push_scaled(increment, T::lift(1.0) / h);
-        Ok(())
+        Ok(norm::largest(transfer))
     }
 }
 
 impl<T: Real> Newmark<T> {
     fn is_explicit(&self) -> bool {
         self.beta == T::lift(0.0)
-    }
-
-    /// Δ, in `work.increment`, and q1 with its force.
-    fn solve<S: RegularLagrangian>(
-        &self,
-        system: &S,
-        memory: &mut NewmarkMemory<S, T>,
-        q: &[T],
-        [t, h]: [T; 2],
-        solver: Solver,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        memory.guess(h);
-        let max = self.stopping.max_iterations;
-        let budget = if solver == Solver::Automatic { max.min(24 + q.len()) } else { max };
-        let scale = norm::largest(q) + norm::largest(&memory.work.increment);
-        let mut convergence = if solver == Solver::Newton {
-            Convergence::new(self.stopping, scale, q, budget)
-        } else {
-            Convergence::fixed_point(self.stopping, scale, q, budget)
-        };
-        let verdict = loop {
-            memory.place(system, self.beta, q, [t, h], statistics);
-            let correction = if solver == Solver::Newton {
-                memory.improve(system, self.beta, [t, h], statistics)?
-            } else {
-                memory.carry(h)
-            };
-            match convergence.judge(correction) {
-                Verdict::Continue => {}
-                verdict => break verdict,
-            }
-        };
-        statistics.iterations += convergence.iterations as u64;
-        match verdict {
-            Verdict::GiveUp => Err(convergence.failure()),
-            _ => norm::finite(&memory.work.increment),
-        }
-    }
-
-    /// Newton where it has been asked for or where the fixed point has failed.
-    fn solve_by_any<S: RegularLagrangian>(
-        &self,
-        system: &S,
-        memory: &mut NewmarkMemory<S, T>,
-        q: &[T],
-        at: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        if self.solver != Solver::Newton && memory.newton_steps == 0 {
-            match self.solve(system, memory, q, at, self.solver, statistics) {
-                Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. })
-                    if memory.newton.is_some() =>
-                {
-                    memory.newton_steps = STEPS_BEFORE_RETRY;
-                }
-                result => return result,
-            }
-        }
-        memory.newton_steps = memory.newton_steps.saturating_sub(1);
-        self.solve(system, memory, q, at, Solver::Newton, statistics)
     }
 }
 
@@ -259,20 +212,11 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
             return Err(StartError::Unsupported { option: "Newmark", reason });
         }
         self.stopping.validate()?;
-        let space = system.space();
-        let [mut force, mut p, mut mean]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
-        system.gradient(q, v, t, &mut force, &mut p);
-        norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
-        mean.copy_from_slice(v);
-        let newton = !self.is_explicit() && self.solver != Solver::FixedPoint;
+        let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver };
         Ok(NewmarkMemory {
-            p,
-            force,
+            phase: PhasePoint::new(system, q, v, t)?,
             mass: Mass::new(system, q, t).map_err(StartError::Starter)?,
-            history: History::new(system, Some(mean)),
-            last_step: T::lift(0.0),
-            newton: newton.then(|| space.matrix()),
-            newton_steps: 0,
+            ladder: Ladder::new(solver, || system.space().matrix()),
             work: Work::new(system),
         })
     }
@@ -287,29 +231,31 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
+        let NewmarkMemory { phase, mass, ladder, work } = memory;
         let kick = T::lift(0.5) * h;
         for i in 0..q.len() {
-            memory.work.half[i] = memory.p[i] + kick * memory.force[i];
+            work.half[i] = phase.p[i] + kick * phase.force[i];
         }
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
+        let (beta, interval, stopping) = (self.beta, Interval { t, h }, self.stopping);
+        let mut attempt = Attempt { system, beta, interval, stopping, budget, q, phase, mass, work };
         if self.is_explicit() {
-            memory.work.carrier.copy_from_slice(&memory.work.half);
-            memory.carry(h);
+            attempt.work.transfer.copy_from_slice(&attempt.work.half);
+            attempt.carry();
         } else {
-            self.solve_by_any(system, memory, q, [t, h], statistics)?;
+            ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
         }
-        memory.place(system, self.beta, q, [t, h], statistics);
-        let Work { half, momentum, next_force, .. } = &mut memory.work;
+        attempt.place(statistics);
+        let Work { half, momentum, next, next_force, increment, .. } = work;
         for i in 0..q.len() {
             momentum[i] = half[i] + kick * next_force[i];
         }
-        memory.complete(h, q)
+        phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, increment, h)
     }
 
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.p.copy_from_slice(&from.p);
-        to.force.copy_from_slice(&from.force);
-        to.history.restore(&from.history);
-        (to.last_step, to.newton_steps) = (from.last_step, from.newton_steps);
+        to.phase.restore(&from.phase);
+        to.ladder.restore(&from.ladder);
     }
 
     fn velocity(
@@ -320,7 +266,7 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
         _t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.mass.solve(&memory.p, v);
+        memory.mass.solve(&memory.phase.p, v);
         Ok(())
     }
 }
@@ -333,7 +279,7 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
             increment: vector(),
             next: vector(),
             next_force: vector(),
-            carrier: vector(),
+            transfer: vector(),
             velocity: vector(),
             momentum: vector(),
         }

@@ -27,10 +27,15 @@ pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
     StepFailure::Singular { column, pivot: reported(pivot) }
 }
 
-/// minᵢ |xᵢ|, at most `bound`.
+/// The smallest |xᵢ| that is not zero, at most `bound`.
 #[inline(always)]
 pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {
-    x.iter().map(|&x| Scalar::abs(x)).fold(bound, |smallest, x| if x < smallest { x } else { smallest })
+    x.iter().map(|&x| Scalar::abs(x)).fold(
+        bound,
+        |smallest, x| {
+            if x < smallest && x > T::lift(0.0) { x } else { smallest }
+        },
+    )
 }
 
 /// maxᵢ |xᵢ − yᵢ|; an entry that is not a number does not count.

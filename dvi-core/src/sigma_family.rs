@@ -12,13 +12,13 @@ mod leapfrog;
 mod linear;
 mod memory;
 mod monitor;
-mod newton;
 mod nonlinear;
 mod start;
 
+use crate::discrete::Interval;
 use crate::error::{StartError, StepFailure};
 use crate::method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
-use crate::solver::{Solver, Stopping};
+use crate::solve::{Ladder, Solver, Stopping};
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Vector};
 
@@ -149,15 +149,15 @@ impl<S, T: Real> Step<'_, S, T> {
         self.t + self.method.sigma * self.h
     }
 
-    /// How many iterations the fixed point gets. Where Newton stands by, a slow contraction is given up
-    /// as soon as Newton would be cheaper; its advantage shrinks with the dimension.
     #[inline(always)]
-    fn budget(&self, dimension: usize) -> usize {
-        let max = self.method.stopping.max_iterations;
-        match self.method.solver {
-            Solver::Automatic => max.min(12 + dimension),
-            Solver::FixedPoint | Solver::Newton => max,
-        }
+    fn interval(&self) -> Interval<T> {
+        Interval { t: self.t, h: self.h }
+    }
+
+    /// A slow contraction is given up as soon as Newton would be cheaper; its advantage shrinks with the dimension.
+    #[inline(always)]
+    fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
+        ladder.budget(self.method.stopping.max_iterations, 12 + dimension)
     }
 }
 

@@ -8,18 +8,22 @@
 
 mod coefficients;
 mod general;
+mod lagrangian;
 mod memory;
 mod separable;
 mod verlet;
 
+use crate::discrete::Interval;
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::method::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::phase::Inertial;
 use crate::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
-use crate::solver::{Solver, Stopping};
+use crate::solve::{Guess, Solver, Stopping};
 use crate::statistics::Statistics;
-use crate::{Lagrangian, Real, RegularLagrangian, Vector};
+use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Vector};
 
+use memory::Parts;
 pub use memory::VariationalMemory;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
@@ -133,11 +137,38 @@ impl<S: RegularLagrangian, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> 
         self.t + T::lift(c) * self.h
     }
 
-    /// How many iterations the fixed point gets; fewer where Newton stands by.
     #[inline(always)]
-    fn budget(&self, dimension: usize) -> usize {
-        let max = self.method.stopping.max_iterations;
-        if self.method.solver == Solver::Automatic { max.min(24 + dimension) } else { max }
+    fn interval(&self) -> Interval<T> {
+        Interval { t: self.t, h: self.h }
+    }
+}
+
+/// A step, and what it changes.
+struct Attempt<'a, S: Lagrangian, F, R, T: Real> {
+    step: Step<'a, S, F, R, T>,
+    parts: Parts<'a, S, T>,
+    /// Of the fixed point.
+    budget: usize,
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
+    #[inline(always)]
+    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        if self.step.method.needs_forces_only::<S>() {
+            separable::step(&self.step, &mut self.parts, self.budget, statistics)
+        } else {
+            general::by_fixed_point(&self.step, &mut self.parts, statistics)
+        }
+    }
+
+    #[inline(always)]
+    fn newton(
+        &mut self,
+        matrix: &mut Matrix<S, T>,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        general::by_newton(&self.step, &mut self.parts, matrix, guess, statistics)
     }
 }
 
@@ -234,15 +265,16 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self, t, h };
-        if S::SEPARABLE && self.is_verlet() {
-            let (taken, result) = verlet::steps(system, memory, q, Clock::new(t, h), 1);
+        let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial) {
+            let (taken, result) = verlet::steps(system, mass, phase, work, q, Clock::new(t, h), 1);
             statistics.gradients += taken;
-            result
-        } else if self.needs_forces_only::<S>() {
-            separable::step(&step, memory, q, statistics)
-        } else {
-            general::step(&step, memory, q, statistics)
+            return result;
         }
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
+        let parts = Parts { interpolation, ends, phase, inertial, work, q };
+        let mut attempt = Attempt { step, parts, budget };
+        ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
     }
 
     fn velocity(
@@ -253,7 +285,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.motion.velocity(system, q, t, v)
+        memory.inertial.velocity(system, &memory.phase, q, t, v)
     }
 
     #[inline]
@@ -266,8 +298,9 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if S::SEPARABLE && self.is_verlet() {
-            let (taken, result) = verlet::steps(system, memory, q, clock, count);
+        let VariationalMemory { phase, inertial, work, .. } = &mut *memory;
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial) {
+            let (taken, result) = verlet::steps(system, mass, phase, work, q, clock, count);
             statistics.gradients += taken;
             statistics.steps += taken;
             result
@@ -278,7 +311,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
 
     #[inline]
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.motion.restore(&from.motion);
+        to.restore(from);
     }
 }
 

@@ -196,10 +196,14 @@ mod tests {
     fn half_periods_are_resonant() -> Result<(), crate::StartError> {
         let rule = Quadrature::lobatto(4)?;
         let a = differentiation::<4>(&rule);
-        for u in [core::f64::consts::PI, f64::NAN] {
-            let failure = Coefficients::<4, f64>::new(&rule, &a, u).err();
-            assert!(matches!(failure, Some(StepFailure::Resonance { .. })), "{failure:?}");
-        }
+        let failure = |u| Coefficients::<4, f64>::new(&rule, &a, u).err();
+        let half_turn = failure(core::f64::consts::PI);
+        assert!(matches!(half_turn, Some(StepFailure::Resonance { .. })), "{half_turn:?}");
+        let undefined = failure(f64::NAN);
+        assert!(
+            matches!(undefined, Some(StepFailure::Frequency { omega }) if omega.is_nan()),
+            "{undefined:?}"
+        );
         Ok(())
     }
 }

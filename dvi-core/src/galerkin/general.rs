@@ -8,74 +8,57 @@
 
 use super::Step;
 use super::blocks;
-use super::memory::{GalerkinMemory, Newton, Work};
+use super::memory::{Newton, Path, Work};
 use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn};
 use crate::quadrature::Rule;
-use crate::solver::{Convergence, Verdict};
+use crate::solve::{Convergence, Guess, iterate};
 use crate::statistics::Statistics;
 use crate::{Real, RegularLagrangian, Vector, Weights, norm};
 
-pub(super) fn step<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+/// The unknowns.
+pub(super) fn newton<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
-    q: &mut Vector<S, T>,
+    path: &mut Path<NODES, S, T>,
+    q: &[T],
+    storage: &mut Newton<NODES, S, T>,
+    guess: Guess,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    memory.newton_steps = memory.newton_steps.saturating_sub(1);
-    memory.guess(step, q);
-    if solve(step, memory, statistics).is_err() {
-        // A guess that was extrapolated too far is worse than none.
-        for unknown in &mut memory.work.unknowns[1..] {
+    path.guess(step, q);
+    if guess == Guess::Zero {
+        for unknown in &mut path.work.unknowns[1..] {
             unknown.fill(T::lift(0.0));
         }
-        solve(step, memory, statistics)?;
     }
-    finish(step, memory, q, statistics)
-}
-
-fn solve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
     let stopping = step.method.stopping;
-    let mut convergence =
-        Convergence::new(stopping, memory.scale(), &memory.work.unknowns[0], stopping.max_iterations);
-    let verdict = loop {
-        memory.read_frequency(step, statistics)?;
-        differentiate(step, memory, statistics)?;
-        linearize(step, memory, statistics);
-        let GalerkinMemory { newton: Some(Newton { blocks, permutation }), work, .. } = memory else {
-            return Ok(());
-        };
-        blocks::eliminate(blocks, permutation, &mut work.residuals)?;
+    let convergence = Convergence::new(stopping, path.scale(), q, stopping.max_iterations);
+    iterate(convergence, statistics, |statistics| {
+        path.read_frequency(step, statistics)?;
+        differentiate(step, path, statistics)?;
+        linearize(step, path, storage, statistics);
+        let Newton { blocks, permutation } = &mut *storage;
+        let Work { unknowns, residuals, .. } = &mut path.work;
+        blocks::eliminate(blocks, permutation, residuals)?;
         let mut correction = T::lift(0.0);
-        for (unknown, change) in work.unknowns.iter_mut().zip(&work.residuals).skip(1) {
+        for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
             for (x, &change) in unknown.iter_mut().zip(change.iter()) {
                 *x -= change;
             }
             correction = norm::larger(correction, norm::largest(change));
         }
-        match convergence.judge(correction) {
-            Verdict::Continue => {}
-            verdict => break verdict,
-        }
-    };
-    statistics.iterations += convergence.iterations as u64;
-    match verdict {
-        Verdict::GiveUp => Err(convergence.failure()),
-        _ => memory.work.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown)),
-    }
+        Ok(correction)
+    })?;
+    path.work.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown))
 }
 
 /// Sets `point` to qʲ and `velocity` to q̇ʲ of node `j`.
 fn place<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
     j: usize,
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
 ) {
-    let GalerkinMemory { coefficients, work, .. } = memory;
+    let Path { coefficients, work, .. } = path;
     let Work { unknowns, point, velocity, .. } = work;
     let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / step.h);
     let sum = |row: &[T; NODES], i: usize| {
@@ -90,15 +73,15 @@ fn place<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
 /// Sets `work.residuals` at the current unknowns.
 fn differentiate<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    for residual in &mut memory.work.residuals {
+    for residual in &mut path.work.residuals {
         residual.fill(T::lift(0.0));
     }
     for j in 0..NODES {
-        place(j, step, memory);
-        let GalerkinMemory { rule, coefficients, work, .. } = &mut *memory;
+        place(j, step, path);
+        let Path { rule, coefficients, work, .. } = &mut *path;
         let Work { residuals, point, velocity, gradient, momentum, .. } = work;
         step.system.gradient(point, velocity, step.node_time(rule.nodes()[j]), gradient, momentum);
         statistics.gradients += 1;
@@ -109,8 +92,8 @@ fn differentiate<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real
             }
         }
     }
-    let GalerkinMemory { p, work, .. } = memory;
-    for (residual, &p) in work.residuals[NODES - 1].iter_mut().zip(p.iter()) {
+    let Path { phase, work, .. } = path;
+    for (residual, &p) in work.residuals[NODES - 1].iter_mut().zip(phase.p.iter()) {
         *residual += p;
     }
     work.residuals.iter().try_for_each(|residual| norm::finite(residual))
@@ -119,20 +102,17 @@ fn differentiate<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real
 /// Sets the blocks of the Newton matrix at the current unknowns.
 fn linearize<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
+    newton: &mut Newton<NODES, S, T>,
     statistics: &mut Statistics,
 ) {
     let (zero, one) = (T::lift(0.0), T::lift(1.0));
     let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
     let kinds = [Weights { qq: one, ..none }, Weights { qv: one, ..none }, Weights { vv: one, ..none }];
-    if let Some(newton) = &mut memory.newton {
-        newton.blocks[1..].iter_mut().flatten().for_each(|block| block.fill(zero));
-    }
+    newton.blocks[1..].iter_mut().flatten().for_each(|block| block.fill(zero));
     for j in 0..NODES {
-        place(j, step, memory);
-        let GalerkinMemory { rule, coefficients, newton: Some(newton), work, .. } = &mut *memory else {
-            return;
-        };
+        place(j, step, path);
+        let Path { rule, coefficients, work, .. } = &mut *path;
         let Work { point, velocity, gradient, momentum, .. } = work;
         let (second, rows) = newton.blocks.split_at_mut(1);
         for (matrix, weights) in second[0].iter_mut().zip(kinds) {
@@ -177,22 +157,22 @@ fn add_transposed<T: Real, M: core::ops::Deref<Target = [T]>>(
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1 = p0 + (D₁ + D₂)L_d.
-fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+pub(super) fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    memory.read_frequency(step, statistics)?;
-    differentiate(step, memory, statistics)?;
-    let Work { unknowns, residuals, momentum, next, next_force, .. } = &mut memory.work;
+    path.read_frequency(step, statistics)?;
+    differentiate(step, path, statistics)?;
+    let Work { unknowns, residuals, momentum, next, next_force, .. } = &mut path.work;
     for i in 0..next.len() {
         next[i] = unknowns[0][i] + unknowns[NODES - 1][i];
-        momentum[i] = memory.p[i] + residuals[0][i];
+        momentum[i] = path.phase.p[i] + residuals[0][i];
     }
     if S::SEPARABLE {
         step.system.force(next, &[], step.node_time(1.0), next_force);
         statistics.gradients += 1;
     }
-    memory.complete(step.system, [step.h, step.node_time(1.0)], q)
+    path.complete(step.system, [step.h, step.node_time(1.0)], q)
 }

@@ -4,39 +4,32 @@ use super::Step;
 use super::coefficients::{Coefficients, differentiation};
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{FrequencyIn, Local};
-use crate::history::{History, is_similar};
-use crate::legendre::Legendre;
-use crate::mass::Mass;
-use crate::orientation::MassOrientation;
+use crate::history::History;
+use crate::phase::{Arrival, Inertial, PhasePoint};
 use crate::quadrature::Quadrature;
-use crate::solver::Solver;
+use crate::solve::{Ladder, Solver};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Vector, norm};
 
-/// The momentum of a run with interior displacements, its guesses and its work space.
+/// The phase point of a run with interior displacements, its path between the points and its work space.
 #[derive(Debug)]
 pub struct GalerkinMemory<const NODES: usize, S: Lagrangian, T: Real> {
+    pub(super) ladder: Ladder<Newton<NODES, S, T>>,
+    pub(super) path: Path<NODES, S, T>,
+}
+
+/// Where the run is, and how it goes on from there.
+#[derive(Debug)]
+pub(super) struct Path<const NODES: usize, S: Lagrangian, T: Real> {
     pub(super) rule: Quadrature,
     differentiation: [[f64; NODES]; NODES],
     pub(super) coefficients: Coefficients<NODES, T>,
     /// The frequencies at both ends of the step.
     ends: [Local<S, T>; 2],
-    /// p at the current point.
-    pub(super) p: Vector<S, T>,
-    /// ∂L/∂q at the current point; kept if L is separable.
-    pub(super) force: Vector<S, T>,
-    /// Kept if L is separable.
-    pub(super) mass: Option<Mass<S, T>>,
-    /// Kept if L is not separable.
-    orientation: Option<MassOrientation<S, T>>,
-    /// δ/h² of each interior node and Δ/h, of the last steps; entry 0 is not used.
-    histories: [History<S, T>; NODES],
-    /// The length of the step before; zero before the first.
-    last_step: T,
-    /// Kept unless the solver is the fixed point.
-    pub(super) newton: Option<Newton<NODES, S, T>>,
-    /// How many steps Newton takes before the fixed point is tried again.
-    pub(super) newton_steps: u32,
+    pub(super) phase: PhasePoint<S, T>,
+    pub(super) inertial: Inertial<S, T>,
+    /// δ/h² of each interior node, of the last steps; the first and the last entry are not used.
+    displacements: [History<S, T>; NODES],
     pub(super) work: Work<NODES, S, T>,
 }
 
@@ -70,7 +63,7 @@ pub(super) struct Work<const NODES: usize, S: Lagrangian, T: Real> {
 impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        &self.p
+        &self.path.phase.p
     }
 
     pub(super) fn new<F: FrequencyIn<T>>(
@@ -80,50 +73,50 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
     ) -> Result<Self, StartError> {
         let Step { system, method, t, .. } = *step;
         let space = system.space();
-        let [mut force, mut p, mut mean]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
-        system.gradient(q, v, t, &mut force, &mut p);
-        norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
-        let mass = S::SEPARABLE.then(|| Mass::new(system, q, t)).transpose().map_err(StartError::Starter)?;
-        let orientation = (!S::SEPARABLE).then(|| MassOrientation::new(system, q, v, t));
-        let orientation = orientation.transpose().map_err(StartError::Starter)?;
-        mean.copy_from_slice(v);
         let rule = Quadrature::lobatto(NODES)?;
         let a = differentiation(&rule);
-        let mut histories = core::array::from_fn(|_| History::new(system, None));
-        histories[NODES - 1] = History::new(system, Some(mean));
+        let solver = match method.solver {
+            // Any L has no fixed point.
+            Solver::Automatic if !S::SEPARABLE => Solver::Newton,
+            solver => solver,
+        };
         let reading = method.frequency.reading();
-        let mut memory = Self {
+        let mut path = Path {
             rule,
             differentiation: a,
             coefficients: Coefficients::new(&rule, &a, T::lift(0.0)).map_err(StartError::Starter)?,
             ends: [Local::new(system, reading), Local::new(system, reading)],
-            p,
-            force,
-            mass,
-            orientation,
-            histories,
-            last_step: T::lift(0.0),
-            newton: (method.solver != Solver::FixedPoint).then(|| Newton {
-                blocks: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
-                permutation: space.permutation(),
-            }),
-            newton_steps: 0,
+            phase: PhasePoint::new(system, q, v, t)?,
+            inertial: Inertial::new(system, q, v, t)?,
+            displacements: core::array::from_fn(|_| History::new(system, None)),
             work: Work::new(system),
         };
         if reading.is_none() {
-            memory.fit(method.frequency.fixed(0) * step.h).map_err(StartError::Starter)?;
+            path.fit(method.frequency.fixed(0) * step.h).map_err(StartError::Starter)?;
         }
-        Ok(memory)
+        let ladder = Ladder::new(solver, || Newton {
+            blocks: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
+            permutation: space.permutation(),
+        });
+        Ok(Self { ladder, path })
     }
 
+    /// Takes over all that the next step can depend on.
+    pub(super) fn restore(&mut self, from: &Self) {
+        self.path.restore(&from.path);
+        self.ladder.restore(&from.ladder);
+    }
+}
+
+impl<const NODES: usize, S: RegularLagrangian, T: Real> Path<NODES, S, T> {
     /// Sets the unknowns to their guess: extrapolated from the steps before if they had about this length; else
     /// the path is straight, and its velocity is taken from the momentum if L is separable.
     #[inline(always)]
     pub(super) fn guess<F>(&mut self, step: &Step<'_, NODES, S, F, T>, q: &[T]) {
-        let similar = is_similar(step.h, self.last_step);
+        let similar = self.phase.extrapolates_to(step.h);
         let [start, interior @ .., increment] = &mut self.work.unknowns[..] else { return };
         start.copy_from_slice(q);
-        for (displacement, history) in interior.iter_mut().zip(&self.histories[1..]) {
+        for (displacement, history) in interior.iter_mut().zip(&self.displacements[1..]) {
             if similar {
                 history.extrapolate(displacement);
                 scale(displacement, step.h * step.h);
@@ -131,11 +124,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
                 displacement.fill(T::lift(0.0));
             }
         }
-        match &self.mass {
-            Some(mass) if !similar => mass.solve(&self.p, increment),
-            _ => self.histories[NODES - 1].extrapolate(increment),
-        }
-        scale(increment, step.h);
+        self.phase.guess(self.inertial.constant(), &self.phase.p, step.h, increment);
     }
 
     /// max|q0| + max|Δ|, by which errors are measured.
@@ -152,7 +141,9 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let frequency = &step.method.frequency;
-        let ([start, end], Some(mass), Some(_)) = (&mut self.ends, &self.mass, frequency.reading()) else {
+        let ([start, end], Some(mass), Some(_)) =
+            (&mut self.ends, self.inertial.constant(), frequency.reading())
+        else {
             return self.fit(frequency.fixed(0) * step.h);
         };
         let Work { unknowns, velocity, next, next_force, .. } = &mut self.work;
@@ -163,7 +154,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
         }
         step.system.force(next, &[], step.node_time(1.0), next_force);
         statistics.gradients += 1;
-        start.evaluate(frequency, mass, q, velocity, &self.force)?;
+        start.evaluate(frequency, mass, q, velocity, &self.phase.force)?;
         end.evaluate(frequency, mass, next, velocity, next_force)?;
         let omega = T::lift(0.5) * (start.omega + end.omega);
         self.fit(omega * step.h)
@@ -188,52 +179,27 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
         q: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         let Work { next, momentum, next_force, velocity, unknowns, .. } = &mut self.work;
+        let increment = &unknowns[NODES - 1];
         norm::finite(next).and(norm::finite(momentum))?;
-        if let Some(orientation) = &mut self.orientation {
-            velocity.copy_from_slice(&unknowns[NODES - 1]);
-            scale(velocity, T::lift(1.0) / h);
-            orientation.check(system, next, velocity, end)?;
-        }
-        if S::SEPARABLE {
-            norm::finite(next_force)?;
-            self.force.copy_from_slice(next_force);
-        }
-        q.copy_from_slice(next);
-        self.p.copy_from_slice(momentum);
-        let similar = is_similar(h, self.last_step);
-        self.last_step = h;
+        self.inertial.check(system, [next, increment], [end, h], velocity)?;
+        let similar = self.phase.extrapolates_to(h);
+        self.phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, increment, h)?;
         let per_h = T::lift(1.0) / h;
-        for k in 1..NODES {
+        for (history, displacement) in self.displacements.iter_mut().zip(unknowns).take(NODES - 1).skip(1) {
             if !similar {
-                self.histories[k].clear();
+                history.clear();
             }
-            let factor = if k == NODES - 1 { per_h } else { per_h * per_h };
-            self.histories[k].push_scaled(&self.work.unknowns[k], factor);
+            history.push_scaled(displacement, per_h * per_h);
         }
         Ok(())
     }
 
-    /// Takes over all that the next step can depend on.
-    pub(super) fn restore(&mut self, from: &Self) {
-        self.p.copy_from_slice(&from.p);
-        self.force.copy_from_slice(&from.force);
-        if let (Some(orientation), Some(from)) = (&mut self.orientation, &from.orientation) {
-            orientation.restore(from);
-        }
-        for (history, from) in self.histories.iter_mut().zip(&from.histories) {
+    fn restore(&mut self, from: &Self) {
+        self.phase.restore(&from.phase);
+        self.inertial.restore(&from.inertial);
+        for (history, from) in self.displacements.iter_mut().zip(&from.displacements) {
             history.restore(from);
         }
-        (self.last_step, self.newton_steps) = (from.last_step, from.newton_steps);
-    }
-
-    /// Sets `v` to the velocity with ∂L/∂v = p.
-    pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
-        if let Some(mass) = &self.mass {
-            mass.solve(&self.p, v);
-            return Ok(());
-        }
-        self.histories[NODES - 1].extrapolate(v);
-        Legendre::new(system).solve(system, q, &self.p, t, v)
     }
 }
 

@@ -6,83 +6,58 @@
 //! A contains the oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0 at
 //! the end and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
 
-use super::memory::{GalerkinMemory, Work};
-use super::{Step, general};
+use super::Step;
+use super::memory::{Path, Work};
 use crate::error::StepFailure;
 use crate::frequency::FrequencyIn;
 use crate::quadrature::Rule;
-use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
+use crate::solve::{Convergence, iterate};
 use crate::statistics::Statistics;
 use crate::{Real, RegularLagrangian, Scalar, Vector, norm};
 
-#[inline]
-pub(super) fn step<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
-    q: &mut Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    if step.method.solver == Solver::Newton || memory.newton_steps > 0 {
-        return general::step(step, memory, q, statistics);
-    }
-    match solve(step, memory, q, statistics) {
-        Ok(()) => finish(step, memory, q, statistics),
-        Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. }) if memory.newton.is_some() => {
-            memory.newton_steps = STEPS_BEFORE_RETRY;
-            general::step(step, memory, q, statistics)
-        }
-        Err(failure) => Err(failure),
-    }
-}
-
+/// The unknowns.
 #[inline(always)]
-fn solve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+pub(super) fn fixed_point<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
     q: &[T],
+    budget: usize,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    memory.guess(step, q);
-    let mut convergence =
-        Convergence::fixed_point(step.method.stopping, memory.scale(), q, step.budget(q.len()));
-    let verdict = loop {
-        memory.read_frequency(step, statistics)?;
-        let correction = improve(step, memory, statistics);
-        match convergence.judge(correction) {
-            Verdict::Continue => {}
-            verdict => break verdict,
-        }
-    };
-    statistics.iterations += convergence.iterations as u64;
-    match verdict {
-        Verdict::GiveUp => Err(convergence.failure()),
-        _ => memory.work.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown)),
-    }
+    path.guess(step, q);
+    let convergence = Convergence::fixed_point(step.method.stopping, path.scale(), q, budget);
+    iterate(convergence, statistics, |statistics| {
+        path.read_frequency(step, statistics)?;
+        Ok(improve(step, path, statistics))
+    })?;
+    path.work.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown))
 }
 
 /// One iteration; returns the size of its correction.
 #[inline(always)]
 fn improve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
     statistics: &mut Statistics,
 ) -> T {
     let last = NODES - 1;
-    let (weights, zero) = (memory.coefficients.weights, T::lift(0.0));
-    for i in 0..memory.p.len() {
-        memory.work.residuals[last][i] = memory.p[i] + step.h * weights[0] * memory.force[i];
+    let (weights, zero) = (path.coefficients.weights, T::lift(0.0));
+    for i in 0..path.phase.p.len() {
+        path.work.residuals[last][i] = path.phase.p[i] + step.h * weights[0] * path.phase.force[i];
     }
     for j in 1..last {
-        node_force(j, step, memory, statistics);
-        let Work { residuals, gradient, .. } = &mut memory.work;
-        let [b, _] = memory.coefficients.direction(j, last);
+        node_force(j, step, path, statistics);
+        let Work { residuals, gradient, .. } = &mut path.work;
+        let [b, _] = path.coefficients.direction(j, last);
         for i in 0..gradient.len() {
             let impulse = step.h * weights[j] * gradient[i];
             residuals[j][i] = impulse;
             residuals[last][i] += b * impulse;
         }
     }
-    let GalerkinMemory { coefficients, mass: Some(mass), work, .. } = memory else { return zero };
+    let Path { coefficients, inertial, work, .. } = path;
+    // Of another L no step comes here, and nothing converges.
+    let Some(mass) = inertial.constant() else { return T::lift(f64::NAN) };
     let Work { unknowns, residuals, velocity, .. } = work;
     for (residual, kinetic) in residuals.iter_mut().zip(&coefficients.kinetic).skip(1) {
         mass.solve(residual, velocity);
@@ -108,57 +83,57 @@ fn improve<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>
 fn node_force<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     j: usize,
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
     statistics: &mut Statistics,
 ) {
-    let Work { unknowns, point, gradient, .. } = &mut memory.work;
-    let (row, last) = (&memory.coefficients.point[j], NODES - 1);
+    let Work { unknowns, point, gradient, .. } = &mut path.work;
+    let (row, last) = (&path.coefficients.point[j], NODES - 1);
     for i in 0..point.len() {
         point[i] = row[0] * unknowns[0][i] + row[last] * unknowns[last][i] + unknowns[j][i];
     }
-    step.system.force(point, &[], step.node_time(memory.rule.nodes()[j]), gradient);
+    step.system.force(point, &[], step.node_time(path.rule.nodes()[j]), gradient);
     statistics.gradients += 1;
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1.
 #[inline(always)]
-fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+pub(super) fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
-    memory: &mut GalerkinMemory<NODES, S, T>,
+    path: &mut Path<NODES, S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    memory.read_frequency(step, statistics)?;
+    path.read_frequency(step, statistics)?;
     let last = NODES - 1;
-    let Work { unknowns, next, next_force, .. } = &mut memory.work;
+    let Work { unknowns, next, next_force, .. } = &mut path.work;
     for i in 0..next.len() {
         next[i] = unknowns[0][i] + unknowns[last][i];
     }
     step.system.force(next, &[], step.node_time(1.0), next_force);
     statistics.gradients += 1;
-    let Work { momentum, .. } = &mut memory.work;
-    let weights = memory.coefficients.weights;
+    let Work { momentum, .. } = &mut path.work;
+    let weights = path.coefficients.weights;
     for i in 0..momentum.len() {
-        momentum[i] = memory.p[i] + step.h * weights[0] * memory.force[i];
+        momentum[i] = path.phase.p[i] + step.h * weights[0] * path.phase.force[i];
     }
     for j in 1..last {
-        node_force(j, step, memory, statistics);
-        let Work { momentum, gradient, .. } = &mut memory.work;
-        let weight = step.h * weights[j] * memory.coefficients.point[j][0];
+        node_force(j, step, path, statistics);
+        let Work { momentum, gradient, .. } = &mut path.work;
+        let weight = step.h * weights[j] * path.coefficients.point[j][0];
         for (p, &f) in momentum.iter_mut().zip(gradient.iter()) {
             *p += weight * f;
         }
     }
-    let Work { momentum, next_force, unknowns, velocity, .. } = &mut memory.work;
+    let Work { momentum, next_force, unknowns, velocity, .. } = &mut path.work;
     for (p, &f) in momentum.iter_mut().zip(next_force.iter()) {
         *p += step.h * weights[last] * f;
     }
-    if let (false, Some(mass)) = (F::UNFITTED, &memory.mass) {
+    if let (false, Some(mass)) = (F::UNFITTED, path.inertial.constant()) {
         for i in 0..velocity.len() {
-            let terms = memory.coefficients.kinetic[0].iter().zip(unknowns.iter());
+            let terms = path.coefficients.kinetic[0].iter().zip(unknowns.iter());
             velocity[i] = terms.fold(T::lift(0.0), |sum, (&k, x)| sum + k * x[i]);
         }
         mass.multiply_add(T::lift(1.0) / step.h, velocity, momentum);
     }
-    memory.complete(step.system, [step.h, step.node_time(1.0)], q)
+    path.complete(step.system, [step.h, step.node_time(1.0)], q)
 }

@@ -11,6 +11,7 @@ use super::SigmaMemory;
 use super::linear::add;
 use super::memory::Work;
 use super::monitor::Monitor;
+use crate::discrete::NodeWork;
 use crate::error::StepFailure;
 use crate::form::{Form, Product};
 use crate::method::Clock;
@@ -56,11 +57,12 @@ pub(super) fn steps<S: DegenerateLagrangian, T: Real>(
     clock: Clock<T>,
     count: u64,
 ) -> (u64, Result<(), StepFailure>) {
-    let SigmaMemory { defect, inverse, product, ahead, scale, work, monitor, .. } = memory;
+    let SigmaMemory { defect, inverse, product, ahead, scale, l_d, work, monitor, .. } = memory;
     // A run with σ = 0 and affine α has both.
     let (Some(product), Some(ahead)) = (product, ahead) else { return (0, Ok(())) };
     let from = monitor.steps;
-    let run = Run { system, inverse, product, work, monitor: &mut *monitor, defect, q, clock, count };
+    let node = &mut l_d.work;
+    let run = Run { system, inverse, product, node, work, monitor: &mut *monitor, defect, q, clock, count };
     let (taken, result) = match ahead {
         Ahead::Reversal => run.steps(|q0, _, ahead| ahead.copy_from_slice(q0)),
         Ahead::Diagonal(factors) => run.steps(|q0, q1, ahead| {
@@ -89,6 +91,7 @@ struct Run<'a, S: Lagrangian, T: Real> {
     system: &'a S,
     inverse: &'a Form<S, T>,
     product: &'a Product<S, T>,
+    node: &'a mut NodeWork<S, T>,
     work: &'a mut Work<S, T>,
     monitor: &'a mut Monitor<S, T>,
     defect: &'a mut Vector<S, T>,
@@ -101,14 +104,14 @@ impl<S: DegenerateLagrangian, T: Real> Run<'_, S, T> {
     /// With the rule that sets the point ahead, its last argument, from q0 and q1.
     #[inline(always)]
     fn steps(self, look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
-        let Self { system, inverse, product, work, monitor, defect, q, clock, count } = self;
-        scratch!(q0 = system, work.point);
+        let Self { system, inverse, product, node, work, monitor, defect, q, clock, count } = self;
+        scratch!(q0 = system, node.point);
         scratch!(q1 = system, work.next);
         scratch!(q2 = system, work.trial);
-        scratch!(ahead = system, work.velocity);
-        scratch!(gradient = system, work.gradient);
+        scratch!(ahead = system, node.velocity);
+        scratch!(gradient = system, node.gradient);
         scratch!(s = system, work.increment);
-        let (kept_ahead, spare) = (&mut work.ahead, &mut work.momentum);
+        let (kept_ahead, spare) = (&mut work.ahead, &mut node.momentum);
         q1.copy_from_slice(q);
         ahead.copy_from_slice(kept_ahead);
         let points = Points { q0, q1, q2, ahead, gradient, s };

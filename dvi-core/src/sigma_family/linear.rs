@@ -7,15 +7,18 @@
 //! with c0 = 0 the scheme is the implicit midpoint rule.
 
 use super::leapfrog;
-use super::newton::{self, Guess};
+use super::memory::Work;
 use super::{SigmaMemory, Step};
+use crate::discrete::{Ends, OneNode, solve_by_newton};
 use crate::error::StepFailure;
+use crate::form::Form;
+use crate::history::History;
 use crate::method::Clock;
 use crate::norm;
-use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
+use crate::solve::{Convergence, Guess, iterate};
 use crate::space::scratch;
 use crate::statistics::Statistics;
-use crate::{DegenerateLagrangian, Real, Vector};
+use crate::{DegenerateLagrangian, Matrix, Real, Vector};
 
 #[inline(always)]
 pub(super) fn step<S: DegenerateLagrangian, T: Real>(
@@ -47,10 +50,10 @@ fn explicit_right<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, inverse, product, work, .. } = memory;
+    let SigmaMemory { defect, inverse, product, l_d, work, .. } = memory;
     scratch!(delta = step.system, work.increment);
     scratch!(next = step.system, work.next);
-    scratch!(gradient = step.system, work.gradient);
+    scratch!(gradient = step.system, l_d.work.gradient);
     inverse.solve(step.system, defect, delta);
     add(q, delta, next);
     step.system.hamiltonian_gradient(next, step.t + step.h, gradient);
@@ -101,116 +104,119 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
     if !memory.defect_vanishes {
         memory.shift_by_defect(step.system);
     }
-    if memory.newton_steps > 0 || step.method.solver == Solver::Newton {
-        by_newton(step, memory, q, statistics)?;
-    } else if let Err(failure) = fixed_point(step, memory, q, statistics) {
-        if step.method.solver == Solver::FixedPoint {
-            return Err(failure);
-        }
-        memory.newton_steps = STEPS_BEFORE_RETRY;
-        by_newton(step, memory, q, statistics)?;
-    }
+    let SigmaMemory { ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, .. } = memory;
+    let budget = step.budget(ladder, q.len());
+    let defect = (!*defect_vanishes).then_some(&*defect);
+    let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
+    ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
     finish(step, memory, q)
 }
 
-/// s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs).
-#[inline(always)]
-fn fixed_point<S: DegenerateLagrangian, T: Real>(
-    step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
-    q: &Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let SigmaMemory { history, inverse, work, defect_vanishes, .. } = memory;
-    let (sigma, node_time) = (step.method.sigma, step.node_time());
-    scratch!(increment = step.system, work.velocity);
-    scratch!(trial = step.system, work.trial);
-    scratch!(point = step.system, work.point);
-    scratch!(gradient = step.system, work.momentum);
-    history.extrapolate(increment);
-    let mut scale = norm::largest(q) + norm::largest(increment);
-    // Where the iteration would be without s.
-    let origin = if *defect_vanishes {
-        q
-    } else {
-        for ((next, &q), &shift) in work.next.iter_mut().zip(q.iter()).zip(work.shift.iter()) {
-            *next = q + sigma * shift;
-        }
-        scale += norm::largest(&work.shift);
-        &work.next
-    };
-    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, q, step.budget(q.len()));
-    let verdict = loop {
-        for ((point, &origin), &s) in point.iter_mut().zip(origin.iter()).zip(increment.iter()) {
-            *point = origin + sigma * s;
-        }
-        step.system.hamiltonian_gradient(point, node_time, gradient);
-        inverse.solve(step.system, gradient, trial);
-        let correction = norm::distance(trial, increment);
-        increment.copy_from_slice(trial);
-        match convergence.judge(correction) {
-            Verdict::Continue => {}
-            verdict => break verdict,
-        }
-    };
-    statistics.iterations += convergence.iterations as u64;
-    statistics.gradients += convergence.iterations as u64;
-    if verdict == Verdict::GiveUp {
-        return Err(convergence.failure());
-    }
-    work.increment.copy_from_slice(increment);
-    work.gradient.copy_from_slice(gradient);
-    norm::finite(increment)
+/// A step as it is being solved: `work.increment` becomes s, and the gradient of the node ∇H(q_σ).
+struct Attempt<'a, S: DegenerateLagrangian, T: Real> {
+    step: &'a Step<'a, S, T>,
+    q: &'a Vector<S, T>,
+    /// c0, unless it is zero.
+    defect: Option<&'a Vector<S, T>>,
+    one_form: &'a mut Vector<S, T>,
+    history: &'a History<S, T>,
+    inverse: &'a Form<S, T>,
+    l_d: &'a mut OneNode<S, T>,
+    work: &'a mut Work<S, T>,
+    budget: usize,
 }
 
-/// Newton from the extrapolated guess, and again without it where that fails.
-#[inline]
-fn by_newton<S: DegenerateLagrangian, T: Real>(
-    step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
-    q: &Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    newton_from(Guess::Extrapolated, step, memory, q, statistics)
-        .or_else(|_| newton_from(Guess::Zero, step, memory, q, statistics))?;
-    memory.newton_steps = memory.newton_steps.saturating_sub(1);
-    Ok(())
+impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
+    /// s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs).
+    #[inline(always)]
+    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
+        let (sigma, node_time) = (step.method.sigma, step.node_time());
+        let node = &mut l_d.work;
+        scratch!(increment = step.system, node.velocity);
+        scratch!(trial = step.system, work.trial);
+        scratch!(point = step.system, node.point);
+        scratch!(gradient = step.system, node.momentum);
+        history.extrapolate(increment);
+        let mut scale = norm::largest(q) + norm::largest(increment);
+        // Where the iteration would be without s.
+        let origin: &[T] = if defect.is_none() {
+            q
+        } else {
+            for ((next, &q), &shift) in work.next.iter_mut().zip(q.iter()).zip(work.shift.iter()) {
+                *next = q + sigma * shift;
+            }
+            scale += norm::largest(&work.shift);
+            &work.next
+        };
+        let convergence = Convergence::fixed_point(step.method.stopping, scale, q, *budget);
+        iterate(convergence, statistics, |statistics| {
+            for ((point, &origin), &s) in point.iter_mut().zip(origin.iter()).zip(increment.iter()) {
+                *point = origin + sigma * s;
+            }
+            step.system.hamiltonian_gradient(point, node_time, gradient);
+            statistics.gradients += 1;
+            inverse.solve(step.system, gradient, trial);
+            let correction = norm::distance(trial, increment);
+            increment.copy_from_slice(trial);
+            Ok(correction)
+        })?;
+        work.increment.copy_from_slice(increment);
+        node.gradient.copy_from_slice(gradient);
+        norm::finite(increment)
+    }
+
+    /// Newton on Δ, of which s and ∇H(q_σ) are left as the fixed point does.
+    #[inline]
+    fn newton(
+        &mut self,
+        matrix: &mut Matrix<S, T>,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { step, q, defect, one_form, history, l_d, work, .. } = self;
+        match guess {
+            Guess::Extrapolated => history.extrapolate(&mut work.increment),
+            Guess::Zero => work.increment.fill(T::lift(0.0)),
+        }
+        step.system.one_form(q, step.t, one_form);
+        work.next.copy_from_slice(one_form);
+        if let Some(defect) = defect {
+            add_to(&mut work.next, defect);
+            add_to(&mut work.increment, &work.shift);
+        }
+        let Work { increment, next: p0, trial, .. } = &mut **work;
+        let (points, storage) = ([&***q, &**p0], (matrix, trial));
+        let stopping = step.method.stopping;
+        solve_by_newton(
+            *l_d,
+            step.system,
+            step.interval(),
+            points,
+            increment,
+            storage,
+            stopping,
+            statistics,
+        )?;
+        if !step.method.is_midpoint() {
+            l_d.place(step.interval(), Ends { q0: q, delta: &work.increment });
+            let node = &mut l_d.work;
+            step.system.hamiltonian_gradient(&node.point, step.node_time(), &mut node.gradient);
+            statistics.gradients += 1;
+        }
+        if defect.is_some() {
+            for (delta, &shift) in work.increment.iter_mut().zip(work.shift.iter()) {
+                *delta -= shift;
+            }
+        }
+        Ok(())
+    }
 }
 
-/// Solves for Δ by Newton and leaves s and ∇H(q_σ) as the fixed point does.
-#[inline]
-fn newton_from<S: DegenerateLagrangian, T: Real>(
-    guess: Guess,
-    step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
-    q: &Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, defect_vanishes, one_form, history, newton, work, .. } = memory;
-    match guess {
-        Guess::Extrapolated => history.extrapolate(&mut work.increment),
-        Guess::Zero => work.increment.fill(T::lift(0.0)),
+fn add_to<T: Real>(sum: &mut [T], terms: &[T]) {
+    for (sum, &term) in sum.iter_mut().zip(terms) {
+        *sum += term;
     }
-    if !*defect_vanishes {
-        for (delta, &shift) in work.increment.iter_mut().zip(work.shift.iter()) {
-            *delta += shift;
-        }
-    }
-    step.system.one_form(q, step.t, one_form);
-    newton::solve(step, newton, work, q, defect, one_form, statistics)?;
-    if !step.method.is_midpoint() {
-        for i in 0..q.len() {
-            work.point[i] = q[i] + step.method.sigma * work.increment[i];
-        }
-        step.system.hamiltonian_gradient(&work.point, step.node_time(), &mut work.gradient);
-        statistics.gradients += 1;
-    }
-    if !*defect_vanishes {
-        for (delta, &shift) in work.increment.iter_mut().zip(work.shift.iter()) {
-            *delta -= shift;
-        }
-    }
-    Ok(())
 }
 
 /// Moves to q1 = q0 + K⁻¹c0 + s and updates the defect.
@@ -220,7 +226,7 @@ fn finish<S: DegenerateLagrangian, T: Real>(
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, history, product, work, defect_vanishes, .. } = memory;
+    let SigmaMemory { defect, history, product, l_d, work, defect_vanishes, .. } = memory;
     if *defect_vanishes {
         advance(step, q, &work.increment, &mut work.next)?;
         history.push(&work.increment);
@@ -236,7 +242,7 @@ fn finish<S: DegenerateLagrangian, T: Real>(
         Some(product) => {
             product.apply(step.system, &work.trial, defect);
             let right = step.method.sigma * step.h;
-            for (c, &g) in defect.iter_mut().zip(work.gradient.iter()) {
+            for (c, &g) in defect.iter_mut().zip(l_d.work.gradient.iter()) {
                 *c -= right * g;
             }
         }

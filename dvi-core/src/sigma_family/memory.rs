@@ -7,11 +7,12 @@
 use super::Sigma;
 use super::leapfrog::Ahead;
 use super::monitor::{Monitor, Pace, ParasiticMode};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode};
 use crate::error::StartError;
 use crate::form::{Combination, Form, Product};
 use crate::history::History;
 use crate::orientation::FormOrientation;
-use crate::solver::Solver;
+use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::statistics::Statistics;
 use crate::{DegenerateLagrangian, Lagrangian, Matrix, Real, Space, Vector};
@@ -34,10 +35,9 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
     pub(super) product: Option<Product<S, T>>,
     /// Kept if α is affine and σ = 0.
     pub(super) ahead: Option<Ahead<S, T>>,
-    /// Storage for the Newton matrix.
-    pub(super) newton: Option<Matrix<S, T>>,
-    /// How many steps Newton takes before the fixed point is tried again.
-    pub(super) newton_steps: u32,
+    pub(super) l_d: OneNode<S, T>,
+    /// With the matrix of Newton's method. Explicit steps do not use it.
+    pub(super) ladder: Ladder<Matrix<S, T>>,
     pub(super) monitor: Monitor<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
     pub(super) work: Work<S, T>,
@@ -46,19 +46,15 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
 pub(super) struct Work<S: Lagrangian, T: Real> {
-    /// K⁻¹c0, or p0.
+    /// K⁻¹c0; p0 if α is not affine.
     pub(super) shift: Vector<S, T>,
     /// q0 + K⁻¹c0, which outlives the step, if α is affine and σ = 0.
     pub(super) ahead: Vector<S, T>,
     /// The smooth part of the increment.
     pub(super) increment: Vector<S, T>,
     pub(super) trial: Vector<S, T>,
-    pub(super) point: Vector<S, T>,
-    pub(super) velocity: Vector<S, T>,
-    /// ∂L/∂q or ∇H.
-    pub(super) gradient: Vector<S, T>,
-    /// ∂L/∂v.
-    pub(super) momentum: Vector<S, T>,
+    /// (D₁ + D₂)L_d
+    pub(super) sum: Vector<S, T>,
     pub(super) next: Vector<S, T>,
 }
 
@@ -70,10 +66,7 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
             ahead: vector(),
             increment: vector(),
             trial: vector(),
-            point: vector(),
-            velocity: vector(),
-            gradient: vector(),
-            momentum: vector(),
+            sum: vector(),
             next: vector(),
         }
     }
@@ -124,18 +117,18 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
     ) -> Result<Self, StartError> {
         let mut memory = Self::new(system, method, q0, t, h)?;
         let (sigma, work) = (method.sigma, &mut memory.work);
-        let left = T::lift(1.0) - sigma;
         for i in 0..q0.len() {
             work.increment[i] = q1[i] - q0[i];
-            work.point[i] = q0[i] + sigma * work.increment[i];
-            work.velocity[i] = work.increment[i] / h;
         }
-        let node_time = t + sigma * h;
-        system.gradient(&work.point, &work.velocity, node_time, &mut work.gradient, &mut work.momentum);
+        // c0 = p0 − α(q0) = −D₁L_d − α(q0).
+        let (mut unused, mut sum) = (Statistics::default(), system.space().vector());
+        let (interval, ends) = (Interval { t, h }, Ends { q0, delta: &work.increment });
         system.one_form(q0, t, &mut memory.one_form);
-        for i in 0..q0.len() {
-            memory.defect[i] = work.momentum[i] - left * h * work.gradient[i] - memory.one_form[i];
-        }
+        memory.defect.copy_from_slice(&memory.one_form);
+        let derivatives =
+            memory.l_d.derivatives(system, interval, ends, &mut memory.defect, &mut sum, &mut unused);
+        derivatives.map_err(StartError::Starter)?;
+        memory.defect.iter_mut().for_each(|c| *c = -*c);
         crate::norm::finite(&memory.defect).map_err(StartError::Starter)?;
         if S::LINEAR && sigma != T::lift(1.0) {
             memory.shift_by_defect(system);
@@ -155,7 +148,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         self.defect_vanishes = from.defect_vanishes;
         self.one_form.copy_from_slice(&from.one_form);
         self.history.restore(&from.history);
-        self.newton_steps = from.newton_steps;
+        self.ladder.restore(&from.ladder);
         self.monitor.restore(&from.monitor);
         self.orientation.restore(&from.orientation);
         self.work.ahead.copy_from_slice(&from.work.ahead);
@@ -181,7 +174,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             .as_ref()
             .filter(|_| sigma == T::lift(0.0))
             .map(|product| Ahead::new(system, product, &inverse, scale));
-        let newton = (!explicit && method.solver != Solver::FixedPoint).then(|| space.matrix());
+        let solver = if explicit { Solver::FixedPoint } else { method.solver };
         let mut one_form = space.vector();
         system.one_form(q, t, &mut one_form);
         let (limit, pace) = pace(system, method, q, t);
@@ -194,8 +187,8 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             scale,
             product,
             ahead,
-            newton,
-            newton_steps: 0,
+            l_d: OneNode::new(system, sigma),
+            ladder: Ladder::new(solver, || space.matrix()),
             monitor: Monitor::new(system, limit, pace),
             orientation: FormOrientation::new(system, q, t),
             work,

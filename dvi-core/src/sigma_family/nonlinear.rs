@@ -5,13 +5,15 @@
 //! the fixed point of the affine case if α is affine.
 
 use super::memory::{Work, fixed_point_matrix};
-use super::newton::{self, Guess};
 use super::{SigmaMemory, Step};
+use crate::discrete::{DiscreteLagrangian, Ends, NodeWork, OneNode, solve_by_newton};
 use crate::error::StepFailure;
+use crate::form::Form;
+use crate::history::History;
 use crate::norm;
-use crate::solver::{Convergence, STEPS_BEFORE_RETRY, Solver, Verdict};
+use crate::solve::{Convergence, Guess, iterate};
 use crate::statistics::Statistics;
-use crate::{DegenerateLagrangian, Real, Vector};
+use crate::{DegenerateLagrangian, Matrix, Real, Vector};
 
 #[inline]
 pub(super) fn step<S: DegenerateLagrangian, T: Real>(
@@ -38,15 +40,13 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    if memory.newton_steps > 0 || step.method.solver == Solver::Newton {
-        by_newton(step, memory, q, statistics)?;
-    } else if let Err(failure) = fixed_point(step, memory, q, statistics) {
-        if step.method.solver == Solver::FixedPoint {
-            return Err(failure);
-        }
-        memory.newton_steps = STEPS_BEFORE_RETRY;
-        by_newton(step, memory, q, statistics)?;
+    let SigmaMemory { ladder, defect, one_form, history, inverse, l_d, work, .. } = memory;
+    for i in 0..q.len() {
+        work.shift[i] = defect[i] + one_form[i];
     }
+    let budget = step.budget(ladder, q.len());
+    let mut attempt = Attempt { step, q, history, inverse, l_d, work, budget };
+    ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
     finish(step, memory, q, statistics)
 }
 
@@ -58,101 +58,84 @@ fn one_solve<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, one_form, inverse, orientation, work, .. } = memory;
+    let SigmaMemory { defect, one_form, inverse, orientation, l_d, work, .. } = memory;
+    let node = &mut l_d.work;
     let combination = fixed_point_matrix::<S, T>(step.method, step.h);
-    step.system.hamiltonian_gradient(q, step.t, &mut work.gradient);
+    step.system.hamiltonian_gradient(q, step.t, &mut node.gradient);
     statistics.gradients += 1;
     inverse.prepare(step.system, q, step.t, combination, &mut work.trial, statistics)?;
     for i in 0..q.len() {
-        work.trial[i] = step.h * work.gradient[i] - defect[i];
+        work.trial[i] = step.h * node.gradient[i] - defect[i];
     }
     inverse.solve(step.system, &work.trial, &mut work.increment);
     for i in 0..q.len() {
         work.next[i] = q[i] + work.increment[i];
     }
     norm::finite(&work.next)?;
-    step.system.one_form(&work.next, step.t + step.h, &mut work.momentum);
-    norm::finite(&work.momentum)?;
+    step.system.one_form(&work.next, step.t + step.h, &mut node.momentum);
+    norm::finite(&node.momentum)?;
     orientation.check(step.system, &work.next, step.t + step.h)?;
     q.copy_from_slice(&work.next);
     for i in 0..q.len() {
-        defect[i] = one_form[i] - work.momentum[i];
-        one_form[i] = work.momentum[i];
+        defect[i] = one_form[i] - node.momentum[i];
+        one_form[i] = node.momentum[i];
     }
     Ok(())
 }
 
-/// The fixed point, from the extrapolated guess, in `work.increment`.
-#[inline]
-fn fixed_point<S: DegenerateLagrangian, T: Real>(
-    step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
-    q: &Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, one_form, history, inverse, work, .. } = memory;
-    let sigma = step.method.sigma;
-    let (per_h, left_h) = (T::lift(1.0) / step.h, (T::lift(1.0) - sigma) * step.h);
-    let combination = fixed_point_matrix::<S, T>(step.method, step.h);
-    history.extrapolate(&mut work.increment);
-    step.place(work, q, per_h);
-    inverse.prepare(step.system, &work.point, step.node_time(), combination, &mut work.trial, statistics)?;
-    let scale = norm::largest(q) + norm::largest(&work.increment);
-    let mut convergence = Convergence::fixed_point(step.method.stopping, scale, q, step.budget(q.len()));
-    let verdict = loop {
-        let Work { point, velocity, gradient, momentum, trial, increment, .. } = work;
-        step.system.gradient(point, velocity, step.node_time(), gradient, momentum);
-        for i in 0..q.len() {
-            // `velocity` has been used and `place` will set it again.
-            velocity[i] = defect[i] + one_form[i] - momentum[i] + left_h * gradient[i];
-        }
-        inverse.solve(step.system, velocity, trial);
-        for (delta, &correction) in increment.iter_mut().zip(trial.iter()) {
-            *delta += correction;
-        }
-        let correction = norm::largest(trial);
-        match convergence.judge(correction) {
-            Verdict::Continue => step.place(work, q, per_h),
-            verdict => break verdict,
-        }
-    };
-    statistics.iterations += convergence.iterations as u64;
-    statistics.gradients += convergence.iterations as u64;
-    match verdict {
-        Verdict::GiveUp => Err(convergence.failure()),
-        _ => norm::finite(&work.increment),
-    }
+/// A step as it is being solved: `work.increment` becomes Δ; `work.shift` is p0.
+struct Attempt<'a, S: DegenerateLagrangian, T: Real> {
+    step: &'a Step<'a, S, T>,
+    q: &'a Vector<S, T>,
+    history: &'a History<S, T>,
+    inverse: &'a mut Form<S, T>,
+    l_d: &'a mut OneNode<S, T>,
+    work: &'a mut Work<S, T>,
+    budget: usize,
 }
 
-/// Newton from the extrapolated guess, and again without it where that fails.
-#[inline]
-fn by_newton<S: DegenerateLagrangian, T: Real>(
-    step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
-    q: &Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    newton_from(Guess::Extrapolated, step, memory, q, statistics)
-        .or_else(|_| newton_from(Guess::Zero, step, memory, q, statistics))?;
-    memory.newton_steps = memory.newton_steps.saturating_sub(1);
-    Ok(())
-}
-
-#[inline]
-fn newton_from<S: DegenerateLagrangian, T: Real>(
-    guess: Guess,
-    step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
-    q: &Vector<S, T>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, one_form, history, newton, work, .. } = memory;
-    match guess {
-        Guess::Extrapolated => history.extrapolate(&mut work.increment),
-        Guess::Zero => work.increment.fill(T::lift(0.0)),
+impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
+    /// Δ ← Δ + K⁻¹r(Δ), with K at the guess.
+    #[inline]
+    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { step, q, history, inverse, l_d, work, budget } = self;
+        let combination = fixed_point_matrix::<S, T>(step.method, step.h);
+        let Work { increment, trial, shift: p0, sum, next: residual, .. } = &mut **work;
+        history.extrapolate(increment);
+        l_d.place(step.interval(), Ends { q0: q, delta: increment });
+        inverse.prepare(step.system, &l_d.work.point, step.node_time(), combination, trial, statistics)?;
+        let scale = norm::largest(q) + norm::largest(increment);
+        let convergence = Convergence::fixed_point(step.method.stopping, scale, q, *budget);
+        iterate(convergence, statistics, |statistics| {
+            residual.copy_from_slice(p0);
+            let ends = Ends { q0: q, delta: increment };
+            l_d.derivatives(step.system, step.interval(), ends, residual, sum, statistics)?;
+            inverse.solve(step.system, residual, trial);
+            for (delta, &correction) in increment.iter_mut().zip(trial.iter()) {
+                *delta += correction;
+            }
+            Ok(norm::largest(trial))
+        })?;
+        norm::finite(increment)
     }
-    newton::solve(step, newton, work, q, defect, one_form, statistics)?;
-    Ok(())
+
+    #[inline]
+    fn newton(
+        &mut self,
+        matrix: &mut Matrix<S, T>,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { step, q, history, l_d, work, .. } = self;
+        let Work { increment, trial, shift: p0, .. } = &mut **work;
+        match guess {
+            Guess::Extrapolated => history.extrapolate(increment),
+            Guess::Zero => increment.fill(T::lift(0.0)),
+        }
+        let (points, storage) = ([&***q, &**p0], (matrix, trial));
+        let stopping = step.method.stopping;
+        solve_by_newton(*l_d, step.system, step.interval(), points, increment, storage, stopping, statistics)
+    }
 }
 
 /// Moves to q1 = q0 + Δ and evaluates c1 = α(q_σ) + σh ∂L/∂q − α(q1).
@@ -163,9 +146,10 @@ fn finish<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, one_form, history, orientation, work, .. } = memory;
-    step.place(work, q, T::lift(1.0) / step.h);
-    let Work { point, velocity, gradient, momentum, trial, increment, next, .. } = work;
+    let SigmaMemory { defect, one_form, history, orientation, l_d, work, .. } = memory;
+    l_d.place(step.interval(), Ends { q0: q, delta: &work.increment });
+    let NodeWork { point, velocity, gradient, momentum } = &mut l_d.work;
+    let Work { trial, increment, next, .. } = work;
     step.system.gradient(point, velocity, step.node_time(), gradient, momentum);
     statistics.gradients += 1;
     for i in 0..q.len() {

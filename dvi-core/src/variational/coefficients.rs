@@ -4,15 +4,15 @@
 //! D₂L_d is M(C q1 − K q0)/h, A = Σ w B², C = Σ w B̄², K = −Σ w B B̄. On the oscillator of frequency ω,
 //! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
 
-use super::general::place;
-use super::memory::Work;
+use super::lagrangian::{mixed_weights, place};
 use super::{Fitting, Step};
 use crate::basis::{self, Bases, Basis};
+use crate::discrete::{Ends, NodeWork};
 use crate::error::StepFailure;
-use crate::frequency::{self, Frequency, FrequencyIn};
+use crate::frequency::{self, FrequencyIn};
 use crate::norm::reported;
 use crate::quadrature::{NODES, Rule};
-use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector};
+use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 
 /// sin u and S count as zero below this.
 const RESONANCE: f64 = 1e-4;
@@ -37,6 +37,18 @@ pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
     /// # Errors
     /// [`StepFailure::Resonance`], also if ωh is π or more.
     fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure>;
+
+    /// Adds what a node, at which `work` stands, contributes to D₁D₂L_d; sets ∂L/∂q and ∂L/∂v in `work`.
+    fn add_mixed(&mut self, node: usize, system: &S, at: [T; 2], work: &mut NodeWork<S, T>, matrix: &mut [T]);
+
+    /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
+    fn slope<F: FrequencyIn<T>, R: Rule>(
+        &self,
+        step: &Step<'_, S, F, R, T>,
+        work: &mut NodeWork<S, T>,
+        ends: Ends<'_, T>,
+        twice_omega: T,
+    ) -> T;
 }
 
 /// Sums over the nodes.
@@ -142,6 +154,54 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
             kernel: sine * sine / (u * u * reported(self.sums.compliance)),
         })
     }
+
+    #[inline]
+    fn add_mixed(
+        &mut self,
+        node: usize,
+        system: &S,
+        [t, h]: [T; 2],
+        NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
+        matrix: &mut [T],
+    ) {
+        let weights = mixed_weights(self.weights[node], h, self.bases[node]);
+        system.linearize(point, velocity, t, weights, gradient, momentum, matrix);
+    }
+
+    fn slope<F: FrequencyIn<T>, R: Rule>(
+        &self,
+        step: &Step<'_, S, F, R, T>,
+        work: &mut NodeWork<S, T>,
+        ends: Ends<'_, T>,
+        twice_omega: T,
+    ) -> T {
+        let (z, rule) = (self.u * self.u, &step.method.rule);
+        let slopes = basis::table_slope(rule, z);
+        let fitted = step.method.fitting == Fitting::PhaseAndMomentum;
+        let factor_slope = if fitted { basis::weight_factor_slope(rule, z) } else { T::lift(0.0) };
+        let per_h = T::lift(1.0) / step.h;
+        let mut by_z = T::lift(0.0);
+        for (node, &c) in rule.nodes().iter().enumerate() {
+            place(self, node, step.h, ends, work);
+            let NodeWork { point, velocity, gradient, momentum } = &mut *work;
+            let (t, Ends { q0, delta }) = (step.node_time(c), ends);
+            step.system.gradient(point, velocity, t, gradient, momentum);
+            let Basis { b, b_bar, d, d_bar } = slopes[node];
+            let mut along = T::lift(0.0);
+            for i in 0..q0.len() {
+                let point_slope = (b + b_bar) * q0[i] + b_bar * delta[i];
+                let velocity_slope = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
+                along += gradient[i] * point_slope + momentum[i] * velocity_slope;
+            }
+            by_z += self.weights[node] * along;
+            if fitted {
+                let value = step.system.lagrangian(point, velocity, t);
+                by_z += T::lift(rule.weights()[node]) * factor_slope * value;
+            }
+        }
+        // z = ω²h², and ℓ = h Σ w L.
+        step.h * by_z * twice_omega * step.h * step.h
+    }
 }
 
 impl<T: Real> Coefficients<T> for Uniform<T> {
@@ -173,6 +233,8 @@ pub(super) struct Each<S: Lagrangian, T: Real> {
     left: Vector<S, T>,
     right: Vector<S, T>,
     compliance: Vector<S, T>,
+    /// One block of second derivatives of L.
+    block: Matrix<S, T>,
 }
 
 impl<S: RegularLagrangian, T: Real> Each<S, T> {
@@ -190,6 +252,7 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
             left: space.vector(),
             right: space.vector(),
             compliance: space.vector(),
+            block: space.matrix(),
         }
     }
 }
@@ -223,9 +286,50 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
         Ok(())
     }
 
-    /// There is no such frequency.
-    fn set<F, R: Rule>(&mut self, _step: &Step<'_, S, F, R, T>, _omega: T) -> Result<(), StepFailure> {
-        Ok(())
+    /// One frequency for all has been refused.
+    fn set<F, R: Rule>(&mut self, _step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
+        Err(StepFailure::Frequency { omega: reported(omega) })
+    }
+
+    /// Block by block.
+    fn add_mixed(
+        &mut self,
+        node: usize,
+        system: &S,
+        [t, h]: [T; 2],
+        work: &mut NodeWork<S, T>,
+        matrix: &mut [T],
+    ) {
+        let (zero, one, n) = (T::lift(0.0), T::lift(1.0), self.mixed.len());
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let Self { weights, b, b_bar, d, d_bar, block, .. } = self;
+        let NodeWork { point, velocity, gradient, momentum } = work;
+        let blocks = [
+            (Weights { qq: one, ..none }, &b[node], &b_bar[node], h),
+            (Weights { qv: one, ..none }, &b[node], &d_bar[node], one),
+            (Weights { vq: one, ..none }, &d[node], &b_bar[node], one),
+            (Weights { vv: one, ..none }, &d[node], &d_bar[node], one / h),
+        ];
+        for (kind, row, column, factor) in blocks {
+            block.fill(zero);
+            system.linearize(point, velocity, t, kind, gradient, momentum, block);
+            for i in 0..n {
+                for j in 0..n {
+                    matrix[i * n + j] += weights[node] * factor * row[i] * column[j] * block[i * n + j];
+                }
+            }
+        }
+    }
+
+    /// Not a number: frequencies that are read have been refused.
+    fn slope<F: FrequencyIn<T>, R: Rule>(
+        &self,
+        _step: &Step<'_, S, F, R, T>,
+        _work: &mut NodeWork<S, T>,
+        _ends: Ends<'_, T>,
+        _twice_omega: T,
+    ) -> T {
+        T::lift(f64::NAN)
     }
 }
 
@@ -244,43 +348,5 @@ impl<S: RegularLagrangian, T: Real> Coefficients<T> for Each<S, T> {
     fn sums(&self, i: usize) -> Sums<T> {
         let (left, right) = (self.left[i], self.right[i]);
         Sums { mixed: self.mixed[i], left, right, compliance: self.compliance[i] }
-    }
-}
-
-impl<T: Real> Uniform<T> {
-    /// ∂ℓ/∂ω, for ω = `twice_omega`/2, at the current Δ.
-    pub(super) fn slope<S: RegularLagrangian, F: Frequency, R: Rule>(
-        &self,
-        step: &Step<'_, S, F, R, T>,
-        work: &mut Work<S, T>,
-        q: &[T],
-        twice_omega: T,
-    ) -> T {
-        let (z, rule) = (self.u * self.u, &step.method.rule);
-        let slopes = basis::table_slope(rule, z);
-        let fitted = step.method.fitting == Fitting::PhaseAndMomentum;
-        let factor_slope = if fitted { basis::weight_factor_slope(rule, z) } else { T::lift(0.0) };
-        let per_h = T::lift(1.0) / step.h;
-        let mut by_z = T::lift(0.0);
-        for (node, &c) in rule.nodes().iter().enumerate() {
-            place(self, node, step, work, q);
-            let Work { point, velocity, gradient, momentum, increment, .. } = &mut *work;
-            let t = step.node_time(c);
-            step.system.gradient(point, velocity, t, gradient, momentum);
-            let Basis { b, b_bar, d, d_bar } = slopes[node];
-            let mut along = T::lift(0.0);
-            for i in 0..q.len() {
-                let point_slope = (b + b_bar) * q[i] + b_bar * increment[i];
-                let velocity_slope = ((d + d_bar) * q[i] + d_bar * increment[i]) * per_h;
-                along += gradient[i] * point_slope + momentum[i] * velocity_slope;
-            }
-            by_z += self.weights[node] * along;
-            if fitted {
-                let value = step.system.lagrangian(point, velocity, t);
-                by_z += T::lift(rule.weights()[node]) * factor_slope * value;
-            }
-        }
-        // z = ω²h², and ℓ = h Σ w L.
-        step.h * by_z * twice_omega * step.h * step.h
     }
 }

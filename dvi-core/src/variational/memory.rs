@@ -2,24 +2,35 @@
 
 use super::coefficients::{Adjustable, Each, Uniform};
 use super::{Step, Variational};
+use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{FrequencyIn, Local};
-use crate::history::{History, is_similar};
-use crate::legendre::Legendre;
-use crate::mass::Mass;
-use crate::orientation::MassOrientation;
+use crate::phase::{Inertial, PhasePoint};
 use crate::quadrature::Rule;
-use crate::solver::Solver;
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector, norm};
+use crate::solve::{Ladder, Solver};
+use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector};
 
-/// The momentum of a run of the quadrature family, its guesses and its work space.
+/// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
 pub struct VariationalMemory<S: Lagrangian, T: Real> {
     pub(super) interpolation: Interpolation<S, T>,
     /// The frequencies at both ends of the step.
     pub(super) ends: [Local<S, T>; 2],
-    pub(super) motion: Motion<S, T>,
+    pub(super) phase: PhasePoint<S, T>,
+    pub(super) inertial: Inertial<S, T>,
+    /// With the matrix of Newton's method; explicit steps do not use it.
+    pub(super) ladder: Ladder<Matrix<S, T>>,
     pub(super) work: Work<S, T>,
+}
+
+/// What a step changes, the coordinates among it.
+pub(super) struct Parts<'a, S: Lagrangian, T: Real> {
+    pub(super) interpolation: &'a mut Interpolation<S, T>,
+    pub(super) ends: &'a mut [Local<S, T>; 2],
+    pub(super) phase: &'a mut PhasePoint<S, T>,
+    pub(super) inertial: &'a mut Inertial<S, T>,
+    pub(super) work: &'a mut Work<S, T>,
+    pub(super) q: &'a mut Vector<S, T>,
 }
 
 /// The latest coefficients of the interpolation.
@@ -29,48 +40,22 @@ pub(super) enum Interpolation<S: Lagrangian, T: Real> {
     Each(Each<S, T>),
 }
 
-/// Where a run is, how it got there, and work space.
-#[derive(Debug)]
-pub(super) struct Motion<S: Lagrangian, T: Real> {
-    /// p at the current point.
-    pub(super) p: Vector<S, T>,
-    /// ∂L/∂q at the current point; kept if L is separable.
-    pub(super) force: Vector<S, T>,
-    /// Kept if L is separable.
-    pub(super) mass: Option<Mass<S, T>>,
-    /// Kept if L is not separable.
-    pub(super) orientation: Option<MassOrientation<S, T>>,
-    /// The mean velocities Δ/h of the last steps.
-    pub(super) history: History<S, T>,
-    /// The length of the step before; zero before the first.
-    pub(super) last_step: T,
-    /// Storage for the Newton matrix and for one term of it.
-    pub(super) newton: Option<[Matrix<S, T>; 2]>,
-    /// How many steps Newton takes before the fixed point is tried again.
-    pub(super) newton_steps: u32,
-}
-
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
 pub(super) struct Work<S: Lagrangian, T: Real> {
+    pub(super) node: NodeWork<S, T>,
     pub(super) increment: Vector<S, T>,
     pub(super) next: Vector<S, T>,
-    pub(super) point: Vector<S, T>,
-    pub(super) velocity: Vector<S, T>,
-    /// ∂L/∂q at a node.
-    pub(super) gradient: Vector<S, T>,
-    /// ∂L/∂v at a node, or p1.
-    pub(super) momentum: Vector<S, T>,
-    /// The residual, then the correction.
+    /// The residual, then the correction, or a force.
     pub(super) trial: Vector<S, T>,
-    pub(super) d1: Vector<S, T>,
-    pub(super) d2: Vector<S, T>,
+    /// (D₁ + D₂)L_d
+    pub(super) sum: Vector<S, T>,
 }
 
 impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        &self.motion.p
+        &self.phase.p
     }
 
     pub(super) fn new<F: FrequencyIn<T>, R: Rule>(
@@ -81,20 +66,15 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         t: T,
         h: T,
     ) -> Result<Self, StartError> {
-        let space = system.space();
-        let vector = || space.vector();
-        let [mut force, mut p]: [Vector<S, T>; 2] = [vector(), vector()];
-        system.gradient(q, v, t, &mut force, &mut p);
-        norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
-        let mass = S::SEPARABLE.then(|| Mass::new(system, q, t)).transpose().map_err(StartError::Starter)?;
-        let orientation = (!S::SEPARABLE).then(|| MassOrientation::new(system, q, v, t));
-        let orientation = orientation.transpose().map_err(StartError::Starter)?;
-        let explicit = method.needs_forces_only::<S>() && method.is_explicit();
-        let newton =
-            (!explicit && method.solver != Solver::FixedPoint).then(|| [space.matrix(), space.matrix()]);
+        let explicit = method.is_explicit();
+        let solver = match (method.needs_forces_only::<S>(), method.solver) {
+            (true, _) if explicit => Solver::FixedPoint,
+            (true, solver) => solver,
+            // Any L has no fixed point.
+            (false, Solver::Automatic | Solver::Newton) => Solver::Newton,
+            (false, Solver::FixedPoint) => Solver::FixedPoint,
+        };
         let reading = method.frequency.reading();
-        let mut mean = vector();
-        mean.copy_from_slice(v);
         let mut interpolation = if F::PER_COORDINATE {
             Interpolation::Each(Each::new(system))
         } else {
@@ -103,18 +83,20 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         if reading.is_none() {
             interpolation.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
         }
-        let motion = Motion {
-            p,
-            force,
-            mass,
-            orientation,
-            history: History::new(system, Some(mean)),
-            last_step: T::lift(0.0),
-            newton,
-            newton_steps: 0,
-        };
-        let ends = [Local::new(system, reading), Local::new(system, reading)];
-        Ok(Self { interpolation, ends, motion, work: Work::new(system) })
+        Ok(Self {
+            interpolation,
+            ends: [Local::new(system, reading), Local::new(system, reading)],
+            phase: PhasePoint::new(system, q, v, t)?,
+            inertial: Inertial::new(system, q, v, t)?,
+            ladder: Ladder::new(solver, || system.space().matrix()),
+            work: Work::new(system),
+        })
+    }
+
+    pub(super) fn restore(&mut self, from: &Self) {
+        self.phase.restore(&from.phase);
+        self.inertial.restore(&from.inertial);
+        self.ladder.restore(&from.ladder);
     }
 }
 
@@ -123,15 +105,11 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {
+            node: NodeWork::new(system),
             increment: vector(),
             next: vector(),
-            point: vector(),
-            velocity: vector(),
-            gradient: vector(),
-            momentum: vector(),
             trial: vector(),
-            d1: vector(),
-            d2: vector(),
+            sum: vector(),
         }
     }
 }
@@ -145,56 +123,6 @@ impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
         match self {
             Self::Each(each) => each.fix(step),
             Self::Uniform(uniform) => uniform.fix(step),
-        }
-    }
-}
-
-impl<S: RegularLagrangian, T: Real> Motion<S, T> {
-    /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if they
-    /// had about this length, and from the momentum elsewhere.
-    #[inline(always)]
-    pub(super) fn guess(&self, h: T, increment: &mut [T]) {
-        match &self.mass {
-            Some(mass) if !is_similar(h, self.last_step) => mass.solve(&self.p, increment),
-            _ => self.history.extrapolate(increment),
-        }
-        for delta in increment {
-            *delta *= h;
-        }
-    }
-
-    /// Remembers a completed step of length `h` with this `increment`.
-    #[inline(always)]
-    pub(super) fn remember(&mut self, h: T, increment: &[T]) {
-        if !is_similar(h, self.last_step) {
-            self.history.clear();
-        }
-        self.last_step = h;
-        self.history.push_scaled(increment, T::lift(1.0) / h);
-    }
-
-    /// Takes over all that the next step can depend on.
-    pub(super) fn restore(&mut self, from: &Self) {
-        self.p.copy_from_slice(&from.p);
-        self.force.copy_from_slice(&from.force);
-        if let (Some(orientation), Some(from)) = (&mut self.orientation, &from.orientation) {
-            orientation.restore(from);
-        }
-        self.history.restore(&from.history);
-        (self.last_step, self.newton_steps) = (from.last_step, from.newton_steps);
-    }
-
-    /// Sets `v` to the velocity with ∂L/∂v = p.
-    pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
-        match &self.mass {
-            Some(mass) => {
-                mass.solve(&self.p, v);
-                Ok(())
-            }
-            None => {
-                self.history.extrapolate(v);
-                Legendre::new(system).solve(system, q, &self.p, t, v)
-            }
         }
     }
 }

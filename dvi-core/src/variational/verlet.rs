@@ -6,10 +6,11 @@
 //! Source: Hairer, Lubich & Wanner 2003, "Geometric numerical integration illustrated by the Störmer–Verlet
 //! method".
 
-use super::memory::{Motion, VariationalMemory};
+use super::memory::Work;
 use crate::error::StepFailure;
 use crate::mass::Mass;
 use crate::method::Clock;
+use crate::phase::{Arrival, PhasePoint};
 use crate::space::scratch;
 use crate::walk::{Walk, walk};
 use crate::{Real, RegularLagrangian, Vector, norm};
@@ -19,23 +20,22 @@ use crate::{Real, RegularLagrangian, Vector, norm};
 #[inline(always)]
 pub(super) fn steps<S: RegularLagrangian, T: Real>(
     system: &S,
-    memory: &mut VariationalMemory<S, T>,
+    mass: &Mass<S, T>,
+    phase: &mut PhasePoint<S, T>,
+    work: &mut Work<S, T>,
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
 ) -> (u64, Result<(), StepFailure>) {
-    let VariationalMemory { motion: Motion { p, force, mass, .. }, work, .. } = memory;
-    // Every run of a separable system has it.
-    let Some(mass) = mass else { return (0, Ok(())) };
-    scratch!(q1 = system, work.point);
-    scratch!(p1 = system, work.momentum);
+    scratch!(q1 = system, work.node.point);
+    scratch!(p1 = system, work.node.momentum);
     scratch!(f1 = system, work.trial);
-    scratch!(v = system, work.velocity);
+    scratch!(v = system, work.node.velocity);
     q1.copy_from_slice(q);
-    p1.copy_from_slice(p);
-    f1.copy_from_slice(force);
+    p1.copy_from_slice(&phase.p);
+    f1.copy_from_slice(&phase.force);
     let half = T::lift(0.5) * clock.step_size();
-    walk(Kicks { system, mass, clock, half, q, p, force, q1, p1, f1, v }, 0, count)
+    walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v }, 0, count)
 }
 
 /// The present point, momentum and force, and where they are kept.
@@ -45,8 +45,7 @@ struct Kicks<'a, S: RegularLagrangian, T: Real> {
     clock: Clock<T>,
     half: T,
     q: &'a mut Vector<S, T>,
-    p: &'a mut Vector<S, T>,
-    force: &'a mut Vector<S, T>,
+    phase: &'a mut PhasePoint<S, T>,
     q1: &'a mut [T],
     p1: &'a mut [T],
     f1: &'a mut [T],
@@ -82,15 +81,13 @@ impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
 
     #[inline(always)]
     fn keep(&mut self) {
-        self.q.copy_from_slice(self.q1);
-        self.p.copy_from_slice(self.p1);
-        self.force.copy_from_slice(self.f1);
+        self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 });
     }
 
     #[inline(always)]
     fn go_back(&mut self) {
         self.q1.copy_from_slice(self.q);
-        self.p1.copy_from_slice(self.p);
-        self.f1.copy_from_slice(self.force);
+        self.p1.copy_from_slice(&self.phase.p);
+        self.f1.copy_from_slice(&self.phase.force);
     }
 }

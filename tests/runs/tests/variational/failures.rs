@@ -236,8 +236,5 @@ fn a_frequency_that_is_not_defined_is_an_error_of_its_own() -> Outcome {
     for reading in [Reading::LeftFrozen, Reading::Averaged, Reading::Variational] {
         check(Variational::simpson().phase_fitted(Partial(reading)))?;
     }
-    for reading in [Reading::Averaged, Reading::Variational] {
-        check(Galerkin::<3>::new().phase_fitted(Partial(reading)))?;
-    }
-    Ok(())
+    check(Galerkin::<3>::new().phase_fitted(Partial(Reading::Averaged)))
 }

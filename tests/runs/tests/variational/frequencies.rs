@@ -61,9 +61,9 @@ fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
         let empty = Variational::simpson().phase_fitted(Empty(reading));
         let mut run = Integrator::new(&KEPLER, empty, 0.1, START)?;
         let error = run.advance().err();
-        let resonance = |u: f64| u.is_nan();
+        let undefined = |omega: f64| omega.is_nan();
         assert!(
-            matches!(error, Some(StepError { step: 0, failure: StepFailure::Resonance { u, .. }, .. }) if resonance(u)),
+            matches!(error, Some(StepError { step: 0, failure: StepFailure::Frequency { omega }, .. }) if undefined(omega)),
             "{reading:?}: {error:?}"
         );
         assert_eq!(run.q(), [0.8, 0.0]);

@@ -1,4 +1,4 @@
-//! How the equation of a step is solved, and when an iterate is accepted.
+//! When an iterate is accepted.
 //!
 //! An iterate is accepted when its last correction d, in the maximum norm, is at most
 //! tolerance · (max|q| + max|Δ|); or when the rate θ = d/d' at which corrections shrink says that the
@@ -14,20 +14,6 @@
 use crate::Real;
 use crate::error::{StartError, StepFailure};
 use crate::norm::{reported, smallest};
-
-/// The iteration that solves an implicit step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Solver {
-    /// Fixed point where it contracts fast, Newton where it does not: a step whose fixed-point iteration
-    /// is slow is done again by Newton, and so are the 31 steps after it before the fixed point is tried
-    /// anew. It holds storage for the Newton matrix.
-    #[default]
-    Automatic,
-    /// One gradient per iteration, no matrix (nonlinear α: one matrix of first derivatives per step).
-    FixedPoint,
-    /// The exact matrix of second derivatives, factored in each iteration.
-    Newton,
-}
 
 /// When an iteration is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,9 +52,6 @@ impl Stopping {
 
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
 const FLOOR: f64 = 32.0;
-
-/// After the fixed point has failed, this many steps are left to Newton before it is tried again.
-pub(crate) const STEPS_BEFORE_RETRY: u32 = 32;
 
 /// What to do with an iterate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

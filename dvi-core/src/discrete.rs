@@ -1,0 +1,131 @@
+//! The discrete Lagrangian: L_d(q0, q1; t, h), close to the action ∫L dt of the motion from q0 at t to q1 at t + h.
+//!
+//! A step solves the first of the discrete Euler–Lagrange equations in position–momentum form for q1 = q0 + Δ, and
+//! evaluates the second (Marsden & West 2001, eqs. 1.5.2 and 1.5.3):
+//!
+//! p0 = −D₁L_d(q0, q1)      p1 = D₂L_d(q0, q1) = p0 + (D₁ + D₂)L_d
+//!
+//! The second is written with a sum that is of order h, which rounds less.
+
+mod node;
+
+use crate::error::StepFailure;
+use crate::solve::{Convergence, Stopping, iterate};
+use crate::statistics::Statistics;
+use crate::{Lagrangian, Matrix, Real, Vector, elimination, norm};
+
+pub(crate) use node::NodeWork;
+pub use node::OneNode;
+
+/// The time from t to t + h.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval<T = f64> {
+    /// Where it begins.
+    pub t: T,
+    /// Its length, which may be negative.
+    pub h: T,
+}
+
+impl<T: Real> Interval<T> {
+    /// t + ch.
+    #[inline(always)]
+    pub fn time(&self, c: T) -> T {
+        self.t + c * self.h
+    }
+}
+
+/// The two ends of an interval: q0, and Δ = q1 − q0.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<'a, T> {
+    /// The coordinates where it begins.
+    pub q0: &'a [T],
+    /// By how much they change.
+    pub delta: &'a [T],
+}
+
+/// What one interval contributes to the discrete equations of a system.
+///
+/// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so that nothing
+/// is allocated.
+pub trait DiscreteLagrangian<S: Lagrangian, T: Real> {
+    /// Adds D₁L_d to `d1` and D₁L_d + D₂L_d to `sum`, each one entry per coordinate.
+    ///
+    /// # Errors
+    /// Those of an interpolation that is fitted to a frequency.
+    fn derivatives(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sum: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>;
+
+    /// Adds D₁L_d to `d1` and D₁D₂L_d to the row-major `matrix`; of a frequency that is read from the motion the matrix
+    /// takes no notice, which is close enough for Newton's method to contract.
+    ///
+    /// # Errors
+    /// As [`derivatives`](Self::derivatives).
+    fn linearize(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        matrix: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>;
+}
+
+/// A discrete Lagrangian with all of its second derivatives, from which tangent maps and the preserved two-form come.
+pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> {
+    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, and D₂D₂L_d to row-major
+    /// matrices.
+    ///
+    /// # Errors
+    /// As [`derivatives`](DiscreteLagrangian::derivatives).
+    fn hessian(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        matrices: [&mut [T]; 3],
+    ) -> Result<(), StepFailure>;
+}
+
+/// Solves p0 + D₁L_d(q0, q0 + Δ) = 0 by Newton's method, from the `delta` that stands there.
+///
+/// # Errors
+/// [`StepFailure::NotConverged`], [`StepFailure::Singular`], or those of the discrete Lagrangian.
+#[inline]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn solve_by_newton<S: Lagrangian, T: Real>(
+    l_d: &mut impl DiscreteLagrangian<S, T>,
+    system: &S,
+    interval: Interval<T>,
+    [q0, p0]: [&[T]; 2],
+    delta: &mut [T],
+    (matrix, residual): (&mut Matrix<S, T>, &mut Vector<S, T>),
+    stopping: Stopping,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let scale = norm::largest(q0) + norm::largest(delta);
+    let convergence = Convergence::new(stopping, scale, q0, stopping.max_iterations);
+    iterate(convergence, statistics, |statistics| {
+        residual.copy_from_slice(p0);
+        matrix.fill(T::lift(0.0));
+        l_d.linearize(system, interval, Ends { q0, delta }, residual, matrix, statistics)?;
+        statistics.linearizations += 1;
+        statistics.factorisations += 1;
+        let finite = norm::finite(residual);
+        if let Err(singular) = elimination::eliminate(matrix, residual) {
+            return Err(finite.err().unwrap_or(singular));
+        }
+        for (delta, &correction) in delta.iter_mut().zip(residual.iter()) {
+            *delta -= correction;
+        }
+        Ok(norm::largest(residual))
+    })?;
+    norm::finite(delta)
+}

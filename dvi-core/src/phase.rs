@@ -1,0 +1,189 @@
+//! Where a run on T*Q is, and what its next step is guessed from: all that a checkpoint needs besides the coordinates.
+
+use crate::error::{StartError, StepFailure};
+use crate::history::{History, is_similar};
+use crate::legendre::Legendre;
+use crate::mass::Mass;
+use crate::orientation::MassOrientation;
+use crate::{Lagrangian, Real, RegularLagrangian, Space, Vector, norm};
+
+/// The momentum and the force at the current point, and the last increments.
+#[derive(Debug)]
+pub(crate) struct PhasePoint<S: Lagrangian, T: Real> {
+    /// p = ∂L/∂v.
+    pub(crate) p: Vector<S, T>,
+    /// ∂L/∂q; it is kept if L is separable.
+    pub(crate) force: Vector<S, T>,
+    /// The mean velocities Δ/h of the last steps.
+    history: History<S, T>,
+    /// The length of the step before; zero before the first.
+    last_step: T,
+}
+
+/// The end of a step: q1, p1 and, if L is separable, ∂L/∂q there.
+pub(crate) struct Arrival<'a, T> {
+    pub(crate) q: &'a [T],
+    pub(crate) p: &'a [T],
+    pub(crate) force: &'a [T],
+}
+
+impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
+    /// At (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] if momentum or force is no number.
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StartError> {
+        let space = system.space();
+        let [mut force, mut p, mut mean]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
+        system.gradient(q, v, t, &mut force, &mut p);
+        norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
+        mean.copy_from_slice(v);
+        Ok(Self { p, force, history: History::new(system, Some(mean)), last_step: T::lift(0.0) })
+    }
+
+    /// Whether the last steps may be extrapolated to one of length `h`.
+    #[inline(always)]
+    pub(crate) fn extrapolates_to(&self, h: T) -> bool {
+        is_similar(h, self.last_step)
+    }
+
+    /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if they had about
+    /// this length; else that of a free motion with `momentum`, where the mass matrix is known.
+    #[inline(always)]
+    pub(crate) fn guess(&self, mass: Option<&Mass<S, T>>, momentum: &[T], h: T, increment: &mut [T]) {
+        match mass {
+            Some(mass) if !self.extrapolates_to(h) => mass.solve(momentum, increment),
+            _ => self.history.extrapolate(increment),
+        }
+        for delta in increment {
+            *delta *= h;
+        }
+    }
+
+    /// Moves to the end of a step of length `h`.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotFinite`]; nothing has moved then.
+    #[inline(always)]
+    pub(crate) fn advance(
+        &mut self,
+        q: &mut [T],
+        to: &Arrival<'_, T>,
+        increment: &[T],
+        h: T,
+    ) -> Result<(), StepFailure> {
+        norm::finite(to.q).and(norm::finite(to.p))?;
+        if S::SEPARABLE {
+            norm::finite(to.force)?;
+        }
+        self.set(q, to);
+        if !self.extrapolates_to(h) {
+            self.history.clear();
+        }
+        self.last_step = h;
+        self.history.push_scaled(increment, T::lift(1.0) / h);
+        Ok(())
+    }
+
+    /// Sets coordinates, momentum and force.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>) {
+        q.copy_from_slice(to.q);
+        self.p.copy_from_slice(to.p);
+        if S::SEPARABLE {
+            self.force.copy_from_slice(to.force);
+        }
+    }
+
+    /// Takes over all that the next step can depend on.
+    pub(crate) fn restore(&mut self, from: &Self) {
+        self.p.copy_from_slice(&from.p);
+        self.force.copy_from_slice(&from.force);
+        self.history.restore(&from.history);
+        self.last_step = from.last_step;
+    }
+}
+
+/// The mass matrix ∂²L/∂v∂v of a run.
+#[derive(Debug)]
+pub(crate) enum Inertial<S: Lagrangian, T: Real> {
+    /// L is separable.
+    Constant(Mass<S, T>),
+    /// It depends on the state; its orientation is watched.
+    Varying(MassOrientation<S, T>),
+}
+
+impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
+    /// At (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] where the matrix is singular.
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StartError> {
+        let new = if S::SEPARABLE {
+            Mass::new(system, q, t).map(Self::Constant)
+        } else {
+            MassOrientation::new(system, q, v, t).map(Self::Varying)
+        };
+        new.map_err(StartError::Starter)
+    }
+
+    /// The matrix, if it is the same everywhere.
+    #[inline(always)]
+    pub(crate) fn constant(&self) -> Option<&Mass<S, T>> {
+        match self {
+            Self::Constant(mass) => Some(mass),
+            Self::Varying(_) => None,
+        }
+    }
+
+    /// Whether the matrix has kept its orientation at (`q`, `t`), which was reached with Δ = `increment`; `velocity` is
+    /// storage.
+    ///
+    /// # Errors
+    /// As [`MassOrientation::check`].
+    #[inline(always)]
+    pub(crate) fn check(
+        &mut self,
+        system: &S,
+        [q, increment]: [&[T]; 2],
+        [t, h]: [T; 2],
+        velocity: &mut [T],
+    ) -> Result<(), StepFailure> {
+        let Self::Varying(orientation) = self else { return Ok(()) };
+        let per_h = T::lift(1.0) / h;
+        for (v, &delta) in velocity.iter_mut().zip(increment) {
+            *v = delta * per_h;
+        }
+        orientation.check(system, q, velocity, t)
+    }
+
+    pub(crate) fn restore(&mut self, from: &Self) {
+        if let (Self::Varying(orientation), Self::Varying(from)) = (self, from) {
+            orientation.restore(from);
+        }
+    }
+
+    /// Sets `v` to the velocity with ∂L/∂v = p at (`q`, `t`).
+    ///
+    /// # Errors
+    /// As [`Legendre::solve`].
+    pub(crate) fn velocity(
+        &self,
+        system: &S,
+        phase: &PhasePoint<S, T>,
+        q: &[T],
+        t: T,
+        v: &mut [T],
+    ) -> Result<(), StepFailure> {
+        match self {
+            Self::Constant(mass) => {
+                mass.solve(&phase.p, v);
+                Ok(())
+            }
+            Self::Varying(_) => {
+                phase.history.extrapolate(v);
+                Legendre::new(system).solve(system, q, &phase.p, t, v)
+            }
+        }
+    }
+}
