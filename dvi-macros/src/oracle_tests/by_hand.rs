@@ -39,6 +39,9 @@ const HAMILTONIANS: &[&str] = &[
     // A literal near the smallest number, beside one of ordinary size.
     "9.33e-305 * u + 10000.0 * w * w",
     "sum(0..N, |i| 9.33e-305 * x[i] + 10000.0 * y[i] * y[i])",
+    // A root of a sum that has no terms for some indices.
+    "sum(0..N, |j| sum(0..j, |k| (x[k] - u).powi(2) + 1).sqrt())",
+    "sum(0..N, |j| sum(0..j, |k| x[k] - u).cbrt())",
     // Indices whose bounds depend on each other.
     "sum(0..N, |j| sum(j..N, |k| x[k - j]))",
     "sum(0..N, |j| sum(0..N - j, |k| x[j + k]))",

@@ -99,7 +99,9 @@ impl<'a> Oracle<'a> {
             Formula::Power(of, exponent) => self.power(of, *exponent)?,
             Formula::Unary(function, of) => {
                 let of = self.value(of)?;
-                if !(function.domain)(of.value.value) {
+                // A sum without terms has a root.
+                let is_root = ["sqrt", "cbrt"].contains(&function.name) && of.is_constant();
+                if !is_root && !(function.domain)(of.value.value) {
                     return Err(Outside::Domain);
                 }
                 of.unary(&function.at)

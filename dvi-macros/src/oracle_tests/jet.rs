@@ -68,6 +68,11 @@ impl Jet {
         self.hessian.get(i * self.variables + j).copied().unwrap_or_default()
     }
 
+    /// Whether it depends on no variable: a function of it needs no derivative.
+    pub(super) fn is_constant(&self) -> bool {
+        self.active.is_empty()
+    }
+
     pub(super) fn is_moderate(&self) -> bool {
         let moderate = |entry: &Sized| entry.value.is_finite() && entry.size < 1e7;
         moderate(&self.value) && self.gradient.iter().chain(&self.hessian).all(moderate)
@@ -138,6 +143,9 @@ impl Jet {
         const H: f64 = 1e-4;
         let (x, error) = (self.value.value, self.value.size);
         let [f, first, second] = at(x);
+        if self.is_constant() {
+            return Self::constant(f);
+        }
         let third = (at(x + H)[2] - at(x - H)[2]) / (2.0 * H);
         let sized = |value: f64, next: f64| Sized { value, size: value.abs() + next.abs() * error };
         let zero = Sized::default();

@@ -8,7 +8,7 @@
 //! respect to a coordinate from outside is the sum of the derivatives, with respect to its own
 //! coordinates a scatter, weighted by ∂f/∂(the sum). [`Graph::hessian`] does this twice.
 
-use super::graph::{Coordinate, Expr, Fold, Graph, Id, Node};
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Unary};
 use super::index::{Atom, Index, Loop, Range, Renaming};
 use crate::internal::internal;
 
@@ -73,12 +73,23 @@ impl Graph {
             }
             Node::Product(factors) => self.product_derivative(&factors, &[], by),
             Node::Reciprocal(u) => self.reciprocal_derivative(of, u, by),
-            Node::Unary(function, u) => match self.function_of_root(function, u, of, by) {
-                Some(derivative) => derivative,
-                None => self.chain(u, by, |graph| graph.unary_derivative(function, u, of.into())),
-            },
+            Node::Unary(function, u) => {
+                if let Some(derivative) = self.function_of_root(function, u, of, by) {
+                    return derivative;
+                }
+                let derivative = self.chain(u, by, |graph| graph.unary_derivative(function, u, of.into()));
+                match function {
+                    Unary::Sqrt | Unary::Cbrt => self.unless_empty(u, derivative),
+                    _ => derivative,
+                }
+            }
             Node::Call(function, order, u) => self.chain(u, by, |graph| graph.call(function, order + 1, u)),
             Node::Binary(function, a, b) => {
+                if let (Binary::Powf, Some(p)) = (function, b.as_number())
+                    && let Some(derivative) = self.power_of_square(a, p, by)
+                {
+                    return derivative;
+                }
                 let tangents = [self.derivative(a, by), self.derivative(b, by)];
                 if tangents.iter().all(|tangent| tangent.is_zero()) {
                     return Expr::ZERO;

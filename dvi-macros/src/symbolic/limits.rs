@@ -10,9 +10,11 @@
 //! | f(R) where f' is below R, such as cos R | (f'(R)/R)·(R²)'/2 |
 //! | w·(R + …) | term by term |
 //! | w·uᵖ, where w and u' are below √u | of its factor uᵖ: p·uᵖ·(w/√u)·(u'/√u) |
+//! | Rᵖ, p > 1; uᵖ, ½ < p < 1 | p·Rᵖ⁻¹·((R²)'/2)/R; p·uᵖ⁻¹ᐟ²·u'/√u |
 //! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
 
-use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
+use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
+use super::index::Free;
 use super::powers::{Part, Root, take};
 
 /// The odd functions with a finite slope at 0: |f(w)| ≤ C·|w| near it.
@@ -31,6 +33,21 @@ const BOUNDED_BY_ARGUMENT: [Unary; 12] = [
     Unary::Ln1p,
 ];
 
+/// The functions that have all derivatives everywhere.
+const SMOOTH: [Unary; 11] = [
+    Unary::Exp,
+    Unary::Exp2,
+    Unary::ExpM1,
+    Unary::Sin,
+    Unary::Cos,
+    Unary::Atan,
+    Unary::Sinh,
+    Unary::Cosh,
+    Unary::Tanh,
+    Unary::Asinh,
+    Unary::Erf,
+];
+
 impl Graph {
     /// The derivative of `part` with a factor of the others taken in.
     pub(super) fn limit(&mut self, part: &Part, others: &mut Vec<(Id, u32)>, by: Id) -> Option<Expr> {
@@ -47,15 +64,19 @@ impl Graph {
         }
         let Node::Binary(Binary::Powf, u, exponent) = *self.node(node) else { return None };
         let p = exponent.as_number().filter(|p| *p > 0.0)?;
-        let root = Root::Sqrt(u);
+        // Of uᵖ and of Rᵖ: p·f·(w/R)·(u'/R) with R = √u, and p·f·(w/R)·((R²)'/2)/R.
+        let base = self.root(u.node);
+        let (root, slope) = match base {
+            Some(root) => (root, self.half_of_square(root, by)),
+            None => (Root::Sqrt(u), self.derivative(u, by)),
+        };
         let (w, _) = others.iter().copied().find(|(w, _)| self.is_below(*w, root))?;
-        let tangent = self.derivative(u, by);
-        if !self.is_below(tangent.node, root) {
+        if !self.is_below(slope.node, root) {
             return None;
         }
         take(others, w, 1);
-        let length = self.unary(Unary::Sqrt, u);
-        let quotients = [w.into(), tangent].map(|w: Expr| self.quotient(w, length));
+        let length = if base.is_some() { u.node.into() } else { self.unary(Unary::Sqrt, u) };
+        let quotients = [w.into(), slope].map(|w: Expr| self.quotient(w, length));
         Some(self.product(&[node.into(), quotients[0], quotients[1]]).scaled(p))
     }
 
@@ -117,13 +138,14 @@ impl Graph {
         }
     }
 
-    /// Whether w is R itself, or w² is a term of R²; and no term of R² can be negative, so that its zeros are inner
-    /// points (√x is no such root: its domain ends at 0).
+    /// Whether w is R itself, or w² is a term of R²; and R² is smooth and has no term that can be negative, so that its
+    /// zeros are inner points (√x is no such root, nor is √(√x² + y²): their domains end at x = 0).
     fn is_part_of(&self, w: Id, root: Root) -> bool {
         match root {
             Root::Hypot(a, b) => {
                 let itself = Node::Binary(Binary::Hypot, a, b);
-                a.node == w || b.node == w || *self.node(w) == itself
+                let belongs = a.node == w || b.node == w || *self.node(w) == itself;
+                belongs && self.is_smooth(a.node) && self.is_smooth(b.node)
             }
             Root::Sqrt(u) => {
                 let terms = match self.node(u.node) {
@@ -132,9 +154,71 @@ impl Graph {
                 };
                 let belongs = *self.node(w) == Node::Unary(Unary::Sqrt, u)
                     || terms.iter().any(|term| self.factors(term.node) == [(w, 2)]);
-                belongs && u.scale > 0.0 && self.is_never_negative(u.node)
+                belongs && u.scale > 0.0 && self.is_never_negative(u.node) && self.is_smooth(u.node)
             }
         }
+    }
+
+    /// Whether it is made of functions that are smooth everywhere.
+    fn is_smooth(&self, id: Id) -> bool {
+        !self.depends(id, |node| match node {
+            Node::One
+            | Node::Coordinate(_)
+            | Node::Velocity(_)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Count(_)
+            | Node::Weight(_)
+            | Node::Sum(_)
+            | Node::Product(_) => false,
+            Node::Unary(function, _) => !SMOOTH.contains(function),
+            Node::Reciprocal(_)
+            | Node::Binary(..)
+            | Node::Call(..)
+            | Node::Choose { .. }
+            | Node::Reduce { .. } => true,
+        })
+    }
+
+    /// The derivative of uᵖ along `by`, p a number, where it has the limit 0 at a zero of √u, or of u if that is a root
+    /// itself.
+    pub(super) fn power_of_square(&mut self, u: Expr, p: f64, by: Id) -> Option<Expr> {
+        if let Some(root) = self.root(u.node) {
+            // Rᵖ: p·Rᵖ⁻¹·((R²)'/2)/R
+            let half = self.half_of_square(root, by);
+            if p <= 1.0 || !self.is_below(half.node, root) {
+                return None;
+            }
+            if p > 2.0 {
+                // p·Rᵖ⁻²·(R²)'/2: u = c·R, so that uᵖ⁻² takes c² too few.
+                let rest = self.binary(Binary::Powf, u, Expr::number(p - 2.0));
+                return Some(self.multiply(rest, half).scaled(p * u.scale * u.scale));
+            }
+            let rest = self.binary(Binary::Powf, u, Expr::number(p - 1.0));
+            let quotient = self.over_root(half, u.node);
+            return Some(self.multiply(rest, quotient).scaled(p * u.scale));
+        }
+        // uᵖ: p·uᵖ⁻¹ᐟ²·u'/√u
+        let (root, tangent) = (Root::Sqrt(u), self.derivative(u, by));
+        if p <= 0.5 || p >= 1.0 || tangent.is_zero() || !self.is_below(tangent.node, root) {
+            return None;
+        }
+        let length = self.unary(Unary::Sqrt, u);
+        let rest = self.binary(Binary::Powf, u, Expr::number(p - 0.5));
+        let quotient = self.quotient(tangent, length);
+        Some(self.multiply(rest, quotient).scaled(p))
+    }
+
+    /// The derivative d of f(u), where u may be a sum of no terms: f is a constant then, whatever d is.
+    pub(super) fn unless_empty(&mut self, u: Expr, derivative: Expr) -> Expr {
+        let Node::Reduce { fold: Fold::Sum, range, .. } = self.node(u.node) else { return derivative };
+        let length = range.upper.plus(&range.lower, -1);
+        let Free { open, bound } = length.free();
+        if derivative.is_zero() || (open == 0 && bound == 0) {
+            return derivative;
+        }
+        let length = self.count(length);
+        self.choose(length, Relation::Greater, Expr::ZERO, derivative, Expr::ZERO)
     }
 
     /// Whether only even powers are multiplied.

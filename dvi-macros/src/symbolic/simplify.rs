@@ -107,6 +107,7 @@ impl Graph {
                 terms.into_iter().map(|term| self.product(&[others.as_slice(), &[term]].concat())).collect();
             return self.sum(&products).scaled(scale);
         }
+        self.drop_signs(&mut collected);
         collected.sort_unstable();
         let node = match collected.as_slice() {
             [] => Self::ONE,
@@ -114,6 +115,16 @@ impl Graph {
             _ => self.intern(Node::Product(collected)),
         };
         Expr { scale, node }
+    }
+
+    /// The square of a sign is 1: at 0 too, where |x|² has the second derivative 2.
+    fn drop_signs(&self, factors: &mut Vec<(Id, u32)>) {
+        for (id, exponent) in factors.iter_mut() {
+            if matches!(self.node(*id), Node::Unary(Unary::Sign, _)) {
+                *exponent %= 2;
+            }
+        }
+        factors.retain(|(_, exponent)| *exponent > 0);
     }
 
     /// Whether one side of a choice is zero, or of a choice inside of it.
@@ -185,12 +196,17 @@ impl Graph {
             Node::Choose { .. } if self.chooses_zero(base.node) => {
                 return self.chosen_product(base.node, exponent, &[]).scaled(scale);
             }
-            Node::Product(inner) => {
-                let powers =
-                    inner.iter().map(|(id, known)| (*id, whole(known.checked_mul(exponent)))).collect();
-                self.intern(Node::Product(powers))
+            _ => {
+                let factors = self.factors(base.node);
+                let powers = factors.iter().map(|(id, known)| (*id, whole(known.checked_mul(exponent))));
+                let mut powers: Vec<(Id, u32)> = powers.collect();
+                self.drop_signs(&mut powers);
+                match powers.as_slice() {
+                    [] => Self::ONE,
+                    [(single, 1)] => *single,
+                    _ => self.intern(Node::Product(powers)),
+                }
             }
-            _ => self.intern(Node::Product(vec![(base.node, exponent)])),
         };
         Expr { scale, node }
     }
@@ -221,13 +237,17 @@ impl Graph {
         }
     }
 
-    /// An integer power is a product, a half-integer power a product and a square root.
+    /// An integer power is a product, a half-integer power of what is no root a product and a square root.
     pub(crate) fn binary(&mut self, function: Binary, a: Expr, b: Expr) -> Expr {
         if let (Some(a), Some(b)) = (a.as_number(), b.as_number()) {
             return Expr::number(rules::evaluate_binary(function, a, b));
         }
         match (function, b.as_number()) {
-            (Binary::Powf, Some(exponent)) if exponent.abs() <= 64.0 && (2.0 * exponent).fract() == 0.0 => {
+            (Binary::Powf, Some(exponent))
+                if exponent.abs() <= 64.0
+                    && (2.0 * exponent).fract() == 0.0
+                    && (exponent.fract() == 0.0 || self.root(a.node).is_none()) =>
+            {
                 // Both casts are exact: small integers.
                 let whole = self.power(a, exponent.abs().trunc() as u32);
                 let magnitude = if exponent.fract() == 0.0 {

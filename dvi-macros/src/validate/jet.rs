@@ -163,6 +163,10 @@ impl Jet {
     pub(super) fn through(&self, f: Taylor) -> Self {
         let [value, d1, d2, d3] = f;
         let mut result = Self::number(value);
+        if self.0.size[1..].iter().all(|size| *size == 0.0) && !self.varies() {
+            // A constant has a value where f has no derivative: the root of a sum without terms.
+            return result;
+        }
         let size = f.map(f64::abs);
         let u = self.0.size[0];
         result.0.size[0] = size[0] + size[1] * u;

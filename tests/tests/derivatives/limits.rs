@@ -54,6 +54,11 @@ limits! {
     Product: (x * y).powi(2).powf(1.5) => [0.0; 4];
     SeveralTerms: (x * x + y * y).powf(1.5) * y.exp() + (x * x + 3 * y * y).powf(2.5) - x.hypot(y).powi(3) * x
         => [0.0; 4];
+    Powers: (x * x + y * y).powf(1.25) + x.hypot(y).powf(2.5) => [0.0; 4];
+    SquareOfSize: x.abs().powi(2) + (y * y).sqrt().powi(2) => [2.0, 0.0, 0.0, 2.0];
+    CosineOfSize: x.abs().cos() + y.abs().cosh() => [-1.0, 0.0, 0.0, 1.0];
+    SizeTimesSine: x.abs() * x.abs().sin() + y.abs().hypot(1.0) => [2.0, 0.0, 0.0, 1.0];
+    ReciprocalOfSize: 1 / (1 + x.abs().powi(2)) - (x - y).abs().powi(2) => [-4.0, 2.0, 2.0, -2.0];
     Fifth: x.hypot(y).powi(5) * (1 + x) + y.powi(2) => [0.0, 0.0, 0.0, 2.0];
 }
 
@@ -82,14 +87,25 @@ first_limits! {
     Cosine: x.hypot(y).cos();
     HyperbolicCosine: x.hypot(y).cosh();
     CosineOfRoot: (x * x + y * y).sqrt().cos();
+    ThreeQuarters: (x * x + y * y).powf(0.75);
+    RootOfThreeHalves: x.hypot(y).powf(1.5);
 }
 
 /// At the end of a domain the limit is another one: ∂(√x sin √x)/∂x is 1 at 0, and is not found.
 #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x.sqrt() * x.sqrt().sin() + y)]
 struct EndOfDomain;
 
+/// The same, where the end of the domain is hidden in a square: −½ at the origin.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = (x.sqrt().powi(2) + y * y).sqrt().cos(),
+)]
+struct HiddenEnd;
+
 #[test]
 fn no_limit_is_made_up_at_the_end_of_a_domain() {
-    let (first, _) = at_origin(&EndOfDomain);
-    assert!(first[0].is_nan(), "{first:?}");
+    for first in [at_origin(&EndOfDomain).0, at_origin(&HiddenEnd).0] {
+        assert!(first[0].is_nan(), "{first:?}");
+    }
 }
