@@ -54,16 +54,17 @@ use proc_macro::TokenStream;
 /// sizes and integers; `%` is the Euclidean remainder.
 ///
 /// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without
-/// the remainder, so `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient.
+/// the remainder, so `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient. A constant of the user's and a
+/// field of a field, whose types are not known, are taken for integers there.
 ///
-/// Where the rules of differentiation give 0/0 and a limit exists, the derivative is the limit in these cases: half-integer
-/// powers of a coordinate; powers above ½ of a sum of squares with positive literal coefficients, and of `x.hypot(y)`;
-/// their products with coordinates and smooth functions, and sums of these; even roots of even powers, and third and
-/// higher powers of `cbrt`. So those of `x.powf(1.5)` at 0 and of `(x*x + y*y).powf(1.5)` at the origin are 0. Of `cos`
-/// and `cosh` of such a root the first derivatives are 0 there, the second not a number. The derivative of `x.abs()` at 0
-/// is taken to be 0. Where a derivative does not exist, as that of `x.hypot(y)` at the origin, it is infinite or not a
-/// number; so is at such a point that of a root with coefficients that are not literal, as of
-/// `(x*x + k*y*y).powf(1.5)`, though it has a limit for k > 0.
+/// At the zeros of a root the rules of differentiation give 0/0. Where a limit exists, it is the derivative for powers of
+/// a sum of squares that is written out with positive literal coefficients, and of `x.hypot(y)`: for the first
+/// derivatives of powers of the distance above 1, for the second above 2. So those of `x.powf(1.5)` at 0 and of
+/// `(x*x + y*y).powf(1.5)` at the origin are 0. It is so for even roots of even powers, third and higher powers of
+/// `cbrt`, and the first derivatives of `cos` and `cosh` of a distance. In products of such powers with coordinates and
+/// smooth functions, and in sums of these, limits are looked for too; where none is found the derivative is not a number,
+/// as it is where it does not exist, of `x.hypot(y)` at the origin for instance. The derivative of `x.abs()` at 0 is taken
+/// to be 0, and its square to be 1.
 ///
 /// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
 /// `Vec`, and the size of the system is known at run time only.

@@ -58,12 +58,46 @@ impl Lowering<'_> {
                 let inside = inside.or_else(|| self.integer_division(&binary.right));
                 inside.or_else(|| {
                     let divides = matches!(binary.op, BinOp::Div(_));
-                    (divides && self.is_integer(&binary.left) && self.is_integer(&binary.right))
+                    (divides && self.may_be_integer(&binary.left) && self.may_be_integer(&binary.right))
                         .then(|| binary.clone())
                 })
             }
+            Syntax::MethodCall(call) => {
+                let inside = self.integer_division(&call.receiver);
+                inside.or_else(|| call.args.iter().find_map(|argument| self.integer_division(argument)))
+            }
+            Syntax::If(choice) => {
+                let then = choice.then_branch.stmts.last().and_then(|last| match last {
+                    syn::Stmt::Expr(value, None) => self.integer_division(value),
+                    _ => None,
+                });
+                let otherwise = choice.else_branch.as_ref();
+                then.or_else(|| otherwise.and_then(|(_, otherwise)| self.integer_division(otherwise)))
+            }
             _ => None,
         }
+    }
+
+    /// Whether Rust may take an expression for an integer: it does, or it is a constant or a field of a field, whose
+    /// type is not known here.
+    fn may_be_integer(&mut self, syntax: &Syntax) -> bool {
+        let unknown = match syntax {
+            Syntax::Paren(inner) => return self.may_be_integer(&inner.expr),
+            Syntax::Path(path) => {
+                let is_std = path
+                    .path
+                    .segments
+                    .iter()
+                    .any(|segment| segment.ident == "consts" || segment.ident == "f64");
+                path.path.segments.len() > 1 && !is_std
+            }
+            Syntax::Field(field) => is_part_of_field(&field.base),
+            Syntax::Index(index) => {
+                matches!(&*index.expr, Syntax::Field(field) if is_part_of_field(&field.base))
+            }
+            _ => false,
+        };
+        unknown || self.is_integer(syntax)
     }
 
     /// Whether Rust takes an expression for an integer: it is made of literals without a point, indices,
@@ -86,7 +120,17 @@ impl Lowering<'_> {
                 None => false,
             },
             Syntax::Field(_) | Syntax::Index(_) => self.model.is_integer_field(syntax),
-            Syntax::MethodCall(call) => call.method == "len",
+            Syntax::MethodCall(call) => {
+                let keeps = ["abs", "min", "max", "pow"].iter().any(|name| call.method == name);
+                call.method == "len" || (keeps && self.is_integer(&call.receiver))
+            }
+            Syntax::If(choice) => {
+                let then = match choice.then_branch.stmts.last() {
+                    Some(syn::Stmt::Expr(value, None)) => self.is_integer(value),
+                    _ => false,
+                };
+                then && choice.else_branch.as_ref().is_some_and(|(_, otherwise)| self.is_integer(otherwise))
+            }
             Syntax::Block(block) => match block.block.stmts.as_slice() {
                 [.., syn::Stmt::Expr(value, None)] => self.is_integer(value),
                 _ => false,
@@ -108,6 +152,7 @@ impl Lowering<'_> {
     fn as_real(syntax: &Syntax) -> String {
         match syntax {
             Syntax::Lit(syn::ExprLit { lit: Lit::Int(value), .. }) => format!("{}.0", value.base10_digits()),
+            Syntax::Binary(_) | Syntax::If(_) => format!("(({}) as f64)", crate::errors::text(syntax)),
             other => format!("({} as f64)", crate::errors::text(other)),
         }
     }
@@ -120,5 +165,13 @@ fn block_with_names(syntax: &Syntax) -> Option<&syn::ExprBlock> {
         Syntax::Group(inner) => block_with_names(&inner.expr),
         Syntax::Block(block) => (block.block.stmts.len() > 1).then_some(block),
         _ => None,
+    }
+}
+
+/// Whether this is a field, so that what stands behind it belongs to a struct whose fields are not known here.
+fn is_part_of_field(base: &Syntax) -> bool {
+    match base {
+        Syntax::Path(path) => !path.path.is_ident("self"),
+        _ => true,
     }
 }

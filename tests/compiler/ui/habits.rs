@@ -265,3 +265,35 @@ mod constant_of_one_name {
 }
 
 fn main() {}
+
+mod quotient_in_a_choice {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (if n > 2 { n / 2 } else { n }) as f64 * y)]
+    pub struct System { pub n: i32 }
+}
+
+mod quotient_behind_a_method {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ((n % 3) / 2).min(3) as f64 * y)]
+    pub struct System { pub n: i32 }
+}
+
+mod quotient_of_a_constant {
+    use dvi_core::degenerate_lagrangian;
+
+    pub const K: i32 = 5;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (self::K / 2) as f64 * y)]
+    pub struct System;
+}
+
+mod quotient_of_a_field_of_a_field {
+    use dvi_core::degenerate_lagrangian;
+
+    pub struct Material { pub n: i32 }
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (m.n / 2) as f64 * y)]
+    pub struct System { pub m: Material }
+}
