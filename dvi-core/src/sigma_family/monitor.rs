@@ -18,16 +18,27 @@ const KEPT: usize = 4;
 const ROUNDING: f64 = 1024.0;
 
 /// An alternating part below this fraction of the latest increment does no harm, however straight the path.
-const HARMLESS: f64 = 1e-6;
+const HARMLESS: f64 = 1e-5;
 
 /// How much of the size of a coordinate's second differences is forgotten from one look to the next.
 const FORGOTTEN: f64 = 1.0 / 64.0;
+
+/// The same of all coordinates together: what is remembered is a bridge over points at which the path is straight.
+const FORGOTTEN_TOGETHER: f64 = 1.0 / 8.0;
 
 /// The second differences of a coordinate count as no smaller than this fraction of the largest of all.
 const FLOOR: f64 = 0.1;
 
 /// A mode that is large from the first steps on, as it is where steps are long, may become this many times as large.
 const GROWTH: f64 = 3.0;
+
+/// Where a path is straight, a smooth motion may look as if it alternated, for as many looks as see the place; a mode that
+/// is larger than this many times the limit is none.
+const SUDDEN: f64 = 4.0;
+const LOOKS: u32 = 2;
+
+/// How many looks show the mode as it is from the start.
+const FIRST_LOOKS: u32 = 2;
 
 /// By how many radians the motion turns while the mode may grow e-fold; from this follows when to look again.
 const RADIANS: f64 = 4.0;
@@ -39,11 +50,11 @@ pub struct ParasiticMode<T = f64> {
     /// the largest entry of a; of a smooth motion, of (h⁴/16) q⁗. In units of the coordinates.
     pub amplitude: T,
     /// 4|a|/|s| in the Euclidean norm, where s is h²q̈ from second differences that do not see what alternates; or the
-    /// largest 4|aᵢ|/sᵢ, if that is larger, where sᵢ is the largest of the points that were looked at, of which each
-    /// look forgets 1/64, and at least a tenth of the largest of all coordinates. Of a smooth motion of frequency ω it
-    /// is about (ωh/2)².
+    /// largest 4|aᵢ|/sᵢ, if that is larger, where sᵢ is at least a tenth of the largest of all coordinates. Both sizes are
+    /// the largest of the points that were looked at, of which each look forgets 1/8, and of a coordinate 1/64. Of a
+    /// smooth motion of frequency ω it is about (ωh/2)².
     pub relative: T,
-    /// Whether the amplitude is more than rounding errors, 1024 ε max|q|, and more than 10⁻⁶ of the increment.
+    /// Whether the amplitude is more than rounding errors, 1024 ε max|q|, and more than 10⁻⁵ of the increment.
     pub is_significant: bool,
 }
 
@@ -63,17 +74,28 @@ pub(super) enum Pace {
 pub(super) struct Monitor<S: Lagrangian, T: Real> {
     /// The points before the present one; point k is at place k mod 4.
     points: [Vector<S, T>; KEPT],
-    /// The size of the second differences of each coordinate.
+    /// The size of the second differences of each coordinate, and the square of that of all.
     sizes: Vector<S, T>,
+    together: T,
     /// The completed steps.
     pub(super) steps: u64,
     pace: Pace,
     /// The run is examined where the number of steps is a multiple of this power of two.
     period: u64,
     limit: Option<f64>,
-    /// The last examination: before which step, what it measured, and the limit in force since the first.
+    /// The last examination: before which step, and what it measured.
     latest: Option<(u64, ParasiticMode<T>)>,
-    in_force: f64,
+    /// How many looks in a row, the last among them, have seen it above the limit.
+    above: u32,
+    first: First,
+}
+
+/// The mode in the first looks of a run whose mode grows with the flow: the largest relative size and amplitude.
+#[derive(Clone, Copy, Debug, Default)]
+struct First {
+    looks: u32,
+    relative: f64,
+    amplitude: f64,
 }
 
 impl<S: Lagrangian, T: Real> Monitor<S, T> {
@@ -82,6 +104,7 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         Self {
             points: core::array::from_fn(|_| vector()),
             sizes: vector(),
+            together: T::lift(0.0),
             steps: 0,
             pace,
             period: match pace {
@@ -91,7 +114,8 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
             },
             limit,
             latest: None,
-            in_force: limit.unwrap_or(super::PARASITIC_LIMIT),
+            above: 0,
+            first: First::default(),
         }
     }
 
@@ -101,7 +125,8 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         }
         self.sizes.copy_from_slice(&from.sizes);
         (self.steps, self.period) = (from.steps, from.period);
-        (self.latest, self.in_force) = (from.latest, from.in_force);
+        (self.together, self.latest) = (from.together, from.latest);
+        (self.above, self.first) = (from.above, from.first);
     }
 
     pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
@@ -154,19 +179,28 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
             Some((last, mode)) if last == step => mode,
             _ => self.measure(step, q),
         };
-        let relative = reported(mode.relative);
+        let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
         match self.limit {
-            Some(_) if mode.is_significant && relative > self.in_force => {
-                let amplitude = reported(mode.amplitude);
-                Err(StepFailure::ParasiticMode { amplitude, relative, limit: self.in_force })
+            Some(limit) if self.above >= LOOKS || (self.above > 0 && relative > SUDDEN * limit) => {
+                Err(StepFailure::ParasiticMode { amplitude, relative, limit })
             }
             _ => Ok(()),
         }
     }
 
+    /// Whether the mode is above the limit, and larger than where it came from.
+    fn is_above(&self, mode: &ParasiticMode<T>) -> bool {
+        let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
+        let First { looks, relative: first, amplitude: from } = self.first;
+        let has_grown = relative > GROWTH * first || amplitude > GROWTH * from;
+        mode.is_significant
+            && self.limit.is_some_and(|limit| relative > limit)
+            && (self.pace != Pace::WithTheFlow || (looks >= FIRST_LOOKS && has_grown))
+    }
+
     fn measure(&mut self, step: u64, q: &[T]) -> ParasiticMode<T> {
         let (zero, two) = (T::lift(0.0), T::lift(2.0));
-        let Self { points, sizes, .. } = self;
+        let Self { points, sizes, together, .. } = self;
         let point = |j: u64| &points[((step + j) % KEPT as u64) as usize];
         let [a, b, c, d] = [point(0), point(1), point(2), point(3)];
         let alternating = |i: usize, e: T| a[i] - T::lift(4.0) * (b[i] + d[i]) + T::lift(6.0) * c[i] + e;
@@ -186,8 +220,10 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
             size = larger(size, Scalar::abs(e));
             increment = larger(increment, Scalar::abs(delta));
         }
+        let kept = T::lift(1.0 - FORGOTTEN_TOGETHER);
+        *together = larger(turned, *together * kept * kept);
         let (floor, mut relative) =
-            (T::lift(FLOOR) * largest, larger(zero, Scalar::sqrt(alternated / turned)));
+            (T::lift(FLOOR) * largest, larger(zero, Scalar::sqrt(alternated / *together)));
         for (i, &e) in q.iter().enumerate() {
             relative = larger(relative, Scalar::abs(alternating(i, e)) / larger(sizes[i], floor));
         }
@@ -197,22 +233,36 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         let is_significant = amplitude > noise && amplitude > T::lift(HARMLESS) * increment;
         let mode = ParasiticMode { amplitude, relative, is_significant };
         if self.pace == Pace::WithTheFlow {
-            self.keep_pace(&mode, reported(turned), reported(moved));
+            self.keep_pace(step, &mode, reported(turned), reported(moved));
         }
+        self.above = if self.is_above(&mode) { self.above + 1 } else { 0 };
         self.latest = Some((step, mode));
         mode
     }
 
-    /// Sets the limit in force after the first look, and when to look again: `turned`/`moved` is the square of the
-    /// angle by which the motion turns in a step.
-    fn keep_pace(&mut self, mode: &ParasiticMode<T>, turned: f64, moved: f64) {
-        let relative = if mode.is_significant { reported(mode.relative) } else { 0.0 };
-        if self.latest.is_none() {
-            self.in_force = self.in_force.max(GROWTH * relative);
+    /// Notes the mode of the first looks, and sets when to look again: before the mode can have reached the limit if it
+    /// grows with the turning of the path, `turned`/`moved` being the square of the angle of a step, or as it has grown
+    /// since the last look; and not much later than half as far again as the run has come.
+    fn keep_pace(&mut self, step: u64, mode: &ParasiticMode<T>, turned: f64, moved: f64) {
+        let size = |mode: &ParasiticMode<T>| if mode.is_significant { reported(mode.relative) } else { 0.0 };
+        let relative = size(mode);
+        let First { looks, relative: first, amplitude } = &mut self.first;
+        if *looks < FIRST_LOOKS {
+            *looks += 1;
+            *first = first.max(relative);
+            *amplitude = amplitude.max(reported(mode.amplitude));
         }
-        // (steps · angle)² ≤ (RADIANS ln(limit/relative))², which is false of what is not a number.
-        let room = RADIANS * Scalar::ln((self.in_force / relative).clamp(1.0, f64::MAX));
-        let fits = |steps: u64| (steps * steps) as f64 * turned <= room * room * moved;
+        let limit = self.limit.unwrap_or(super::PARASITIC_LIMIT).max(GROWTH * self.first.relative);
+        let room = Scalar::ln((limit / relative).clamp(1.0, f64::MAX));
+        let grown = self.latest.map_or(0.0, |(_, last)| Scalar::ln((relative / size(&last)).max(1.0)));
+        let since = self.latest.map_or(1, |(last, _)| step - last) as f64;
+        // (steps · angle)² ≤ (RADIANS room)², which is false of what is not a number.
+        let fits = |steps: u64| {
+            let (by_angle, steps_squared) = (RADIANS * room, (steps * steps) as f64);
+            steps_squared * turned <= by_angle * by_angle * moved
+                && (grown.is_infinite() || steps as f64 * grown <= room * since)
+                && steps * 4 <= step.max(2 * KEPT as u64)
+        };
         self.period = KEPT as u64;
         while self.period < BLOCK && fits(2 * self.period) {
             self.period *= 2;
