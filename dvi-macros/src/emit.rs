@@ -225,7 +225,7 @@ impl Function<'_> {
                 let relation = match relation {
                     Relation::Less => quote!(Less),
                     Relation::LessOrEqual => quote!(LessOrEqual),
-                    Relation::Greater => quote!(Greater),
+                    Relation::Greater | Relation::HasMore => quote!(Greater),
                     Relation::GreaterOrEqual => quote!(GreaterOrEqual),
                 };
                 let [left, right, then, otherwise] =

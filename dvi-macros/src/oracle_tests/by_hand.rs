@@ -42,6 +42,11 @@ const HAMILTONIANS: &[&str] = &[
     // A root of a sum that has no terms for some indices.
     "sum(0..N, |j| sum(0..j, |k| (x[k] - u).powi(2) + 1).sqrt())",
     "sum(0..N, |j| sum(0..j, |k| x[k] - u).cbrt())",
+    "sum(0..N, |j| sum_pairs(j..N, |k, l| (x[k] - u).powi(2) + x[l] * x[l] + 1).sqrt())",
+    "sum(0..N, |j| sum_ordered_pairs(0..j + 1, |k, l| (x[k] - u).powi(2) * x[l] * x[l] + 1).sqrt() * w)",
+    "sum(0..N, |j| sum(0..j, |k| sum(0..k, |l| (x[l] - u).powi(2) + 1)).sqrt() * x[j])",
+    "sum(0..N, |j| sum(0..j, |k| (w * w + 1) * sum(0..k, |l| (x[l] - u).powi(2) + 1) + 1).sqrt())",
+    "sum(0..N, |j| sum_pairs(0..j, |k, l| if s > 1 { 1 } else { x[k] + x[l] }).cbrt())",
     // Indices whose bounds depend on each other.
     "sum(0..N, |j| sum(j..N, |k| x[k - j]))",
     "sum(0..N, |j| sum(0..N - j, |k| x[j + k]))",

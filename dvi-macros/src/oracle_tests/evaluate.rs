@@ -98,10 +98,13 @@ impl<'a> Oracle<'a> {
             }
             Formula::Power(of, exponent) => self.power(of, *exponent)?,
             Formula::Unary(function, of) => {
+                let is_sum = matches!(**of, Formula::Sum(loops, ..) if loops != Loops::Product);
                 let of = self.value(of)?;
-                // A sum without terms has a root.
-                let is_root = ["sqrt", "cbrt"].contains(&function.name) && of.is_constant();
-                if !is_root && !(function.domain)(of.value.value) {
+                if is_sum && of.is_nothing() && ["sqrt", "cbrt"].contains(&function.name) {
+                    // The root of a sum without terms is a constant.
+                    return Ok(Jet::constant(0.0));
+                }
+                if !(function.domain)(of.value.value) {
                     return Err(Outside::Domain);
                 }
                 of.unary(&function.at)

@@ -91,6 +91,8 @@ pub(crate) enum Relation {
     LessOrEqual,
     Greater,
     GreaterOrEqual,
+    /// Greater, of a number of terms; the compiler makes it, so that there is no other branch to check.
+    HasMore,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

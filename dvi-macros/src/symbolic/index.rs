@@ -209,4 +209,14 @@ impl Range {
     pub(crate) fn is_empty(&self) -> bool {
         self.upper.plus(&self.lower, -1).as_literal().is_some_and(|length| length <= 0)
     }
+
+    /// Whether the range is known to have a value, no size being zero.
+    pub(crate) fn is_filled(&self) -> bool {
+        let length = self.upper.plus(&self.lower, -1);
+        let least = length.terms.iter().try_fold(length.constant, |sum, (atom, coefficient)| match atom {
+            Atom::Size(_) if *coefficient > 0 => sum.checked_add(*coefficient),
+            Atom::Size(_) | Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => None,
+        });
+        self.left_out().next().is_none() && least.is_some_and(|least| least > 0)
+    }
 }

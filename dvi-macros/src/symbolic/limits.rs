@@ -14,7 +14,7 @@
 //! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
 
 use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
-use super::index::Free;
+use super::index::Atom;
 use super::powers::{Part, Root, take};
 
 /// The odd functions with a finite slope at 0: |f(w)| ≤ C·|w| near it.
@@ -211,14 +211,45 @@ impl Graph {
 
     /// The derivative d of f(u), where u may be a sum of no terms: f is a constant then, whatever d is.
     pub(super) fn unless_empty(&mut self, u: Expr, derivative: Expr) -> Expr {
-        let Node::Reduce { fold: Fold::Sum, range, .. } = self.node(u.node) else { return derivative };
-        let length = range.upper.plus(&range.lower, -1);
-        let Free { open, bound } = length.free();
-        if derivative.is_zero() || (open == 0 && bound == 0) {
+        if derivative.is_zero() {
             return derivative;
         }
-        let length = self.count(length);
-        self.choose(length, Relation::Greater, Expr::ZERO, derivative, Expr::ZERO)
+        let terms = self.terms(u.node);
+        if terms.as_number().is_some() {
+            return derivative;
+        }
+        self.choose(terms, Relation::HasMore, Expr::ZERO, derivative, Expr::ZERO)
+    }
+
+    /// The number of terms in a sum over indices, in the sums inside of it, and in products with such sums.
+    fn terms(&mut self, node: Id) -> Expr {
+        match self.node(node).clone() {
+            Node::Reduce { fold: Fold::Sum, height, range, body } => {
+                let depth = self.free(node).depth();
+                let inner = self.opened(height, body, depth);
+                let inside = self.terms(inner.node);
+                if inside.as_number().is_some() && range.is_filled() {
+                    return Expr::ONE;
+                }
+                self.fold(Fold::Sum, Atom::Open(depth), range, inside)
+            }
+            Node::Sum(terms) => {
+                let counts: Vec<Expr> = terms.iter().map(|term| self.terms(term.node)).collect();
+                match counts.iter().any(|count| count.as_number().is_some()) {
+                    true => Expr::ONE,
+                    false => self.sum(&counts),
+                }
+            }
+            Node::Product(factors) => {
+                let counts: Vec<Expr> = factors.iter().map(|(factor, _)| self.terms(*factor)).collect();
+                self.product(&counts)
+            }
+            Node::Choose { left, relation, right, then, otherwise } => {
+                let [then, otherwise] = [then, otherwise].map(|branch| self.terms(branch.node));
+                self.choose(left, relation, right, then, otherwise)
+            }
+            _ => Expr::ONE,
+        }
     }
 
     /// Whether only even powers are multiplied.

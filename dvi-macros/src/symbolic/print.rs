@@ -200,7 +200,7 @@ impl Printer<'_> {
                 let sign = match relation {
                     Relation::Less => "<",
                     Relation::LessOrEqual => "<=",
-                    Relation::Greater => ">",
+                    Relation::Greater | Relation::HasMore => ">",
                     Relation::GreaterOrEqual => ">=",
                 };
                 let [left, right, then, otherwise] =

@@ -53,6 +53,8 @@ pub(super) struct Jet(Box<Parts>);
 struct Parts {
     value: [f64; PARTS],
     size: [f64; PARTS],
+    /// A sum without terms, or a multiple of one.
+    is_empty_sum: bool,
 }
 
 /// The value and the first three derivatives of a function of one number.
@@ -64,10 +66,17 @@ fn mixed(first: usize, second: usize) -> usize {
 
 impl Jet {
     pub(super) fn number(value: f64) -> Self {
-        let mut parts = Parts { value: [0.0; PARTS], size: [0.0; PARTS] };
+        let mut parts = Parts { value: [0.0; PARTS], size: [0.0; PARTS], is_empty_sum: false };
         parts.value[0] = value;
         parts.size[0] = value.abs();
         Self(Box::new(parts))
+    }
+
+    /// The sum of no terms: a function of it is a constant, even where that function has no derivative.
+    pub(super) fn empty_sum() -> Self {
+        let mut jet = Self::number(0.0);
+        jet.0.is_empty_sum = true;
+        jet
     }
 
     /// A variable with its rates along the directions.
@@ -128,6 +137,7 @@ impl Jet {
             self.0.value[k] += other.0.value[k];
             self.0.size[k] += other.0.size[k];
         }
+        self.0.is_empty_sum &= other.0.is_empty_sum;
         self
     }
 
@@ -163,8 +173,7 @@ impl Jet {
     pub(super) fn through(&self, f: Taylor) -> Self {
         let [value, d1, d2, d3] = f;
         let mut result = Self::number(value);
-        if self.0.size[1..].iter().all(|size| *size == 0.0) && !self.varies() {
-            // A constant has a value where f has no derivative: the root of a sum without terms.
+        if self.0.is_empty_sum {
             return result;
         }
         let size = f.map(f64::abs);

@@ -162,10 +162,11 @@ impl Run<'_> {
                 let holds = match relation {
                     Relation::Less => left < right,
                     Relation::LessOrEqual => left <= right,
-                    Relation::Greater => left > right,
+                    Relation::Greater | Relation::HasMore => left > right,
                     Relation::GreaterOrEqual => left >= right,
                 };
-                let is_exchanged = self.machine.point.branches == Branches::Exchanged;
+                let is_exchanged = *relation != Relation::HasMore
+                    && self.machine.point.branches == Branches::Exchanged;
                 self.signed(if holds != is_exchanged { *then } else { *otherwise })
             }
             Instruction::Reduce(..) => internal("a sum outside of its loop"),

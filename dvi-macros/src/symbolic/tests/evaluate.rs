@@ -95,7 +95,7 @@ pub(super) fn holds(left: f64, relation: Relation, right: f64) -> bool {
     match relation {
         Relation::Less => left < right,
         Relation::LessOrEqual => left <= right,
-        Relation::Greater => left > right,
+        Relation::Greater | Relation::HasMore => left > right,
         Relation::GreaterOrEqual => left >= right,
     }
 }

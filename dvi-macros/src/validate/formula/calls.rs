@@ -83,7 +83,7 @@ impl Evaluation<'_> {
             RangeLimits::HalfOpen(_) => upper,
             RangeLimits::Closed(_) => upper + 1,
         };
-        let mut total = Jet::number(if name == "product" { 1.0 } else { 0.0 });
+        let mut total = if name == "product" { Jet::number(1.0) } else { Jet::empty_sum() };
         for first in self.point.visited(lower, upper) {
             let seconds = match name {
                 "sum" | "product" => {
