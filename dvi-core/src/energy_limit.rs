@@ -1,7 +1,7 @@
 //! A run that ends when its energy has gone astray: |E(q, v, t) − E at the start| ≤ limit after every step.
 //!
 //! What this is for: a method that steps over a singularity finds finite numbers on the other side. Störmer–Verlet on a
-//! head-on Kepler orbit goes from energy −1 to 285 in one step, and nothing but the energy says so.
+//! head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the energy says so.
 
 use crate::error::{StartError, StepFailure};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};

@@ -160,7 +160,9 @@ pub enum StepFailure {
     },
     /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the
     /// motion does not lead across. What is watched is the sign of a pair of coordinates, the sign of the Pfaffian of Ω, or
-    /// the number of negative eigenvalues of the mass matrix.
+    /// the number of negative eigenvalues of the mass matrix, at the end of each step. So two passages within one step are
+    /// not seen, nor a positive and a negative eigenvalue of a mass matrix that change their signs in one step, nor two
+    /// pivots of Ω that vanish together, unless Ω couples the coordinates in pairs.
     #[error(
         "{matrix} has changed its sign within the step, from {before:e} to {after:e}: it is singular in between, and \
          the motion is not determined there"

@@ -205,9 +205,10 @@ impl<T: Real> FrequencyIn<T> for Curvature {
     #[inline]
     fn at(&self, _q: &[T], v: &[T], a: &[T]) -> T {
         let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
-        // Rounding may leave a negative square on a straight path.
-        let square = (vv * aa - va * va).max(T::lift(0.0));
-        Scalar::sqrt(square) / vv
+        let square = vv * aa - va * va;
+        // Rounding may leave a negative square on a straight path, and √ has no derivative at zero.
+        let area = if square <= T::lift(0.0) { T::lift(0.0) } else { Scalar::sqrt(square) };
+        area / vv
     }
 
     fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
@@ -245,13 +246,17 @@ impl<T: Real> FrequencyIn<T> for Radial {
     #[inline]
     fn at(&self, q: &[T], _v: &[T], a: &[T]) -> T {
         // The reciprocal does not wait for the acceleration.
-        Scalar::sqrt(Scalar::sqrt(dot(a, a) * (T::lift(1.0) / dot(q, q))))
+        let ratio = dot(a, a) * (T::lift(1.0) / dot(q, q));
+        // √ has no derivative at zero.
+        if ratio == T::lift(0.0) { T::lift(0.0) } else { Scalar::sqrt(Scalar::sqrt(ratio)) }
     }
 
     fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
         let omega = self.at(q, v, a);
         let half = T::lift(0.5) * omega;
-        let (per_a, per_q) = (half / dot(a, a), half / dot(q, q));
+        // Without an acceleration, where ω = 0 has a kink, the derivative is left out.
+        let per_a = if omega == T::lift(0.0) { T::lift(0.0) } else { half / dot(a, a) };
+        let per_q = half / dot(q, q);
         dv.fill(T::lift(0.0));
         for i in 0..q.len() {
             da[i] = per_a * a[i];

@@ -29,8 +29,8 @@ pub use start::Start;
 /// The σ-family: L_d(q0, q1) = α(q_σ)·(q1 − q0) − h H(q_σ), q_σ = (1−σ)q0 + σq1.
 ///
 /// Second order on nonlinear systems for every σ ∈ \[0, 1\]; symmetric for σ = ½; σ = (3 − √3)/6 is of
-/// fourth order on linear systems. Where α depends on time, other than by an added function of t alone, the order is
-/// one unless σ = ½. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden
+/// fourth order on linear systems. Where α depends on time, be it by an added function of t alone, the order is one
+/// unless σ = ½. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden
 /// 2002, eq. 17) and, for symmetries that act by affine maps, the discrete momenta.
 ///
 /// | α | σ = 0 | 0 < σ < 1 | σ = 1 |

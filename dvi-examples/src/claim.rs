@@ -12,6 +12,11 @@ use std::fmt;
 /// The place of claims that no paper makes; they are counted apart.
 pub const BEYOND: &str = "beyond the paper";
 
+/// The larger of two measured numbers; not a number if one of them is not, so that no bound holds for it.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
 /// What a number must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {

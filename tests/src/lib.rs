@@ -3,6 +3,11 @@
 pub mod systems;
 pub mod zoo;
 
+/// The larger of two numbers; not a number if one of them is not, so that no bound holds for it.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
 /// The vortex configurations of the literature.
 pub mod configurations {
     use crate::systems::{PointVortices, PointVorticesState};

@@ -2,6 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{Carries, Composition, Method, Scheme, Statistics, StepFailure, VariableStep};
+use dvi_tests::larger;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -46,7 +47,7 @@ fn the_midpoint_rule_gains_the_order_of_the_composition() -> Outcome {
     for (method, steps) in compositions::<1>().into_iter().zip(steps) {
         let error = |steps| -> Result<f64, Box<dyn core::error::Error>> {
             let end = lotka_volterra(method, steps)?;
-            Ok((end[0] - reference[0]).abs().max((end[1] - reference[1]).abs()))
+            Ok(larger((end[0] - reference[0]).abs(), (end[1] - reference[1]).abs()))
         };
         let (coarse, fine) = (error(steps)?, error(2 * steps)?);
         let order = (coarse / fine).log2();
@@ -66,7 +67,7 @@ fn a_step_back_undoes_a_step() -> Outcome {
         let mut back = Integrator::new(&system, method, -0.05, there.state())?;
         back.advance_by(20)?;
         let end: LotkaVolterraState = back.state();
-        assert!((end.x - 1.0).abs().max((end.y - 1.0).abs()) < 1e-13, "{}: {end:?}", method.name());
+        assert!(larger((end.x - 1.0).abs(), (end.y - 1.0).abs()) < 1e-13, "{}: {end:?}", method.name());
     }
     Ok(())
 }
@@ -172,7 +173,7 @@ fn every_part_of_a_step_begins_at_its_own_time() -> Outcome {
         let mut run = Integrator::new(&system, method, 0.02, start)?;
         run.advance_by(100)?;
         let end: SwingState = run.state();
-        let error = (end.x - angle.cos()).abs().max((end.y.abs() - angle.sin().abs()).abs());
+        let error = larger((end.x - angle.cos()).abs(), (end.y.abs() - angle.sin().abs()).abs());
         assert!(error < 1e-5, "{}: {error:e}", method.name());
     }
     Ok(())

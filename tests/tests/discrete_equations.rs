@@ -4,6 +4,7 @@
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, Lagrangian};
 use dvi_tests::configurations::quasi_periodic;
+use dvi_tests::larger;
 use dvi_tests::oracle::discrete_lagrangian;
 use dvi_tests::systems::*;
 use num_dual::Dual64;
@@ -23,7 +24,7 @@ fn residual<S: Lagrangian>(system: &S, sigma: f64, t: f64, h: f64, [q0, q1, q2]:
             let right = discrete_lagrangian(system, sigma, t + h, h, &dual(q1, Some(i)), &dual(q2, None));
             (left.eps + right.eps).abs()
         })
-        .fold(0.0, f64::max)
+        .fold(0.0, larger)
 }
 
 #[track_caller]
@@ -125,7 +126,7 @@ fn sizes_fixed_and_at_run_time_agree() -> Outcome {
             a.advance()?;
             b.advance()?;
         }
-        let apart = a.q().iter().zip(b.q()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let apart = a.q().iter().zip(b.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
         assert!(apart < 1e-13, "sigma = {sigma}: {apart:e}");
     }
     Ok(())
@@ -156,7 +157,7 @@ fn a_given_second_point_is_reached() -> Outcome {
         let method = Sigma::new(sigma);
         let mut run = Integrator::from_two_points(&system, method, 0.05, first, exact.state())?;
         run.advance()?;
-        let apart = run.q().iter().zip(exact.q()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let apart = run.q().iter().zip(exact.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
         assert!(apart < 4e-15, "sigma = {sigma}: {apart:e}");
     }
     Ok(())
@@ -206,7 +207,7 @@ fn newton_takes_over_where_the_fixed_point_is_slow() -> Outcome {
     }
     assert!(slow.statistics().iterations > 20 * 100);
     assert!(automatic.statistics().factorisations > 100);
-    let apart = slow.q().iter().zip(automatic.q()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let apart = slow.q().iter().zip(automatic.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
     assert!(apart < 1e-10, "{apart:e}");
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{Method, PreservedForm, Scalar};
+use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
 
@@ -19,7 +20,7 @@ fn driven() -> (DrivenOscillator, DrivenOscillatorState) {
 }
 
 fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
 /// The coordinates at `time`.
@@ -84,7 +85,7 @@ fn newmark_on_the_oscillator_has_its_closed_form() -> Outcome {
                 x = x1;
                 run.advance()?;
                 let state = run.state();
-                let error = (state.x - x).abs().max((state.dot_x - v).abs());
+                let error = larger((state.x - x).abs(), (state.dot_x - v).abs());
                 assert!(error < 1e-12, "beta = {beta}, h = {h}, step {step}: {error:e}");
             }
         }
@@ -124,7 +125,7 @@ fn newmark_is_conjugate_to_verlet_in_the_modified_potential() -> Outcome {
             let (q0, q1, p1) = (conjugate(&x0), conjugate(run.q()), run.memory().p());
             for i in 0..2 {
                 let half = p0[i] + 0.5 * h * a0[i];
-                let error = (q0[i] + h * half - q1[i]).abs().max((half + 0.5 * h * a1[i] - p1[i]).abs());
+                let error = larger((q0[i] + h * half - q1[i]).abs(), (half + 0.5 * h * a1[i] - p1[i]).abs());
                 assert!(error < 1e-14, "beta = {beta}, step {step}: {error:e}");
             }
         }

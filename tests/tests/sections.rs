@@ -1,6 +1,7 @@
 //! Poincaré sections and Lyapunov exponents.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
+use dvi_tests::larger;
 
 use dvi_core::prelude::*;
 use dvi_tests::configurations::{chaotic, quasi_periodic};
@@ -26,8 +27,8 @@ fn largest_error(h: f64, direction: Direction) -> Result<(f64, f64), Box<dyn cor
             (Direction::Either, 0) => (FRAC_PI_2 * (2 * k + 1) as f64, radius),
             (Direction::Either, _) => (FRAC_PI_2 * (2 * k + 1) as f64, -radius),
         };
-        in_time = in_time.max((crossing.time - (angle - phase) / rate).abs());
-        in_place = in_place.max(crossing.state.x.abs()).max((crossing.state.y - y).abs());
+        in_time = larger(in_time, (crossing.time - (angle - phase) / rate).abs());
+        in_place = larger(larger(in_place, crossing.state.x.abs()), (crossing.state.y - y).abs());
     }
     Ok((in_time, in_place))
 }

@@ -4,6 +4,7 @@ use dvi_core::diagnostics::{AlternatingComponent, DiscreteHessian};
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, Method};
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
+use dvi_tests::larger;
 use dvi_tests::oracle::discrete_lagrangian;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{
@@ -16,7 +17,7 @@ type Outcome = Result<(), Box<dyn core::error::Error>>;
 const SIGMAS: [f64; 6] = [0.0, 0.25, 0.211_324_865_405_187_1, 0.5, 0.75, 1.0];
 
 fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
 #[test]
@@ -45,7 +46,7 @@ fn drift<M: Method<PointVortices<4>, f64>>(
     for _ in 0..steps {
         run.advance()?;
         let now = value(&run);
-        largest = core::array::from_fn(|i| largest[i].max((now[i] - first[i]).abs()));
+        largest = core::array::from_fn(|i| larger(largest[i], (now[i] - first[i]).abs()));
     }
     Ok(largest)
 }
@@ -274,7 +275,7 @@ fn is_stable(sigma: f64, omega_h: f64) -> Result<bool, Box<dyn core::error::Erro
     let mut largest: f64 = 0.0;
     for _ in 0..4000 {
         run.advance()?;
-        largest = run.q().iter().fold(largest, |m, q| m.max(q.abs()));
+        largest = run.q().iter().fold(largest, |m, q| larger(m, q.abs()));
     }
     Ok(largest < 1e3)
 }

@@ -7,8 +7,8 @@
 //!
 //! What a fixed point leaves over has the same direction in every step, and adds up to a drift however far below the
 //! rounding of one step it is (Hairer, McLachlan & Razakarivony 2008). So a tolerance that asks for less than rounding
-//! is judged on the smallest coordinate, and rounding errors of a fixed point are those that no longer shrink at all: the
-//! small coordinates are then as accurate as the large ones. Newton's method squares its error in the iteration that is
+//! is judged on the smallest coordinate, and rounding errors of a fixed point are those that no longer shrink at all.
+//! Newton's method squares its error in the iteration that is
 //! accepted, and leaves nothing over.
 
 use crate::Real;
@@ -22,7 +22,9 @@ pub struct Stopping {
     /// rounding of double precision.
     ///
     /// Below the rounding of the arithmetic, it is relative to the smallest |q|, and an iteration that cannot reach that
-    /// goes on until its corrections no longer shrink: small coordinates do not suffer from large ones. On four vortices
+    /// goes on until its corrections no longer shrink. The correction is one number for all coordinates, and rounding
+    /// errors of a large coordinate that is in motion end the iteration for all: beside one of 10⁹ a fixed point leaves
+    /// errors of 10⁻⁹ to 10⁻⁷ in the others, [`Solver::Newton`](super::Solver) some 10⁻¹³. On four vortices
     /// with σ = ½ and h = 0.1, ΣΓ|z|² then changes by less than 4e-19 a step over 4·10⁵ steps; an iteration that
     /// stops as soon as an error of 1e-17 of the largest is predicted drifts by 1.2e-18. A larger tolerance is judged on the
     /// largest coordinate.

@@ -3,6 +3,7 @@
 //! The variational step is implicit here, p0 = −D₁L_d(q0, q1), and the compiler has differentiated what it
 //! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::Method;
 use dvi_core::prelude::*;
@@ -127,7 +128,7 @@ impl Series {
     fn note(&mut self, t: f64, energy: f64, angles: [f64; 2]) {
         let error = energy - energy_at_rest();
         self.error.push(t, error);
-        self.largest = self.largest.max(error.abs());
+        self.largest = larger(self.largest, error.abs());
         self.last = error;
         if t <= SHOWN {
             self.beginning.push([t, error]);

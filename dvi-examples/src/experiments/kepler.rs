@@ -1,5 +1,6 @@
 //! Runs on Kepler orbits, as the experiments on them measure them.
 
+use crate::claim::larger;
 use std::f64::consts::TAU;
 
 use anyhow::{Result, ensure};
@@ -68,7 +69,7 @@ pub fn follow(
             run.advance()?;
             let t = run.time();
             let sample = Sample { t, energy: run.energy() - initial, q: run.q() };
-            course.energy = course.energy.max(sample.energy.abs());
+            course.energy = larger(course.energy, sample.energy.abs());
             look(sample);
         }
         done += 1;
@@ -88,7 +89,7 @@ pub fn follow(
 pub fn compare(job: &Job<'_>, run: &mut impl Run, orbit: Orbit, periods: u64) -> Result<Course> {
     let mut position = 0.0f64;
     let course =
-        follow(job, run, periods, |sample| position = position.max(orbit.error(sample.t, &sample.q)))?;
+        follow(job, run, periods, |sample| position = larger(position, orbit.error(sample.t, &sample.q)))?;
     Ok(Course { position, ..course })
 }
 

@@ -4,6 +4,7 @@
 //! of the oscillator with the same acceleration at the same place. On an orbit of semi-major axis 1 they are
 //! √(1 − e²)/(2r² − r³) and r^(−3/2).
 
+use crate::claim::larger;
 use std::f64::consts::TAU;
 
 use anyhow::Result;
@@ -68,13 +69,13 @@ fn formula(r: f64) -> f64 {
 }
 
 fn claims(readings: &[Reading]) -> Vec<Claim> {
-    let largest = readings.iter().map(|reading| reading.curvature).fold(0.0, f64::max);
+    let largest = readings.iter().map(|reading| reading.curvature).fold(0.0, larger);
     let share = |condition: &dyn Fn(&Reading) -> bool| {
         readings.iter().filter(|reading| condition(reading)).count() as f64 / readings.len() as f64
     };
     let relative = |value: f64, exact: f64| (value / exact - 1.0).abs();
-    let curvature = readings.iter().map(|x| relative(x.curvature, formula(x.r))).fold(0.0, f64::max);
-    let radial = readings.iter().map(|x| relative(x.radial, x.r.powf(-1.5))).fold(0.0, f64::max);
+    let curvature = readings.iter().map(|x| relative(x.curvature, formula(x.r))).fold(0.0, larger);
+    let radial = readings.iter().map(|x| relative(x.radial, x.r.powf(-1.5))).fold(0.0, larger);
     let [near, far] = [1.0 - ORBIT.e, 1.0 + ORBIT.e].map(formula);
     let lowest = readings.iter().map(|reading| reading.curvature).fold(f64::INFINITY, f64::min);
     vec![

@@ -6,6 +6,7 @@
 //! symplectic nor reversible, and with reversible steps it drifts. Beside it stand a frequency that is a part of the
 //! discrete Lagrangian, with reversible steps, and Verlet.
 
+use crate::claim::larger;
 use std::f64::consts::TAU;
 
 use anyhow::Result;
@@ -119,16 +120,16 @@ impl Series {
             }
             if let Some([last, largest_energy, largest_position]) = self.rows.last_mut() {
                 *last = time;
-                *largest_energy = largest_energy.max(sample.energy.abs());
-                *largest_position = largest_position.max(error);
+                *largest_energy = larger(*largest_energy, sample.energy.abs());
+                *largest_position = larger(*largest_position, error);
             }
             // `follow` itself counts one for each period.
             if time >= whole {
                 whole += 1.0;
                 job.proceed(cost - 1);
             }
-            energy = energy.max(sample.energy.abs());
-            position = position.max(error);
+            energy = larger(energy, sample.energy.abs());
+            position = larger(position, error);
             if time <= EARLY {
                 self.early = energy;
             }
@@ -263,7 +264,7 @@ fn figure(all: &[Series], periods: u64) -> Figure {
         .line(vec![[0.1, 2.0], [periods as f64, 2.0]], Stroke::dashed(INK).width(1.2))
         .labelled("the diameter of the orbit");
     let reached = all.iter().filter_map(|series| series.rows.last()).map(|row| row[0].round());
-    let reached = reached.fold(0.0, f64::max);
+    let reached = reached.fold(0.0, larger);
     let told = |i: usize| {
         let told = all.get(i).map(|Series { course, rows, .. }| {
             let last = rows.last().map_or(0.0, |row| row[0].round());

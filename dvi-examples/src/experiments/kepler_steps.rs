@@ -4,6 +4,7 @@
 //! the same? The answer depends on what is compared: the rule of the reference, and whether both runs choose
 //! their steps by (23), as printed, or keep them fixed. Each reading is shown.
 
+use crate::claim::larger;
 use anyhow::{Context as _, Result};
 use dvi_core::prelude::*;
 use dvi_core::{FrequencyIn, Unfitted};
@@ -155,7 +156,7 @@ fn ratios(all: &[Comparison], steps: Steps, e: f64, simpson: bool) -> Option<Rat
     let ratios: Vec<f64> = all.iter().filter(is_asked).map(Comparison::ratio).collect();
     (!ratios.is_empty()).then(|| Ratios {
         least: ratios.iter().copied().fold(f64::INFINITY, f64::min),
-        most: ratios.iter().copied().fold(0.0, f64::max),
+        most: ratios.iter().copied().fold(0.0, larger),
         count: ratios.len(),
         above: ratios.iter().filter(|&&ratio| ratio > THIRD).count(),
     })

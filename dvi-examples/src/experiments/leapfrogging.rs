@@ -1,6 +1,7 @@
 //! Rowley & Marsden 2002, Fig. 3: trajectories of two leapfrogging pairs, and what becomes of them under
 //! RK2 at the step that VE2 can take.
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::Method;
 use dvi_core::prelude::*;
@@ -80,7 +81,7 @@ fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f6
         series.note(run.time(), run.q(), &mut lead);
         Ok(())
     });
-    series.extent = run.q().iter().fold(0.0, |extent, q| q.abs().max(extent));
+    series.extent = run.q().iter().fold(0.0, |extent, q| larger(q.abs(), extent));
     Ok(series)
 }
 
@@ -92,7 +93,7 @@ impl Series {
             (0..4).for_each(|j| self.trajectories[j].push([x[j], y[j]]));
         }
         self.distance.push(t, (x[0] - x[1]).hypot(y[0] - y[1]));
-        self.asymmetry = self.asymmetry.max((x[0] - x[2]).abs()).max((y[0] + y[2]).abs());
+        self.asymmetry = larger(larger(self.asymmetry, (x[0] - x[2]).abs()), (y[0] + y[2]).abs());
         let now = (x[0] - x[1]).signum();
         if now * *lead < 0.0 {
             self.overtakings.push(t);
@@ -105,7 +106,7 @@ impl Series {
         let reached = self.distance.end().min(self.end);
         let times = self.overtakings.iter().chain([&reached]);
         let pairs = times.clone().zip(times.skip(1));
-        pairs.map(|(before, after)| after - before).fold(0.0, f64::max)
+        pairs.map(|(before, after)| after - before).fold(0.0, larger)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which scheme conserves what: the linear impulses ΣΓx and ΣΓy, the angular impulse ΣΓ|z|², its discrete
 //! counterpart J_d = D₂L_d·ξ, and the discrete two-form (Rowley & Marsden 2002, eq. 17 and section 6).
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::Method;
 use dvi_core::prelude::*;
@@ -80,7 +81,7 @@ fn conserved(
     job.repeat(STEPS, || {
         run.advance()?;
         for ((_, value), (drift, initial)) in run.momenta().zip(momenta.iter_mut().zip(&initial)) {
-            *drift = drift.max((value - initial).abs());
+            *drift = larger(*drift, (value - initial).abs());
         }
         Ok(())
     })?;
@@ -121,7 +122,7 @@ fn one_step_defect(
         let unit = |a: usize| std::array::from_fn(|i| if i == a { 1.0 } else { 0.0 });
         for a in 0..8 {
             for b in 0..8 {
-                defect = defect.max((form(columns[a], columns[b]) - form(unit(a), unit(b))).abs());
+                defect = larger(defect, (form(columns[a], columns[b]) - form(unit(a), unit(b))).abs());
             }
         }
         orbit.advance_by(STEPS / LOOKS)?;
@@ -146,12 +147,12 @@ fn variational(job: &Job<'_>, case: &Case, scheme: &'static str, method: Sigma) 
         if step > 0 {
             let t = run.time() - 2.0 * H;
             map.evaluate(vortices, method.sigma, t, H, [&q0, &q1, run.q()])?;
-            two_form = two_form.max(map.two_form_defect(vortices));
+            two_form = larger(two_form, map.two_form_defect(vortices));
         }
         q0.copy_from_slice(&q1);
         q1.copy_from_slice(run.q());
         let now = run.discrete_momentum(ANGULAR)?.unwrap_or(f64::NAN);
-        discrete = discrete.max((now - initial).abs());
+        discrete = larger(discrete, (now - initial).abs());
     }
     Ok(Drifts { discrete: Some(discrete), two_form: Some(two_form), ..drifts })
 }
@@ -159,7 +160,7 @@ fn variational(job: &Job<'_>, case: &Case, scheme: &'static str, method: Sigma) 
 fn claims(all: &[Drifts; 7]) -> Vec<Claim> {
     let [vi2, started, quarter, ve2, rk2, rk4, gauss] = all;
     let variational = &all[..4];
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, larger);
     let linear = largest(&mut all.iter().flat_map(|drifts| [drifts.momenta[0], drifts.momenta[1]]));
     let discrete = largest(&mut all.iter().filter_map(|drifts| drifts.discrete));
     let two_form = largest(&mut variational.iter().filter_map(|drifts| drifts.two_form));

@@ -2,6 +2,7 @@
 //!
 //! Each run starts from two points of the exact orbit, so that the starting step does not show.
 
+use crate::claim::larger;
 use anyhow::{Context as _, Result};
 use dvi_core::prelude::*;
 
@@ -109,7 +110,7 @@ impl Vortices {
         let mut run = Integrator::from_two_points(vortices, Sigma::new(sigma), h, *start, second)?;
         let steps = (Self::END / h).round() as u64;
         job.repeat(steps, || run.advance())?;
-        Ok(run.q().iter().zip(&self.end).fold(0.0, |largest, (q, exact)| (q - exact).abs().max(largest)))
+        Ok(run.q().iter().zip(&self.end).fold(0.0, |largest, (q, exact)| larger((q - exact).abs(), largest)))
     }
 }
 
@@ -119,7 +120,7 @@ fn claims(rows: &[Row]) -> Vec<Claim> {
     let vortices = |sigma: f64| at(sigma).map(|row| row.vortices.order);
     let farthest_from_two = |exceptions: &[f64], order: fn(&Row) -> f64| {
         let others = rows.iter().filter(|row| !exceptions.contains(&row.sigma));
-        others.map(|row| (order(row) - 2.0).abs()).fold(0.0, f64::max)
+        others.map(|row| (order(row) - 2.0).abs()).fold(0.0, larger)
     };
     let by_linear = |exceptions: &[f64]| farthest_from_two(exceptions, |row| row.linear.order);
     let by_vortices = farthest_from_two(&[], |row| row.vortices.order);
@@ -180,7 +181,7 @@ fn figure(rows: &[Row]) -> Figure {
 /// The smallest and the largest of the orders, in words.
 fn range(rows: &[Row], order: fn(&Row) -> f64) -> String {
     let orders = rows.iter().map(order);
-    let [low, high] = orders.fold([f64::INFINITY, 0.0f64], |[low, high], x| [low.min(x), high.max(x)]);
+    let [low, high] = orders.fold([f64::INFINITY, 0.0f64], |[low, high], x| [low.min(x), larger(high, x)]);
     format!("{low:.3} to {high:.3}")
 }
 

@@ -4,6 +4,7 @@
 //! sin u ≠ 0 and S = Σ w cos((1 − 2c)u) ≠ 0. The momentum is s·v with s = uS/sin u: a run that starts from a
 //! velocity has a wrong amplitude for ever, unless the weights are fitted too.
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::prelude::*;
 use dvi_core::{Frequency, FrequencyIn, Rule};
@@ -108,7 +109,7 @@ fn recursion_error(job: &Job<'_>, rule: Quadrature, u: f64, steps: u64) -> Resul
             sine_part = (q - START.x * cos) / sin;
         }
         let (sin, cos) = (f64::from(k) * u).sin_cos();
-        largest = largest.max((q - START.x * cos - sine_part * sin).abs());
+        largest = larger(largest, (q - START.x * cos - sine_part * sin).abs());
         Ok(())
     })?;
     Ok(largest)
@@ -151,7 +152,7 @@ impl Errors {
                 if largest < 1e3 {
                     run.advance()?;
                     let (sin, cos) = run.time().sin_cos();
-                    largest = largest.max((run.q()[0] - START.x * cos - START.dot_x * sin).abs());
+                    largest = larger(largest, (run.q()[0] - START.x * cos - START.dot_x * sin).abs());
                 }
                 Ok(())
             })?;
@@ -183,7 +184,7 @@ fn well_placed(rows: &[Row], rules: &[(&str, Quadrature)]) -> f64 {
     let errors = pairs.flat_map(|(row, (_, rule))| {
         row.recursion.iter().filter(|[u, _]| condition(rule, *u) >= 0.1).map(|[_, error]| *error)
     });
-    errors.fold(0.0, f64::max)
+    errors.fold(0.0, larger)
 }
 
 /// Numbers of independent programs.
@@ -196,13 +197,13 @@ fn references(rows: &[Row]) -> Vec<Check> {
 }
 
 fn claims(rows: &[Row], all: &[Errors]) -> Result<Vec<Claim>> {
-    let largest = |curve: &Curve| curve.iter().map(|[_, y]| *y).fold(0.0, f64::max);
+    let largest = |curve: &Curve| curve.iter().map(|[_, y]| *y).fold(0.0, larger);
     let exact = Claim::new("eqs. 13–15", "the phase-fitted family solves the oscillator exactly at any step");
     let rules = rules()?;
     let mut exact = exact;
     for (row, (name, rule)) in rows.iter().zip(&rules) {
         let weighted = row.recursion.iter().map(|&[u, error]| error * condition(rule, u));
-        let weighted = weighted.fold(0.0, f64::max);
+        let weighted = weighted.fold(0.0, larger);
         let quantity = format!("{name}: largest error of the recursion times |S sin u|, u = 0.1 … 3");
         exact = exact.check(quantity, weighted, Bound::AtMost(1e-9));
     }
@@ -211,7 +212,7 @@ fn claims(rows: &[Row], all: &[Errors]) -> Result<Vec<Claim>> {
     let mut deviation = 0.0f64;
     for (row, (_, rule)) in rows.iter().zip(&rules) {
         let relative = row.defect.iter().map(|&[u, s]| (s / formula(rule, u) - 1.0).abs());
-        deviation = relative.fold(deviation, f64::max);
+        deviation = relative.fold(deviation, larger);
     }
     let momenta = Claim::new(BEYOND, "only the positions are: p = s·v with s = uS/sin u").check(
         "largest relative deviation from the formula",

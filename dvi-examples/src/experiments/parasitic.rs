@@ -3,6 +3,7 @@
 //! It decides whether a run can be used. The energy of Fig. 2 does not show it, because that motion is
 //! protected by its mirror symmetry. Beyond the paper.
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::prelude::*;
 
@@ -76,7 +77,7 @@ fn series(
     let steps = (end / h) as u64;
     let failure = job.repeat_until_lost(steps, || {
         run.advance()?;
-        largest = largest.max((run.energy() - initial).abs());
+        largest = larger(largest, (run.energy() - initial).abs());
         points.extend(filter.amplitude(run.q()).map(|amplitude| [run.time(), amplitude, largest]));
         Ok(())
     });
@@ -108,7 +109,7 @@ impl Series {
     /// The largest amplitude of the last tenth, over that of the first.
     fn growth(&self) -> f64 {
         let part = self.points.len() / 10;
-        let largest = |points: &[[f64; 3]]| points.iter().map(|point| point[1]).fold(0.0, f64::max);
+        let largest = |points: &[[f64; 3]]| points.iter().map(|point| point[1]).fold(0.0, larger);
         largest(&self.points[self.points.len() - part..]) / largest(&self.points[..part])
     }
 }

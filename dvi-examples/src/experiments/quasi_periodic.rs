@@ -3,6 +3,7 @@
 //! The exact section is a closed curve. Each run is compared with that curve, computed by Gauss
 //! collocation of order six.
 
+use crate::claim::larger;
 use anyhow::Result;
 
 use super::sections::{
@@ -157,7 +158,8 @@ impl Curve {
         }
         [0, 1].map(|i| {
             let values = self.corners.iter().map(|corner| corner[i]);
-            let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
+            let (low, high) =
+                values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), larger(high, v)));
             let margin = 0.18 * (high - low);
             [low - margin, high + margin]
         })
@@ -169,7 +171,7 @@ impl Curve {
     }
 
     fn largest_distance(&self, run: &Crossings) -> f64 {
-        run.places().into_iter().map(|place| self.distance(place)).fold(0.0, f64::max)
+        run.places().into_iter().map(|place| self.distance(place)).fold(0.0, larger)
     }
 }
 

@@ -4,6 +4,7 @@
 //! orbit and errs in the phase alone; regularisation makes the problem an oscillator, which phase fitting
 //! solves exactly.
 
+use crate::claim::larger;
 use std::f64::consts::TAU;
 
 use dvi_core::prelude::*;
@@ -39,9 +40,9 @@ impl Clock {
 impl Rival {
     fn note(&mut self, orbit: Orbit, t: f64, [x, y]: [f64; 2], energy: f64) {
         let Orbit { e } = orbit;
-        self.course.energy = self.course.energy.max((energy + 0.5).abs());
-        self.course.position = self.course.position.max(orbit.error(t, &[x, y]));
-        self.off_orbit = self.off_orbit.max((x.hypot(y) + e * x - (1.0 - e * e)).abs());
+        self.course.energy = larger(self.course.energy, (energy + 0.5).abs());
+        self.course.position = larger(self.course.position, orbit.error(t, &[x, y]));
+        self.off_orbit = larger(self.off_orbit, (x.hypot(y) + e * x - (1.0 - e * e)).abs());
     }
 }
 

@@ -4,6 +4,7 @@
 //! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
 //! coordinates that Pullin & Saffman used, and the paper with them, may be others.
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::Method;
 use dvi_core::prelude::*;
@@ -138,7 +139,7 @@ where
         if section.run().steps() > done {
             done = section.run().steps();
             result.last_error = section.run().energy() - initial;
-            result.largest_error = result.largest_error.max(result.last_error.abs());
+            result.largest_error = larger(result.largest_error, result.last_error.abs());
             if section.run().time() <= 0.1 * end {
                 result.early_error = result.largest_error;
             }
@@ -171,7 +172,7 @@ where
         }
     }
     let distances = pair[0].q().iter().zip(pair[1].q()).map(|(a, b)| (a - b).abs());
-    Ok(distances.fold(0.0, f64::max) / DISPLACEMENT)
+    Ok(distances.fold(0.0, larger) / DISPLACEMENT)
 }
 
 /// What [`lyapunov_exponent`] takes.

@@ -3,6 +3,7 @@
 //! For σ = ½ the region is the closed left half plane. For every other σ it is a part of the imaginary axis,
 //! |λh| < 1/|1 − 2σ|, and nothing beside it: where λ damps, the parasitic root grows.
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::prelude::*;
 use rayon::prelude::*;
@@ -55,13 +56,13 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
 /// The largest relative deviation of the limits from 1/|1 − 2σ|.
 fn deviation(measured: &[[f64; 2]]) -> f64 {
     let deviation = measured.iter().map(|[sigma, limit]| (limit * (1.0 - 2.0 * sigma).abs() - 1.0).abs());
-    deviation.fold(0.0, f64::max)
+    deviation.fold(0.0, larger)
 }
 
 fn claims(job: &Job<'_>, measured: &[[f64; 2]], [growth, right]: [f64; 2], damped: &[Damped]) -> Vec<Claim> {
     let half = || damped.iter().filter(|run| run.sigma == 0.5);
     let others = || damped.iter().filter(|run| run.sigma != 0.5);
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, larger);
     let smallest = others().map(|run| run.factor).fold(f64::INFINITY, f64::min);
     let quarter = Damped::root(0.25, DAMPED[0]);
     vec![
@@ -120,7 +121,7 @@ fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Resul
         // Once it is large enough to be called unstable, or ended, there is no need to go on to infinity.
         if largest < LARGE && !lost {
             lost = run.advance().is_err();
-            largest = run.q().iter().fold(largest, |largest, q| q.abs().max(largest));
+            largest = run.q().iter().fold(largest, |largest, q| larger(q.abs(), largest));
         }
         Ok(())
     })?;
@@ -155,14 +156,14 @@ impl Damped {
                 lost = run.advance().is_err();
                 // Two points, so that no oscillation is mistaken for decay.
                 let now = size(run.q());
-                sizes.push(before.max(now));
+                sizes.push(larger(before, now));
                 before = now;
             }
             Ok(())
         })?;
         let (middle, last) = (sizes.len() / 2, sizes.len() - 1);
         let factor = (sizes[last] / sizes[middle]).powf(1.0 / (last - middle).max(1) as f64);
-        let largest = sizes.into_iter().fold(0.0, f64::max);
+        let largest = sizes.into_iter().fold(0.0, larger);
         Ok(Self { sigma, lambda, factor, largest })
     }
 
@@ -180,7 +181,7 @@ impl Damped {
         let s = [r * angle.cos(), r * angle.sin()];
         let plus = modulus([m[0] + s[0], m[1] + s[1]]);
         let minus = modulus([m[0] - s[0], m[1] - s[1]]);
-        plus.max(minus) / modulus([1.0 - b * x, -b * y])
+        larger(plus, minus) / modulus([1.0 - b * x, -b * y])
     }
 }
 

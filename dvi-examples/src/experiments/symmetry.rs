@@ -4,6 +4,7 @@
 //! symmetry lasts, the parasitic mode of σ = 0 has nothing to grow from; rounding breaks it slowly. With one vortex
 //! displaced there is no symmetry, and the motion is lost within the paper's time.
 
+use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::prelude::*;
 
@@ -94,8 +95,8 @@ fn series(job: &Job<'_>, name: &str, colour: Colour, [dx, dy]: [f64; 2], end: f6
             series.rows.push([t, 0.0, 0.0]);
         }
         if let Some([_, largest_asymmetry, largest_error]) = series.rows.last_mut() {
-            *largest_asymmetry = largest_asymmetry.max(asymmetry(run.q()));
-            *largest_error = largest_error.max(error);
+            *largest_asymmetry = larger(*largest_asymmetry, asymmetry(run.q()));
+            *largest_error = larger(*largest_error, error);
         }
         if error.is_nan() || error > LOST {
             series.lost = t;
@@ -111,14 +112,14 @@ fn series(job: &Job<'_>, name: &str, colour: Colour, [dx, dy]: [f64; 2], end: f6
 /// The largest difference between a vortex and the mirror image of its partner.
 fn asymmetry(q: &[f64]) -> f64 {
     let (x, y) = q.split_at(4);
-    let pair = |i: usize, j: usize| (x[i] - x[j]).abs().max((y[i] + y[j]).abs());
-    pair(0, 2).max(pair(1, 3))
+    let pair = |i: usize, j: usize| larger((x[i] - x[j]).abs(), (y[i] + y[j]).abs());
+    larger(pair(0, 2), pair(1, 3))
 }
 
 impl Series {
     /// The largest value of a column up to time `t`.
     fn largest(&self, column: usize, t: f64) -> f64 {
-        self.rows.iter().filter(|row| row[0] <= t).map(|row| row[column]).fold(0.0, f64::max)
+        self.rows.iter().filter(|row| row[0] <= t).map(|row| row[column]).fold(0.0, larger)
     }
 
     /// How the run ended, in words.

@@ -68,6 +68,8 @@ pub(super) struct Evaluation<'a> {
     /// Operations that may still be carried out.
     pub(super) budget: u64,
     pub(super) sides: Sides,
+    /// Whether some part of the formulas has a huge value, even if the whole has not.
+    pub(super) is_huge: bool,
     scope: Vec<(Rc<str>, Binding)>,
 }
 
@@ -93,6 +95,7 @@ impl<'a> Evaluation<'a> {
             is_still: false,
             budget,
             sides: Sides::new(),
+            is_huge: false,
             scope: Vec::new(),
         }
     }
@@ -121,6 +124,12 @@ impl<'a> Evaluation<'a> {
 
     pub(super) fn number(&mut self, syntax: &Expr) -> Value<Jet> {
         self.budget = self.budget.checked_sub(1).ok_or(NoValue::TooLong)?;
+        let value = self.evaluate(syntax)?;
+        self.is_huge |= value.is_huge();
+        Ok(value)
+    }
+
+    fn evaluate(&mut self, syntax: &Expr) -> Value<Jet> {
         match syntax {
             Expr::Lit(literal) => Ok(Jet::number(literal_number(&literal.lit))),
             Expr::Paren(inner) => self.number(&inner.expr),

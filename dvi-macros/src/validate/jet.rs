@@ -27,6 +27,9 @@ const SECOND: usize = 2;
 const MIXED: usize = 3;
 const PARTS: usize = 1 + FIRST + SECOND + MIXED * SECOND;
 
+/// The cube of such a number is near to overflow.
+const HUGE: f64 = 1e100;
+
 /// A number and the sum of the absolute terms behind it, in units of which its rounding error is some small
 /// multiple of the machine precision.
 #[derive(Clone, Copy, Debug, Default)]
@@ -72,9 +75,9 @@ impl Jet {
         Self(Box::new(parts))
     }
 
-    /// The sum of no terms: a function of it is a constant, even where that function has no derivative.
+    /// The sum of no terms, which is −0 in Rust: a function of it is a constant, even where that function has no derivative.
     pub(super) fn empty_sum() -> Self {
-        let mut jet = Self::number(0.0);
+        let mut jet = Self::number(-0.0);
         jet.0.is_empty_sum = true;
         jet
     }
@@ -123,7 +126,12 @@ impl Jet {
 
     /// Whether all parts are finite, and far from overflow.
     pub(super) fn is_moderate(&self) -> bool {
-        self.0.size.iter().chain(&self.0.value).all(|part| part.abs() < 1e100)
+        self.0.size.iter().chain(&self.0.value).all(|part| part.abs() < HUGE)
+    }
+
+    /// Whether a number of another order of operations may overflow.
+    pub(super) fn is_huge(&self) -> bool {
+        self.0.value.iter().any(|part| part.abs() >= HUGE)
     }
 
     pub(super) fn scaled(mut self, factor: f64) -> Self {
@@ -146,7 +154,8 @@ impl Jet {
     }
 
     pub(super) fn times(&self, other: &Self) -> Self {
-        let mut product = Self::number(0.0);
+        // The sign of a zero counts: `signum` sees it.
+        let mut product = Self::number(-0.0);
         let mut add = |to: usize, i: usize, j: usize| {
             let ((x, a), (y, b)) = ((self.0.value[i], self.0.size[i]), (other.0.value[j], other.0.size[j]));
             product.0.value[to] += x * y;

@@ -80,7 +80,8 @@ impl Run<'_> {
                 }
                 Step::Loop { over, folds, body } => {
                     let neutral = |fold| match fold {
-                        Fold::Sum => 0.0,
+                        // As sums of Rust: −0 + x is x for every x.
+                        Fold::Sum => -0.0,
                         Fold::Product => 1.0,
                     };
                     let mut totals: Vec<f64> = folds.iter().map(|fold| neutral(fold.fold)).collect();
@@ -121,14 +122,14 @@ impl Run<'_> {
                 let first = self.machine.along(false, block, index) * at_partner;
                 let second = self.machine.along(true, block, index);
                 let along = self.results.vectors.entry(*output).or_insert([0.0; 2]);
-                along[0] += first * value;
-                along[1] += second * value;
+                along[0] += component(first, value);
+                along[1] += component(second, value);
             }
             Place::MatrixEntry(row, column) => {
                 let (i, j) = (self.index(&row.index), self.index(&column.index));
                 let (row, column) = (row.block as usize, column.block as usize);
                 let along = self.machine.along(false, row, i) * self.machine.along(true, column, j);
-                self.results.matrix += along * value;
+                self.results.matrix += component(along, value);
             }
         }
     }
@@ -165,8 +166,8 @@ impl Run<'_> {
                     Relation::Greater | Relation::HasMore => left > right,
                     Relation::GreaterOrEqual => left >= right,
                 };
-                let is_exchanged = *relation != Relation::HasMore
-                    && self.machine.point.branches == Branches::Exchanged;
+                let is_exchanged =
+                    *relation != Relation::HasMore && self.machine.point.branches == Branches::Exchanged;
                 self.signed(if holds != is_exchanged { *then } else { *otherwise })
             }
             Instruction::Reduce(..) => internal("a sum outside of its loop"),
@@ -216,4 +217,9 @@ impl Run<'_> {
             sum + coefficient * value
         })
     }
+}
+
+/// What an entry adds along a direction; nothing where the direction does not go, even if the entry is no number.
+fn component(direction: f64, entry: f64) -> f64 {
+    if direction == 0.0 { 0.0 } else { direction * entry }
 }

@@ -3,6 +3,7 @@
 use dvi_core::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
+use dvi_tests::larger;
 use dvi_tests::systems::*;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -74,7 +75,7 @@ fn course<S: DegenerateLagrangian, M: Method<S, f64>>(
         if error.is_some() {
             break;
         }
-        energy_error = energy_error.max((run.energy() - initial).abs());
+        energy_error = larger(energy_error, (run.energy() - initial).abs());
     }
     Ok(Course { steps: run.steps(), time: run.time(), energy_error, error })
 }

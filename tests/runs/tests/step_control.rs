@@ -4,6 +4,7 @@
 use core::f64::consts::{PI, TAU};
 use dvi_core::prelude::*;
 use dvi_core::{Method, StepControl, VariableStep};
+use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Kepler, KeplerState, Relativistic, RelativisticState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -26,7 +27,7 @@ fn hundred_periods<M: VariableStep<Kepler, f64>>(method: M) -> Result<[f64; 2], 
     let (initial, mut largest) = (run.energy(), 0.0_f64);
     while run.time() < 100.0 * TAU {
         run.advance()?;
-        largest = largest.max((run.energy() - initial).abs());
+        largest = larger(largest, (run.energy() - initial).abs());
     }
     let momentum = run.momentum(0).unwrap_or(f64::NAN);
     assert!((momentum - (1.0 - 0.95_f64.powi(2)).sqrt()).abs() < 2e-10, "{momentum}");
@@ -82,7 +83,7 @@ fn angular_momentum_is_kept_to_rounding_by_fixed_steps() -> Outcome {
         let (initial, mut largest) = (run.momentum(0).ok_or("declared")?, 0.0_f64);
         for _ in 0..400_000 {
             run.advance()?;
-            largest = largest.max((run.momentum(0).ok_or("declared")? - initial).abs());
+            largest = larger(largest, (run.momentum(0).ok_or("declared")? - initial).abs());
         }
         Ok(largest)
     }
@@ -124,7 +125,7 @@ where
     let mut ratio = 0.0_f64;
     for length in lengths.iter().rev() {
         back.advance()?;
-        ratio = ratio.max((back.step_size() / length - 1.0).abs());
+        ratio = larger(ratio, (back.step_size() / length - 1.0).abs());
     }
     let flat = |state: S::State<f64>| {
         let (mut q, mut v) = (vec![0.0; back.q().len()], vec![0.0; back.q().len()]);
@@ -132,7 +133,7 @@ where
             .map(|()| [q, v].concat())
     };
     let (end, start) = (flat(turn(back.state()))?, flat(start.clone())?);
-    let distance = end.iter().zip(&start).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+    let distance = end.iter().zip(&start).fold(0.0, |largest: f64, (a, b)| larger(largest, (a - b).abs()));
     Ok([distance, ratio])
 }
 

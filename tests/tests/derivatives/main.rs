@@ -9,6 +9,7 @@ mod limits;
 mod oracle;
 mod particles;
 mod regular;
+mod self_check;
 mod shapes;
 mod structure;
 mod sums;

@@ -6,6 +6,7 @@
 //! of the first).
 
 use dvi_core::{DegenerateLagrangian, Lagrangian, Space, Weights};
+use dvi_tests::larger;
 use num_dual::{Dual64, DualNum, HyperDual64};
 
 pub(crate) const UNITS: f64 = 16.0;
@@ -112,7 +113,7 @@ pub(crate) fn expanded(variables: &[f64], f: impl Fn(&[HyperDual64]) -> HyperDua
 }
 
 pub(crate) fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |largest, value| value.abs().max(largest))
+    values.iter().fold(0.0, |largest, value| larger(value.abs(), largest))
 }
 
 /// What is being compared, and at which point.
@@ -162,18 +163,18 @@ pub(crate) fn lagrangian<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t:
     let expected = expanded(&variables, |z| system.action(&z[..n], &z[n..], HyperDual64::from(t)));
     let [second, first] = [largest(&expected.hessian), largest(&expected.gradient)];
     let value = system.lagrangian(q, v, t);
-    place.compare("L", &[value], &[expected.value], first.max(expected.value.abs()));
+    place.compare("L", &[value], &[expected.value], larger(first, expected.value.abs()));
 
     let (mut l_q, mut l_v) = (vec![f64::NAN; n], vec![f64::NAN; n]);
     system.gradient(q, v, t, &mut l_q, &mut l_v);
-    place.compare("gradient", &[l_q, l_v].concat(), &expected.gradient, first.max(second));
+    place.compare("gradient", &[l_q, l_v].concat(), &expected.gradient, larger(first, second));
 
     let mut weight = || random.between(-1.0, 1.0);
     let w = Weights { qq: weight(), qv: weight(), vq: weight(), vv: weight() };
     let before: Vec<f64> = (0..n * n).map(|_| weight()).collect();
     let (mut l_q, mut l_v, mut matrix) = (vec![f64::NAN; n], vec![f64::NAN; n], before.clone());
     system.linearize(q, v, t, w, &mut l_q, &mut l_v, &mut matrix);
-    place.compare("gradient of linearize", &[l_q, l_v].concat(), &expected.gradient, first.max(second));
+    place.compare("gradient of linearize", &[l_q, l_v].concat(), &expected.gradient, larger(first, second));
     let block = |i: usize, j: usize| expected.hessian[2 * n * i + j];
     let sum = |at: usize| {
         let (i, j) = (at / n, at % n);
@@ -181,12 +182,12 @@ pub(crate) fn lagrangian<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t:
         before[at] + blocks + w.vv * block(n + i, n + j)
     };
     let sum: Vec<f64> = (0..n * n).map(sum).collect();
-    place.compare("linearize", &matrix, &sum, second.max(first).max(1.0));
+    place.compare("linearize", &matrix, &sum, larger(larger(second, first), 1.0));
 
     // The generated formula itself on dual numbers: the graph before differentiation against after.
     let itself = expanded(&variables, |z| system.lagrangian(&z[..n], &z[n..], HyperDual64::from(t)));
-    place.compare("L on dual numbers, first", &itself.gradient, &expected.gradient, first.max(second));
-    place.compare("L on dual numbers, second", &itself.hessian, &expected.hessian, second.max(first));
+    place.compare("L on dual numbers, first", &itself.gradient, &expected.gradient, larger(first, second));
+    place.compare("L on dual numbers, second", &itself.hessian, &expected.hessian, larger(second, first));
 }
 
 /// The same at f32. Coordinates are rounded first, so that both sides see the same point.
@@ -198,7 +199,7 @@ pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f6
     let place = Place { q: &double(&q), epsilon: f64::from(f32::EPSILON), ..*place };
     let variables = [double(&q), double(&v)].concat();
     let expected = expanded(&variables, |z| system.action(&z[..n], &z[n..], HyperDual64::from(f64::from(t))));
-    let scale = largest(&expected.hessian).max(largest(&expected.gradient));
+    let scale = larger(largest(&expected.hessian), largest(&expected.gradient));
     let (mut l_q, mut l_v, mut matrix) = (vec![0.0; n], vec![0.0; n], vec![0.0; n * n]);
     let w = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
     system.linearize(&q, &v, t, w, &mut l_q, &mut l_v, &mut matrix);
@@ -214,24 +215,24 @@ fn hamiltonian<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
     let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
     let gradient = &energy.derivatives[0][..n];
     let second = expanded(q, |q| ByHand::energy(system, q, HyperDual64::from(t))).hessian;
-    let scale = largest(gradient).max(energy.values[0].abs());
+    let scale = larger(largest(gradient), energy.values[0].abs());
     place.compare("H", &[system.hamiltonian(q, t)], &energy.values, scale);
     let mut out = vec![f64::NAN; n];
     system.hamiltonian_gradient(q, t, &mut out);
-    let scale = largest(gradient).max(largest(&second));
+    let scale = larger(largest(gradient), largest(&second));
     place.compare("∇H", &out, gradient, scale);
     let rates: Vec<f64> = alpha.derivatives.iter().map(|row| row[n]).collect();
     let source: Vec<f64> = gradient.iter().zip(&rates).map(|(h, a)| h + a).collect();
     out.fill(f64::NAN);
     system.flow_source(q, t, &mut out);
-    place.compare("∇H + ∂α/∂t", &out, &source, scale.max(largest(&alpha.derivatives.concat())));
+    place.compare("∇H + ∂α/∂t", &out, &source, larger(scale, largest(&alpha.derivatives.concat())));
 }
 
 /// α, a Dα + b (Dα)ᵀ, and its entries at the partners.
 fn one_form<S: ByHand>(system: &S, place: &Place<'_>, t: f64, random: &mut Random) {
     let (q, n) = (place.q, place.q.len());
     let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
-    let scale = largest(&alpha.derivatives.concat()).max(largest(&alpha.values)).max(1.0);
+    let scale = larger(larger(largest(&alpha.derivatives.concat()), largest(&alpha.values)), 1.0);
     let mut out = vec![f64::NAN; n];
     system.one_form(q, t, &mut out);
     place.compare("α", &out, &alpha.values, scale);
@@ -260,11 +261,11 @@ fn momenta<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
     let expected = differentiated(q, t, |q, t| system.integrals(q, t));
     assert_eq!(expected.values.len(), S::REPORT.momenta.len());
     for (index, (value, derivatives)) in expected.values.iter().zip(&expected.derivatives).enumerate() {
-        let scale = largest(derivatives).max(value.abs());
+        let scale = larger(largest(derivatives), value.abs());
         place.compare("momentum", &[system.momentum(index, q, &[], t)], &[*value], scale);
         let mut out = vec![f64::NAN; n];
         system.momentum_gradient(index, q, t, &mut out);
         let second = expanded(q, |q| system.integrals(q, HyperDual64::from(t))[index]).hessian;
-        place.compare("momentum gradient", &out, &derivatives[..n], largest(&second).max(scale));
+        place.compare("momentum gradient", &out, &derivatives[..n], larger(largest(&second), scale));
     }
 }

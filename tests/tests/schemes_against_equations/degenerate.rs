@@ -2,6 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, State};
+use dvi_tests::larger;
 
 use super::equations::{Formula, Rule, defect, size, slots};
 use super::systems::{Breathing, Driven, Guiding};
@@ -72,7 +73,7 @@ fn the_rate_of_the_form_drives_the_flow() -> Outcome {
             let mut run = Integrator::new_at(&Ramp {}, method, START, h, start)?;
             run.advance_by(10)?;
             let (expected, RampState { x, y }) = (3.0 * 10.0 * h, run.state());
-            let apart = (x - 1.0).abs().max((y - expected).abs());
+            let apart = larger((x - 1.0).abs(), (y - expected).abs());
             assert!(
                 apart < 1e-13,
                 "sigma = {sigma}, {solver:?}, h = {h}: ({x}, {y}), expected (1, {expected})"

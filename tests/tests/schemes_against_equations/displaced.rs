@@ -2,6 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{FrequencyIn, State};
+use dvi_tests::larger;
 use nalgebra::{DMatrix, DVector, RealField, convert};
 
 use super::equations::{Formula, defect, dual, interpolation, size};
@@ -117,7 +118,7 @@ where
             let left: Vec<f64> = (0..q0.len()).map(|i| value(Some(i), None)).collect();
             let right: Vec<f64> = (0..q0.len()).map(|i| value(None, Some(i))).collect();
             let scale = 1.0 + size(&p0) + size(p1) + size(q1) / h.abs();
-            let found = defect(&p0, 1.0, &left).max(defect(p1, -1.0, &right)) / scale;
+            let found = larger(defect(&p0, 1.0, &left), defect(p1, -1.0, &right)) / scale;
             assert!(found < 4e-14, "{name}, {method:?}, h = {h}, step {step}: {found:e}");
         }
     }

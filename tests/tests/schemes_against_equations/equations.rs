@@ -1,5 +1,6 @@
 //! The discrete Lagrangian of the quadrature family and its derivatives, by dual numbers.
 
+use dvi_tests::larger;
 use nalgebra::{RealField, convert};
 use num_dual::Dual64;
 
@@ -88,10 +89,10 @@ pub(crate) fn slots<F: Formula>(
 
 /// The largest entry.
 pub(crate) fn size(vector: &[f64]) -> f64 {
-    vector.iter().fold(0.0, |size: f64, entry| size.max(entry.abs()))
+    vector.iter().fold(0.0, |size: f64, entry| larger(size, entry.abs()))
 }
 
 /// The largest entry of a + sign·b.
 pub(crate) fn defect(a: &[f64], sign: f64, b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |size: f64, (a, b)| size.max((a + sign * b).abs()))
+    a.iter().zip(b).fold(0.0, |size: f64, (a, b)| larger(size, (a + sign * b).abs()))
 }

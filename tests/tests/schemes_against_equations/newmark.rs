@@ -2,6 +2,7 @@
 
 use dvi_core::State;
 use dvi_core::prelude::*;
+use dvi_tests::larger;
 
 use super::equations::{Formula, dual};
 use super::systems::{Coupled, Shaken};
@@ -35,7 +36,7 @@ fn check<S: RegularLagrangian + Formula>(system: &S, q: &[f64], v: &[f64]) -> Ou
                     let position = carried[i] - p0[i] - h * ((0.5 - beta) * f0[i] + beta * f1[i]);
                     let kick = p1[i] - p0[i] - h / 2.0 * (f0[i] + f1[i]);
                     let scale = 1.0 + p0[i].abs() + x1[i].abs() / h.abs();
-                    let found = position.abs().max(kick.abs()) / scale;
+                    let found = larger(position.abs(), kick.abs()) / scale;
                     assert!(found < 2e-14, "{name}, {method:?}, h = {h}, step {step}: {found:e}");
                 }
             }

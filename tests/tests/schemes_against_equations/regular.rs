@@ -2,6 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{FrequencyIn, Rule as Nodes, State};
+use dvi_tests::larger;
 
 use super::equations::{Formula, Rule, defect, size, slots};
 use super::systems::{Coupled, Fast, Magnetic, Shaken};
@@ -33,7 +34,7 @@ where
             let (q1, p1) = (run.q(), run.memory().p());
             let [left, right] = slots(system, &rule, [t, h], [&q0, q1]);
             let scale = 1.0 + size(&p0) + size(p1) + size(q1) / h.abs();
-            let found = defect(&p0, 1.0, &left).max(defect(p1, -1.0, &right)) / scale;
+            let found = larger(defect(&p0, 1.0, &left), defect(p1, -1.0, &right)) / scale;
             assert!(found < 2e-14, "{name}, {method:?}, h = {h}, step {step}: {found:e}");
         }
     }

@@ -3,6 +3,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{FrequencyIn, Unfitted};
+use dvi_tests::larger;
 use dvi_tests::oracle::displaced_lagrangian;
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
@@ -63,8 +64,9 @@ fn check_equations<S: RegularLagrangian, const NODES: usize>(
                     .eps
             };
             for i in 0..q0.len() {
-                let residual = (p0[i] + value(Some(i), None)).abs().max((p1[i] - value(None, Some(i))).abs());
-                let size = p0.iter().chain(&p1).fold(1.0, |m: f64, p| m.max(p.abs()));
+                let residual =
+                    larger((p0[i] + value(Some(i), None)).abs(), (p1[i] - value(None, Some(i))).abs());
+                let size = p0.iter().chain(&p1).fold(1.0, |m: f64, p| larger(m, p.abs()));
                 let name = S::REPORT.system;
                 assert!(
                     residual < 4e-14 * size / h,

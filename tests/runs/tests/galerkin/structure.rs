@@ -2,6 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{FrequencyIn, Method, PreservedForm, Space, State, Statistics};
+use dvi_tests::larger;
 use num_dual::Dual64;
 
 use crate::systems::{
@@ -50,7 +51,7 @@ fn defect<S: RegularLagrangian, F: FrequencyIn<Dual64> + Copy, const NODES: usiz
     let mut largest: f64 = 0.0;
     for i in 0..first.len() {
         for j in 0..i {
-            largest = largest.max((two_form(&last[i], &last[j]) - two_form(&first[i], &first[j])).abs());
+            largest = larger(largest, (two_form(&last[i], &last[j]) - two_form(&first[i], &first[j])).abs());
         }
     }
     Ok(largest)
@@ -107,7 +108,7 @@ where
         forth.advance()?;
         let mut back = Integrator::new_at(&system, method, forth.time(), -0.1, forth.state())?;
         back.advance()?;
-        let error = apart(back.q(), &first).max(apart(back.memory().p(), &momentum));
+        let error = larger(apart(back.q(), &first), apart(back.memory().p(), &momentum));
         assert!(error < 1e-12, "{}, {method:?}: {error:e}", S::REPORT.system);
     }
     Ok(())
@@ -163,7 +164,7 @@ fn check_variable_steps<S: RegularLagrangian>(system: &S, [q, v]: [&[f64]; 2]) -
         method.step(system, &mut memory, &mut point, t, h, &mut statistics)?;
         t += h;
     }
-    let error = apart(&point, q).max(apart(memory.p(), &momentum));
+    let error = larger(apart(&point, q), apart(memory.p(), &momentum));
     assert!(error < 1e-12, "{}: {error:e}", S::REPORT.system);
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use dvi_core::Method;
 use dvi_core::prelude::*;
+use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
 
@@ -51,7 +52,7 @@ pub(crate) fn chain() -> (RunTimeChain, RunTimeChainState) {
 }
 
 pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
 /// The coordinates at `time`.

@@ -3,6 +3,7 @@
 use super::Outcome;
 use core::f64::consts::TAU;
 use dvi_core::prelude::*;
+use dvi_tests::larger;
 
 /// a = k x
 #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) + k * x * x) / 2.0)]
@@ -38,7 +39,7 @@ fn the_three_flows_end_where_they_should() -> Outcome {
         (outward, (1_489.994_111_581_187, 1_490.175_648_915_25), 1e3),
         (pendulum, (1.944_208_266_518_613, 0.320_490_725_558_128_6), 1.0),
     ] {
-        let error = (found.0 - exact.0).abs().max((found.1 - exact.1).abs());
+        let error = larger((found.0 - exact.0).abs(), (found.1 - exact.1).abs());
         assert!(error < 1e-12 * size, "{found:?}, not {exact:?}: {error:e}");
     }
     Ok(())

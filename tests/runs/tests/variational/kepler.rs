@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 use dvi_core::prelude::*;
 use dvi_core::{FrequencyIn, Method, Rule};
+use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -26,7 +27,7 @@ fn period<F: FrequencyIn<f64>, R: Rule>(
     let mut largest: f64 = 0.0;
     for _ in 0..steps {
         run.advance()?;
-        largest = largest.max((run.energy() - initial).abs());
+        largest = larger(largest, (run.energy() - initial).abs());
     }
     Ok((run.state(), largest))
 }
@@ -55,7 +56,10 @@ fn fixed_point_and_newton_find_the_same_steps() -> Outcome {
             };
             let (a, _) = period(method(Solver::FixedPoint), 0.3, 100)?;
             let (b, _) = period(method(Solver::Newton), 0.3, 100)?;
-            assert!((a.x - b.x).abs().max((a.y - b.y).abs()) < 1e-12, "{reading:?}, {rule:?}: {a:?} {b:?}");
+            assert!(
+                larger((a.x - b.x).abs(), (a.y - b.y).abs()) < 1e-12,
+                "{reading:?}, {rule:?}: {a:?} {b:?}"
+            );
         }
     }
     Ok(())
@@ -140,7 +144,7 @@ fn angular_momentum_is_conserved_by_every_reading() -> Outcome {
         let mut largest: f64 = 0.0;
         for _ in 0..100 {
             run.advance_by(4000)?;
-            largest = largest.max((run.momentum(0).ok_or("declared")? - initial).abs());
+            largest = larger(largest, (run.momentum(0).ok_or("declared")? - initial).abs());
         }
         Ok(largest)
     }

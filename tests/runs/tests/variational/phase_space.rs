@@ -2,6 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{Method, Space, State};
+use dvi_tests::larger;
 use num_dual::Dual64;
 
 /// Coordinates and velocities.
@@ -51,7 +52,7 @@ pub(super) fn symplectic_defect<S: RegularLagrangian, M: Method<S, Dual64> + Clo
     let mut defect = 0.0_f64;
     for a in &columns {
         for b in &columns {
-            defect = defect.max((form(&a[1], &b[1]) - form(&a[0], &b[0])).abs());
+            defect = larger(defect, (form(&a[1], &b[1]) - form(&a[0], &b[0])).abs());
         }
     }
     Ok(defect)
@@ -73,6 +74,6 @@ pub(super) fn return_error<S: RegularLagrangian, M: Method<S, f64> + Clone>(
     back.advance_by(steps)?;
     let (mut q, mut v) = (start.0.clone(), start.1.clone());
     back.state().write(blocks, &mut q, &mut v)?;
-    let distance = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
-    Ok(distance(&q, &start.0).max(distance(&v, &start.1)))
+    let distance = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, larger);
+    Ok(larger(distance(&q, &start.0), distance(&v, &start.1)))
 }

@@ -2,6 +2,7 @@
 //! constants on the structure of L.
 
 use dvi_core::{RegularLagrangian, Space};
+use dvi_tests::larger;
 use num_dual::{Dual64, HyperDual64};
 
 use crate::oracle::{
@@ -55,15 +56,15 @@ fn energy_and_force<S: Sampled>(system: &S, place: &Place<'_>, v: &[f64], t: f64
     let expected = expansion(system, q, v, t);
     let along: f64 = v.iter().zip(&expected.gradient[n..]).map(|(v, p)| v * p).sum();
     let [second, first] = [largest(&expected.hessian), largest(&expected.gradient)];
-    let scale = first.max(second).max(expected.value.abs());
+    let scale = larger(larger(first, second), expected.value.abs());
     place.compare("E", &[system.energy(q, v, t)], &[along - expected.value], scale);
     let mut out = vec![f64::NAN; n];
     system.force(q, v, t, &mut out);
-    place.compare("force", &out, &expected.gradient[..n], first.max(second));
+    place.compare("force", &out, &expected.gradient[..n], larger(first, second));
     if S::SEPARABLE {
         out.fill(f64::NAN);
         system.force(q, &[], t, &mut out);
-        place.compare("force at rest", &out, &expected.gradient[..n], first.max(second));
+        place.compare("force at rest", &out, &expected.gradient[..n], larger(first, second));
     }
 }
 
@@ -75,7 +76,7 @@ fn momenta<S: Sampled>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
     for (index, value) in expected.iter().enumerate() {
         let slopes =
             expanded(&[q, v].concat(), |z| system.integrals(&z[..n], &z[n..], HyperDual64::from(t))[index]);
-        let scale = largest(&slopes.gradient).max(value.re.abs());
+        let scale = larger(largest(&slopes.gradient), value.re.abs());
         place.compare("momentum", &[system.momentum(index, q, v, t)], &[value.re], scale);
     }
 }
@@ -84,7 +85,7 @@ fn momenta<S: Sampled>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
 fn claims<S: Sampled>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
     let (q, n) = (place.q, place.q.len());
     let [here, rest] = [v, &vec![0.0; n]].map(|v| expansion(system, q, v, t));
-    let size = largest(&here.hessian).max(1.0);
+    let size = larger(largest(&here.hessian), 1.0);
     let block = |of: &Expansion, rows: usize, columns: usize| -> Vec<f64> {
         (0..n * n).map(|at| of.hessian[2 * n * (rows + at / n) + columns + at % n]).collect()
     };

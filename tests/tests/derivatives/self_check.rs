@@ -1,0 +1,56 @@
+//! Systems that a self-check refuses if it is wrong itself: that they compile is most of the test.
+
+use dvi_core::prelude::*;
+
+/// A zero has the sign that Rust gives it, that of an empty sum too.
+#[degenerate_lagrangian(
+    coordinates(x, y, u[N], v[N]),
+    one_form = y * d(x) + sum(0..N, |i| v[i] * d(u[i])),
+    hamiltonian = sum(0..N, |i| x * (i as f64 * x).signum() + y * (y * sum(0..i, |j| u[j])).signum()),
+)]
+struct SignsOfZero<const N: usize>;
+
+/// Functions of large constants have rounding errors that their values do not show.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = (PI.powi(5) * 1001.0).sin() * x * x + (PI.powi(7) * 1.1 * y * y).cos(),
+)]
+struct LargeConstants;
+
+/// A product with an empty sum is zero, and its root has no derivative: such points say nothing.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = (product(0..M, |i| sum(i + 1..M, |j| 1.0 + (j as f64))) * x).cbrt() + y * y,
+)]
+struct RootOfNothing<const M: usize>;
+
+/// An intermediate value may overflow in another order of operations.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |i| x[i] * d(y[i])),
+    hamiltonian = x[0] / (1.5 + (product(0..n, |_i| (40.0 * sum_pairs(0..n, |j, _k| y[j])).cosh())
+        * product(0..n, |i| sum(0..i, |_j| 1.0))).powi(2)),
+)]
+struct NearOverflow {
+    n: usize,
+}
+
+#[test]
+fn a_zero_keeps_its_sign() {
+    for [x, y, u] in [[-0.5, -0.25, 0.75], [0.5, 0.25, 0.75], [-0.5, 0.25, -0.75]] {
+        let inner = |i: usize| [u, 0.0][..i].iter().sum::<f64>();
+        let term = |i: usize| x * (i as f64 * x).signum() + y * (y * inner(i)).signum();
+        let expected: f64 = (0..2).map(term).sum();
+        assert_eq!(SignsOfZero::<2>.hamiltonian(&[x, y, u, 0.0, 0.0, 0.0], 0.0), expected);
+    }
+}
+
+#[test]
+fn roots_of_nothing_are_zero() {
+    assert_eq!(RootOfNothing::<3>.hamiltonian(&[0.7, 2.0], 0.0), 4.0);
+    let constant = (std::f64::consts::PI.powi(5) * 1001.0).sin();
+    assert!((LargeConstants.hamiltonian(&[2.0, 0.0], 0.0) - 4.0 * constant - 1.0).abs() < 1e-9);
+    assert_eq!(NearOverflow { n: 2 }.hamiltonian(&[3.0, 1.0, 0.01, 0.02], 0.0), 2.0);
+}
