@@ -1,6 +1,6 @@
 //! The error accumulator: one bad line never hides the next.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet as HashSet;
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;

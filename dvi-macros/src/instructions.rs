@@ -3,7 +3,7 @@
 //! A sum stands at the outermost depth at which everything that its terms and its range mention is known.
 //! So no loop over the same depth runs around it, and its index can be mistaken for no other.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::internal::internal;
 use crate::symbolic::{Binary, Fold, Free, Id, Loop, Relation, Unary};

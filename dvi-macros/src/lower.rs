@@ -4,7 +4,7 @@
 //! sub-expression at fault; `None` stands for an expression that was reported, and silences everything
 //! above it while its siblings are still read.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
 use syn::visit::Visit;
 use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
@@ -131,14 +131,14 @@ impl<'a> Lowering<'a> {
             loops: 0,
             ties: 0,
             depth: 0,
-            index_names: HashSet::new(),
-            measures: HashMap::new(),
+            index_names: HashSet::default(),
+            measures: HashMap::default(),
         }
     }
 
     pub(crate) fn formula(&mut self, formula: &Syntax, role: Role) -> Option<Expr> {
         self.role = role;
-        let mut names = IndexNames(HashSet::new());
+        let mut names = IndexNames(HashSet::default());
         names.visit_expr(formula);
         self.index_names = names.0;
         self.expr(formula)

@@ -7,7 +7,9 @@
 //! single use becomes the divisor of a quotient. Factors in front of a sum move into it where the
 //! product inside is computed anyway, as it is when a sum and a scatter share their loop.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
@@ -52,12 +54,12 @@ pub(crate) fn select(graph: &mut Graph, statements: &[Statement]) -> (Instructio
     let mut builder = Builder {
         graph,
         products: BTreeMap::new(),
-        absorbed: HashMap::new(),
-        loops: HashMap::new(),
+        absorbed: HashMap::default(),
+        loops: HashMap::default(),
         pairs: Vec::new(),
-        divisors: HashSet::new(),
+        divisors: HashSet::default(),
         out: Instructions::default(),
-        values: HashMap::new(),
+        values: HashMap::default(),
     };
     builder.gather(statements);
     builder.share_pairs();
@@ -70,7 +72,7 @@ impl Builder<'_> {
     /// All products among the values and the operands of the nodes below them.
     fn gather(&mut self, statements: &[Statement]) {
         let mut sums = Vec::new();
-        let mut terms = HashSet::new();
+        let mut terms = HashSet::default();
         for statement in statements {
             self.note_term(statement.value, &mut terms);
         }
@@ -211,7 +213,7 @@ impl Builder<'_> {
     }
 
     fn find_divisors(&mut self) {
-        let mut uses: HashMap<Id, usize> = HashMap::new();
+        let mut uses: HashMap<Id, usize> = HashMap::default();
         let pairs = self.pairs.iter().flat_map(|(a, b)| [*a, *b]);
         for factor in self.products.values().flatten().copied().chain(pairs) {
             if let Factor::Node(id) = factor {

@@ -118,7 +118,7 @@ struct Check<'a> {
 impl Check<'_> {
     fn run(&self, functions: &Functions<'_>, claims: &Claims<'_>) -> Result<Checked, Difference> {
         let mut checked = Checked::default();
-        let mut sides = formula::Sides::new();
+        let mut sides = formula::Sides::default();
         for branches in [Branches::AsCompared, Branches::Exchanged] {
             if branches == Branches::Exchanged && sides.is_empty() {
                 break;

@@ -4,7 +4,7 @@
 //! coordinates, a neighbour beyond the last one. The generated check walks the loops of the formulas
 //! once, before the first step, and names the first index that is out of range.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet as HashSet;
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -38,7 +38,7 @@ struct Walk<'a> {
 
 pub(super) fn check(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     let mut walk =
-        Walk { emitter, seen: HashSet::new(), visited: HashSet::new(), tokens: TokenStream::new() };
+        Walk { emitter, seen: HashSet::default(), visited: HashSet::default(), tokens: TokenStream::new() };
     let routines: Vec<&Routine> = [&programs.lagrangian].into_iter().chain(&programs.momenta).collect();
     for statement in routines.iter().flat_map(|routine| &routine.statements) {
         walk.node(&Place { loops: statement.loops.clone(), names: Vec::new() }, statement.value.node);

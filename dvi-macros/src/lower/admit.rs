@@ -1,7 +1,7 @@
 //! What is admitted as a formula: of a reasonable size, and affine in the velocities where a degenerate
 //! system asks for it, reported on the smallest term that is not.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use quote::ToTokens;
 use syn::Expr as Syntax;

@@ -5,7 +5,7 @@
 //! E is linear in f, so sums stay sums and their loops stay loops. What is not homogeneous, such as
 //! cosh v, is differentiated along v.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Unary, Weight};
 use super::index::Atom;
@@ -13,7 +13,7 @@ use super::index::Atom;
 impl Graph {
     /// v·∂f/∂v − f.
     pub(crate) fn energy(&mut self, of: Expr) -> Expr {
-        Energy { graph: self, degrees: HashMap::new(), known: HashMap::new() }.of(of)
+        Energy { graph: self, degrees: HashMap::default(), known: HashMap::default() }.of(of)
     }
 
     /// The degree k with f(q, s·v) = sᵏ·f(q, v) for s > 0, as far as the form of f shows it, from the

@@ -4,7 +4,7 @@
 //! than the ids of its operands, so passes are loops in id order. An [`Expr`] is a literal factor
 //! times a node: signs and literal factors stay outside of the nodes, and f and −2f are one node.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 use std::hash::{Hash, Hasher};
 
 use super::index::{Atom, Free, Index, Range};
@@ -231,9 +231,9 @@ impl Graph {
             nodes: Vec::new(),
             free: Vec::new(),
             heights: Vec::new(),
-            known: HashMap::new(),
-            unsigned_sums: HashSet::new(),
-            derivatives: HashMap::new(),
+            known: HashMap::default(),
+            unsigned_sums: HashSet::default(),
+            derivatives: HashMap::default(),
         };
         graph.intern(Node::One);
         graph
@@ -316,7 +316,7 @@ impl Graph {
         mut replace: impl FnMut(&mut Self, Id) -> Option<Expr>,
         range: impl Fn(&Range) -> Range,
     ) -> Expr {
-        let mut new: HashMap<Id, Expr> = HashMap::new();
+        let mut new: HashMap<Id, Expr> = HashMap::default();
         for id in self.reachable([root]) {
             let value = match replace(self, id) {
                 Some(value) => value,

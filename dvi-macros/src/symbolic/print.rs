@@ -1,6 +1,6 @@
 //! Formulas as text, for documentation and reports.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{Coordinate, Expr, Fold, Graph, Id, Node, Relation, Weight};
 use super::index::{Atom, Index, Loop, Range};
@@ -132,7 +132,7 @@ pub(crate) fn print_expr(graph: &Graph, expr: Expr, depth: usize, names: &dyn Na
 
 /// The number of nodes of an expression as a tree.
 fn written_out(graph: &Graph, root: Id) -> u64 {
-    let mut sizes: HashMap<Id, u64> = HashMap::new();
+    let mut sizes: HashMap<Id, u64> = HashMap::default();
     for id in graph.reachable([root]) {
         let operands = graph.node(id).operands();
         let size = operands.iter().fold(1_u64, |size, operand| size.saturating_add(sizes[operand]));

@@ -1,8 +1,8 @@
 //! A formula as the user wrote it, evaluated as it stands: no name is resolved in advance, nothing is
 //! simplified, and derivatives come from arithmetic on jets.
 
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 use std::cell::RefCell;
-use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use quote::ToTokens;
@@ -94,7 +94,7 @@ impl<'a> Evaluation<'a> {
             directions,
             is_still: false,
             budget,
-            sides: Sides::new(),
+            sides: Sides::default(),
             is_huge: false,
             scope: Vec::new(),
         }

@@ -1,6 +1,6 @@
 //! What is printed, carried out: the instructions of a routine in their loops, on plain numbers.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::functions;
 use super::point::{Branches, Directions, Point, Variable};

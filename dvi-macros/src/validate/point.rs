@@ -4,7 +4,7 @@
 //! the same source gives the same points in every build. An array needs no storage: an entry is drawn
 //! from its name and its indices.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::model::{Model, Shape};
 use crate::symbolic::{Atom, Index, Weight};
