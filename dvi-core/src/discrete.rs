@@ -10,6 +10,7 @@
 mod node;
 
 use crate::error::StepFailure;
+use crate::method::Method;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Matrix, Real, Vector, elimination, norm};
@@ -92,6 +93,23 @@ pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> 
         ends: Ends<'_, T>,
         matrices: [&mut [T]; 3],
     ) -> Result<(), StepFailure>;
+}
+
+/// A method whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian.
+///
+/// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
+/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no discrete Lagrangian that can be differentiated twice",
+    label = "its steps are not variational, or it reads a frequency from the motion",
+    note = "variational methods are `Sigma`, `Variational` with a frequency that is given, and `EnergyLimit` around them"
+)]
+pub trait VariationalMethod<S: Lagrangian, T: Real>: Method<S, T> {
+    /// What one interval contributes.
+    type DiscreteLagrangian: TwiceDifferentiable<S, T>;
+
+    /// The discrete Lagrangian on `system`, with the storage that it needs.
+    fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
 }
 
 /// Solves p0 + D₁L_d(q0, q0 + Δ) = 0 by Newton's method, from the `delta` that stands there.

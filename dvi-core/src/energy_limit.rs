@@ -3,6 +3,7 @@
 //! What this is for: a method that steps over a singularity finds finite numbers on the other side. Störmer–Verlet on a
 //! head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the energy says so.
 
+use crate::discrete::VariationalMethod;
 use crate::error::{StartError, StepFailure};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm::reported;
@@ -112,3 +113,11 @@ impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
 }
 
 impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {}
+
+impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
+    type DiscreteLagrangian = M::DiscreteLagrangian;
+
+    fn discrete_lagrangian(&self, system: &S) -> M::DiscreteLagrangian {
+        self.method.discrete_lagrangian(system)
+    }
+}

@@ -78,6 +78,13 @@ pub trait FrequencyIn<T: Real>: Frequency {
     }
 }
 
+/// A frequency that does not depend on the motion, so that L_d can be differentiated twice.
+pub trait GivenFrequency: Frequency {}
+
+impl GivenFrequency for Unfitted {}
+impl GivenFrequency for Constant {}
+impl<A: Debug> GivenFrequency for PerCoordinate<A> {}
+
 /// No frequency: linear interpolation, the limit ω → 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unfitted;

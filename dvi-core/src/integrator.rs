@@ -5,19 +5,18 @@ use core::fmt;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::method::{Carries, Clock, Method, TwoPoint};
 use crate::norm::reported;
-use crate::run::{Run, evaluate, flatten, velocities};
+use crate::run::{Run, Stepper, evaluate, flatten, velocities};
 use crate::sigma_family::{ParasiticMode, Sigma, SigmaMemory};
-use crate::statistics::Statistics;
 use crate::vector_field::VectorField;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
 
 /// A run of a method on a system with a fixed step.
 ///
 /// As an iterator it yields the state after each step, for ever, or up to the first failure; after that
-/// it yields `None`, and [`state`](Self::state) is the last good one. [`advance`](Self::advance) takes a
-/// step without building a state.
+/// it yields `None`, and [`state`](Run::state) is the last good one. [`advance`](Run::advance) takes a
+/// step without building a state. What can be asked of a run are the methods of the trait [`Run`].
 pub struct Integrator<'a, S: Lagrangian, M: Carries<S, T>, T: Real = f64> {
-    run: Run<'a, S, M, T>,
+    stepper: Stepper<'a, S, M, T>,
     /// At the start of the run.
     clock: Clock<T>,
 }
@@ -47,100 +46,42 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     }
 
     fn assemble(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>, t: T, h: T) -> Self {
-        Self { run: Run::new(system, method, memory, q), clock: Clock::new(t, h) }
+        Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h) }
+    }
+}
+
+impl<S: Lagrangian, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T> {
+    type System = S;
+    type Method = M;
+    type Scalar = T;
+
+    fn stepper(&self) -> &Stepper<'_, S, M, T> {
+        &self.stepper
     }
 
-    /// Takes one step. Nothing is allocated.
-    ///
-    /// # Errors
-    /// [`StepError`]; the run stays at the last good state, and the step can be tried again.
+    /// As so many calls of [`advance`](Run::advance), but faster where a method can keep its state in registers.
     #[inline]
-    pub fn advance(&mut self) -> Result<(), StepError> {
-        self.advance_by(1)
+    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
+        let clock = self.clock.after(self.stepper.statistics.steps);
+        self.stepper.steps(clock, count).map_err(|failure| self.error(failure))
     }
 
-    /// Takes `count` steps, as so many calls of [`advance`](Self::advance) would, bit by bit, but faster
-    /// where a method can keep its state in registers.
-    ///
-    /// # Errors
-    /// [`StepError`] of the first step that fails; the run stays at the last good state.
+    /// t₀ + steps · h, which does not accumulate rounding errors.
     #[inline]
-    pub fn advance_by(&mut self, count: u64) -> Result<(), StepError> {
-        let clock = self.clock.after(self.run.statistics.steps);
-        self.run.steps(clock, count).map_err(|failure| self.error(failure))
+    fn time(&self) -> T {
+        self.clock.after(self.stepper.statistics.steps).time()
     }
 
-    #[cold]
-    fn error(&mut self, failure: StepFailure) -> StepError {
-        self.run.error(self.time(), failure)
-    }
-
-    /// The current state. The velocities of a regular system are not a number where the mass matrix is
-    /// singular and the momenta have no velocity; an iterator yields an error there.
-    pub fn state(&self) -> S::State<T> {
-        self.run.state(self.time())
-    }
-
-    /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.
-    pub fn energy(&self) -> T {
-        self.run.energy(self.time())
-    }
-
-    /// The current coordinates, flat, in the order of declaration.
-    pub fn q(&self) -> &[T] {
-        &self.run.q
-    }
-
-    /// The current coordinates in the storage of their space.
-    pub(crate) fn vector(&self) -> &Vector<S, T> {
-        &self.run.q
-    }
-
-    /// The current time, t₀ + steps · h, which does not accumulate rounding errors.
     #[inline]
-    pub fn time(&self) -> T {
-        self.clock.after(self.run.statistics.steps).time()
-    }
-
-    /// The number of completed steps.
-    pub fn steps(&self) -> u64 {
-        self.run.statistics.steps
-    }
-
-    /// The step h.
-    pub fn step_size(&self) -> T {
+    fn step_size(&self) -> T {
         self.clock.step_size()
     }
+}
 
-    /// The system.
-    pub fn system(&self) -> &'a S {
-        self.run.system
-    }
-
-    /// The method.
-    pub fn method(&self) -> &M {
-        &self.run.method
-    }
-
-    /// What the method carries from step to step.
-    pub fn memory(&self) -> &M::Memory {
-        &self.run.memory
-    }
-
-    /// What the run has cost so far.
-    pub fn statistics(&self) -> Statistics {
-        self.run.statistics
-    }
-
-    /// The value of declared momentum `index`, in the order of
-    /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
-    pub fn momentum(&self, index: usize) -> Option<T> {
-        self.run.momentum(index, self.time())
-    }
-
-    /// The names and values of all declared momenta.
-    pub fn momenta(&self) -> impl Iterator<Item = (&'static str, T)> + '_ {
-        self.run.momenta(self.time())
+impl<S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
+    #[cold]
+    fn error(&mut self, failure: StepFailure) -> StepError {
+        self.stepper.error(self.time(), failure)
     }
 }
 
@@ -177,23 +118,23 @@ impl<S: DegenerateLagrangian, T: Real> Integrator<'_, S, Sigma<T>, T> {
     /// momentum.
     pub fn discrete_momentum(&self, index: usize) -> Result<Option<T>, StepFailure> {
         let Some(momentum) = self.momentum(index) else { return Ok(None) };
-        let mut field = VectorField::new(self.run.system, &self.run.q, self.time())?;
-        let mut xi = self.run.system.space().vector();
-        field.generator(self.run.system, index, &self.run.q, self.time(), &mut xi)?;
-        let along = self.run.memory.defect().iter().zip(xi.iter());
+        let mut field = VectorField::new(self.stepper.system, &self.stepper.q, self.time())?;
+        let mut xi = self.stepper.system.space().vector();
+        field.generator(self.stepper.system, index, &self.stepper.q, self.time(), &mut xi)?;
+        let along = self.stepper.memory.defect().iter().zip(xi.iter());
         Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
     }
 
     /// The parasitic mode as it was measured last: see [`SigmaMemory::parasitic_mode`].
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
-        self.run.memory.parasitic_mode()
+        self.stepper.memory.parasitic_mode()
     }
 
     /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere it is of
     /// order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be trusted; take
     /// [`parasitic_mode`](Self::parasitic_mode).
     pub fn parasitic_amplitude(&self) -> T {
-        SigmaMemory::parasitic_amplitude(&self.run.memory)
+        SigmaMemory::parasitic_amplitude(&self.stepper.memory)
     }
 }
 
@@ -209,10 +150,10 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, 
     /// not skipped but yielded.
     #[inline]
     fn nth(&mut self, n: usize) -> Option<Self::Item> {
-        if self.run.failed {
+        if self.stepper.failed {
             return None;
         }
-        Some(self.advance_by(n as u64 + 1).and_then(|()| self.run.try_state(self.time())))
+        Some(self.take_steps(n as u64 + 1).and_then(|()| self.stepper.try_state(self.time())))
     }
 }
 
@@ -222,11 +163,11 @@ impl<S: Lagrangian, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integr
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator")
             .field("system", &S::REPORT.system)
-            .field("method", &self.run.method)
+            .field("method", &self.stepper.method)
             .field("time", &self.time())
             .field("step_size", &self.step_size())
             .field("state", &self.state())
-            .field("statistics", &self.run.statistics)
+            .field("statistics", &self.stepper.statistics)
             .finish_non_exhaustive()
     }
 }

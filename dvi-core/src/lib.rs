@@ -40,7 +40,7 @@
 //! let start: PendulumState = PendulumState { a: 1.0, dot_a: 0.0 };
 //! let mut run = Integrator::new(&system, Variational::trapezoid(), 0.01, start)?;
 //! let energy = run.energy();
-//! run.advance_by(1_000_000)?;
+//! run.take_steps(1_000_000)?;
 //! assert!((run.energy() - energy).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -48,7 +48,7 @@
 //! | to find | look at |
 //! |---|---|
 //! | what the attributes understand | [`degenerate_lagrangian`], [`lagrangian`](macro@lagrangian) |
-//! | the run: stepping, state, energy, momenta, errors | [`Integrator`] |
+//! | the run: stepping, state, energy, momenta, errors | [`Integrator`], [`Run`] |
 //! | steps of variable length | [`ControlledIntegrator`], [`Reversible`] |
 //! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
 //! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
@@ -112,12 +112,14 @@ mod vector_field;
 mod walk;
 
 pub use composition::{Composition, CompositionMemory};
-pub use discrete::{DiscreteLagrangian, Ends, Interval, OneNode, TwiceDifferentiable};
+pub use discrete::{DiscreteLagrangian, Ends, Interval, OneNode, TwiceDifferentiable, VariationalMethod};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
 pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};
-pub use frequency::{Constant, Curvature, Frequency, FrequencyIn, PerCoordinate, Radial, Reading, Unfitted};
+pub use frequency::{
+    Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, PerCoordinate, Radial, Reading, Unfitted,
+};
 pub use galerkin::{Galerkin, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
@@ -127,6 +129,7 @@ pub use newmark::{Newmark, NewmarkMemory};
 pub use number::Number;
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
+pub use run::{Run, Stepper};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};
 pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
@@ -139,7 +142,7 @@ pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
     Reversible, ReversibleMemory, StepControl,
 };
-pub use variational::{Fitting, Variational, VariationalMemory};
+pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
 pub use vector_field::VectorField;
 
 /// A point, velocity or covector of the space of `S`.

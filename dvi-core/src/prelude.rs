@@ -7,8 +7,8 @@ pub use crate::diagnostics::{
 pub use crate::{
     CentreSpeed, Composition, Constant, ControlledIntegrator, Curvature, DegenerateLagrangian, Density,
     EnergyLimit, Fitting, Galerkin, Gauss, Integrator, Lagrangian, Newmark, Osculating, ParasiticMode,
-    PerCoordinate, Power, Quadrature, Radial, Reading, RegularLagrangian, Reversible, RungeKutta, Scheme,
-    Sigma, Solver, Start, StartError, StepError, StepFailure, Stopping, Variational,
+    PerCoordinate, Power, Quadrature, Radial, Reading, RegularLagrangian, Reversible, Run, RungeKutta,
+    Scheme, Sigma, Solver, Start, StartError, StepError, StepFailure, Stopping, Variational,
 };
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

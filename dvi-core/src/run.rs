@@ -1,4 +1,6 @@
-//! What runs with fixed and with controlled steps have in common: a system, a method, and where they are.
+//! A run: a system, a method, and where they have got to, whatever chooses the lengths of the steps.
+
+use core::fmt;
 
 use crate::error::{StartError, StepError, StepFailure};
 use crate::method::{Carries, Clock, Method};
@@ -6,9 +8,109 @@ use crate::norm::reported;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Space, State, Vector};
 
-/// A system, a method that steps it, and the point that they have reached. It does not know the time: who
-/// drives it does, an [`Integrator`](crate::Integrator) or a [`ControlledIntegrator`](crate::ControlledIntegrator).
-pub(crate) struct Run<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
+/// A run of a method on a system: what [`Integrator`](crate::Integrator), with a fixed step, and
+/// [`ControlledIntegrator`](crate::ControlledIntegrator), with steps of a control, can both do. Sections and exponents
+/// take either.
+pub trait Run {
+    /// The system that is stepped.
+    type System: Lagrangian;
+    /// The method that takes the steps.
+    type Method: Method<Self::System, Self::Scalar>;
+    /// The numbers that it is done with.
+    type Scalar: Real;
+
+    /// The system, the method and the point that they have reached.
+    fn stepper(&self) -> &Stepper<'_, Self::System, Self::Method, Self::Scalar>;
+
+    /// Takes `count` steps, as so many calls of [`advance`](Self::advance) would, bit by bit.
+    ///
+    /// # Errors
+    /// [`StepError`] of the first step that fails; the run stays at the last good state.
+    fn take_steps(&mut self, count: u64) -> Result<(), StepError>;
+
+    /// The current time.
+    fn time(&self) -> Self::Scalar;
+
+    /// The length h of the latest step; before the first, the one that it will have or, if a step control may reject it,
+    /// be tried with.
+    fn step_size(&self) -> Self::Scalar;
+
+    /// Takes one step. Nothing is allocated.
+    ///
+    /// # Errors
+    /// [`StepError`]; the run stays at the last good state, and the step can be tried again.
+    #[inline]
+    fn advance(&mut self) -> Result<(), StepError> {
+        self.take_steps(1)
+    }
+
+    /// The current state. The velocities of a regular system are not a number where the mass matrix is
+    /// singular and the momenta have no velocity; an iterator yields an error there.
+    fn state(&self) -> <Self::System as Lagrangian>::State<Self::Scalar> {
+        let Stepper { system, q, .. } = self.stepper();
+        self.stepper().with_velocity(self.time(), |v| State::read(|block| system.block_len(block), q, v))
+    }
+
+    /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.
+    fn energy(&self) -> Self::Scalar {
+        let Stepper { system, q, .. } = self.stepper();
+        self.stepper().with_velocity(self.time(), |v| system.energy(q, v, self.time()))
+    }
+
+    /// The current coordinates, flat, in the order of declaration.
+    #[inline]
+    fn q(&self) -> &[Self::Scalar] {
+        &self.stepper().q
+    }
+
+    /// The number of completed steps.
+    #[inline]
+    fn steps(&self) -> u64 {
+        self.stepper().statistics.steps
+    }
+
+    /// The system.
+    #[inline]
+    fn system(&self) -> &Self::System {
+        self.stepper().system
+    }
+
+    /// The method.
+    #[inline]
+    fn method(&self) -> &Self::Method {
+        &self.stepper().method
+    }
+
+    /// What the method carries from step to step.
+    #[inline]
+    fn memory(&self) -> &<Self::Method as Carries<Self::System, Self::Scalar>>::Memory {
+        &self.stepper().memory
+    }
+
+    /// What the run has cost so far.
+    #[inline]
+    fn statistics(&self) -> Statistics {
+        self.stepper().statistics
+    }
+
+    /// The value of declared momentum `index`, in the order of
+    /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
+    fn momentum(&self, index: usize) -> Option<Self::Scalar> {
+        let Stepper { system, q, .. } = self.stepper();
+        let value = |v: &[Self::Scalar]| system.momentum(index, q, v, self.time());
+        (index < Self::System::REPORT.momenta.len()).then(|| self.stepper().with_velocity(self.time(), value))
+    }
+
+    /// The names and values of all declared momenta.
+    fn momenta(&self) -> impl Iterator<Item = (&'static str, Self::Scalar)> + '_ {
+        let names = Self::System::REPORT.momenta.iter().enumerate();
+        names.filter_map(|(index, &name)| self.momentum(index).map(|value| (name, value)))
+    }
+}
+
+/// A system, a method that steps it, and the point that they have reached. It does not know the time: the run that it
+/// is part of does.
+pub struct Stepper<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
     pub(crate) system: &'a S,
     pub(crate) method: M,
     pub(crate) memory: M::Memory,
@@ -17,7 +119,18 @@ pub(crate) struct Run<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
     pub(crate) failed: bool,
 }
 
-impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Run<'a, S, M, T> {
+impl<S: Lagrangian, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<'_, S, M, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stepper")
+            .field("system", &S::REPORT.system)
+            .field("method", &self.method)
+            .field("q", &self.q)
+            .field("statistics", &self.statistics)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
     pub(crate) fn new(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
         Self { system, method, memory, q, statistics: Statistics::default(), failed: false }
     }
@@ -40,36 +153,17 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Run<'a, S, M, T> {
         StepError { step: self.statistics.steps, time: reported(time), failure }
     }
 
-    pub(crate) fn state(&self, t: T) -> S::State<T> {
-        self.with_velocity(t, |v| S::State::read(|block| self.system.block_len(block), &self.q, v))
-    }
-
+    /// The current state, which is reached at time `t`.
+    ///
+    /// # Errors
+    /// Where a regular system has no velocities.
     pub(crate) fn try_state(&mut self, t: T) -> Result<S::State<T>, StepError> {
         let system = self.system;
-        if !S::REGULAR {
-            return Ok(self.state(t));
-        }
         let mut v = system.space().vector();
         match self.velocity(t, &mut v) {
             Ok(()) => Ok(S::State::read(|block| system.block_len(block), &self.q, &v)),
             Err(failure) => Err(self.error(t, failure)),
         }
-    }
-
-    pub(crate) fn energy(&self, t: T) -> T {
-        self.with_velocity(t, |v| self.system.energy(&self.q, v, t))
-    }
-
-    pub(crate) fn momentum(&self, index: usize, t: T) -> Option<T> {
-        let declared = index < S::REPORT.momenta.len();
-        declared.then(|| self.with_velocity(t, |v| self.system.momentum(index, &self.q, v, t)))
-    }
-
-    pub(crate) fn momenta(&self, t: T) -> impl Iterator<Item = (&'static str, T)> + '_ {
-        let names = S::REPORT.momenta.iter().enumerate();
-        names.map(move |(index, &name)| {
-            (name, self.with_velocity(t, |v| self.system.momentum(index, &self.q, v, t)))
-        })
     }
 
     /// Passes the velocity on, or nothing if the system is degenerate.

@@ -15,7 +15,7 @@ mod monitor;
 mod nonlinear;
 mod start;
 
-use crate::discrete::Interval;
+use crate::discrete::{Interval, OneNode, VariationalMethod};
 use crate::error::{StartError, StepFailure};
 use crate::method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
 use crate::solve::{Ladder, Solver, Stopping};
@@ -227,6 +227,14 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
         } else {
             one_by_one(self, system, memory, q, clock, count, statistics)
         }
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> VariationalMethod<S, T> for Sigma<T> {
+    type DiscreteLagrangian = OneNode<S, T>;
+
+    fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
+        OneNode::new(system, self.sigma)
     }
 }
 

@@ -13,9 +13,9 @@ mod memory;
 mod separable;
 mod verlet;
 
-use crate::discrete::Interval;
+use crate::discrete::{Interval, VariationalMethod};
 use crate::error::{StartError, StepFailure};
-use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
+use crate::frequency::{self, Frequency, FrequencyIn, GivenFrequency, Reading, Unfitted};
 use crate::method::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
 use crate::phase::Inertial;
 use crate::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
@@ -23,6 +23,7 @@ use crate::solve::{Guess, Solver, Stopping};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Vector};
 
+pub use lagrangian::QuadratureLagrangian;
 use memory::Parts;
 pub use memory::VariationalMemory;
 
@@ -316,3 +317,17 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
 }
 
 impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}
+
+impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
+where
+    S: RegularLagrangian,
+    F: FrequencyIn<T> + GivenFrequency + Clone,
+    R: Rule + Clone,
+    T: Real,
+{
+    type DiscreteLagrangian = QuadratureLagrangian<S, F, R, T>;
+
+    fn discrete_lagrangian(&self, system: &S) -> QuadratureLagrangian<S, F, R, T> {
+        QuadratureLagrangian::new(system, self.clone())
+    }
+}

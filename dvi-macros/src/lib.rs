@@ -50,7 +50,7 @@ use proc_macro::TokenStream;
 /// constants by their paths (`std::f64::consts::E`), and the time `t` (a coordinate or field of that name takes precedence): operators, methods
 /// of `f64` and `erf`, `let` blocks, `if … else`, `as f64`; `name.field` and `self.name.field` are fields of
 /// a field. Index sums are `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k and
-/// `sum_ordered_pairs` over j ≠ k. Indices are sums, differences and literal multiples of bound indices,
+/// `sum_ordered_pairs` over j ≠ k; the sign of the zero of a sum without terms is not defined. Indices are sums, differences and literal multiples of bound indices,
 /// sizes and integers; `%` is the Euclidean remainder.
 ///
 /// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without

@@ -35,7 +35,7 @@ fn lotka_volterra<M: Method<LotkaVolterra, f64>>(
     let system = LotkaVolterra {};
     let start = LotkaVolterraState { x: 1.0, y: 1.0 };
     let mut run = Integrator::new(&system, method, 2.0 / steps as f64, start)?;
-    run.advance_by(steps)?;
+    run.take_steps(steps)?;
     Ok([run.q()[0], run.q()[1]])
 }
 
@@ -63,9 +63,9 @@ fn a_step_back_undoes_a_step() -> Outcome {
     let start = LotkaVolterraState { x: 1.0, y: 1.0 };
     for method in compositions::<1>() {
         let mut there = Integrator::new(&system, method, 0.05, start)?;
-        there.advance_by(20)?;
+        there.take_steps(20)?;
         let mut back = Integrator::new(&system, method, -0.05, there.state())?;
-        back.advance_by(20)?;
+        back.take_steps(20)?;
         let end: LotkaVolterraState = back.state();
         assert!(larger((end.x - 1.0).abs(), (end.y - 1.0).abs()) < 1e-13, "{}: {end:?}", method.name());
     }
@@ -171,7 +171,7 @@ fn every_part_of_a_step_begins_at_its_own_time() -> Outcome {
     for method in compositions::<1>() {
         let start = SwingState { x: 1.0, y: 0.0 };
         let mut run = Integrator::new(&system, method, 0.02, start)?;
-        run.advance_by(100)?;
+        run.take_steps(100)?;
         let end: SwingState = run.state();
         let error = larger((end.x - angle.cos()).abs(), (end.y.abs() - angle.sin().abs()).abs());
         assert!(error < 1e-5, "{}: {error:e}", method.name());
@@ -186,8 +186,8 @@ fn compositions_nest() -> Outcome {
     let flat = Composition::kahan_li_8(Gauss::<1>::new());
     let mut fine = Integrator::new(&system, nested, 0.002, start)?;
     let mut coarse = Integrator::new(&system, flat, 0.01, start)?;
-    fine.advance_by(500)?;
-    coarse.advance_by(100)?;
+    fine.take_steps(500)?;
+    coarse.take_steps(100)?;
     for (a, b) in fine.q().iter().zip(coarse.q()) {
         assert!((a - b).abs() < 1e-7, "{a} {b}");
     }

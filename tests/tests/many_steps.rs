@@ -24,7 +24,7 @@ fn check<S: DegenerateLagrangian>(
         let mut pieces = Integrator::new(system, method, h, start.clone())?;
         let mut found = None;
         while pieces.steps() < steps && found.is_none() {
-            found = pieces.advance_by(piece.min(steps - pieces.steps())).err();
+            found = pieces.take_steps(piece.min(steps - pieces.steps())).err();
         }
         assert_eq!(found, failure, "in pieces of {piece}");
         assert_eq!(pieces.statistics(), single.statistics(), "in pieces of {piece}");

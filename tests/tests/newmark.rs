@@ -32,7 +32,7 @@ fn run<S: Lagrangian, M: Method<S, f64>>(
     steps: u64,
 ) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
     let mut run = Integrator::new(system, method, time / steps as f64, start)?;
-    run.advance_by(steps)?;
+    run.take_steps(steps)?;
     Ok(run.q().to_vec())
 }
 
@@ -63,8 +63,8 @@ fn newmark_with_beta_zero_is_verlet() -> Outcome {
     assert_eq!((newmark.order(), newmark.preserved_form()), (2, PreservedForm::Canonical));
     let mut a = Integrator::new(&KEPLER, newmark, 0.01, planet())?;
     let mut b = Integrator::new(&KEPLER, Variational::trapezoid(), 0.01, planet())?;
-    a.advance_by(1000)?;
-    b.advance_by(1000)?;
+    a.take_steps(1000)?;
+    b.take_steps(1000)?;
     assert!(apart(a.q(), b.q()) < 1e-14 && apart(a.memory().p(), b.memory().p()) < 1e-14);
     assert_eq!((a.statistics().gradients, a.statistics().iterations), (1000, 0));
     Ok(())
@@ -161,7 +161,7 @@ fn tangent(beta: f64, h: f64, direction: usize) -> Result<[[f64; 4]; 2], Box<dyn
         [conjugate(q[0]), conjugate(q[1]), p[0].eps, p[1].eps]
     };
     let before = column(run.q(), run.memory().p());
-    run.advance_by(5)?;
+    run.take_steps(5)?;
     Ok([before, column(run.q(), run.memory().p())])
 }
 
@@ -191,9 +191,9 @@ fn check_reversal<S: RegularLagrangian>(system: &S, start: S::State<f64>, h: f64
     for beta in [0.0, 0.25, 0.5] {
         let mut forth = Integrator::new(system, Newmark::new(beta), h, start.clone())?;
         let first = forth.q().to_vec();
-        forth.advance_by(10)?;
+        forth.take_steps(10)?;
         let mut back = Integrator::new_at(system, Newmark::new(beta), forth.time(), -h, forth.state())?;
-        back.advance_by(10)?;
+        back.take_steps(10)?;
         let error = apart(back.q(), &first);
         assert!(error < 1e-12, "{}, beta = {beta}: {error:e}", S::REPORT.system);
     }

@@ -146,12 +146,12 @@ fn order_in_time<S: DegenerateLagrangian>(
     sigma: f64,
 ) -> Result<f64, Box<dyn core::error::Error>> {
     let mut exact = Integrator::new(system, Gauss::<3>::new(), 0.5 / 512.0, start.clone())?;
-    exact.advance_by(512)?;
+    exact.take_steps(512)?;
     let mut errors = Vec::new();
     for steps in [64, 96, 128, 192] {
         let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
         let mut run = Integrator::new(system, method, 0.5 / steps as f64, start.clone())?;
-        run.advance_by(steps)?;
+        run.take_steps(steps)?;
         let error = run.q().iter().zip(exact.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
         errors.push((1.0 / steps as f64, error));
     }

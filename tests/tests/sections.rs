@@ -143,3 +143,30 @@ fn crossings_of_a_regular_system_have_velocities() -> Outcome {
     }
     Ok(())
 }
+
+#[test]
+fn crossings_of_a_run_with_controlled_steps_lie_on_its_orbit() -> Outcome {
+    // Each step is exact, whatever its length: x = cos t, y = 2 sin t, and the steps vary by more than two to one.
+    let method = Variational::simpson().phase_fitted(Constant(1.0));
+    let method = Variational { fitting: Fitting::PhaseAndMomentum, ..method };
+    let start = PlanarState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
+    let mut run = ControlledIntegrator::new(&Planar, method, Reversible::power(0.05, 1.5), start)?;
+    let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
+    for _ in 0..200 {
+        run.advance()?;
+        (shortest, longest) = (f64::min(run.step_size(), shortest), larger(longest, run.step_size()));
+    }
+    assert!(longest > 2.0 * shortest, "{shortest} {longest}");
+    let begin = run.time();
+    let section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0]);
+    let first = ((begin - 3.0 * FRAC_PI_2) / TAU).ceil();
+    for (k, crossing) in section.take(5).enumerate() {
+        let Crossing { time, state, .. } = crossing?;
+        let exact = 3.0 * FRAC_PI_2 + TAU * (first + k as f64);
+        assert!((time - exact).abs() < 1e-9, "{time} {exact}");
+        for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {
+            assert!((found - exact).abs() < 1e-7, "{state:?}");
+        }
+    }
+    Ok(())
+}

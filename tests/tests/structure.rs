@@ -2,7 +2,7 @@
 
 use dvi_core::diagnostics::{AlternatingComponent, DiscreteHessian};
 use dvi_core::prelude::*;
-use dvi_core::{DegenerateLagrangian, Method};
+use dvi_core::{DegenerateLagrangian, Interval, Method};
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
 use dvi_tests::larger;
 use dvi_tests::oracle::discrete_lagrangian;
@@ -111,12 +111,12 @@ fn an_undeclared_momentum_is_none() -> Outcome {
 }
 
 #[test]
-fn second_derivatives_of_the_discrete_lagrangian_agree_with_hyper_dual_numbers() {
+fn second_derivatives_of_the_discrete_lagrangian_agree_with_hyper_dual_numbers() -> Outcome {
     let (q0, q1) = ([1.3, 1.6], [1.35, 1.52]);
     let system = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let (sigma, h) = (0.3, 0.1);
-    let mut hessian = DiscreteHessian::new(&system);
-    hessian.evaluate(&system, sigma, 0.0, h, &q0, &q1);
+    let mut hessian = DiscreteHessian::new(&system, &Sigma::new(sigma));
+    hessian.evaluate(&system, Interval { t: 0.0, h }, &q0, &q1)?;
     for (matrix, first, second) in [(&hessian.d11, 0, 0), (&hessian.d12, 0, 2), (&hessian.d22, 2, 2)] {
         for i in 0..2 {
             for j in 0..2 {
@@ -135,6 +135,7 @@ fn second_derivatives_of_the_discrete_lagrangian_agree_with_hyper_dual_numbers()
             }
         }
     }
+    Ok(())
 }
 
 /// Three consecutive points of a run, after some steps.
@@ -185,10 +186,11 @@ fn defects<S: DegenerateLagrangian>(
     h: f64,
     [q0, q1, q2]: &[Vec<f64>; 3],
 ) -> Result<[f64; 2], StepFailure> {
-    let mut two_point = TwoPointTangentMap::new(system);
-    two_point.evaluate(system, sigma, 0.0, h, [q0, q1, q2])?;
-    let mut canonical = TangentMap::new(system);
-    canonical.evaluate(system, sigma, 0.0, h, q0, q1)?;
+    let (method, interval) = (Sigma::new(sigma), Interval { t: 0.0, h });
+    let mut two_point = TwoPointTangentMap::new(system, &method);
+    two_point.evaluate(system, interval, [q0, q1, q2])?;
+    let mut canonical = TangentMap::new(system, &method);
+    canonical.evaluate(system, interval, q0, q1)?;
     Ok([two_point.two_form_defect(system), canonical.symplectic_defect(system)])
 }
 
@@ -199,8 +201,8 @@ fn the_tangent_map_agrees_with_differences_of_steps() -> Outcome {
     for sigma in [0.0, 0.25, 0.5, 1.0] {
         let mut run = Integrator::new(&system, Sigma::new(sigma), h, start)?;
         let [q0, q1, q2] = three_points(&mut run, 5)?;
-        let mut map = TwoPointTangentMap::new(&system);
-        map.evaluate(&system, sigma, 0.0, h, [&q0, &q1, &q2])?;
+        let mut map = TwoPointTangentMap::new(&system, run.method());
+        map.evaluate(&system, Interval { t: 0.0, h }, [&q0, &q1, &q2])?;
         let state = |q: &[f64]| PointVorticesState {
             x: core::array::from_fn(|j| q[j]),
             y: core::array::from_fn(|j| q[4 + j]),
@@ -228,9 +230,9 @@ fn the_tangent_map_agrees_with_differences_of_steps() -> Outcome {
             images.push([dq0.to_vec(), difference]);
         }
         // The two-form again, with columns that owe nothing to second derivatives of the system.
-        let [mut before, mut after] = [DiscreteHessian::new(&system), DiscreteHessian::new(&system)];
-        before.evaluate(&system, sigma, 0.0, h, &q0, &q1);
-        after.evaluate(&system, sigma, h, h, &q1, &q2);
+        let [mut before, mut after] = [0, 1].map(|_| DiscreteHessian::new(&system, run.method()));
+        before.evaluate(&system, Interval { t: 0.0, h }, &q0, &q1)?;
+        after.evaluate(&system, Interval { t: h, h }, &q1, &q2)?;
         let form =
             |u: &[f64], d: &[f64], w: &[f64]| -> f64 { (0..64).map(|k| u[k / 8] * d[k] * w[k % 8]).sum() };
         for (a, u) in images.iter().enumerate() {

@@ -1,19 +1,22 @@
-//! The largest Lyapunov exponent of a run of the σ-family.
+//! The largest Lyapunov exponent of a run of a variational method.
 //!
 //! λ = lim (1/t) ln |M_k … M_1 δ| with the exact tangent map M of each step and δ scaled back to length
 //! one after each (Benettin et al. 1980).
 
 use super::TangentMap;
+use crate::discrete::{Interval, TwiceDifferentiable, VariationalMethod};
 use crate::error::StepError;
 use crate::norm::reported;
-use crate::{DegenerateLagrangian, Integrator, Real, Scalar, Sigma, Space, Vector};
+use crate::run::Run;
+use crate::{Lagrangian, Real, Scalar, Space, Vector, Weights};
 
 /// The growth of a perturbation along a run, accumulated step by step.
 ///
-/// Perturbations live in (q, p), so the exponent is that of the two-step map, parasitic mode included.
+/// Perturbations live in (q, p), so the exponent of a degenerate system is that of the two-step map, parasitic mode
+/// included.
 #[derive(Debug)]
-pub struct LyapunovExponent<S: DegenerateLagrangian, T: Real = f64> {
-    map: TangentMap<S, T>,
+pub struct LyapunovExponent<S: Lagrangian, L, T: Real = f64> {
+    map: TangentMap<S, L, T>,
     dq: Vector<S, T>,
     dp: Vector<S, T>,
     origin: Vector<S, T>,
@@ -21,21 +24,25 @@ pub struct LyapunovExponent<S: DegenerateLagrangian, T: Real = f64> {
     elapsed: T,
 }
 
-impl<S: DegenerateLagrangian, T: Real> LyapunovExponent<S, T> {
-    /// For the given run, from its current state; the first perturbation points nowhere in particular
-    /// and keeps p = α(q).
-    pub fn new(run: &Integrator<'_, S, Sigma<T>, T>) -> Self {
+impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
+    /// For the given run, from its current state; the first perturbation points nowhere in particular, and that of a
+    /// degenerate system keeps p = α(q).
+    pub fn new<R: Run<System = S, Scalar = T>>(run: &R) -> Self
+    where
+        R::Method: VariationalMethod<S, T, DiscreteLagrangian = L>,
+    {
         let (system, space) = (run.system(), run.system().space());
-        let mut dq: Vector<S, T> = space.vector();
-        for (i, x) in dq.iter_mut().enumerate() {
-            *x = Scalar::cos(T::lift(1.0 + i as f64));
-        }
-        let mut jacobian = space.matrix();
-        system.one_form_jacobian(run.q(), run.time(), T::lift(1.0), T::lift(0.0), &mut jacobian);
-        let mut dp = space.vector();
-        crate::elimination::multiply_add(&jacobian, &dq, &mut dp);
+        let direction = |offset: usize| {
+            let mut vector: Vector<S, T> = space.vector();
+            for (i, x) in vector.iter_mut().enumerate() {
+                *x = Scalar::cos(T::lift((1 + offset + i) as f64));
+            }
+            vector
+        };
+        let dq = direction(0);
+        let dp = if S::REGULAR { direction(dq.len()) } else { Self::along(system, run.q(), run.time(), &dq) };
         let mut exponent = Self {
-            map: TangentMap::new(system),
+            map: TangentMap::new(system, run.method()),
             dq,
             dp,
             origin: space.vector(),
@@ -46,16 +53,32 @@ impl<S: DegenerateLagrangian, T: Real> LyapunovExponent<S, T> {
         exponent
     }
 
+    /// By how much p = ∂L/∂v = α(q) changes with q.
+    fn along(system: &S, q: &[T], t: T, dq: &[T]) -> Vector<S, T> {
+        let space = system.space();
+        let [rest, mut l_q, mut l_v, mut dp]: [Vector<S, T>; 4] = core::array::from_fn(|_| space.vector());
+        let mut jacobian = space.matrix();
+        let zero = T::lift(0.0);
+        let weights = Weights { qq: zero, qv: zero, vq: T::lift(1.0), vv: zero };
+        system.linearize(q, &rest, t, weights, &mut l_q, &mut l_v, &mut jacobian);
+        crate::elimination::multiply_add(&jacobian, dq, &mut dp);
+        dp
+    }
+
     /// Takes one step of the run and lets the perturbation grow with it. Nothing is allocated.
     ///
     /// # Errors
-    /// As [`Integrator::advance`], and [`Singular`](crate::StepFailure::Singular) if the step has no
+    /// As [`Run::advance`], and [`Singular`](crate::StepFailure::Singular) if the step has no
     /// tangent map; the run has then completed its step.
-    pub fn advance(&mut self, run: &mut Integrator<'_, S, Sigma<T>, T>) -> Result<(), StepError> {
-        let (t, h, sigma, step) = (run.time(), run.step_size(), run.method().sigma, run.steps());
+    pub fn advance<R: Run<System = S, Scalar = T>>(&mut self, run: &mut R) -> Result<(), StepError>
+    where
+        R::Method: VariationalMethod<S, T, DiscreteLagrangian = L>,
+    {
+        let (t, step) = (run.time(), run.steps());
         self.origin.copy_from_slice(run.q());
         run.advance()?;
-        self.map.evaluate(run.system(), sigma, t, h, &self.origin, run.q()).map_err(|failure| StepError {
+        let interval = Interval { t, h: run.step_size() };
+        self.map.evaluate(run.system(), interval, &self.origin, run.q()).map_err(|failure| StepError {
             step,
             time: reported(t),
             failure,
@@ -63,7 +86,7 @@ impl<S: DegenerateLagrangian, T: Real> LyapunovExponent<S, T> {
         self.map.apply(&mut self.dq, &mut self.dp);
         let length = self.renormalise();
         self.growth += Scalar::ln(length);
-        self.elapsed += Scalar::abs(h);
+        self.elapsed += Scalar::abs(interval.h);
         Ok(())
     }
 

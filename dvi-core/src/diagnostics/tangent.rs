@@ -1,4 +1,4 @@
-//! The exact derivative of a step of the σ-family in (q, p).
+//! The exact derivative of a variational step in (q, p).
 //!
 //! Differentiating p0 = −D₁L_d(q0, q1), p1 = D₂L_d(q0, q1) implicitly:
 //!
@@ -6,51 +6,50 @@
 //! δp1 = (D₁D₂)ᵀδq0 + D₂D₂δq1
 
 use super::DiscreteHessian;
+use crate::discrete::{Interval, TwiceDifferentiable, VariationalMethod};
 use crate::elimination::{self, multiply_add, multiply_transposed_add};
 use crate::error::StepFailure;
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, Vector};
 
-/// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step.
+/// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.
 #[derive(Debug)]
-pub struct TangentMap<S: Lagrangian, T: Real = f64> {
-    hessian: DiscreteHessian<S, T>,
+pub struct TangentMap<S: Lagrangian, L, T: Real = f64> {
+    hessian: DiscreteHessian<S, L, T>,
     factors: Matrix<S, T>,
     permutation: Permutation<S>,
     next: [Vector<S, T>; 2],
 }
 
-impl<S: Lagrangian, T: Real> TangentMap<S, T> {
-    /// Storage for `system`; the map is that of the step given to [`evaluate`](Self::evaluate).
-    pub fn new(system: &S) -> Self {
+impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T> {
+    /// Storage for steps of `method` on `system`; the map is that of the step given to [`evaluate`](Self::evaluate).
+    pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
         let space = system.space();
         Self {
-            hessian: DiscreteHessian::new(system),
+            hessian: DiscreteHessian::new(system, method),
             factors: space.matrix(),
             permutation: space.permutation(),
             next: [space.vector(), space.vector()],
         }
     }
 
-    /// Linearizes the step of length `h` from (`q0`, `t`) to `q1`.
+    /// Linearizes the step over `interval` from `q0` to `q1`.
     ///
     /// # Errors
-    /// [`StepFailure::Singular`] where D₁D₂L_d is singular.
+    /// [`StepFailure::Singular`] where D₁D₂L_d is singular, or those of the discrete Lagrangian.
     pub fn evaluate(
         &mut self,
         system: &S,
-        sigma: T,
-        t: T,
-        h: T,
+        interval: Interval<T>,
         q0: &[T],
         q1: &[T],
     ) -> Result<(), StepFailure> {
-        self.hessian.evaluate(system, sigma, t, h, q0, q1);
+        self.hessian.evaluate(system, interval, q0, q1)?;
         self.factors.copy_from_slice(&self.hessian.d12);
         elimination::factor(&mut self.factors, &mut self.permutation)
     }
 
     /// The second derivatives of L_d for the step.
-    pub fn hessian(&self) -> &DiscreteHessian<S, T> {
+    pub fn hessian(&self) -> &DiscreteHessian<S, L, T> {
         &self.hessian
     }
 

@@ -7,48 +7,49 @@
 //! The map preserves Ω_d = ∂²L_d/∂q0ⁱ∂q1ʲ dq0ⁱ ∧ dq1ʲ (Rowley & Marsden 2002, eq. 17).
 
 use super::DiscreteHessian;
+use crate::discrete::{Interval, TwiceDifferentiable, VariationalMethod};
 use crate::elimination::{self, multiply_add, multiply_transposed_add};
 use crate::error::StepFailure;
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, Vector};
 
-/// The tangent map (δq0, δq1) ↦ (δq1, δq2) of one step.
+/// The tangent map (δq0, δq1) ↦ (δq1, δq2) of one step of the discrete Lagrangian `L`.
 #[derive(Debug)]
-pub struct TwoPointTangentMap<S: Lagrangian, T: Real = f64> {
-    before: DiscreteHessian<S, T>,
-    after: DiscreteHessian<S, T>,
+pub struct TwoPointTangentMap<S: Lagrangian, L, T: Real = f64> {
+    before: DiscreteHessian<S, L, T>,
+    after: DiscreteHessian<S, L, T>,
     factors: Matrix<S, T>,
     permutation: Permutation<S>,
     next: Vector<S, T>,
 }
 
-impl<S: Lagrangian, T: Real> TwoPointTangentMap<S, T> {
-    /// Storage for `system`; the map is that of the points given to [`evaluate`](Self::evaluate).
-    pub fn new(system: &S) -> Self {
+impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap<S, L, T> {
+    /// Storage for steps of `method` on `system`; the map is that of the points given to
+    /// [`evaluate`](Self::evaluate).
+    pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
         let space = system.space();
         Self {
-            before: DiscreteHessian::new(system),
-            after: DiscreteHessian::new(system),
+            before: DiscreteHessian::new(system, method),
+            after: DiscreteHessian::new(system, method),
             factors: space.matrix(),
             permutation: space.permutation(),
             next: space.vector(),
         }
     }
 
-    /// Linearizes the step from (q0, q1) to (q1, q2); `points` are the three, q0 at time `t`.
+    /// Linearizes the step from (q0, q1) to (q1, q2); `points` are the three, and `interval` is that from q0 to q1.
     ///
     /// # Errors
-    /// [`StepFailure::Singular`] where D₁D₂L_d(q1, q2) is singular.
+    /// [`StepFailure::Singular`] where D₁D₂L_d(q1, q2) is singular, or those of the discrete Lagrangian.
     pub fn evaluate(
         &mut self,
         system: &S,
-        sigma: T,
-        t: T,
-        h: T,
+        interval: Interval<T>,
         points: [&[T]; 3],
     ) -> Result<(), StepFailure> {
         let [q0, q1, q2] = points;
-        self.before.evaluate(system, sigma, t, h, q0, q1);
-        self.after.evaluate(system, sigma, t + h, h, q1, q2);
+        self.before.evaluate(system, interval, q0, q1)?;
+        let next = Interval { t: interval.t + interval.h, ..interval };
+        self.after.evaluate(system, next, q1, q2)?;
         self.factors.copy_from_slice(&self.after.d12);
         elimination::factor(&mut self.factors, &mut self.permutation)
     }

@@ -5,13 +5,13 @@ use core::fmt;
 use crate::error::{StartError, StepFailure};
 use crate::method::{Carries, VariableStep};
 use crate::norm::reported;
-use crate::run::Run;
+use crate::run::Stepper;
 use crate::{Lagrangian, Real, Vector};
 
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the control
 /// [rejects](super::StepControl::REJECTS) steps, back.
 pub struct ControlledRun<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
-    pub(super) run: Run<'a, S, M, T>,
+    pub(super) stepper: Stepper<'a, S, M, T>,
     /// What can be gone back to.
     checkpoint: Option<(M::Memory, Vector<S, T>)>,
 }
@@ -28,17 +28,17 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
         let begin = || method.begin(system, &q, v, t, h);
         let memory = begin()?;
         let checkpoint = rejects.then(begin).transpose()?.map(|memory| (memory, q.clone()));
-        Ok(Self { run: Run::new(system, method, memory, q), checkpoint })
+        Ok(Self { stepper: Stepper::new(system, method, memory, q), checkpoint })
     }
 
     /// The system.
     pub fn system(&self) -> &'a S {
-        self.run.system
+        self.stepper.system
     }
 
     /// The current coordinates, flat, in the order of declaration.
     pub fn q(&self) -> &[T] {
-        &self.run.q
+        &self.stepper.q
     }
 
     /// Sets `v` to the velocity at the current point, which is reached at time `t`; degenerate systems have
@@ -48,7 +48,7 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
     /// As [`Method::velocity`](crate::Method::velocity).
     #[inline]
     pub fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
-        self.run.velocity(t, v)
+        self.stepper.velocity(t, v)
     }
 
     /// Takes a step from time `t` to `t + h`, without allocation.
@@ -61,7 +61,7 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
         if !h.is_finite() || t + h == t {
             return Err(StepFailure::StepLength { h: reported(h) });
         }
-        let Run { system, method, memory, q, statistics, .. } = &mut self.run;
+        let Stepper { system, method, memory, q, statistics, .. } = &mut self.stepper;
         method.step(system, memory, q, t, h, statistics)
     }
 
@@ -69,16 +69,16 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
     /// reject steps.
     pub fn keep(&mut self) {
         if let Some((memory, q)) = &mut self.checkpoint {
-            self.run.method.restore(&self.run.memory, memory);
-            q.copy_from_slice(&self.run.q);
+            self.stepper.method.restore(&self.stepper.memory, memory);
+            q.copy_from_slice(&self.stepper.q);
         }
     }
 
     /// Goes back to the point that was kept, without allocation.
     pub fn go_back(&mut self) {
         if let Some((memory, q)) = &self.checkpoint {
-            self.run.method.restore(memory, &mut self.run.memory);
-            self.run.q.copy_from_slice(q);
+            self.stepper.method.restore(memory, &mut self.stepper.memory);
+            self.stepper.q.copy_from_slice(q);
         }
     }
 }
@@ -87,8 +87,8 @@ impl<S: Lagrangian, M: VariableStep<S, T> + fmt::Debug, T: Real> fmt::Debug for 
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ControlledRun")
             .field("system", &S::REPORT.system)
-            .field("method", &self.run.method)
-            .field("q", &self.run.q)
+            .field("method", &self.stepper.method)
+            .field("q", &self.stepper.q)
             .finish_non_exhaustive()
     }
 }

@@ -5,14 +5,13 @@ use core::fmt;
 use super::{ControlledRun, Reversible, StepControl, reversible};
 use crate::error::{StartError, StepError};
 use crate::method::{Carries, VariableStep};
-use crate::run::{evaluate, flatten, validate, velocities};
-use crate::statistics::Statistics;
+use crate::run::{Run, Stepper, evaluate, flatten, validate, velocities};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
 
 /// A run of a method on a system with steps chosen by a [`StepControl`].
 ///
-/// It has the verbs of [`Integrator`](crate::Integrator): as an iterator it yields the state after each step, up
-/// to the first failure; [`state`](Self::state) is always the last good one. The velocity is taken along, so that
+/// Like [`Integrator`](crate::Integrator) it is a [`Run`], and an iterator that yields the state after each step, up
+/// to the first failure; [`state`](Run::state) is always the last good one. The velocity is taken along, so that
 /// a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
 pub struct ControlledIntegrator<'a, S: Lagrangian, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64> {
     controlled: ControlledRun<'a, S, M, T>,
@@ -57,84 +56,6 @@ where
         Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
     }
 
-    /// Takes one step. Nothing is allocated.
-    ///
-    /// # Errors
-    /// [`StepError`]; the run stays at the last good state.
-    #[inline]
-    pub fn advance(&mut self) -> Result<(), StepError> {
-        let t = self.clock.time();
-        match self.control.step(&mut self.control_memory, &mut self.controlled, t) {
-            Ok(h) => {
-                self.h = h;
-                self.clock.advance(h);
-                self.controlled.run.statistics.steps += 1;
-                Ok(())
-            }
-            Err(failure) => Err(self.controlled.run.error(t, failure)),
-        }
-    }
-
-    /// Takes `count` steps.
-    ///
-    /// # Errors
-    /// [`StepError`] of the first step that fails; the run stays at the last good state.
-    pub fn advance_by(&mut self, count: u64) -> Result<(), StepError> {
-        (0..count).try_for_each(|_| self.advance())
-    }
-}
-
-impl<'a, S: Lagrangian, M: VariableStep<S, T>, C: StepControl<S, T>, T: Real>
-    ControlledIntegrator<'a, S, M, C, T>
-{
-    /// The current state. The velocities of a regular system are not a number where the mass matrix is
-    /// singular and the momenta have no velocity; an iterator yields an error there.
-    pub fn state(&self) -> S::State<T> {
-        self.controlled.run.state(self.time())
-    }
-
-    /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.
-    pub fn energy(&self) -> T {
-        self.controlled.run.energy(self.time())
-    }
-
-    /// The current coordinates, flat, in the order of declaration.
-    pub fn q(&self) -> &[T] {
-        &self.controlled.run.q
-    }
-
-    /// The current time: the sum of all steps, compensated, so that its error does not grow with their number.
-    #[inline]
-    pub fn time(&self) -> T {
-        self.clock.time()
-    }
-
-    /// The number of completed steps.
-    pub fn steps(&self) -> u64 {
-        self.controlled.run.statistics.steps
-    }
-
-    /// The length h of the latest step; before the first, the one that it will have or, if the control may
-    /// reject it, be tried with.
-    pub fn step_size(&self) -> T {
-        self.h
-    }
-
-    /// The system.
-    pub fn system(&self) -> &'a S {
-        self.controlled.run.system
-    }
-
-    /// The method.
-    pub fn method(&self) -> &M {
-        &self.controlled.run.method
-    }
-
-    /// What the method carries from step to step.
-    pub fn memory(&self) -> &M::Memory {
-        &self.controlled.run.memory
-    }
-
     /// The step control.
     pub fn control(&self) -> &C {
         &self.control
@@ -145,20 +66,48 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, C: StepControl<S, T>, T: Real>
         &self.control_memory
     }
 
-    /// What the run has cost so far.
-    pub fn statistics(&self) -> Statistics {
-        self.controlled.run.statistics
+    #[inline]
+    fn step(&mut self) -> Result<(), StepError> {
+        let t = self.clock.time();
+        match self.control.step(&mut self.control_memory, &mut self.controlled, t) {
+            Ok(h) => {
+                self.h = h;
+                self.clock.advance(h);
+                self.controlled.stepper.statistics.steps += 1;
+                Ok(())
+            }
+            Err(failure) => Err(self.controlled.stepper.error(t, failure)),
+        }
+    }
+}
+
+impl<S: Lagrangian, M, C, T: Real> Run for ControlledIntegrator<'_, S, M, C, T>
+where
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
+{
+    type System = S;
+    type Method = M;
+    type Scalar = T;
+
+    fn stepper(&self) -> &Stepper<'_, S, M, T> {
+        &self.controlled.stepper
     }
 
-    /// The value of declared momentum `index`, in the order of
-    /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
-    pub fn momentum(&self, index: usize) -> Option<T> {
-        self.controlled.run.momentum(index, self.time())
+    #[inline]
+    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
+        (0..count).try_for_each(|_| self.step())
     }
 
-    /// The names and values of all declared momenta.
-    pub fn momenta(&self) -> impl Iterator<Item = (&'static str, T)> + '_ {
-        self.controlled.run.momenta(self.time())
+    /// The sum of all steps, compensated, so that its error does not grow with their number.
+    #[inline]
+    fn time(&self) -> T {
+        self.clock.time()
+    }
+
+    #[inline]
+    fn step_size(&self) -> T {
+        self.h
     }
 }
 
@@ -171,9 +120,9 @@ where
     /// [`Reversible::start`] at this value goes on with the same steps, and with the velocity reversed it
     /// comes back by the same steps. Not a number where the momenta have no velocity.
     pub fn density(&self) -> T {
-        let mut v = crate::Space::vector(self.controlled.run.system.space());
-        match self.controlled.run.velocity(self.time(), &mut v) {
-            Ok(()) => self.control.density_at(&self.control_memory, &self.controlled.run.q, &v),
+        let mut v = crate::Space::vector(self.controlled.stepper.system.space());
+        match self.controlled.stepper.velocity(self.time(), &mut v) {
+            Ok(()) => self.control.density_at(&self.control_memory, &self.controlled.stepper.q, &v),
             Err(_) => T::lift(f64::NAN),
         }
     }
@@ -195,10 +144,12 @@ where
     /// not skipped but yielded.
     #[inline]
     fn nth(&mut self, n: usize) -> Option<Self::Item> {
-        if self.controlled.run.failed {
+        if self.controlled.stepper.failed {
             return None;
         }
-        Some(self.advance_by(n as u64 + 1).and_then(|()| self.controlled.run.try_state(self.clock.time())))
+        Some(
+            self.take_steps(n as u64 + 1).and_then(|()| self.controlled.stepper.try_state(self.clock.time())),
+        )
     }
 }
 
@@ -217,7 +168,7 @@ where
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ControlledIntegrator")
             .field("system", &S::REPORT.system)
-            .field("method", &self.controlled.run.method)
+            .field("method", &self.controlled.stepper.method)
             .field("control", &self.control)
             .field("time", &self.time())
             .field("step_size", &self.step_size())

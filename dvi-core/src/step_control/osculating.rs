@@ -213,6 +213,6 @@ fn attempt<S: RegularLagrangian, M: VariableStep<S, T>, T: Real>(
         run.go_back();
         return Err(failure);
     }
-    run.run.statistics.linearizations += 1;
+    run.stepper.statistics.linearizations += 1;
     Ok(work.circle(run.system(), mass, run.q(), v, t + h))
 }

@@ -4,7 +4,7 @@
 //! D₂L_d is M(C q1 − K q0)/h, A = Σ w B², C = Σ w B̄², K = −Σ w B B̄. On the oscillator of frequency ω,
 //! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
 
-use super::lagrangian::{mixed_weights, place};
+use super::lagrangian::place;
 use super::{Fitting, Step};
 use crate::basis::{self, Bases, Basis};
 use crate::discrete::{Ends, NodeWork};
@@ -38,8 +38,17 @@ pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
     /// [`StepFailure::Resonance`], also if ωh is π or more.
     fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure>;
 
-    /// Adds what a node, at which `work` stands, contributes to D₁D₂L_d; sets ∂L/∂q and ∂L/∂v in `work`.
-    fn add_mixed(&mut self, node: usize, system: &S, at: [T; 2], work: &mut NodeWork<S, T>, matrix: &mut [T]);
+    /// Adds what a node, at which `work` stands, contributes to the second derivative of L_d by these two ends; sets ∂L/∂q
+    /// and ∂L/∂v in `work`.
+    fn add_second(
+        &mut self,
+        node: usize,
+        ends: [End; 2],
+        system: &S,
+        at: [T; 2],
+        work: &mut NodeWork<S, T>,
+        matrix: &mut [T],
+    );
 
     /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
     fn slope<F: FrequencyIn<T>, R: Rule>(
@@ -49,6 +58,23 @@ pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
         ends: Ends<'_, T>,
         twice_omega: T,
     ) -> T;
+}
+
+/// The ends of an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    Left,
+    Right,
+}
+
+impl End {
+    /// b and B, or b̄ and B̄.
+    fn of<V>(self, [left, right]: [V; 2]) -> V {
+        match self {
+            Self::Left => left,
+            Self::Right => right,
+        }
+    }
 }
 
 /// Sums over the nodes.
@@ -156,15 +182,19 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
     }
 
     #[inline]
-    fn add_mixed(
+    fn add_second(
         &mut self,
         node: usize,
+        ends: [End; 2],
         system: &S,
         [t, h]: [T; 2],
         NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
         matrix: &mut [T],
     ) {
-        let weights = mixed_weights(self.weights[node], h, self.bases[node]);
+        let (w, Basis { b, b_bar, d, d_bar }) = (self.weights[node], self.bases[node]);
+        let [[r, r_dot], [c, c_dot]] = ends.map(|end| end.of([[b, d], [b_bar, d_bar]]));
+        let weights =
+            Weights { qq: w * h * r * c, qv: w * r * c_dot, vq: w * r_dot * c, vv: w * r_dot * c_dot / h };
         system.linearize(point, velocity, t, weights, gradient, momentum, matrix);
     }
 
@@ -292,9 +322,10 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
     }
 
     /// Block by block.
-    fn add_mixed(
+    fn add_second(
         &mut self,
         node: usize,
+        ends: [End; 2],
         system: &S,
         [t, h]: [T; 2],
         work: &mut NodeWork<S, T>,
@@ -304,11 +335,13 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         let Self { weights, b, b_bar, d, d_bar, block, .. } = self;
         let NodeWork { point, velocity, gradient, momentum } = work;
+        let [[r, r_dot], [c, c_dot]] =
+            ends.map(|end| end.of([[&b[node], &d[node]], [&b_bar[node], &d_bar[node]]]));
         let blocks = [
-            (Weights { qq: one, ..none }, &b[node], &b_bar[node], h),
-            (Weights { qv: one, ..none }, &b[node], &d_bar[node], one),
-            (Weights { vq: one, ..none }, &d[node], &b_bar[node], one),
-            (Weights { vv: one, ..none }, &d[node], &d_bar[node], one / h),
+            (Weights { qq: one, ..none }, r, c, h),
+            (Weights { qv: one, ..none }, r, c_dot, one),
+            (Weights { vq: one, ..none }, r_dot, c, one),
+            (Weights { vv: one, ..none }, r_dot, c_dot, one / h),
         ];
         for (kind, row, column, factor) in blocks {
             block.fill(zero);

@@ -1,21 +1,22 @@
 //! The discrete Lagrangian of a rule and an interpolation, for any L and any frequency.
 //!
 //! D₁L_d = Σ w (h b ∂L/∂q + B ∂L/∂v)      D₂L_d = Σ w (h b̄ ∂L/∂q + B̄ ∂L/∂v)
-//! D₁D₂L_d = Σ w (h b b̄ L_qq + b B̄ L_qv + B b̄ L_vq + B B̄ L_vv/h)
+//! D₁D₂L_d = Σ w (h b b̄ L_qq + b B̄ L_qv + B b̄ L_vq + B B̄ L_vv/h), and D₁D₁L_d, D₂D₂L_d with b, B or b̄, B̄ twice
 //!
 //! With a variational frequency, L_d = ℓ(q0, q1, ω(q0, q1)) and D₁L_d = ∂ℓ/∂q0 + ∂ℓ/∂ω ∂ω/∂q0: the first derivatives are
 //! exact, and D₁D₂L_d is that of ω held constant.
 
-use super::coefficients::Adjustable;
+use super::coefficients::{Adjustable, Coefficients, End};
+use super::memory::Interpolation;
 use super::{Step, Variational};
 use crate::basis::Basis;
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, TwiceDifferentiable};
 use crate::error::StepFailure;
-use crate::frequency::{FrequencyIn, Local, Reading};
+use crate::frequency::{Frequency, FrequencyIn, Local, Reading};
 use crate::mass::Mass;
 use crate::quadrature::Rule;
 use crate::statistics::Statistics;
-use crate::{Real, RegularLagrangian, Vector, Weights};
+use crate::{Lagrangian, Real, RegularLagrangian, Vector};
 
 /// Rule and interpolation, where the step begins, and storage.
 pub(super) struct Interpolated<'a, S: RegularLagrangian, F, R, C, T: Real> {
@@ -89,15 +90,6 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
             }
         }
     }
-
-    /// Adds the part of D₁L_d that a node has.
-    fn add_first(&self, node: usize, h: T, d1: &mut [T]) {
-        let (weight, NodeWork { gradient, momentum, .. }) = (self.coefficients.weight(node), &*self.node);
-        for (i, d1) in d1.iter_mut().enumerate() {
-            let Basis { b, d, .. } = self.coefficients.basis(node, i);
-            *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
-        }
-    }
 }
 
 impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real> DiscreteLagrangian<S, T>
@@ -114,18 +106,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self.method, t, h };
         self.read_frequency(&step, ends)?;
-        for (node, &c) in self.method.rule.nodes().iter().enumerate() {
-            place(self.coefficients, node, h, ends, self.node);
-            let NodeWork { point, velocity, gradient, momentum } = &mut *self.node;
-            system.gradient(point, velocity, step.node_time(c), gradient, momentum);
-            statistics.gradients += 1;
-            let weight = self.coefficients.weight(node);
-            for (i, sum) in sum.iter_mut().enumerate() {
-                let Basis { b, b_bar, d, d_bar } = self.coefficients.basis(node, i);
-                *sum += weight * (h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
-            }
-            self.add_first(node, h, d1);
-        }
+        add_derivatives(&step, self.coefficients, ends, self.node, [d1, sum], statistics);
         self.vary_frequency(&step, ends, d1, Some(sum));
         Ok(())
     }
@@ -141,18 +122,152 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self.method, t, h };
         self.read_frequency(&step, ends)?;
-        for (node, &c) in self.method.rule.nodes().iter().enumerate() {
-            place(self.coefficients, node, h, ends, self.node);
-            self.coefficients.add_mixed(node, system, [step.node_time(c), h], self.node, matrix);
-            self.add_first(node, h, d1);
-        }
+        add_linearized(&step, self.coefficients, ends, self.node, d1, matrix);
         self.vary_frequency(&step, ends, d1, None);
         Ok(())
     }
 }
 
+/// The discrete Lagrangian of a rule and of an interpolation that is linear or fitted to a frequency that is given, with
+/// the storage that it needs.
+#[derive(Debug)]
+pub struct QuadratureLagrangian<S: Lagrangian, F, R, T: Real = f64> {
+    method: Variational<F, R>,
+    interpolation: Interpolation<S, T>,
+    node: NodeWork<S, T>,
+}
+
+/// `with_coefficients!(self, system, interval, |step, coefficients| …)`: with those of the step.
+macro_rules! with_coefficients {
+    ($self:ident, $system:ident, $interval:ident, |$step:ident, $coefficients:ident| $body:expr) => {{
+        let $step = Step { system: $system, method: &$self.method, t: $interval.t, h: $interval.h };
+        $self.interpolation.fix(&$step)?;
+        match &mut $self.interpolation {
+            Interpolation::Uniform($coefficients) => $body,
+            Interpolation::Each($coefficients) => $body,
+        }
+        Ok(())
+    }};
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
+    pub(super) fn new(system: &S, method: Variational<F, R>) -> Self {
+        let interpolation = Interpolation::new(system, &method);
+        Self { method, interpolation, node: NodeWork::new(system) }
+    }
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
+    for QuadratureLagrangian<S, F, R, T>
+{
+    fn derivatives(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sum: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        with_coefficients!(self, system, interval, |step, coefficients| {
+            add_derivatives(&step, coefficients, ends, &mut self.node, [d1, sum], statistics);
+        })
+    }
+
+    fn linearize(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        matrix: &mut [T],
+        _statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        with_coefficients!(self, system, interval, |step, coefficients| {
+            add_linearized(&step, coefficients, ends, &mut self.node, d1, matrix);
+        })
+    }
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
+    for QuadratureLagrangian<S, F, R, T>
+{
+    fn hessian(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        [d11, d12, d22]: [&mut [T]; 3],
+    ) -> Result<(), StepFailure> {
+        with_coefficients!(self, system, interval, |step, coefficients| {
+            for (node, &c) in self.method.rule.nodes().iter().enumerate() {
+                place(coefficients, node, step.h, ends, &mut self.node);
+                let at = [step.node_time(c), step.h];
+                coefficients.add_second(node, [End::Left, End::Left], system, at, &mut self.node, d11);
+                coefficients.add_second(node, [End::Left, End::Right], system, at, &mut self.node, d12);
+                coefficients.add_second(node, [End::Right, End::Right], system, at, &mut self.node, d22);
+            }
+        })
+    }
+}
+
+/// Adds D₁ℓ and (D₁ + D₂)ℓ.
+fn add_derivatives<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    coefficients: &C,
+    ends: Ends<'_, T>,
+    work: &mut NodeWork<S, T>,
+    [d1, sum]: [&mut [T]; 2],
+    statistics: &mut Statistics,
+) {
+    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
+        place(coefficients, node, step.h, ends, work);
+        let NodeWork { point, velocity, gradient, momentum } = &mut *work;
+        step.system.gradient(point, velocity, step.node_time(c), gradient, momentum);
+        statistics.gradients += 1;
+        let weight = coefficients.weight(node);
+        for (i, sum) in sum.iter_mut().enumerate() {
+            let Basis { b, b_bar, d, d_bar } = coefficients.basis(node, i);
+            *sum += weight * (step.h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
+        }
+        add_first(coefficients, node, step.h, work, d1);
+    }
+}
+
+/// Adds D₁ℓ and D₁D₂ℓ.
+fn add_linearized<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    coefficients: &mut C,
+    ends: Ends<'_, T>,
+    work: &mut NodeWork<S, T>,
+    d1: &mut [T],
+    matrix: &mut [T],
+) {
+    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
+        place(coefficients, node, step.h, ends, work);
+        let at = [step.node_time(c), step.h];
+        coefficients.add_second(node, [End::Left, End::Right], step.system, at, work, matrix);
+        add_first(coefficients, node, step.h, work, d1);
+    }
+}
+
+/// Adds the part of D₁ℓ that a node has, from the derivatives of L there.
+fn add_first<S: RegularLagrangian, C: Coefficients<T>, T: Real>(
+    coefficients: &C,
+    node: usize,
+    h: T,
+    NodeWork { gradient, momentum, .. }: &NodeWork<S, T>,
+    d1: &mut [T],
+) {
+    let weight = coefficients.weight(node);
+    for (i, d1) in d1.iter_mut().enumerate() {
+        let Basis { b, d, .. } = coefficients.basis(node, i);
+        *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
+    }
+}
+
 /// Sets `point` to qʲ and `velocity` to q̇ʲ.
-pub(super) fn place<S: RegularLagrangian, C: Adjustable<S, T>, T: Real>(
+pub(super) fn place<S: RegularLagrangian, C: Coefficients<T>, T: Real>(
     coefficients: &C,
     node: usize,
     h: T,
@@ -165,9 +280,4 @@ pub(super) fn place<S: RegularLagrangian, C: Adjustable<S, T>, T: Real>(
         point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
         velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
     }
-}
-
-/// The weights of the second derivatives of L in D₁D₂L_d, for a node of weight `w`.
-pub(super) fn mixed_weights<T: Real>(w: T, h: T, Basis { b, b_bar, d, d_bar }: Basis<T>) -> Weights<T> {
-    Weights { qq: w * h * b * b_bar, qv: w * b * d_bar, vq: w * d * b_bar, vv: w * d * d_bar / h }
 }

@@ -4,7 +4,7 @@ use super::coefficients::{Adjustable, Each, Uniform};
 use super::{Step, Variational};
 use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
-use crate::frequency::{FrequencyIn, Local};
+use crate::frequency::{Frequency, FrequencyIn, Local};
 use crate::phase::{Inertial, PhasePoint};
 use crate::quadrature::Rule;
 use crate::solve::{Ladder, Solver};
@@ -75,11 +75,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
             (false, Solver::FixedPoint) => Solver::FixedPoint,
         };
         let reading = method.frequency.reading();
-        let mut interpolation = if F::PER_COORDINATE {
-            Interpolation::Each(Each::new(system))
-        } else {
-            Interpolation::Uniform(Uniform::linear(&method.rule))
-        };
+        let mut interpolation = Interpolation::new(system, method);
         if reading.is_none() {
             interpolation.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
         }
@@ -115,6 +111,14 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
 }
 
 impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
+    pub(super) fn new<F: Frequency, R: Rule>(system: &S, method: &Variational<F, R>) -> Self {
+        if F::PER_COORDINATE {
+            Self::Each(Each::new(system))
+        } else {
+            Self::Uniform(Uniform::linear(&method.rule))
+        }
+    }
+
     /// See [`Adjustable::fix`].
     pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
         &mut self,

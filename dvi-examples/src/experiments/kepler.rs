@@ -5,19 +5,15 @@ use std::f64::consts::TAU;
 
 use anyhow::{Result, ensure};
 use dvi_core::prelude::*;
-use dvi_core::{Method, Statistics, StepControl, VariableStep};
+use dvi_core::{Method, VariableStep};
 
 use crate::job::Job;
 use crate::models::{Kepler, Orbit};
 
-/// A run, with fixed or with controlled steps.
-pub trait Run {
-    fn advance(&mut self) -> Result<(), StepError>;
-    fn time(&self) -> f64;
-    fn q(&self) -> [f64; 2];
-    fn energy(&self) -> f64;
-    fn statistics(&self) -> Statistics;
-}
+/// A run on a Kepler orbit, with fixed or with controlled steps.
+pub trait KeplerRun: Run<System = Kepler, Scalar = f64> {}
+
+impl<R: Run<System = Kepler, Scalar = f64>> KeplerRun for R {}
 
 /// What a run has shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,7 +44,7 @@ const MOST_STEPS: u64 = 3_000_000;
 /// each step to `look`.
 pub fn follow(
     job: &Job<'_>,
-    run: &mut impl Run,
+    run: &mut impl KeplerRun,
     periods: u64,
     mut look: impl FnMut(Sample),
 ) -> Result<Course> {
@@ -68,7 +64,7 @@ pub fn follow(
             steps += 1;
             run.advance()?;
             let t = run.time();
-            let sample = Sample { t, energy: run.energy() - initial, q: run.q() };
+            let sample = Sample { t, energy: run.energy() - initial, q: [run.q()[0], run.q()[1]] };
             course.energy = larger(course.energy, sample.energy.abs());
             look(sample);
         }
@@ -86,7 +82,7 @@ pub fn follow(
 }
 
 /// Follows a run and compares it with the exact positions as well.
-pub fn compare(job: &Job<'_>, run: &mut impl Run, orbit: Orbit, periods: u64) -> Result<Course> {
+pub fn compare(job: &Job<'_>, run: &mut impl KeplerRun, orbit: Orbit, periods: u64) -> Result<Course> {
     let mut position = 0.0f64;
     let course =
         follow(job, run, periods, |sample| position = larger(position, orbit.error(sample.t, &sample.q)))?;
@@ -110,48 +106,6 @@ pub fn per_arc_length<M: VariableStep<Kepler, f64>>(
     tolerance: f64,
 ) -> Result<ControlledIntegrator<'static, Kepler, M, Osculating>, StartError> {
     ControlledIntegrator::new(&Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())
-}
-
-impl<M: Method<Kepler, f64>> Run for Integrator<'_, Kepler, M> {
-    fn advance(&mut self) -> Result<(), StepError> {
-        Integrator::advance(self)
-    }
-    fn time(&self) -> f64 {
-        Integrator::time(self)
-    }
-    fn q(&self) -> [f64; 2] {
-        let q = Integrator::q(self);
-        [q[0], q[1]]
-    }
-    fn energy(&self) -> f64 {
-        Integrator::energy(self)
-    }
-    fn statistics(&self) -> Statistics {
-        Integrator::statistics(self)
-    }
-}
-
-impl<M, C> Run for ControlledIntegrator<'_, Kepler, M, C>
-where
-    M: VariableStep<Kepler, f64>,
-    C: StepControl<Kepler, f64>,
-{
-    fn advance(&mut self) -> Result<(), StepError> {
-        ControlledIntegrator::advance(self)
-    }
-    fn time(&self) -> f64 {
-        ControlledIntegrator::time(self)
-    }
-    fn q(&self) -> [f64; 2] {
-        let q = ControlledIntegrator::q(self);
-        [q[0], q[1]]
-    }
-    fn energy(&self) -> f64 {
-        ControlledIntegrator::energy(self)
-    }
-    fn statistics(&self) -> Statistics {
-        ControlledIntegrator::statistics(self)
-    }
 }
 
 /// A run with `steps` steps of the same length per period.

@@ -13,7 +13,7 @@ use anyhow::Result;
 use dvi_core::prelude::*;
 use rayon::prelude::*;
 
-use super::kepler::{Course, Run, follow, osculating, per_arc_length, reversible};
+use super::kepler::{Course, KeplerRun, follow, osculating, per_arc_length, reversible};
 use crate::claim::{BEYOND, Bound, Check, Claim};
 use crate::figure::{
     AMBER, Axis, BLUE, Colour, Corner, Figure, GREEN, INK, Panel, SKY, SLATE, Stroke, VERMILLION, at_most,
@@ -106,7 +106,7 @@ impl Series {
     }
 
     /// Each period counts as `cost` units of progress.
-    fn follow(&mut self, job: &Job<'_>, run: &mut impl Run, periods: u64, cost: u64) {
+    fn follow(&mut self, job: &Job<'_>, run: &mut impl KeplerRun, periods: u64, cost: u64) {
         let mut interval = i64::MIN;
         let last_interval = ((periods as f64).log10() * PER_DECADE).ceil() as i64 - 1;
         let (mut energy, mut position, mut whole) = (0.0f64, 0.0f64, 1.0);

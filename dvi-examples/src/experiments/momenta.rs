@@ -3,8 +3,8 @@
 
 use crate::claim::larger;
 use anyhow::Result;
-use dvi_core::Method;
 use dvi_core::prelude::*;
+use dvi_core::{Interval, Method};
 
 use crate::claim::{BEYOND, Bound, Claim};
 use crate::figure::{AMBER, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, PURPLE, Panel, VERMILLION};
@@ -125,7 +125,7 @@ fn one_step_defect(
                 defect = larger(defect, (form(columns[a], columns[b]) - form(unit(a), unit(b))).abs());
             }
         }
-        orbit.advance_by(STEPS / LOOKS)?;
+        orbit.take_steps(STEPS / LOOKS)?;
     }
     Ok(defect)
 }
@@ -139,14 +139,14 @@ fn variational(job: &Job<'_>, case: &Case, scheme: &'static str, method: Sigma) 
     let drifts = conserved(job, case, scheme, method)?;
     let mut run = Integrator::new(vortices, method, H, *start)?;
     let initial = run.discrete_momentum(ANGULAR)?.unwrap_or(f64::NAN);
-    let mut map = TwoPointTangentMap::new(vortices);
+    let mut map = TwoPointTangentMap::new(vortices, &method);
     let (mut discrete, mut two_form) = (0.0f64, 0.0f64);
     let (mut q0, mut q1) = (run.q().to_vec(), run.q().to_vec());
     for step in 0..STEPS {
         run.advance()?;
         if step > 0 {
             let t = run.time() - 2.0 * H;
-            map.evaluate(vortices, method.sigma, t, H, [&q0, &q1, run.q()])?;
+            map.evaluate(vortices, Interval { t, h: H }, [&q0, &q1, run.q()])?;
             two_form = larger(two_form, map.two_form_defect(vortices));
         }
         q0.copy_from_slice(&q1);

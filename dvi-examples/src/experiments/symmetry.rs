@@ -80,7 +80,7 @@ fn series(job: &Job<'_>, name: &str, colour: Colour, [dx, dy]: [f64; 2], end: f6
     let mut done = 0;
     // A run that is lost tells nothing more.
     while done < strides && series.lost.is_infinite() && !job.is_stopping() {
-        if let Err(error) = run.advance_by(STRIDE) {
+        if let Err(error) = run.take_steps(STRIDE) {
             (series.lost, series.failure) = (run.time(), Some(error));
             break;
         }

@@ -47,6 +47,8 @@ const HAMILTONIANS: &[&str] = &[
     "sum(0..N, |j| sum(0..j, |k| sum(0..k, |l| (x[l] - u).powi(2) + 1)).sqrt() * x[j])",
     "sum(0..N, |j| sum(0..j, |k| (w * w + 1) * sum(0..k, |l| (x[l] - u).powi(2) + 1) + 1).sqrt())",
     "sum(0..N, |j| sum_pairs(0..j, |k, l| if s > 1 { 1 } else { x[k] + x[l] }).cbrt())",
+    // Choices of zero in a sum over an index that nothing else in it depends on.
+    "sum_ordered_pairs(0..N, |i, j| if u > 5 { sum_pairs(0..N, |k, l| (w - 9).sqrt() * x[i]) } else { 1 }) + w",
     // Indices whose bounds depend on each other.
     "sum(0..N, |j| sum(j..N, |k| x[k - j]))",
     "sum(0..N, |j| sum(0..N - j, |k| x[j + k]))",

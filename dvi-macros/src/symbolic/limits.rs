@@ -16,6 +16,7 @@
 use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
 use super::index::Atom;
 use super::powers::{Part, Root, take};
+use super::rules;
 
 /// The odd functions with a finite slope at 0: |f(w)| ≤ C·|w| near it.
 const BOUNDED_BY_ARGUMENT: [Unary; 12] = [
@@ -31,21 +32,6 @@ const BOUNDED_BY_ARGUMENT: [Unary; 12] = [
     Unary::Abs,
     Unary::ExpM1,
     Unary::Ln1p,
-];
-
-/// The functions that have all derivatives everywhere.
-const SMOOTH: [Unary; 11] = [
-    Unary::Exp,
-    Unary::Exp2,
-    Unary::ExpM1,
-    Unary::Sin,
-    Unary::Cos,
-    Unary::Atan,
-    Unary::Sinh,
-    Unary::Cosh,
-    Unary::Tanh,
-    Unary::Asinh,
-    Unary::Erf,
 ];
 
 impl Graph {
@@ -171,7 +157,7 @@ impl Graph {
             | Node::Weight(_)
             | Node::Sum(_)
             | Node::Product(_) => false,
-            Node::Unary(function, _) => !SMOOTH.contains(function),
+            Node::Unary(function, _) => !rules::is_smooth(*function),
             Node::Reciprocal(_)
             | Node::Binary(..)
             | Node::Call(..)

@@ -51,6 +51,25 @@ pub(super) const BINARY: &[BinaryRow] = &[
 /// What only derivatives are made of.
 const INTERNAL: [&str; 2] = ["sign", "over_root"];
 
+/// The functions that have all derivatives everywhere.
+const SMOOTH: [Unary; 11] = [
+    Unary::Exp,
+    Unary::Exp2,
+    Unary::ExpM1,
+    Unary::Sin,
+    Unary::Cos,
+    Unary::Atan,
+    Unary::Sinh,
+    Unary::Cosh,
+    Unary::Tanh,
+    Unary::Asinh,
+    Unary::Erf,
+];
+
+pub(super) fn is_smooth(function: Unary) -> bool {
+    SMOOTH.contains(&function)
+}
+
 fn sign(x: f64) -> f64 {
     if x > 0.0 {
         1.0

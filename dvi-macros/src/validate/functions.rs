@@ -69,6 +69,9 @@ fn inverse_sine(x: f64) -> [f64; 3] {
 
 /// f(x) for a function of one number.
 pub(super) fn unary(name: &str, x: &Jet) -> Option<Jet> {
+    if name == "signum" && x.is_zero_without_sign() {
+        return Some(Jet::number(f64::NAN));
+    }
     Some(x.through(taylor(name, x.value().value)?))
 }
 
@@ -76,6 +79,7 @@ pub(super) fn unary(name: &str, x: &Jet) -> Option<Jet> {
 pub(super) fn binary(name: &str, a: &Jet, b: &Jet) -> Option<Jet> {
     let (x, y) = (a.value().value, b.value().value);
     let result = match name {
+        "atan2" if a.is_zero_without_sign() || b.is_zero_without_sign() => Jet::number(f64::NAN),
         "hypot" => unary("sqrt", &a.times(a).plus(&b.times(b)))?,
         "powf" if y.fract() == 0.0 && y.abs() <= 64.0 && !b.varies() => a.power(y as i32),
         "powf" => unary("exp", &b.times(&unary("ln", a)?))?,

@@ -58,6 +58,8 @@ struct Parts {
     size: [f64; PARTS],
     /// A sum without terms, or a multiple of one.
     is_empty_sum: bool,
+    /// Whether there is a sum without terms in it: if it is zero, its sign is that of no sum as written.
+    holds_empty_sum: bool,
 }
 
 /// The value and the first three derivatives of a function of one number.
@@ -69,7 +71,8 @@ fn mixed(first: usize, second: usize) -> usize {
 
 impl Jet {
     pub(super) fn number(value: f64) -> Self {
-        let mut parts = Parts { value: [0.0; PARTS], size: [0.0; PARTS], is_empty_sum: false };
+        let mut parts =
+            Parts { value: [0.0; PARTS], size: [0.0; PARTS], is_empty_sum: false, holds_empty_sum: false };
         parts.value[0] = value;
         parts.size[0] = value.abs();
         Self(Box::new(parts))
@@ -79,6 +82,7 @@ impl Jet {
     pub(super) fn empty_sum() -> Self {
         let mut jet = Self::number(-0.0);
         jet.0.is_empty_sum = true;
+        jet.0.holds_empty_sum = true;
         jet
     }
 
@@ -110,6 +114,11 @@ impl Jet {
     /// The mixed derivative; none is kept along [`First::Stretch`].
     pub(super) fn both(&self, first: First, second: Second) -> Sized {
         self.part(mixed(first as usize, second as usize))
+    }
+
+    /// Whether it is a zero whose sign is not defined.
+    pub(super) fn is_zero_without_sign(&self) -> bool {
+        self.0.holds_empty_sum && self.0.value[0] == 0.0
     }
 
     /// Whether it changes along any direction.
@@ -146,6 +155,7 @@ impl Jet {
             self.0.size[k] += other.0.size[k];
         }
         self.0.is_empty_sum &= other.0.is_empty_sum;
+        self.0.holds_empty_sum |= other.0.holds_empty_sum;
         self
     }
 
@@ -156,6 +166,7 @@ impl Jet {
     pub(super) fn times(&self, other: &Self) -> Self {
         // The sign of a zero counts: `signum` sees it.
         let mut product = Self::number(-0.0);
+        product.0.holds_empty_sum = self.0.holds_empty_sum || other.0.holds_empty_sum;
         let mut add = |to: usize, i: usize, j: usize| {
             let ((x, a), (y, b)) = ((self.0.value[i], self.0.size[i]), (other.0.value[j], other.0.size[j]));
             product.0.value[to] += x * y;
@@ -182,6 +193,7 @@ impl Jet {
     pub(super) fn through(&self, f: Taylor) -> Self {
         let [value, d1, d2, d3] = f;
         let mut result = Self::number(value);
+        result.0.holds_empty_sum = self.0.holds_empty_sum;
         if self.0.is_empty_sum {
             return result;
         }

@@ -38,7 +38,7 @@ fn start() -> vortices_by_hand::State {
 pub(crate) fn run(name: &str, steps: u64) -> f64 {
     let field = vortices_by_hand::Field::new(GAMMA);
     match name {
-        "explicit/generated" => generated(explicit(), |run| run.advance_by(steps)),
+        "explicit/generated" => generated(explicit(), |run| run.take_steps(steps)),
         "explicit, each state read/generated" => generated(explicit(), |run| {
             (0..steps).try_for_each(|_| {
                 run.advance()?;
@@ -46,8 +46,8 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
                 Ok(())
             })
         }),
-        "fixed point/generated" => generated(implicit(Solver::FixedPoint), |run| run.advance_by(steps)),
-        "newton/generated" => generated(implicit(Solver::Newton), |run| run.advance_by(steps)),
+        "fixed point/generated" => generated(implicit(Solver::FixedPoint), |run| run.take_steps(steps)),
+        "newton/generated" => generated(implicit(Solver::Newton), |run| run.take_steps(steps)),
         "explicit, parasitic mode limited/generated" => limited(steps),
         "explicit, parasitic mode limited/by hand" => limited_by_hand(steps),
         "explicit/by hand" => {
@@ -114,7 +114,7 @@ fn kepler<F: FrequencyIn<f64>, R: Rule>(method: Variational<F, R>, steps: u64) -
     let system = black_box(Kepler { mu: 1.0 });
     let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
     let Ok(mut run) = Integrator::new(&system, method, KEPLER_H, start) else { return f64::NAN };
-    match run.advance_by(steps) {
+    match run.take_steps(steps) {
         Ok(()) => run.q()[0],
         Err(_) => f64::NAN,
     }
@@ -129,7 +129,7 @@ fn explicit() -> Sigma {
 #[inline(never)]
 fn limited(steps: u64) -> f64 {
     let limited = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() };
-    generated_from(configurations::leapfrogging(), limited, LONG, |run| run.advance_by(steps))
+    generated_from(configurations::leapfrogging(), limited, LONG, |run| run.take_steps(steps))
 }
 
 #[inline(never)]
@@ -142,10 +142,10 @@ fn limited_by_hand(steps: u64) -> f64 {
     leapfrog.z[0]
 }
 
-type Run<'a> = Integrator<'a, PointVortices<4>, Sigma>;
+type SigmaRun<'a> = Integrator<'a, PointVortices<4>, Sigma>;
 
 #[inline(always)]
-fn generated(method: Sigma, take: impl FnOnce(&mut Run<'_>) -> Result<(), StepError>) -> f64 {
+fn generated(method: Sigma, take: impl FnOnce(&mut SigmaRun<'_>) -> Result<(), StepError>) -> f64 {
     generated_from(configurations::quasi_periodic(), method, H, take)
 }
 
@@ -154,7 +154,7 @@ fn generated_from(
     (system, state): (PointVortices<4>, PointVorticesState<4>),
     method: Sigma,
     h: f64,
-    take: impl FnOnce(&mut Run<'_>) -> Result<(), StepError>,
+    take: impl FnOnce(&mut SigmaRun<'_>) -> Result<(), StepError>,
 ) -> f64 {
     let system = black_box(system);
     let Ok(mut run) = Integrator::new(&system, method, h, state) else { return f64::NAN };

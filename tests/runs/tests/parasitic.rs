@@ -234,7 +234,7 @@ fn a_step_that_is_not_stable_ends_the_run() -> Outcome {
 fn the_last_state_is_kept_and_the_limit_can_be_moved_or_switched_off() -> Outcome {
     let (system, start) = chaotic();
     let mut run = Integrator::new(&system, Sigma::leapfrog(), 0.1, start)?;
-    let error = run.advance_by(10_000).err();
+    let error = run.take_steps(10_000).err();
     let (state, steps) = (run.state(), run.steps());
     assert!(steps % 4 == 0 && run.energy().is_finite(), "{steps}");
     let Some(StepError { step, time, failure: StepFailure::ParasiticMode { amplitude, relative, limit } }) =
@@ -249,11 +249,11 @@ fn the_last_state_is_kept_and_the_limit_can_be_moved_or_switched_off() -> Outcom
     assert_eq!((run.advance().err(), run.state(), run.steps()), (error, state, steps));
     let mut free =
         Integrator::new(&system, Sigma { parasitic_limit: None, ..Sigma::leapfrog() }, 0.1, start)?;
-    free.advance_by(steps)?;
+    free.take_steps(steps)?;
     assert_eq!(free.state(), state);
-    free.advance_by(1000)?;
+    free.take_steps(1000)?;
     let tolerant = Sigma { parasitic_limit: Some(2.0 * relative), ..Sigma::leapfrog() };
-    Integrator::new(&system, tolerant, 0.1, start)?.advance_by(steps + 1)?;
+    Integrator::new(&system, tolerant, 0.1, start)?.take_steps(steps + 1)?;
     for value in [0.0, -1.0, f64::NAN] {
         let method = Sigma { parasitic_limit: Some(value), ..Sigma::leapfrog() };
         let error = Integrator::new(&system, method, 0.1, start).err();
@@ -275,7 +275,7 @@ fn the_amplitude_is_that_of_the_alternating_part() -> Outcome {
         let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
         let mut run = Integrator::from_two_points(&system, method, h, start, second)?;
         assert_eq!(run.parasitic_mode(), None);
-        run.advance_by(257)?;
+        run.take_steps(257)?;
         let Some(ParasiticMode { amplitude, relative, is_significant }) = run.parasitic_mode() else {
             return Err("measured after 256 steps".into());
         };

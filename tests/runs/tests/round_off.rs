@@ -18,7 +18,7 @@ fn drift(method: Sigma, steps: u64) -> Result<f64, Box<dyn core::error::Error>> 
     let initial = value(&run);
     let (samples, mut covariance, mut variance) = (1000, 0.0, 0.0);
     for sample in 0..samples {
-        run.advance_by(steps / samples)?;
+        run.take_steps(steps / samples)?;
         let centred = sample as f64 - (samples - 1) as f64 / 2.0;
         covariance += centred * (value(&run) - initial);
         variance += centred * centred;
@@ -48,7 +48,7 @@ struct Winding;
 fn end<M: Method<Winding, f64>>(method: M, angle: f64) -> Result<[f64; 2], Box<dyn core::error::Error>> {
     let start = WindingState { x: 1.0, y: 0.3, angle, spin: 1.0 };
     let mut run = Integrator::new(&Winding, method, 0.1, start)?;
-    run.advance_by(1000)?;
+    run.take_steps(1000)?;
     Ok([run.q()[0], run.q()[1]])
 }
 
@@ -83,7 +83,7 @@ fn a_far_body_does_not_spoil_the_others() -> Outcome {
         let end = |far| -> Result<[f64; 2], Box<dyn core::error::Error>> {
             let start = DistantState { x: 1.0, y: 0.3, far, dot_x: 0.2, dot_y: 0.0, dot_far: 1.0 };
             let mut run = Integrator::new(&Distant, method, 0.1, start)?;
-            run.advance_by(1000)?;
+            run.take_steps(1000)?;
             Ok([run.q()[0], run.q()[1]])
         };
         let [near, far] = [end(0.3)?, end(1e9)?];

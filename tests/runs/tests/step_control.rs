@@ -193,10 +193,10 @@ fn a_density_of_ones_own_on_a_system_that_is_not_separable() -> Outcome {
 fn negative_epsilon_runs_back_in_time() -> Outcome {
     let forward = Reversible::power(0.02, 1.5);
     let mut there = ControlledIntegrator::new(&SYSTEM, lobatto4()?, forward, pericentre(0.8))?;
-    there.advance_by(500)?;
+    there.take_steps(500)?;
     let control = Reversible { epsilon: -0.02, start: Some(there.density()), ..forward };
     let mut back = ControlledIntegrator::new_at(&SYSTEM, lobatto4()?, control, there.time(), there.state())?;
-    back.advance_by(500)?;
+    back.take_steps(500)?;
     assert!(back.time().abs() < 1e-10 && (back.q()[0] - 0.2).abs() < 1e-9 && back.q()[1].abs() < 1e-9);
     Ok(())
 }
@@ -253,7 +253,7 @@ fn steps_that_are_undone_leave_no_trace() -> Outcome {
             let mut run = ControlledIntegrator::new(&SYSTEM, method, control, pericentre(0.5))?;
             run.advance()?;
             let length = run.step_size();
-            run.advance_by(steps)?;
+            run.take_steps(steps)?;
             Ok((length, run.state(), run.time()))
         };
         // Too long a step is cut by the estimate or, where u = ωh is near a resonance, because it fails.
@@ -333,7 +333,7 @@ fn a_density_that_does_not_stay_positive_is_an_error() -> Outcome {
     let start = KeplerState { dot_x: 0.4, ..pericentre(0.5) };
     let mut run =
         ControlledIntegrator::new(&SYSTEM, Variational::trapezoid(), Reversible::power(1.0, 1.5), start)?;
-    let error = run.advance_by(1000).err().ok_or("fails")?;
+    let error = run.take_steps(1000).err().ok_or("fails")?;
     assert!(matches!(error.failure, StepFailure::Density { density } if density <= 0.0), "{error}");
     assert!(run.q().iter().all(|q| q.is_finite()) && run.energy().is_finite());
     Ok(())

@@ -71,7 +71,7 @@ fn the_rate_of_the_form_drives_the_flow() -> Outcome {
             let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
             let start = RampState { x: 1.0, y: 0.0 };
             let mut run = Integrator::new_at(&Ramp {}, method, START, h, start)?;
-            run.advance_by(10)?;
+            run.take_steps(10)?;
             let (expected, RampState { x, y }) = (3.0 * 10.0 * h, run.state());
             let apart = larger((x - 1.0).abs(), (y - expected).abs());
             assert!(

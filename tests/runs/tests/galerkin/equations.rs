@@ -124,14 +124,14 @@ fn all_solvers_find_the_same_steps() -> Outcome {
 #[test]
 fn a_fixed_point_step_needs_forces_only_and_newton_stands_by() -> Outcome {
     let mut run = Integrator::new(&KEPLER, Galerkin::<4>::new(), 0.05, pericentre(0.3))?;
-    run.advance_by(200)?;
+    run.take_steps(200)?;
     let statistics = run.statistics();
     // Two interior nodes an iteration; to finish, the same two and the end.
     assert_eq!(statistics.gradients, 2 * statistics.iterations + 3 * statistics.steps);
     assert_eq!((statistics.linearizations, statistics.factorisations), (0, 0));
     let (system, start) = (Spring { stiffness: 100.0 }, SpringState { x: 1.0, dot_x: 0.0 });
     let mut stiff = Integrator::new(&system, Galerkin::<4>::new(), 0.5, start)?;
-    stiff.advance_by(20)?;
+    stiff.take_steps(20)?;
     assert!(stiff.statistics().factorisations > 0);
     Ok(())
 }
@@ -142,8 +142,8 @@ fn single_precision_steps_to_its_own_rounding() -> Outcome {
     let narrow = KeplerState { x: 1.0_f32, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
     let mut single = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1_f32, narrow)?;
     let mut double = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1, start)?;
-    single.advance_by(50)?;
-    double.advance_by(50)?;
+    single.take_steps(50)?;
+    double.take_steps(50)?;
     for (a, b) in single.q().iter().zip(double.q()) {
         assert!((f64::from(*a) - b).abs() < 1e-4, "{a} and {b}");
     }

@@ -31,7 +31,7 @@ fn tangents<S: RegularLagrangian, M: Method<S, Dual64> + Copy>(
             run.q().iter().chain(momentum(run.memory())).map(|x| x.eps).collect::<Vec<_>>()
         };
         first.push(column(&run));
-        run.advance_by(3)?;
+        run.take_steps(3)?;
         last.push(column(&run));
     }
     Ok([first, last])

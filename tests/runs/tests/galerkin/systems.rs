@@ -64,7 +64,7 @@ pub(crate) fn run<S: Lagrangian, M: Method<S, f64>>(
     steps: u64,
 ) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
     let mut run = Integrator::new(system, method, time / steps as f64, start)?;
-    run.advance_by(steps)?;
+    run.take_steps(steps)?;
     Ok(run.q().to_vec())
 }
 

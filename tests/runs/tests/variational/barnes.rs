@@ -24,7 +24,7 @@ macro_rules! flow {
     ($system:expr, $state:ident, $x:expr, $v:expr, $steps:expr) => {{
         let (system, start) = ($system, $state { x: $x, dot_x: $v });
         let mut run = Integrator::new(&system, Variational::trapezoid(), STEP, start)?;
-        run.advance_by($steps)?;
+        run.take_steps($steps)?;
         (run.state().x, run.state().dot_x)
     }};
 }

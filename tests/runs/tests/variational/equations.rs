@@ -10,10 +10,10 @@ use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
 
 /// Frequencies that the rules below are fitted to, one per coordinate.
-type Omega<'a> = &'a [f64];
+pub(super) type Omega<'a> = &'a [f64];
 
 /// h Σ w L with the basis of Kosmas & Vlachos, eq. 15, written out.
-fn discrete_lagrangian<S: RegularLagrangian, T: Real>(
+pub(super) fn discrete_lagrangian<S: RegularLagrangian, T: Real>(
     system: &S,
     rule: &impl Rule,
     omega: Omega<'_>,

@@ -71,7 +71,7 @@ fn a_collision_ends_the_run_at_the_last_good_state() -> Outcome {
     let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: -0.5, dot_y: 0.0 };
     for count in [1, 10] {
         let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 1.0, start)?;
-        let error = run.advance_by(count).err();
+        let error = run.take_steps(count).err();
         assert!(
             matches!(error, Some(StepError { step: 0, failure: StepFailure::NotFinite { .. }, .. })),
             "{error:?}"
@@ -170,7 +170,7 @@ fn a_limit_of_the_energy_error_ends_a_run() -> Outcome {
     }
     assert!(worst > 10.0, "{worst}");
     let mut run = Integrator::new(&KEPLER, EnergyLimit { method, limit: 0.1 }, h, start)?;
-    let error = run.advance_by(300).err();
+    let error = run.take_steps(300).err();
     let Some(StepError { step, time, failure: StepFailure::Energy { start: initial, now, limit } }) = error
     else {
         return Err(format!("{error:?}").into());
@@ -183,7 +183,7 @@ fn a_limit_of_the_energy_error_ends_a_run() -> Outcome {
     );
     // The last good state is that of a run without a limit, bit by bit.
     let mut same = Integrator::new(&KEPLER, method, h, start)?;
-    same.advance_by(step)?;
+    same.take_steps(step)?;
     assert_eq!((run.q(), run.memory().inner().p()), (same.q(), same.memory().p()));
     assert_eq!(run.advance().err(), error);
     for limit in [0.0, -1.0, f64::NAN] {
@@ -229,7 +229,7 @@ impl FrequencyIn<f64> for Partial {
 fn a_frequency_that_is_not_defined_is_an_error_of_its_own() -> Outcome {
     fn check<M: Method<Kepler, f64>>(method: M) -> Outcome {
         let mut run = Integrator::new(&KEPLER, method, 0.05, state(1.0, 1.0))?;
-        let error = run.advance_by(100).err().ok_or("no error")?;
+        let error = run.take_steps(100).err().ok_or("no error")?;
         assert!(run.q()[0] > 0.85 && run.steps() > 3, "{error}");
         assert!(matches!(error.failure, StepFailure::Frequency { omega } if omega.is_nan()), "{error}");
         Ok(())

@@ -57,7 +57,7 @@ fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
     let galerkin = Galerkin::<3>::new().phase_fitted(Power(None));
     assert_eq!(Integrator::new(&KEPLER, galerkin, 0.1, START).err(), Some(constant));
     for reading in [Reading::LeftFrozen, Reading::Averaged] {
-        begin(Some(reading))?.advance_by(10)?;
+        begin(Some(reading))?.take_steps(10)?;
         let empty = Variational::simpson().phase_fitted(Empty(reading));
         let mut run = Integrator::new(&KEPLER, empty, 0.1, START)?;
         let error = run.advance().err();
@@ -110,7 +110,7 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
     }
     let end = |tries| -> Result<[f64; 2], Box<dyn core::error::Error>> {
         let mut run = ControlledIntegrator::new(&Pair, method, Trying { tries }, start)?;
-        run.advance_by(200)?;
+        run.take_steps(200)?;
         Ok([run.q()[0], run.q()[1]])
     };
     assert_eq!(end(true)?, end(false)?);

@@ -7,7 +7,7 @@ use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
-type Run = (KeplerState, f64);
+type Period = (KeplerState, f64);
 
 const SYSTEM: Kepler = Kepler { mu: 1.0 };
 
@@ -21,7 +21,7 @@ fn period<F: FrequencyIn<f64>, R: Rule>(
     method: Variational<F, R>,
     e: f64,
     steps: u64,
-) -> Result<Run, Box<dyn core::error::Error>> {
+) -> Result<Period, Box<dyn core::error::Error>> {
     let mut run = Integrator::new(&SYSTEM, method, TAU / steps as f64, pericentre(e))?;
     let initial = run.energy();
     let mut largest: f64 = 0.0;
@@ -92,7 +92,7 @@ fn order_from<M: Method<Kepler, f64> + Copy>(
     for steps in [steps, 2 * steps, 4 * steps] {
         let h = 2.0 / steps as f64;
         let mut run = Integrator::new(&SYSTEM, method, h, pericentre(e))?;
-        run.advance_by(steps)?;
+        run.take_steps(steps)?;
         errors.push((h, (run.q()[0] - x).hypot(run.q()[1] - y)));
     }
     convergence_order(&errors).ok_or_else(|| "no order".into())
@@ -143,7 +143,7 @@ fn angular_momentum_is_conserved_by_every_reading() -> Outcome {
         let initial = run.momentum(0).ok_or("declared")?;
         let mut largest: f64 = 0.0;
         for _ in 0..100 {
-            run.advance_by(4000)?;
+            run.take_steps(4000)?;
             largest = larger(largest, (run.momentum(0).ok_or("declared")? - initial).abs());
         }
         Ok(largest)

@@ -8,5 +8,6 @@ mod kepler;
 mod oscillator;
 mod phase_space;
 mod structure;
+mod tangent_maps;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;

@@ -24,7 +24,7 @@ fn along<S: RegularLagrangian, M: Method<S, Dual64>>(
     };
     let state = S::State::read(|block| system.block_len(block), &dual(q, 0), &dual(v, n));
     let mut run = Integrator::new(system, method, Dual64::from(h), state)?;
-    run.advance_by(steps)?;
+    run.take_steps(steps)?;
     let (mut q, mut v) = (vec![Dual64::from(0.0); n], vec![Dual64::from(0.0); n]);
     run.state().write(|block| system.block_len(block), &mut q, &mut v)?;
     let (mut l_q, mut p) = (q.clone(), q.clone());
@@ -69,9 +69,9 @@ pub(super) fn return_error<S: RegularLagrangian, M: Method<S, f64> + Clone>(
     let blocks = |block| system.block_len(block);
     let state = S::State::read(blocks, &start.0, &start.1);
     let mut forth = Integrator::new(system, method.clone(), h, state)?;
-    forth.advance_by(steps)?;
+    forth.take_steps(steps)?;
     let mut back = Integrator::new_at(system, method.clone(), forth.time(), -h, forth.state())?;
-    back.advance_by(steps)?;
+    back.take_steps(steps)?;
     let (mut q, mut v) = (start.0.clone(), start.1.clone());
     back.state().write(blocks, &mut q, &mut v)?;
     let distance = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, larger);

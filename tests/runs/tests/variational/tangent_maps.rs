@@ -1,0 +1,147 @@
+//! Second derivatives of discrete Lagrangians against hyper-dual numbers, and what is made of them: tangent maps and
+//! exponents of runs on regular systems.
+
+use super::Outcome;
+use super::equations::{Omega, discrete_lagrangian};
+use super::phase_space::Start;
+use dvi_core::diagnostics::DiscreteHessian;
+use dvi_core::prelude::*;
+use dvi_core::{FrequencyIn, GivenFrequency, Interval, Rule, Space, State};
+use dvi_tests::larger;
+use dvi_tests::zoo::regular::*;
+use num_dual::HyperDual64;
+
+#[track_caller]
+fn check<S: RegularLagrangian, F: FrequencyIn<f64> + GivenFrequency + Copy, R: Rule + Copy>(
+    system: &S,
+    method: Variational<F, R>,
+    omega: Omega<'_>,
+    (q, v): &Start,
+) -> Outcome {
+    let (t, h, n) = (0.4, 0.07, q.len());
+    let state = S::State::read(|block| system.block_len(block), q, v);
+    let mut run = Integrator::new_at(system, method, t, h, state)?;
+    run.advance()?;
+    let (interval, q1) = (Interval { t, h }, run.q());
+    let mut hessian = DiscreteHessian::new(system, &method);
+    hessian.evaluate(system, interval, q, q1)?;
+    for (matrix, first, second) in [(&hessian.d11, 0, 0), (&hessian.d12, 0, n), (&hessian.d22, n, n)] {
+        for k in 0..n * n {
+            let (i, j) = (first + k / n, second + k % n);
+            let entry = |place: usize, value: f64| {
+                let unit = |on: bool| if on { 1.0 } else { 0.0 };
+                HyperDual64::new(value, unit(place == i), unit(place == j), 0.0)
+            };
+            let a: Vec<_> = q.iter().enumerate().map(|(k, &q)| entry(k, q)).collect();
+            let b: Vec<_> = q1.iter().enumerate().map(|(k, &q)| entry(n + k, q)).collect();
+            let expected = discrete_lagrangian(system, &method.rule, omega, [t, h], &a, &b).eps1eps2;
+            let error = (matrix[k] - expected).abs() / larger(1.0, expected.abs());
+            assert!(error < 1e-13, "{}, {method:?}, ({i}, {j}): {} {expected}", S::REPORT.system, matrix[k]);
+        }
+    }
+    let mut map = TangentMap::new(system, &method);
+    map.evaluate(system, interval, q, q1)?;
+    let defect = map.symplectic_defect(system);
+    assert!(defect < 1e-12, "{}, {method:?}: {defect:e}", S::REPORT.system);
+    Ok(())
+}
+
+#[test]
+fn second_derivatives_agree_with_hyper_dual_numbers() -> Outcome {
+    let planar = (vec![0.5, 0.2], vec![0.4, -0.7]);
+    let pendulums = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
+    let driven = DrivenOscillator { depth: 0.3, omega: 2.0 };
+    let particle = MagneticParticle { m: 1.0, b: 0.8 };
+    let chain = RunTimeChain { mass: vec![1.0, 2.0, 1.5], coupling: 0.2 };
+    for rule in
+        [Quadrature::sigma(0.4), Quadrature::lobatto(2)?, Quadrature::lobatto(3)?, Quadrature::gauss(3)?]
+    {
+        let linear = Variational::new(rule);
+        let fitted = linear.phase_fitted(Constant(1.3));
+        let each = linear.phase_fitted(PerCoordinate([0.8, 1.7]));
+        check(&Kepler { mu: 1.0 }, linear, &[0.0; 2], &planar)?;
+        check(&Kepler { mu: 1.0 }, fitted, &[1.3; 2], &planar)?;
+        check(&Kepler { mu: 1.0 }, each, &[0.8, 1.7], &planar)?;
+        check(&pendulums, linear, &[0.0; 2], &planar)?;
+        check(&pendulums, each, &[0.8, 1.7], &planar)?;
+        check(&MixedVelocities {}, each, &[0.8, 1.7], &planar)?;
+        check(&driven, fitted, &[1.3], &(vec![0.4], vec![0.9]))?;
+        check(&particle, linear, &[0.0; 3], &(vec![0.3, 0.2, 0.1], vec![0.4, -0.6, 0.2]))?;
+        check(&chain, linear, &[0.0; 4], &(vec![0.1, -0.2, 0.3, 0.0], vec![0.5, 0.1, -0.4, 0.2]))?;
+    }
+    Ok(())
+}
+
+/// With fixed and with controlled steps.
+fn tangent_matches_runs<R: Run<System = Kepler, Scalar = f64>>(
+    begin: impl Fn(KeplerState) -> Result<R, StartError>,
+) -> Outcome
+where
+    R::Method: dvi_core::VariationalMethod<Kepler, f64>,
+{
+    let system = Kepler { mu: 1.0 };
+    let start = [0.8, 0.1, -0.1, 1.2];
+    let state = |z: [f64; 4]| KeplerState { x: z[0], y: z[1], dot_x: z[2], dot_y: z[3] };
+    let mut run = begin(state(start))?;
+    let mut map = TangentMap::new(&system, run.method());
+    let [t, q0] = [vec![run.time()], run.q().to_vec()];
+    run.advance()?;
+    let h = run.step_size();
+    map.evaluate(&system, Interval { t: t[0], h }, &q0, run.q())?;
+    let epsilon = 1e-6;
+    for direction in 0..4 {
+        let end = |sign: f64| -> Result<[f64; 4], Box<dyn core::error::Error>> {
+            let mut z = start;
+            z[direction] += sign * epsilon;
+            let mut run = Integrator::new(&system, Variational::simpson(), h, state(z))?;
+            run.advance()?;
+            let end = run.state();
+            Ok([end.x, end.y, end.dot_x, end.dot_y])
+        };
+        let (plus, minus) = (end(1.0)?, end(-1.0)?);
+        let [mut dq, mut dp] = [system.space().vector(), system.space().vector()];
+        if direction < 2 {
+            dq[direction] = 1.0
+        } else {
+            dp[direction - 2] = 1.0
+        }
+        map.apply(&mut dq, &mut dp);
+        for (k, &found) in dq.iter().chain(dp.iter()).enumerate() {
+            let expected = (plus[k] - minus[k]) / (2.0 * epsilon);
+            assert!((found - expected).abs() < 1e-9, "({k}, {direction}): {found} {expected}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn tangent_maps_agree_with_differences_of_steps() -> Outcome {
+    let method = Variational::simpson();
+    tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, method, 0.1, start))?;
+    let control = Reversible::power(0.1, 1.5);
+    tangent_matches_runs(|start| ControlledIntegrator::new(&Kepler { mu: 1.0 }, method, control, start))
+}
+
+/// A pendulum on its head.
+#[lagrangian(coordinates(a), lagrangian = dot(a).powi(2) / 2.0 + a.cos())]
+#[derive(Clone, Debug)]
+struct Pendulum;
+
+#[test]
+fn an_unstable_equilibrium_has_its_own_exponent() -> Outcome {
+    // Störmer–Verlet on a'' = a: 2 cosh(λh) = 2 + h².
+    let (h, start) = (0.1_f64, PendulumState { a: core::f64::consts::PI, dot_a: 0.0 });
+    let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), h, start)?;
+    let mut lyapunov = LyapunovExponent::new(&run);
+    let mut settled = 0.0;
+    for step in 0..250 {
+        lyapunov.advance(&mut run)?;
+        if step == 149 {
+            settled = lyapunov.growth();
+        }
+    }
+    let rate = (lyapunov.growth() - settled) / (100.0 * h);
+    let exact = (1.0 + h * h / 2.0).acosh() / h;
+    assert!((rate - exact).abs() < 1e-9, "{rate} and {exact}");
+    Ok(())
+}
