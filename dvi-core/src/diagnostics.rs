@@ -5,7 +5,8 @@
 //! [`Real`](crate::Real), which the dual numbers of the crate num-dual are. That is exact where a step is explicit. An
 //! iteration decides by the values alone, because dual numbers are compared by their values; where these have
 //! converged before the derivatives, at an equilibrium for one, the derivatives are those of an iterate and no tangent
-//! map.
+//! map; nor are they where a frequency that is read from the motion has a kink, which [`Curvature`](crate::Curvature) has
+//! on straight paths.
 
 mod alternating;
 mod convergence;

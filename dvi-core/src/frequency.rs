@@ -190,10 +190,13 @@ fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
 }
 
 /// ω = |v × a|/|v|², the angular velocity of the osculating circle (Kosmas & Vlachos, eq. 19), in any number
-/// of dimensions as √(v²a² − (v·a)²)/v².
+/// of dimensions as |a⊥|/|v|, where a⊥ = a − (v·a/v²)v is the acceleration across the path.
 ///
 /// At both ends v is the mean velocity Δ/h; for [`Reading::LeftFrozen`] it is that of the motion. On Kepler
 /// orbits it changes fast at the pericentre; [`Radial`] is smoother there and gives order 4.
+///
+/// On a straight path ω = 0 has a kink, as |x| has at 0. With [`Reading::Variational`] its derivatives are left out there:
+/// the step is that of the neighbouring paths, but a run on dual numbers is no tangent map at such a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Curvature(
     /// How it enters the step.
@@ -211,27 +214,32 @@ impl Frequency for Curvature {
 impl<T: Real> FrequencyIn<T> for Curvature {
     #[inline]
     fn at(&self, _q: &[T], v: &[T], a: &[T]) -> T {
-        let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
-        let square = vv * aa - va * va;
-        // Rounding may leave a negative square on a straight path, and √ has no derivative at zero.
-        let area = if square <= T::lift(0.0) { T::lift(0.0) } else { Scalar::sqrt(square) };
-        area / vv
+        across(v, a).0 / Scalar::sqrt(dot(v, v))
     }
 
     fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
         let omega = self.at(q, v, a);
-        let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
-        let two = T::lift(2.0);
-        // ω² = a²/v² − (v·a)²/v⁴; on a straight path, where ω = 0 has a kink, the derivative is left out.
-        let half = if omega > T::lift(0.0) { T::lift(0.5) / omega } else { T::lift(0.0) };
-        let ratio = va / vv;
+        let (vv, (length, ratio)) = (dot(v, v), across(v, a));
+        let speed = Scalar::sqrt(vv);
+        // With the unit vector n along a⊥: ∂ω/∂a = n/|v|, ∂ω/∂v = −(v·a/v²)n/|v| − ωv/v². On a straight path there is no n.
+        let per_length = if length > T::lift(0.0) { T::lift(1.0) / length } else { T::lift(0.0) };
         dq.fill(T::lift(0.0));
         for i in 0..v.len() {
-            da[i] = half * two * (a[i] - ratio * v[i]) / vv;
-            dv[i] = half * two * (two * ratio * ratio * v[i] - aa / vv * v[i] - ratio * a[i]) / vv;
+            da[i] = per_length * (a[i] - ratio * v[i]) / speed;
+            dv[i] = -ratio * da[i] - omega / vv * v[i];
         }
         Some(omega)
     }
+}
+
+/// |a⊥| and v·a/v². √ has no derivative at zero.
+fn across<T: Real>(v: &[T], a: &[T]) -> (T, T) {
+    let ratio = dot(v, a) / dot(v, v);
+    let square = v.iter().zip(a).fold(T::lift(0.0), |sum, (&v, &a)| {
+        let across = a - ratio * v;
+        sum + across * across
+    });
+    (if square == T::lift(0.0) { square } else { Scalar::sqrt(square) }, ratio)
 }
 
 /// ω = √(|a|/|q|): the frequency of the oscillator q'' = −ω²q with the same acceleration at the same distance

@@ -19,6 +19,7 @@ use crate::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::statistics::Statistics;
+use crate::summation::Summation;
 use crate::{Lagrangian, Real, RegularLagrangian, Vector};
 
 pub use memory::GalerkinMemory;
@@ -43,6 +44,8 @@ pub struct Galerkin<const S: usize, F = Unfitted> {
     pub solver: Solver,
     /// When a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
+    /// How the increments of the steps are added up. Default: [`Summation::Plain`].
+    pub summation: Summation,
 }
 
 impl<const S: usize> Galerkin<S> {
@@ -50,7 +53,12 @@ impl<const S: usize> Galerkin<S> {
     /// does not compile.
     pub fn new() -> Self {
         const { assert!(S >= 3 && S <= 5, "interior displacements are available with 3, 4 or 5 nodes") };
-        Self { frequency: Unfitted, solver: Solver::default(), stopping: Stopping::default() }
+        Self {
+            frequency: Unfitted,
+            solver: Solver::default(),
+            stopping: Stopping::default(),
+            summation: Summation::default(),
+        }
     }
 }
 
@@ -63,8 +71,8 @@ impl<const S: usize> Default for Galerkin<S> {
 impl<const S: usize, F> Galerkin<S, F> {
     /// The same nodes with interpolation fitted to a frequency.
     pub fn phase_fitted<G>(self, frequency: G) -> Galerkin<S, G> {
-        let Self { solver, stopping, .. } = self;
-        Galerkin { frequency, solver, stopping }
+        let Self { solver, stopping, summation, .. } = self;
+        Galerkin { frequency, solver, stopping, summation }
     }
 }
 

@@ -100,7 +100,9 @@ impl<'a, S: Lagrangian, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         let t = T::lift(0.0);
         validate(system, t, h)?;
         let ([q0, _], [q1, _]) = (flatten(system, &first)?, flatten(system, &second)?);
-        evaluate(system, &q0, &system.space().vector(), t)?;
+        let rest = system.space().vector();
+        evaluate(system, &q0, &rest, t)?;
+        evaluate(system, &q1, &rest, t + h)?;
         let memory = method.begin_between(system, &q0, &q1, t, h)?;
         Ok(Self::assemble(system, method, memory, q0, t, h))
     }

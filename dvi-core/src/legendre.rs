@@ -13,13 +13,23 @@ use crate::{Matrix, Real, RegularLagrangian, Space, Vector, Weights, elimination
 pub(crate) struct Legendre<S: RegularLagrangian, T: Real> {
     matrix: Matrix<S, T>,
     residual: Vector<S, T>,
+    /// By how much the velocity has changed in the last iteration.
+    correction: Vector<S, T>,
     l_q: Vector<S, T>,
 }
+
+/// How often a correction that leads out of the domain of L is halved.
+const HALVINGS: usize = 60;
 
 impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
-        Self { matrix: space.matrix(), residual: space.vector(), l_q: space.vector() }
+        Self {
+            matrix: space.matrix(),
+            residual: space.vector(),
+            correction: space.vector(),
+            l_q: space.vector(),
+        }
     }
 
     /// Improves the guess `v` until ∂L/∂v = `p`.
@@ -35,6 +45,7 @@ impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
         t: T,
         v: &mut [T],
     ) -> Result<(), StepFailure> {
+        self.correction.fill(T::lift(0.0));
         self.improve(system, q, p, t, v)?;
         if S::QUADRATIC {
             return norm::finite(v);
@@ -45,8 +56,31 @@ impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
         norm::finite(v)
     }
 
-    /// One iteration; returns the size of its correction.
+    /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began; returns the size
+    /// of its correction.
     fn improve(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<T, StepFailure> {
+        let mut defined = self.linearize(system, q, p, t, v);
+        for _ in 0..HALVINGS {
+            if defined.is_ok() {
+                break;
+            }
+            for (v, correction) in v.iter_mut().zip(self.correction.iter_mut()) {
+                *correction *= T::lift(0.5);
+                *v += *correction;
+            }
+            defined = self.linearize(system, q, p, t, v);
+        }
+        defined?;
+        elimination::eliminate(&mut self.matrix, &mut self.residual)?;
+        self.correction.copy_from_slice(&self.residual);
+        for (v, &correction) in v.iter_mut().zip(self.correction.iter()) {
+            *v -= correction;
+        }
+        Ok(norm::largest(&self.correction))
+    }
+
+    /// Sets `residual` to ∂L/∂v − p and `matrix` to the mass matrix.
+    fn linearize(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &[T]) -> Result<(), StepFailure> {
         let zero = T::lift(0.0);
         let mass = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
         self.matrix.fill(zero);
@@ -54,11 +88,6 @@ impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
         for (r, &p) in self.residual.iter_mut().zip(p) {
             *r -= p;
         }
-        norm::finite(&self.residual)?;
-        elimination::eliminate(&mut self.matrix, &mut self.residual)?;
-        for (v, &correction) in v.iter_mut().zip(self.residual.iter()) {
-            *v -= correction;
-        }
-        Ok(norm::largest(&self.residual))
+        norm::finite(&self.residual)
     }
 }

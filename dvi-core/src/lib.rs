@@ -107,6 +107,7 @@ mod solve;
 mod space;
 mod statistics;
 mod step_control;
+mod summation;
 mod variational;
 mod vector_field;
 mod walk;
@@ -142,6 +143,7 @@ pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
     Reversible, ReversibleMemory, StepControl,
 };
+pub use summation::Summation;
 pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
 pub use vector_field::VectorField;
 

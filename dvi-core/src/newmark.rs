@@ -12,9 +12,10 @@ use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
 use crate::method::{Carries, Method, PreservedForm, Scheme};
 use crate::norm::{self, reported};
-use crate::phase::{Arrival, PhasePoint};
+use crate::phase::{Arrival, Increments, PhasePoint};
 use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate};
 use crate::statistics::Statistics;
+use crate::summation::Summation;
 use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination};
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t); [`StartError::Unsupported`] for any other L.
@@ -34,12 +35,19 @@ pub struct Newmark<T = f64> {
     pub solver: Solver,
     /// When a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
+    /// How the increments of the steps are added up. Default: [`Summation::Plain`].
+    pub summation: Summation,
 }
 
 impl<T> Newmark<T> {
     /// With any β; a run refuses one that is not in \[0, ½\].
     pub fn new(beta: T) -> Self {
-        Self { beta, solver: Solver::default(), stopping: Stopping::default() }
+        Self {
+            beta,
+            solver: Solver::default(),
+            stopping: Stopping::default(),
+            summation: Summation::default(),
+        }
     }
 }
 
@@ -61,7 +69,7 @@ struct Work<S: Lagrangian, T: Real> {
     increment: Vector<S, T>,
     next: Vector<S, T>,
     next_force: Vector<S, T>,
-    /// The momentum that takes q0 to q1, or the residual.
+    /// The momentum that takes q0 to q1, or the residual, or what is added to the momentum.
     transfer: Vector<S, T>,
     velocity: Vector<S, T>,
     /// p1
@@ -214,7 +222,7 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
         self.stopping.validate()?;
         let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver };
         Ok(NewmarkMemory {
-            phase: PhasePoint::new(system, q, v, t)?,
+            phase: PhasePoint::new(system, q, v, t, self.summation)?,
             mass: Mass::new(system, q, t).map_err(StartError::Starter)?,
             ladder: Ladder::new(solver, || system.space().matrix()),
             work: Work::new(system),
@@ -246,11 +254,13 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
             ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
         }
         attempt.place(statistics);
-        let Work { half, momentum, next, next_force, increment, .. } = work;
+        let Work { momentum, next, next_force, increment, transfer: sum, .. } = work;
         for i in 0..q.len() {
-            momentum[i] = half[i] + kick * next_force[i];
+            sum[i] = kick * (phase.force[i] + next_force[i]);
+            momentum[i] = phase.p[i] + sum[i];
         }
-        phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, increment, h)
+        let by = Increments { q: increment, p: sum };
+        phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, by, h)
     }
 
     fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {

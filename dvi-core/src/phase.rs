@@ -5,6 +5,7 @@ use crate::history::{History, is_similar};
 use crate::legendre::Legendre;
 use crate::mass::Mass;
 use crate::orientation::MassOrientation;
+use crate::summation::{Carried, Summation};
 use crate::{Lagrangian, Real, RegularLagrangian, Space, Vector, norm};
 
 /// The momentum and the force at the current point, and the last increments.
@@ -18,6 +19,8 @@ pub(crate) struct PhasePoint<S: Lagrangian, T: Real> {
     history: History<S, T>,
     /// The length of the step before; zero before the first.
     last_step: T,
+    /// What rounding has left out of q and of p.
+    carried: [Carried<S, T>; 2],
 }
 
 /// The end of a step: q1, p1 and, if L is separable, ∂L/∂q there.
@@ -27,18 +30,26 @@ pub(crate) struct Arrival<'a, T> {
     pub(crate) force: &'a [T],
 }
 
+/// By how much a step changes q and p: Δ and (D₁ + D₂)L_d.
+#[derive(Clone, Copy)]
+pub(crate) struct Increments<'a, T> {
+    pub(crate) q: &'a [T],
+    pub(crate) p: &'a [T],
+}
+
 impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
     /// At (`q`, `v`, `t`).
     ///
     /// # Errors
     /// [`StartError::Starter`] if momentum or force is no number.
-    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StartError> {
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T, summation: Summation) -> Result<Self, StartError> {
         let space = system.space();
         let [mut force, mut p, mut mean]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
         system.gradient(q, v, t, &mut force, &mut p);
         norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
         mean.copy_from_slice(v);
-        Ok(Self { p, force, history: History::new(system, Some(mean)), last_step: T::lift(0.0) })
+        let carried = [0, 1].map(|_| Carried::new(system, summation));
+        Ok(Self { p, force, history: History::new(system, Some(mean)), last_step: T::lift(0.0), carried })
     }
 
     /// Whether the last steps may be extrapolated to one of length `h`.
@@ -69,27 +80,37 @@ impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
         &mut self,
         q: &mut [T],
         to: &Arrival<'_, T>,
-        increment: &[T],
+        by: Increments<'_, T>,
         h: T,
     ) -> Result<(), StepFailure> {
         norm::finite(to.q).and(norm::finite(to.p))?;
         if S::SEPARABLE {
             norm::finite(to.force)?;
         }
-        self.set(q, to);
+        self.set(q, to, Some(by));
         if !self.extrapolates_to(h) {
             self.history.clear();
         }
         self.last_step = h;
-        self.history.push_scaled(increment, T::lift(1.0) / h);
+        self.history.push_scaled(by.q, T::lift(1.0) / h);
         Ok(())
     }
 
-    /// Sets coordinates, momentum and force.
+    /// Sets coordinates, momentum and force to those of the end; with what rounding has left out of the increments if these
+    /// are given and sums are compensated.
     #[inline(always)]
-    pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>) {
-        q.copy_from_slice(to.q);
-        self.p.copy_from_slice(to.p);
+    pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>, by: Option<Increments<'_, T>>) {
+        match by {
+            None => {
+                q.copy_from_slice(to.q);
+                self.p.copy_from_slice(to.p);
+            }
+            Some(by) => {
+                let [of_q, of_p] = &mut self.carried;
+                of_q.advance(q, by.q, to.q);
+                of_p.advance(&mut self.p, by.p, to.p);
+            }
+        }
         if S::SEPARABLE {
             self.force.copy_from_slice(to.force);
         }
@@ -101,6 +122,9 @@ impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
         self.force.copy_from_slice(&from.force);
         self.history.restore(&from.history);
         self.last_step = from.last_step;
+        for (carried, from) in self.carried.iter_mut().zip(&from.carried) {
+            carried.restore(from);
+        }
     }
 }
 
@@ -182,7 +206,12 @@ impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
             }
             Self::Varying(_) => {
                 phase.history.extrapolate(v);
-                Legendre::new(system).solve(system, q, &phase.p, t, v)
+                let mut legendre = Legendre::new(system);
+                legendre.solve(system, q, &phase.p, t, v).or_else(|_| {
+                    // Extrapolated, it may be beyond what L is defined for.
+                    v.fill(T::lift(0.0));
+                    legendre.solve(system, q, &phase.p, t, v)
+                })
             }
         }
     }

@@ -30,6 +30,12 @@ pub trait Rule: Copy + core::fmt::Debug {
         self.nodes().iter().all(|&c| near(weight_at(c), weight_at(1.0 - c)))
     }
 
+    /// Whether Σ w c = ½, up to rounding, so that linear functions are integrated exactly: symmetric rules are, and Radau's.
+    fn is_exact_for_linear(&self) -> bool {
+        let sum: f64 = self.nodes().iter().zip(self.weights()).map(|(c, w)| w * (c - 0.5)).sum();
+        sum <= 1e-15 && sum >= -1e-15
+    }
+
     /// Whether a node is neither 0 nor 1.
     #[inline(always)]
     fn has_interior_nodes(&self) -> bool {

@@ -20,6 +20,7 @@ use crate::error::{StartError, StepFailure};
 use crate::method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::statistics::Statistics;
+use crate::summation::Summation;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Vector};
 
 pub use memory::SigmaMemory;
@@ -57,7 +58,8 @@ pub use start::Start;
 /// reads it), and a run in which it has taken over ends with
 /// [`StepFailure::ParasiticMode`](crate::StepFailure): see [`parasitic_limit`](Self::parasitic_limit).
 /// On a linear oscillation of frequency ω the scheme is
-/// stable for |ωh| < 1/|1 − 2σ|.
+/// stable for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a run takes
+/// [`Start::RungeKutta`] or two points.
 /// If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a singular matrix and cannot be stepped this way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sigma<T = f64> {
@@ -69,6 +71,9 @@ pub struct Sigma<T = f64> {
     pub solver: Solver,
     /// When an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
+    /// How the increments of the steps are added up. [`Summation::Compensated`] is for affine α and 0 < σ < 1; what is
+    /// compensated are the coordinates. Default: [`Summation::Plain`].
+    pub summation: Summation,
     /// The largest [relative size](ParasiticMode::relative) of the parasitic mode, above which a step fails with
     /// [`StepFailure::ParasiticMode`](crate::StepFailure) and the run stays where it is. Default: ½. `None` lets
     /// the run go on whatever it has become.
@@ -78,8 +83,15 @@ pub struct Sigma<T = f64> {
     /// that is large from the first steps on may become three times as large, if that is more than the limit. If α is
     /// affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
     ///
-    /// The limit is one of the mode and not of the energy: where α is far from affine, the energy error of short steps
-    /// may have grown tenfold before. A motion that turns by more than 70° in a step cannot be told from the mode.
+    /// The limit is one of the mode and not of the energy, and has limits of its own:
+    /// - Where α is far from affine, or the motion passes near a saddle, the energy error of short steps may have grown tenfold
+    ///   before.
+    /// - The mode is compared with the motion of the coordinates together, and of each that moves at least a tenth as much
+    ///   as the largest. In coordinates that are small beside another that is not lost, it is seen late or not at all:
+    ///   choose units in which they are of one size.
+    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can, if α is not affine or Dα not
+    ///   antisymmetric, a path whose curvature changes several times within two or three steps: such a run may be stopped.
+    ///
     /// [`EnergyLimit`](crate::EnergyLimit) around the method limits the energy.
     pub parasitic_limit: Option<f64>,
 }
@@ -92,6 +104,7 @@ impl<T: Real> Sigma<T> {
             start: Start::default(),
             solver: Solver::default(),
             stopping: Stopping::default(),
+            summation: Summation::default(),
             parasitic_limit: Some(PARASITIC_LIMIT),
         }
     }
@@ -115,11 +128,15 @@ impl<T: Real> Sigma<T> {
         self.sigma == T::lift(0.0) || self.sigma == T::lift(1.0)
     }
 
-    fn validate(&self) -> Result<(), StartError> {
+    fn validate(&self, is_affine: bool) -> Result<(), StartError> {
         let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
         if !in_range {
             let value = crate::norm::reported(self.sigma);
             return Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" });
+        }
+        if self.summation == Summation::Compensated && (!is_affine || self.is_end()) {
+            let reason = "it is for affine one-forms and 0 < sigma < 1";
+            return Err(StartError::Unsupported { option: "Summation::Compensated", reason });
         }
         match self.parasitic_limit {
             Some(value) if value.is_nan() || value <= 0.0 => {
@@ -179,7 +196,7 @@ impl<S: Lagrangian, T: Real> Carries<S, T> for Sigma<T> {
 
 impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate()?;
+        self.validate(S::LINEAR)?;
         if S::LINEAR && self.is_midpoint() && self.start == Start::Consistent {
             return SigmaMemory::without_defect(system, self, q, t, h);
         }
@@ -247,7 +264,7 @@ impl<S: DegenerateLagrangian, T: Real> TwoPoint<S, T> for Sigma<T> {
         t: T,
         h: T,
     ) -> Result<Self::Memory, StartError> {
-        self.validate()?;
+        self.validate(S::LINEAR)?;
         SigmaMemory::between(system, self, q0, q1, t, h)
     }
 }

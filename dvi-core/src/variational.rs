@@ -21,6 +21,7 @@ use crate::phase::Inertial;
 use crate::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::solve::{Guess, Solver, Stopping};
 use crate::statistics::Statistics;
+use crate::summation::Summation;
 use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Vector};
 
 pub use lagrangian::QuadratureLagrangian;
@@ -47,11 +48,11 @@ pub enum Fitting {
 /// | [`trapezoid`](Self::trapezoid), unfitted: Störmer–Verlet | explicit: one ∂L/∂q, no iteration, no factorisation | 2 |
 /// | [`sigma`](Self::sigma) with σ = 0 or 1: symplectic Euler | explicit | 1 |
 /// | the same two, fitted to a frequency that is given or left-frozen | explicit | 2 and 1 |
-/// | symmetric rules | implicit in q1 | 2 |
+/// | others with Σ w c = ½, such as symmetric rules | implicit in q1 | 2 |
 /// | others | implicit in q1 | 1 |
 ///
-/// The order is two for every symmetric rule, however many nodes it has, because the interpolation between
-/// two points is; [`Galerkin`](crate::Galerkin) has more. Other Lagrangians take the implicit step. Starts
+/// The order is two for every rule that is exact for linear functions, however many nodes it has, because the
+/// interpolation between two points is; [`Galerkin`](crate::Galerkin) has more. Other Lagrangians take the implicit step. Starts
 /// from p0 = ∂L/∂v(q0, v0). Preserves the momentum maps of symmetries that act linearly and leave the
 /// frequency as it is, and dq ∧ dp unless the frequency is read from the motion without being differentiated
 /// ([`Reading`]).
@@ -71,6 +72,8 @@ pub struct Variational<F = Unfitted, R = Quadrature> {
     pub solver: Solver,
     /// When an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
+    /// How the increments of the steps are added up. Default: [`Summation::Plain`].
+    pub summation: Summation,
 }
 
 impl<R> Variational<Unfitted, R> {
@@ -82,6 +85,7 @@ impl<R> Variational<Unfitted, R> {
             fitting: Fitting::default(),
             solver: Solver::default(),
             stopping: Stopping::default(),
+            summation: Summation::default(),
         }
     }
 }
@@ -117,8 +121,8 @@ impl Variational<Unfitted, Simpson> {
 impl<F, R> Variational<F, R> {
     /// The same rule with interpolation fitted to a frequency.
     pub fn phase_fitted<G>(self, frequency: G) -> Variational<G, R> {
-        let Self { rule, fitting, solver, stopping, .. } = self;
-        Variational { rule, frequency, fitting, solver, stopping }
+        let Self { rule, fitting, solver, stopping, summation, .. } = self;
+        Variational { rule, frequency, fitting, solver, stopping, summation }
     }
 }
 
@@ -174,10 +178,13 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F
 }
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
-    /// Whether the step is Störmer–Verlet, for separable systems.
+    /// Whether the step is Störmer–Verlet with plain sums, for separable systems.
     #[inline(always)]
     fn is_verlet(&self) -> bool {
-        F::UNFITTED && self.rule.nodes() == Trapezoid.nodes() && self.rule.weights() == Trapezoid.weights()
+        F::UNFITTED
+            && self.summation == Summation::Plain
+            && self.rule.nodes() == Trapezoid.nodes()
+            && self.rule.weights() == Trapezoid.weights()
     }
 
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
@@ -232,7 +239,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
 
 impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
     fn order(&self) -> usize {
-        if self.rule.is_symmetric() { 2 } else { 1 }
+        if self.rule.is_exact_for_linear() { 2 } else { 1 }
     }
     fn is_symmetric(&self) -> bool {
         self.rule.is_symmetric() && self.frequency.reading() != Some(Reading::LeftFrozen)

@@ -172,3 +172,38 @@ fn where_the_one_form_depends_on_time_the_order_is_one_unless_sigma_is_a_half() 
     }
     Ok(())
 }
+
+/// The error of a pendulum at t = 1.
+fn pendulum_order(rule: Quadrature) -> Result<f64, Box<dyn core::error::Error>> {
+    use dvi_tests::zoo::regular::{DrivenOscillator, DrivenOscillatorState};
+    let system = DrivenOscillator { depth: 0.3, omega: 2.0 };
+    let start = DrivenOscillatorState { x: 0.4, dot_x: 0.9 };
+    let mut exact = Integrator::new(&system, Galerkin::<5>::new(), 1.0 / 64.0, start)?;
+    exact.take_steps(64)?;
+    let mut errors = Vec::new();
+    for steps in [64, 96, 128, 192] {
+        let mut run = Integrator::new(&system, Variational::new(rule), 1.0 / steps as f64, start)?;
+        run.take_steps(steps)?;
+        errors.push((1.0 / steps as f64, f64::abs(run.q()[0] - exact.q()[0])));
+    }
+    convergence_order(&errors).ok_or_else(|| "no slope".into())
+}
+
+#[test]
+fn a_rule_that_is_exact_for_linear_functions_is_of_second_order() -> Outcome {
+    let radau = Quadrature::new(&[1.0 / 3.0, 1.0], &[0.75, 0.25])?;
+    for rule in [radau, Quadrature::sigma(0.3), Quadrature::gauss(2)?] {
+        let (found, claimed) = (pendulum_order(rule)?, Variational::new(rule).order() as f64);
+        assert!((found - claimed).abs() < 0.1, "{rule:?}: {found} {claimed}");
+    }
+    assert_eq!(Variational::new(radau).order(), 2);
+    Ok(())
+}
+
+#[test]
+fn a_second_point_without_an_energy_is_refused() {
+    let (system, start) = leapfrogging();
+    let second = PointVorticesState { x: [0.5, 0.5, -1.0, 1.0], y: [0.0, 0.0, -2.0, -2.0] };
+    let run = Integrator::from_two_points(&system, Sigma::leapfrog(), 0.1, start, second);
+    assert!(matches!(run.err(), Some(StartError::Undefined { .. })));
+}

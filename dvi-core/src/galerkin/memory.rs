@@ -5,7 +5,7 @@ use super::coefficients::{Coefficients, differentiation};
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{FrequencyIn, Local};
 use crate::history::History;
-use crate::phase::{Arrival, Inertial, PhasePoint};
+use crate::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::quadrature::Quadrature;
 use crate::solve::{Ladder, Solver};
 use crate::statistics::Statistics;
@@ -86,7 +86,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
             differentiation: a,
             coefficients: Coefficients::new(&rule, &a, T::lift(0.0)).map_err(StartError::Starter)?,
             ends: [Local::new(system, reading), Local::new(system, reading)],
-            phase: PhasePoint::new(system, q, v, t)?,
+            phase: PhasePoint::new(system, q, v, t, method.summation)?,
             inertial: Inertial::new(system, q, v, t)?,
             displacements: core::array::from_fn(|_| History::new(system, None)),
             work: Work::new(system),
@@ -170,7 +170,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> Path<NODES, S, T> {
     }
 
     /// Moves to `work.next`, `work.momentum` and `work.next_force` at the time `end`, if they are numbers and the mass
-    /// matrix has kept its orientation.
+    /// matrix has kept its orientation. The increments are the last of the unknowns, and the first of the residuals.
     #[inline(always)]
     pub(super) fn complete(
         &mut self,
@@ -178,12 +178,12 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> Path<NODES, S, T> {
         [h, end]: [T; 2],
         q: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        let Work { next, momentum, next_force, velocity, unknowns, .. } = &mut self.work;
-        let increment = &unknowns[NODES - 1];
+        let Work { next, momentum, next_force, velocity, unknowns, residuals, .. } = &mut self.work;
+        let by = Increments { q: &unknowns[NODES - 1], p: &residuals[0] };
         norm::finite(next).and(norm::finite(momentum))?;
-        self.inertial.check(system, [next, increment], [end, h], velocity)?;
+        self.inertial.check(system, [next, by.q], [end, h], velocity)?;
         let similar = self.phase.extrapolates_to(h);
-        self.phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, increment, h)?;
+        self.phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, by, h)?;
         let per_h = T::lift(1.0) / h;
         for (history, displacement) in self.displacements.iter_mut().zip(unknowns).take(NODES - 1).skip(1) {
             if !similar {

@@ -111,29 +111,32 @@ pub(super) fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>
     }
     step.system.force(next, &[], step.node_time(1.0), next_force);
     statistics.gradients += 1;
-    let Work { momentum, .. } = &mut path.work;
     let weights = path.coefficients.weights;
-    for i in 0..momentum.len() {
-        momentum[i] = path.phase.p[i] + step.h * weights[0] * path.phase.force[i];
+    for (sum, &f) in path.work.residuals[0].iter_mut().zip(path.phase.force.iter()) {
+        *sum = step.h * weights[0] * f;
     }
     for j in 1..last {
         node_force(j, step, path, statistics);
-        let Work { momentum, gradient, .. } = &mut path.work;
+        let Work { residuals, gradient, .. } = &mut path.work;
         let weight = step.h * weights[j] * path.coefficients.point[j][0];
-        for (p, &f) in momentum.iter_mut().zip(gradient.iter()) {
-            *p += weight * f;
+        for (sum, &f) in residuals[0].iter_mut().zip(gradient.iter()) {
+            *sum += weight * f;
         }
     }
-    let Work { momentum, next_force, unknowns, velocity, .. } = &mut path.work;
-    for (p, &f) in momentum.iter_mut().zip(next_force.iter()) {
-        *p += step.h * weights[last] * f;
+    let Work { momentum, next_force, unknowns, residuals, velocity, .. } = &mut path.work;
+    let sum = &mut residuals[0];
+    for (sum, &f) in sum.iter_mut().zip(next_force.iter()) {
+        *sum += step.h * weights[last] * f;
     }
     if let (false, Some(mass)) = (F::UNFITTED, path.inertial.constant()) {
         for i in 0..velocity.len() {
             let terms = path.coefficients.kinetic[0].iter().zip(unknowns.iter());
             velocity[i] = terms.fold(T::lift(0.0), |sum, (&k, x)| sum + k * x[i]);
         }
-        mass.multiply_add(T::lift(1.0) / step.h, velocity, momentum);
+        mass.multiply_add(T::lift(1.0) / step.h, velocity, sum);
+    }
+    for i in 0..momentum.len() {
+        momentum[i] = path.phase.p[i] + sum[i];
     }
     path.complete(step.system, [step.h, step.node_time(1.0)], q)
 }

@@ -18,6 +18,7 @@ use crate::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::space::scratch;
 use crate::statistics::Statistics;
+use crate::summation::Carried;
 use crate::{DegenerateLagrangian, Matrix, Real, Vector};
 
 #[inline(always)]
@@ -84,12 +85,13 @@ fn advance<S: DegenerateLagrangian, T: Real>(
     step: &Step<'_, S, T>,
     q: &mut Vector<S, T>,
     increment: &[T],
+    carried: &mut Carried<S, T>,
     storage: &mut Vector<S, T>,
 ) -> Result<(), StepFailure> {
     scratch!(next = step.system, *storage);
     add(q, increment, next);
     norm::finite(next)?;
-    q.copy_from_slice(next);
+    carried.advance(q, increment, next);
     Ok(())
 }
 
@@ -226,16 +228,16 @@ fn finish<S: DegenerateLagrangian, T: Real>(
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, history, product, l_d, work, defect_vanishes, .. } = memory;
+    let SigmaMemory { defect, history, product, l_d, work, carried, defect_vanishes, .. } = memory;
     if *defect_vanishes {
-        advance(step, q, &work.increment, &mut work.next)?;
+        advance(step, q, &work.increment, carried, &mut work.next)?;
         history.push(&work.increment);
         return Ok(());
     }
     for ((delta, &s), &shift) in work.trial.iter_mut().zip(work.increment.iter()).zip(work.shift.iter()) {
         *delta = shift + s;
     }
-    advance(step, q, &work.trial, &mut work.next)?;
+    advance(step, q, &work.trial, carried, &mut work.next)?;
     history.push(&work.increment);
     match product {
         None => defect.iter_mut().for_each(|c| *c = -*c),

@@ -15,6 +15,7 @@ use crate::orientation::FormOrientation;
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::statistics::Statistics;
+use crate::summation::Carried;
 use crate::{DegenerateLagrangian, Lagrangian, Matrix, Real, Space, Vector};
 
 /// The defect of a run of the σ-family, its guesses and its work space.
@@ -40,6 +41,8 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
     pub(super) ladder: Ladder<Matrix<S, T>>,
     pub(super) monitor: Monitor<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
+    /// What rounding has left out of the coordinates, if α is affine and σ neither 0 nor 1.
+    pub(super) carried: Carried<S, T>,
     pub(super) work: Work<S, T>,
 }
 
@@ -151,6 +154,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         self.ladder.restore(&from.ladder);
         self.monitor.restore(&from.monitor);
         self.orientation.restore(&from.orientation);
+        self.carried.restore(&from.carried);
         self.work.ahead.copy_from_slice(&from.work.ahead);
     }
 
@@ -191,6 +195,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             ladder: Ladder::new(solver, || space.matrix()),
             monitor: Monitor::new(system, limit, pace),
             orientation: FormOrientation::new(system, q, t),
+            carried: Carried::new(system, method.summation),
             work,
         })
     }

@@ -32,10 +32,23 @@ const FLOOR: f64 = 0.1;
 /// A mode that is large from the first steps on, as it is where steps are long, may become this many times as large.
 const GROWTH: f64 = 3.0;
 
-/// Where a path is straight, a smooth motion may look as if it alternated, for as many looks as see the place; a mode that
-/// is larger than this many times the limit is none.
-const SUDDEN: f64 = 4.0;
-const LOOKS: u32 = 2;
+/// What it takes to end a run: this many looks in a row above the limit, or two of which the last is above it this many
+/// times.
+#[derive(Clone, Copy, Debug)]
+struct Evidence {
+    looks: u32,
+    sudden: f64,
+}
+
+/// Where a path is straight, a smooth motion may look as if it alternated, to one look.
+const GROWING: Evidence = Evidence { looks: 2, sudden: 4.0 };
+
+/// A path whose curvature changes within a step or two seems to alternate, all at once, to all looks that see the place, which
+/// are five to seven, and up to three times as large as it is curved.
+const AT_ONCE: Evidence = Evidence { looks: 8, sudden: 16.0 };
+
+/// A mode that is this many times as large as a step before has not grown.
+const JUMP: f64 = 5.0;
 
 /// How many looks show the mode as it is from the start.
 const FIRST_LOOKS: u32 = 2;
@@ -87,6 +100,8 @@ pub(super) struct Monitor<S: Lagrangian, T: Real> {
     latest: Option<(u64, ParasiticMode<T>)>,
     /// How many looks in a row, the last among them, have seen it above the limit.
     above: u32,
+    /// How many looks have passed, of those at each step, since the mode has become large at once.
+    since_jump: u32,
     first: First,
 }
 
@@ -115,6 +130,7 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
             limit,
             latest: None,
             above: 0,
+            since_jump: u32::MAX,
             first: First::default(),
         }
     }
@@ -126,7 +142,7 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         self.sizes.copy_from_slice(&from.sizes);
         (self.steps, self.period) = (from.steps, from.period);
         (self.together, self.latest) = (from.together, from.latest);
-        (self.above, self.first) = (from.above, from.first);
+        (self.above, self.since_jump, self.first) = (from.above, from.since_jump, from.first);
     }
 
     pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
@@ -180,8 +196,9 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
             _ => self.measure(step, q),
         };
         let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
+        let Evidence { looks, sudden } = if self.since_jump < AT_ONCE.looks { AT_ONCE } else { GROWING };
         match self.limit {
-            Some(limit) if self.above >= LOOKS || (self.above > 0 && relative > SUDDEN * limit) => {
+            Some(limit) if self.above >= looks || (self.above > 1 && relative > sudden * limit) => {
                 Err(StepFailure::ParasiticMode { amplitude, relative, limit })
             }
             _ => Ok(()),
@@ -235,6 +252,9 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         if self.pace == Pace::WithTheFlow {
             self.keep_pace(step, &mode, reported(turned), reported(moved));
         }
+        let has_jumped = self.latest.is_some_and(|(_, last)| mode.relative > T::lift(JUMP) * last.relative);
+        let is_jump = self.pace == Pace::EachStep && has_jumped;
+        self.since_jump = if is_jump { 0 } else { self.since_jump.saturating_add(1) };
         self.above = if self.is_above(&mode) { self.above + 1 } else { 0 };
         self.latest = Some((step, mode));
         mode

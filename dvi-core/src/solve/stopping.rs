@@ -24,8 +24,8 @@ pub struct Stopping {
     /// Below the rounding of the arithmetic, it is relative to the smallest |q|, and an iteration that cannot reach that
     /// goes on until its corrections no longer shrink. The correction is one number for all coordinates, and rounding
     /// errors of a large coordinate that is in motion end the iteration for all: beside one of 10⁹ a fixed point leaves
-    /// errors of 10⁻⁹ to 10⁻⁷ in the others, [`Solver::Newton`](super::Solver) some 10⁻¹³. On four vortices
-    /// with σ = ½ and h = 0.1, ΣΓ|z|² then changes by less than 4e-19 a step over 4·10⁵ steps; an iteration that
+    /// errors of 10⁻⁹ to 10⁻⁷ in the others, [`Solver::Newton`](super::Solver) some 10⁻¹³. On four equal
+    /// vortices in quasi-periodic motion, σ = ½ and h = 0.1, ΣΓ|z|² then changes by less than 4e-19 a step over 4·10⁵ steps; an iteration that
     /// stops as soon as an error of 1e-17 of the largest is predicted drifts by 1.2e-18. A larger tolerance is judged on the
     /// largest coordinate.
     pub tolerance: f64,

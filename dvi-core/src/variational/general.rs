@@ -9,7 +9,7 @@ use crate::discrete::{DiscreteLagrangian, Ends, solve_by_newton};
 use crate::error::StepFailure;
 use crate::frequency::{FrequencyIn, Local};
 use crate::mass::Mass;
-use crate::phase::{Arrival, PhasePoint};
+use crate::phase::{Arrival, Increments, PhasePoint};
 use crate::quadrature::Rule;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::statistics::Statistics;
@@ -109,14 +109,15 @@ fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     let Work { node, next, increment, trial, sum } = &mut **work;
     for i in 0..q.len() {
         next[i] = q[i] + increment[i];
-        sum[i] += phase.p[i];
+        node.momentum[i] = phase.p[i] + sum[i];
     }
-    norm::finite(next).and(norm::finite(sum))?;
+    norm::finite(next).and(norm::finite(&node.momentum))?;
     let end = step.node_time(1.0);
     if S::SEPARABLE {
         step.system.force(next, &[], end, trial);
         statistics.gradients += 1;
     }
     inertial.check(step.system, [next, increment], [end, step.h], &mut node.velocity)?;
-    phase.advance(q, &Arrival { q: next, p: sum, force: trial }, increment, step.h)
+    let by = Increments { q: increment, p: sum };
+    phase.advance(q, &Arrival { q: next, p: &node.momentum, force: trial }, by, step.h)
 }

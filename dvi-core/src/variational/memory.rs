@@ -82,7 +82,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         Ok(Self {
             interpolation,
             ends: [Local::new(system, reading), Local::new(system, reading)],
-            phase: PhasePoint::new(system, q, v, t)?,
+            phase: PhasePoint::new(system, q, v, t, method.summation)?,
             inertial: Inertial::new(system, q, v, t)?,
             ladder: Ladder::new(solver, || system.space().matrix()),
             work: Work::new(system),

@@ -81,7 +81,7 @@ impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
 
     #[inline(always)]
     fn keep(&mut self) {
-        self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 });
+        self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 }, None);
     }
 
     #[inline(always)]

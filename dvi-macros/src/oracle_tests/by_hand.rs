@@ -49,6 +49,7 @@ const HAMILTONIANS: &[&str] = &[
     "sum(0..N, |j| sum_pairs(0..j, |k, l| if s > 1 { 1 } else { x[k] + x[l] }).cbrt())",
     // Choices of zero in a sum over an index that nothing else in it depends on.
     "sum_ordered_pairs(0..N, |i, j| if u > 5 { sum_pairs(0..N, |k, l| (w - 9).sqrt() * x[i]) } else { 1 }) + w",
+    "sum_pairs(0..N, |i, j| sum_ordered_pairs(0..i + 2, |k, l| if u < 9 { u } else { 1 })) * sum_pairs(0..2, |k, l| if u < 9 { (w * w + 1).sqrt() * u } else { 1 })",
     // Indices whose bounds depend on each other.
     "sum(0..N, |j| sum(j..N, |k| x[k - j]))",
     "sum(0..N, |j| sum(0..N - j, |k| x[j + k]))",

@@ -39,6 +39,9 @@ impl Graph {
         if *index == to {
             return (height, body);
         }
+        if matches!(index, Atom::Bound(own) if *own < height) {
+            internal("a sum has grown while an index around it was renamed");
+        }
         let own = Index::atom(index.clone()).free().bound;
         let names_inside = (2_u64 << height) - 1;
         if self.free(body.node).bound & !own & names_inside != 0 {

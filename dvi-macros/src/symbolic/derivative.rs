@@ -165,21 +165,21 @@ impl Graph {
             match self.node(id).clone() {
                 Node::Coordinate(_) | Node::Velocity(_) => {
                     let partial = self.derivative(body, id);
-                    let value = self.multiply(weight, partial);
+                    let value = self.weighted(weight, partial);
                     if !value.is_zero() {
                         found.push(Contribution { loops: loops.to_vec(), target: id, value });
                     }
                 }
                 Node::Reduce { fold, height, range, body: inner } => {
                     let partial = self.derivative(body, id);
-                    let mut weight = self.multiply(weight, partial);
+                    let mut weight = self.weighted(weight, partial);
                     if weight.is_zero() {
                         continue;
                     }
                     let depth = loops.len() as u32;
                     if fold == Fold::Product {
                         let others = self.other_factors(height, &range, inner, depth);
-                        weight = self.multiply(weight, others);
+                        weight = self.weighted(weight, others);
                     }
                     let inner = self.opened(height, inner, depth);
                     let inside: Vec<Loop> = loops.iter().cloned().chain([Loop { depth, range }]).collect();

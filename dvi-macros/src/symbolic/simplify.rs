@@ -9,7 +9,7 @@
 //! more than the left.
 
 use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
-use super::index::{Atom, Free, Index, Range};
+use super::index::{Atom, Index, Range};
 use super::rules;
 use crate::internal::internal;
 
@@ -72,7 +72,7 @@ impl Graph {
 
     /// a · b · …: factors merge into powers, literal factors multiply; a choice of zero chooses between the
     /// whole product and zero, so that what the other factors are where they do not count is not asked; the same for
-    /// a sum of such choices, and for one over an index where the other factors may be no numbers.
+    /// a sum of such choices.
     pub(crate) fn product(&mut self, factors: &[Expr]) -> Expr {
         let mut scale = 1.0;
         let mut collected: Vec<(Id, u32)> = Vec::new();
@@ -106,9 +106,6 @@ impl Graph {
             let products: Vec<Expr> =
                 terms.into_iter().map(|term| self.product(&[others.as_slice(), &[term]].concat())).collect();
             return self.sum(&products).scaled(scale);
-        }
-        if let Some(total) = self.multiply_into_choices(&collected) {
-            return total.scaled(scale);
         }
         self.drop_signs(&mut collected);
         collected.sort_unstable();
@@ -155,25 +152,21 @@ impl Graph {
         Some(terms)
     }
 
-    /// The product as a sum over an index, if one factor is a sum of choices of zero over an index and the others may be
-    /// no numbers.
-    fn multiply_into_choices(&mut self, factors: &[(Id, u32)]) -> Option<Expr> {
-        let position = factors.iter().position(|(id, exponent)| *exponent == 1 && self.sums_choices(*id))?;
-        let is_other = |at: &usize| *at != position;
-        let others: Vec<(Id, u32)> = (0..factors.len()).filter(is_other).map(|at| factors[at]).collect();
-        let Node::Reduce { fold, height, range, body } = self.node(factors[position].0).clone() else {
-            return None;
+    /// weight · factor, where the weight is the derivative of a formula by a part of it. A weight that is a sum of choices of
+    /// zero over an index takes the factor in, if that may be no number: it need not be one where no choice asks for it.
+    ///
+    /// No constructor does this: it raises the heights of sums, which must not change while indices are renamed.
+    pub(super) fn weighted(&mut self, weight: Expr, factor: Expr) -> Expr {
+        let Node::Reduce { fold, height, range, body } = self.node(weight.node).clone() else {
+            return self.multiply(weight, factor);
         };
-        let free = factors.iter().fold(Free::default(), |free, (id, _)| free.and(self.free(*id)));
-        // The name of an index around a closed sum is not known here, and must not be taken.
-        if free.bound != 0 || !others.iter().any(|(id, _)| self.has_domain(*id)) {
-            return None;
+        let free = self.free(weight.node).and(self.free(factor.node));
+        if !self.sums_choices(weight.node) || !self.has_domain(factor.node) || free.bound != 0 {
+            return self.multiply(weight, factor);
         }
         let inner = self.opened(height, body, free.depth());
-        let powers: Vec<Expr> =
-            others.into_iter().map(|(id, exponent)| self.power(id.into(), exponent)).collect();
-        let product = self.product(&[powers.as_slice(), &[inner]].concat());
-        Some(self.fold(fold, Atom::Open(free.depth()), range, product))
+        let product = self.weighted(inner, factor);
+        self.fold(fold, Atom::Open(free.depth()), range, product).scaled(weight.scale)
     }
 
     /// Whether it is a sum over an index, all terms of which may be zero by a choice.

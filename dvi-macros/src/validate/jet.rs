@@ -177,13 +177,17 @@ impl Jet {
             add(k, k, 0);
             add(k, 0, k);
         }
+        for both in 1 + FIRST + SECOND..PARTS {
+            add(both, both, 0);
+            add(both, 0, both);
+        }
+        let [x, y] = [&self.0, &other.0];
         for first in 0..MIXED {
             for second in 0..SECOND {
                 let (both, e, f) = (mixed(first, second), 1 + first, 1 + FIRST + second);
-                add(both, both, 0);
-                add(both, e, f);
-                add(both, f, e);
-                add(both, 0, both);
+                product.0.value[both] += x.value[e] * y.value[f] + x.value[f] * y.value[e];
+                // Derivatives that are zero as a whole have entries that are not, and these are multiplied one by one.
+                product.0.size[both] += x.size[e] * y.size[f] + x.size[f] * y.size[e];
             }
         }
         product
@@ -210,7 +214,7 @@ impl Jet {
                 let (x, y, xy) = (self.0.value[e], self.0.value[f], self.0.value[both]);
                 result.0.value[both] = d1 * xy + d2 * x * y;
                 result.0.size[both] = size[1] * self.0.size[both]
-                    + size[2] * (self.0.size[e] * y.abs() + x.abs() * self.0.size[f] + u * xy.abs())
+                    + size[2] * (self.0.size[e] * self.0.size[f] + u * xy.abs())
                     + d3.abs() * u * (x * y).abs();
             }
         }

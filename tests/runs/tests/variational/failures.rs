@@ -239,3 +239,26 @@ fn a_frequency_that_is_not_defined_is_an_error_of_its_own() -> Outcome {
     }
     check(Galerkin::<3>::new().phase_fitted(Partial(Reading::Averaged)))
 }
+
+/// A relativistic particle at nearly the speed of light: p = v/√(1 − v²) leads Newton's method beyond it.
+#[test]
+fn momenta_of_a_bounded_velocity_have_one() -> Outcome {
+    for (h, v) in [(0.5, 0.99), (0.5, 0.9), (0.2, 0.99)] {
+        let start = FastState { x: 0.0, dot_x: v };
+        let mut run = Integrator::new(&Fast, Variational::midpoint(), h, start)?;
+        for _ in 0..40 {
+            if run.advance().is_err() {
+                break;
+            }
+            let p: f64 = run.memory().p()[0];
+            let (found, exact): (f64, f64) = (run.state().dot_x, p / (1.0 + p * p).sqrt());
+            assert!((found - exact).abs() < 1e-12, "h = {h}, step {}: {found} {exact}", run.steps());
+        }
+        assert!(run.steps() >= 5, "h = {h}: {} steps", run.steps());
+    }
+    Ok(())
+}
+
+#[lagrangian(coordinates(x), lagrangian = -(1.0 - dot(x).powi(2)).sqrt() - x * x / 2.0)]
+#[derive(Clone, Debug)]
+struct Fast;
