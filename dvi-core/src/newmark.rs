@@ -140,9 +140,7 @@ impl<S: RegularLagrangian, T: Real> Attempt<'_, S, T> {
     /// Sets `next` to q1, `next_force` to F(q1), and `transfer` to p½ + βh(F1 − F0).
     fn place(&mut self, statistics: &mut Statistics) {
         let Work { half, increment, next, next_force, transfer, .. } = &mut *self.work;
-        for i in 0..self.q.len() {
-            next[i] = self.q[i] + increment[i];
-        }
+        self.phase.reach(self.q, increment, next);
         self.system.force(next, &[], self.interval.time(T::lift(1.0)), next_force);
         statistics.gradients += 1;
         for i in 0..self.q.len() {
@@ -241,9 +239,10 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
     ) -> Result<(), StepFailure> {
         let NewmarkMemory { phase, mass, ladder, work } = memory;
         let kick = T::lift(0.5) * h;
-        for i in 0..q.len() {
-            work.half[i] = phase.p[i] + kick * phase.force[i];
+        for (impulse, &f) in work.transfer.iter_mut().zip(phase.force.iter()) {
+            *impulse = kick * f;
         }
+        phase.kick(&work.transfer, &mut work.half);
         let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
         let (beta, interval, stopping) = (self.beta, Interval { t, h }, self.stopping);
         let mut attempt = Attempt { system, beta, interval, stopping, budget, q, phase, mass, work };
@@ -257,8 +256,8 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
         let Work { momentum, next, next_force, increment, transfer: sum, .. } = work;
         for i in 0..q.len() {
             sum[i] = kick * (phase.force[i] + next_force[i]);
-            momentum[i] = phase.p[i] + sum[i];
         }
+        phase.kick(sum, momentum);
         let by = Increments { q: increment, p: sum };
         phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, by, h)
     }

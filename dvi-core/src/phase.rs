@@ -30,6 +30,14 @@ pub(crate) struct Arrival<'a, T> {
     pub(crate) force: &'a [T],
 }
 
+impl<T: Real> Arrival<'_, T> {
+    #[inline(always)]
+    fn finite<S: RegularLagrangian>(&self) -> Result<(), StepFailure> {
+        norm::finite(self.q).and(norm::finite(self.p))?;
+        if S::SEPARABLE { norm::finite(self.force) } else { Ok(()) }
+    }
+}
+
 /// By how much a step changes q and p: Δ and (D₁ + D₂)L_d.
 #[derive(Clone, Copy)]
 pub(crate) struct Increments<'a, T> {
@@ -71,11 +79,20 @@ impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
         }
     }
 
+    /// Sets `q1` to q0 + Δ.
+    pub(crate) fn reach(&self, q: &[T], increment: &[T], q1: &mut [T]) {
+        self.carried[0].add(q, increment, q1);
+    }
+
+    /// Sets `p1` to p0 and `impulse`.
+    pub(crate) fn kick(&self, impulse: &[T], p1: &mut [T]) {
+        self.carried[1].add(&self.p, impulse, p1);
+    }
+
     /// Moves to the end of a step of length `h`.
     ///
     /// # Errors
     /// [`StepFailure::NotFinite`]; nothing has moved then.
-    #[inline(always)]
     pub(crate) fn advance(
         &mut self,
         q: &mut [T],
@@ -83,34 +100,49 @@ impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
         by: Increments<'_, T>,
         h: T,
     ) -> Result<(), StepFailure> {
-        norm::finite(to.q).and(norm::finite(to.p))?;
+        to.finite::<S>()?;
+        let [of_q, of_p] = &mut self.carried;
+        of_q.advance(q, by.q, to.q);
+        of_p.advance(&mut self.p, by.p, to.p);
         if S::SEPARABLE {
-            norm::finite(to.force)?;
+            self.force.copy_from_slice(to.force);
         }
-        self.set(q, to, Some(by));
+        self.remember(by.q, h);
+        Ok(())
+    }
+
+    /// The same where sums are plain, so that the increment of p is not asked for.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance).
+    #[inline(always)]
+    pub(crate) fn arrive(
+        &mut self,
+        q: &mut [T],
+        to: &Arrival<'_, T>,
+        increment: &[T],
+        h: T,
+    ) -> Result<(), StepFailure> {
+        to.finite::<S>()?;
+        self.set(q, to);
+        self.remember(increment, h);
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn remember(&mut self, increment: &[T], h: T) {
         if !self.extrapolates_to(h) {
             self.history.clear();
         }
         self.last_step = h;
-        self.history.push_scaled(by.q, T::lift(1.0) / h);
-        Ok(())
+        self.history.push_scaled(increment, T::lift(1.0) / h);
     }
 
-    /// Sets coordinates, momentum and force to those of the end; with what rounding has left out of the increments if these
-    /// are given and sums are compensated.
+    /// Sets coordinates, momentum and force where sums are plain.
     #[inline(always)]
-    pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>, by: Option<Increments<'_, T>>) {
-        match by {
-            None => {
-                q.copy_from_slice(to.q);
-                self.p.copy_from_slice(to.p);
-            }
-            Some(by) => {
-                let [of_q, of_p] = &mut self.carried;
-                of_q.advance(q, by.q, to.q);
-                of_p.advance(&mut self.p, by.p, to.p);
-            }
-        }
+    pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>) {
+        q.copy_from_slice(to.q);
+        self.p.copy_from_slice(to.p);
         if S::SEPARABLE {
             self.force.copy_from_slice(to.force);
         }

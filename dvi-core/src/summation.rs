@@ -4,7 +4,8 @@
 //!
 //! (Kahan 1965; Neumaier 1974). A plain sum rounds x, a compensated one Δ, which is smaller by a factor of order h.
 
-use crate::{Lagrangian, Real, Scalar, Space, Vector};
+use crate::error::StepFailure;
+use crate::{Lagrangian, Real, Scalar, Space, Vector, norm};
 
 /// How the increments of the steps are added to coordinates and momenta.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,60 +15,63 @@ pub enum Summation {
     #[default]
     Plain,
     /// What rounding leaves out of x + Δ is carried on and added to the next increment (Kahan 1965), so that only Δ itself is
-    /// rounded: worth it for long runs with small steps. It costs two vectors, and some eight additions a step and
-    /// coordinate. What a run then shows are the sums rounded; steps are taken from these.
+    /// rounded: worth it for long runs with small steps. It costs two vectors, some eight additions a step and coordinate,
+    /// and the fast path of explicit steps. What a run shows are the sums rounded; forces are evaluated at these.
+    /// A fixed point is then iterated until nothing is left to gain. Newton's method rounds as much as a plain sum.
     Compensated,
 }
 
 /// What rounding has left out of a vector that moves by increments; nothing where sums are plain.
 #[derive(Debug)]
-pub(crate) struct Carried<S: Lagrangian, T: Real>(Option<Rest<S, T>>);
-
-#[derive(Debug)]
-struct Rest<S: Lagrangian, T: Real> {
-    rest: Vector<S, T>,
-    increment: Vector<S, T>,
-}
+pub(crate) struct Carried<S: Lagrangian, T: Real>(Option<Vector<S, T>>);
 
 impl<S: Lagrangian, T: Real> Carried<S, T> {
     #[inline(always)]
     pub(crate) fn new(system: &S, summation: Summation) -> Self {
-        let vector = || system.space().vector();
         Self(match summation {
             Summation::Plain => None,
-            Summation::Compensated => Some(Rest { rest: vector(), increment: vector() }),
+            Summation::Compensated => Some(system.space().vector()),
         })
     }
 
-    /// Moves `x` by an increment to `sum`, which is x + Δ rounded; with what is carried added to Δ if sums are compensated.
-    #[inline(always)]
-    pub(crate) fn advance(&mut self, x: &mut [T], increment: &[T], sum: &[T]) {
-        match &mut self.0 {
-            None => x.copy_from_slice(sum),
-            Some(rest) => {
-                // A copy, so that the increment itself may stay in registers.
-                rest.increment.copy_from_slice(increment);
-                rest.advance(x);
-            }
+    /// Sets `sum` to x + Δ, or x + (Δ + e).
+    pub(crate) fn add(&self, x: &[T], increment: &[T], sum: &mut [T]) {
+        for i in 0..x.len() {
+            let delta = self.0.as_ref().map_or(increment[i], |rest| increment[i] + rest[i]);
+            sum[i] = x[i] + delta;
         }
     }
 
+    /// Moves `x` to `sum`, as [`add`](Self::add) has made it, and takes note of what rounding has left out.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, x: &mut [T], increment: &[T], sum: &[T]) {
+        if let Some(rest) = &mut self.0 {
+            carry(rest, x, increment, sum);
+        }
+        x.copy_from_slice(sum);
+    }
+
+    /// Moves `x` by an increment, if the sum is finite.
+    #[inline(never)]
+    pub(crate) fn move_by(&mut self, x: &mut [T], increment: &[T], sum: &mut [T]) -> Result<(), StepFailure> {
+        self.add(x, increment, sum);
+        norm::finite(sum)?;
+        self.advance(x, increment, sum);
+        Ok(())
+    }
+
     pub(crate) fn restore(&mut self, from: &Self) {
-        if let (Some(Rest { rest, .. }), Some(from)) = (&mut self.0, &from.0) {
-            rest.copy_from_slice(&from.rest);
+        if let (Some(rest), Some(from)) = (&mut self.0, &from.0) {
+            rest.copy_from_slice(from);
         }
     }
 }
 
-impl<S: Lagrangian, T: Real> Rest<S, T> {
-    #[inline(never)]
-    fn advance(&mut self, x: &mut [T]) {
-        for ((x, rest), &delta) in x.iter_mut().zip(self.rest.iter_mut()).zip(self.increment.iter()) {
-            let added = delta + *rest;
-            let sum = *x + added;
-            let x_is_larger = Scalar::abs(*x) >= Scalar::abs(added);
-            *rest = if x_is_larger { (*x - sum) + added } else { (added - sum) + *x };
-            *x = sum;
-        }
+#[inline(never)]
+fn carry<T: Real>(rest: &mut [T], x: &[T], increment: &[T], sum: &[T]) {
+    for (((&sum, &x), &delta), rest) in sum.iter().zip(x).zip(increment).zip(rest) {
+        let added = delta + *rest;
+        let x_is_larger = Scalar::abs(x) >= Scalar::abs(added);
+        *rest = if x_is_larger { (x - sum) + added } else { (added - sum) + x };
     }
 }

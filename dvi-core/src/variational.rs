@@ -72,7 +72,8 @@ pub struct Variational<F = Unfitted, R = Quadrature> {
     pub solver: Solver,
     /// When an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
-    /// How the increments of the steps are added up. Default: [`Summation::Plain`].
+    /// How the increments of the steps are added up; with frequencies per coordinate plainly. Default:
+    /// [`Summation::Plain`].
     pub summation: Summation,
 }
 
@@ -159,7 +160,7 @@ struct Attempt<'a, S: Lagrangian, F, R, T: Real> {
 impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
     #[inline(always)]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        if self.step.method.needs_forces_only::<S>() {
+        if self.step.method.needs_forces_only::<S>() && self.step.method.summation == Summation::Plain {
             separable::step(&self.step, &mut self.parts, self.budget, statistics)
         } else {
             general::by_fixed_point(&self.step, &mut self.parts, statistics)
@@ -178,13 +179,10 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F
 }
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
-    /// Whether the step is Störmer–Verlet with plain sums, for separable systems.
+    /// Whether the step is Störmer–Verlet, for separable systems.
     #[inline(always)]
     fn is_verlet(&self) -> bool {
-        F::UNFITTED
-            && self.summation == Summation::Plain
-            && self.rule.nodes() == Trapezoid.nodes()
-            && self.rule.weights() == Trapezoid.weights()
+        F::UNFITTED && self.rule.nodes() == Trapezoid.nodes() && self.rule.weights() == Trapezoid.weights()
     }
 
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
@@ -213,6 +211,9 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         if F::PER_COORDINATE && self.fitting == Fitting::PhaseAndMomentum {
             return unsupported("Fitting::PhaseAndMomentum", "frequencies per coordinate fit the phase only");
+        }
+        if F::PER_COORDINATE && self.summation == Summation::Compensated {
+            return unsupported("Summation::Compensated", "frequencies per coordinate have plain sums");
         }
         if !S::SEPARABLE && self.frequency.reading().is_some() {
             return unsupported(
@@ -275,6 +276,10 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
         let step = Step { system, method: self, t, h };
         let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
         if let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial) {
+            if self.summation == Summation::Compensated {
+                statistics.gradients += 1;
+                return verlet::compensated(&step, mass, phase, work, q);
+            }
             let (taken, result) = verlet::steps(system, mass, phase, work, q, Clock::new(t, h), 1);
             statistics.gradients += taken;
             return result;
@@ -307,7 +312,8 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let VariationalMemory { phase, inertial, work, .. } = &mut *memory;
-        if let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial) {
+        let is_plain = self.summation == Summation::Plain;
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && is_plain, &*inertial) {
             let (taken, result) = verlet::steps(system, mass, phase, work, q, clock, count);
             statistics.gradients += taken;
             statistics.steps += taken;

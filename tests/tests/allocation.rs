@@ -40,12 +40,14 @@ fn steps_do_not_allocate() {
     assert_eq!(counted, 100, "the counter counts");
 
     let newton = |sigma: f64| Sigma { solver: Solver::Newton, ..Sigma::new(sigma) };
+    let summation = Summation::Compensated;
+    let compensated = Sigma { summation, ..Sigma::midpoint() };
     let (vortices, start) = configurations::leapfrogging();
     let many = ManyVortices { gamma: vortices.gamma.to_vec() };
     let many_start = ManyVorticesState { x: start.x.to_vec(), y: start.y.to_vec() };
     assert_none!(vortices, start, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
     assert_none!(many, many_start, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
-    assert_none!(many, many_start, RungeKutta::classical(), Gauss::<3>::new());
+    assert_none!(many, many_start, RungeKutta::classical(), Gauss::<3>::new(), compensated);
 
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let prey_start = LotkaVolterraState { x: 1.0, y: 1.0 };
@@ -55,6 +57,7 @@ fn steps_do_not_allocate() {
     let fitted = || Variational::simpson().phase_fitted(Radial(Reading::Averaged));
     let kepler = Kepler { mu: 1.0 };
     let kepler_start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    assert_none!(kepler, kepler_start, Variational { summation, ..Variational::trapezoid() });
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
     let chain_start =
         RunTimeChainState { q: vec![0.1, 0.5, -0.2], wall: 0.3, dot_q: vec![0.3, 0.1, -0.4], dot_wall: 0.2 };

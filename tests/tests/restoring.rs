@@ -60,6 +60,8 @@ fn degenerate_runs_go_on_from_a_copy() -> Outcome {
     }
     check(&vortices, Gauss::<2>::new(), &start, &[])?;
     check(&vortices, RungeKutta::midpoint(), &start, &[])?;
+    let compensated = Sigma { summation: Summation::Compensated, ..Sigma::midpoint() };
+    check(&vortices, compensated, &start, &[])?;
     check(&vortices, EnergyLimit { method: Sigma::leapfrog(), limit: 1.0 }, &start, &[])
 }
 
@@ -73,7 +75,13 @@ fn regular_runs_go_on_from_a_copy() -> Outcome {
     check(&KEPLER, Variational::trapezoid(), &q, &v)?;
     check(&KEPLER, Variational::simpson(), &q, &v)?;
     check(&Polar, Variational::midpoint(), &q, &v)?;
-    check(&Polar, Galerkin::<3>::new(), &q, &v)
+    check(&Polar, Galerkin::<3>::new(), &q, &v)?;
+    let summation = Summation::Compensated;
+    check(&KEPLER, Newmark { summation, ..Newmark::new(0.25) }, &q, &v)?;
+    check(&KEPLER, Variational { summation, ..Variational::trapezoid() }, &q, &v)?;
+    check(&KEPLER, Variational { summation, ..Variational::simpson() }, &q, &v)?;
+    check(&Polar, Variational { summation, ..Variational::midpoint() }, &q, &v)?;
+    check(&Polar, Galerkin::<3> { summation, ..Galerkin::new() }, &q, &v)
 }
 
 /// The run ends at the state of the last step within the limit, which is that of a run without one, bit by bit.

@@ -166,10 +166,8 @@ pub(super) fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>
     path.read_frequency(step, statistics)?;
     differentiate(step, path, statistics)?;
     let Work { unknowns, residuals, momentum, next, next_force, .. } = &mut path.work;
-    for i in 0..next.len() {
-        next[i] = unknowns[0][i] + unknowns[NODES - 1][i];
-        momentum[i] = path.phase.p[i] + residuals[0][i];
-    }
+    path.phase.reach(&unknowns[0], &unknowns[NODES - 1], next);
+    path.phase.kick(&residuals[0], momentum);
     if S::SEPARABLE {
         step.system.force(next, &[], step.node_time(1.0), next_force);
         statistics.gradients += 1;

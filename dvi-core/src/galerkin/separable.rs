@@ -106,9 +106,7 @@ pub(super) fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>
     path.read_frequency(step, statistics)?;
     let last = NODES - 1;
     let Work { unknowns, next, next_force, .. } = &mut path.work;
-    for i in 0..next.len() {
-        next[i] = unknowns[0][i] + unknowns[last][i];
-    }
+    path.phase.reach(&unknowns[0], &unknowns[last], next);
     step.system.force(next, &[], step.node_time(1.0), next_force);
     statistics.gradients += 1;
     let weights = path.coefficients.weights;
@@ -135,8 +133,6 @@ pub(super) fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>
         }
         mass.multiply_add(T::lift(1.0) / step.h, velocity, sum);
     }
-    for i in 0..momentum.len() {
-        momentum[i] = path.phase.p[i] + sum[i];
-    }
+    path.phase.kick(sum, momentum);
     path.complete(step.system, [step.h, step.node_time(1.0)], q)
 }

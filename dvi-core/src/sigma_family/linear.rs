@@ -18,7 +18,7 @@ use crate::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::space::scratch;
 use crate::statistics::Statistics;
-use crate::summation::Carried;
+use crate::summation::{Carried, Summation};
 use crate::{DegenerateLagrangian, Matrix, Real, Vector};
 
 #[inline(always)]
@@ -37,7 +37,10 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
     if step.method.sigma == T::lift(1.0) {
         explicit_right(step, memory, q, statistics)?;
     } else {
-        implicit(step, memory, q, statistics)?;
+        match step.method.summation {
+            Summation::Plain => implicit(step, memory, q, statistics)?,
+            Summation::Compensated => compensated(step, memory, q, statistics)?,
+        }
     }
     memory.monitor.steps += 1;
     Ok(())
@@ -88,10 +91,13 @@ fn advance<S: DegenerateLagrangian, T: Real>(
     carried: &mut Carried<S, T>,
     storage: &mut Vector<S, T>,
 ) -> Result<(), StepFailure> {
+    if step.method.summation == Summation::Compensated {
+        return carried.move_by(q, increment, storage);
+    }
     scratch!(next = step.system, *storage);
     add(q, increment, next);
     norm::finite(next)?;
-    carried.advance(q, increment, next);
+    q.copy_from_slice(next);
     Ok(())
 }
 
@@ -111,6 +117,32 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
     let defect = (!*defect_vanishes).then_some(&*defect);
     let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
     ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
+    finish(step, memory, q)
+}
+
+/// The same with compensated sums.
+#[inline(never)]
+fn compensated<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    if !memory.defect_vanishes {
+        memory.shift_by_defect(step.system);
+    }
+    let SigmaMemory {
+        ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, carried, ..
+    } = memory;
+    let budget = step.budget(ladder, q.len());
+    let defect = (!*defect_vanishes).then_some(&*defect);
+    let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
+    ladder.solve(
+        &mut attempt,
+        statistics,
+        |attempt, statistics| attempt.compensated_fixed_point(carried, statistics),
+        Attempt::newton,
+    )?;
     finish(step, memory, q)
 }
 
@@ -165,6 +197,35 @@ impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
         })?;
         work.increment.copy_from_slice(increment);
         node.gradient.copy_from_slice(gradient);
+        norm::finite(increment)
+    }
+
+    /// The same from what rounding has left out of q0 too, until nothing is left to gain.
+    fn compensated_fixed_point(
+        &mut self,
+        carried: &Carried<S, T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
+        let Work { increment, trial, shift, next: total, .. } = &mut **work;
+        if defect.is_none() {
+            shift.fill(T::lift(0.0));
+        }
+        history.extrapolate(increment);
+        let scale = norm::largest(q) + norm::largest(increment) + norm::largest(shift);
+        let convergence = Convergence::fixed_point(step.method.stopping.exhaustive(), scale, q, *budget);
+        iterate(convergence, statistics, |statistics| {
+            for ((total, &shift), &s) in total.iter_mut().zip(shift.iter()).zip(increment.iter()) {
+                *total = step.method.sigma * (shift + s);
+            }
+            carried.add(q, total, &mut l_d.work.point);
+            step.system.hamiltonian_gradient(&l_d.work.point, step.node_time(), &mut l_d.work.gradient);
+            statistics.gradients += 1;
+            inverse.solve(step.system, &l_d.work.gradient, trial);
+            let correction = norm::distance(trial, increment);
+            increment.copy_from_slice(trial);
+            Ok(correction)
+        })?;
         norm::finite(increment)
     }
 

@@ -52,6 +52,14 @@ impl Stopping {
     }
 }
 
+impl Stopping {
+    /// An iteration that may go to rounding goes on until nothing is left to gain: beside compensated sums, which round
+    /// less than a step, what it leaves over would be seen.
+    pub(crate) fn exhaustive(self) -> Self {
+        if is_below_rounding::<f64>(self) { Self { tolerance: 0.0, ..self } } else { self }
+    }
+}
+
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
 const FLOOR: f64 = 32.0;
 

@@ -13,6 +13,7 @@ use crate::phase::{Arrival, Increments, PhasePoint};
 use crate::quadrature::Rule;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::statistics::Statistics;
+use crate::summation::Summation;
 use crate::{Matrix, Real, RegularLagrangian, Scalar, norm};
 
 /// A step by Newton's method from a guess.
@@ -56,7 +57,10 @@ pub(super) fn by_fixed_point<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T
     let (method, p, force) = (step.method, &phase.p, &phase.force);
     let mut l_d = Interpolated { method, coefficients, ends, mass: Some(mass), p, force, node, next };
     let scale = norm::largest(q) + norm::largest(increment);
-    let stopping = step.method.stopping;
+    let stopping = match step.method.summation {
+        Summation::Plain => step.method.stopping,
+        Summation::Compensated => step.method.stopping.exhaustive(),
+    };
     let convergence = Convergence::fixed_point(stopping, scale, q, stopping.max_iterations);
     iterate(convergence, statistics, |statistics| {
         trial.copy_from_slice(p);
@@ -107,10 +111,8 @@ fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let Work { node, next, increment, trial, sum } = &mut **work;
-    for i in 0..q.len() {
-        next[i] = q[i] + increment[i];
-        node.momentum[i] = phase.p[i] + sum[i];
-    }
+    phase.reach(q, increment, next);
+    phase.kick(sum, &mut node.momentum);
     norm::finite(next).and(norm::finite(&node.momentum))?;
     let end = step.node_time(1.0);
     if S::SEPARABLE {

@@ -15,7 +15,7 @@ use crate::discrete::NodeWork;
 use crate::error::StepFailure;
 use crate::frequency::{FrequencyIn, Reading};
 use crate::mass::Mass;
-use crate::phase::{Arrival, Increments, PhasePoint};
+use crate::phase::{Arrival, PhasePoint};
 use crate::quadrature::Rule;
 use crate::solve::{Convergence, iterate};
 use crate::statistics::Statistics;
@@ -74,13 +74,12 @@ fn complete<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T
     });
     statistics.gradients += attempt.gradients;
     result?;
-    let Work { node, next, increment, sum, .. } = work;
-    let by = Increments { q: increment, p: sum };
-    phase.advance(q, &Arrival { q: next, p: &node.momentum, force: &node.gradient }, by, step.h)
+    let Work { node, next, increment, .. } = work;
+    phase.arrive(q, &Arrival { q: next, p: &node.momentum, force: &node.gradient }, increment, step.h)
 }
 
 /// A step as it is being solved. In `work`: `increment` is Δ, `next` is q1 and `node.gradient` is F(q1) once they have
-/// been asked for, `sum` is (D₁ + D₂)L_d and `node.momentum` p1 in the end.
+/// been asked for, `node.momentum` is p1 in the end.
 struct Attempt<'a, S: RegularLagrangian, F, R, C, T: Real> {
     step: &'a Step<'a, S, F, R, T>,
     coefficients: &'a mut C,
@@ -209,29 +208,15 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     /// q1, F(q1) and p1 without iteration, where no node lies between the ends.
     #[inline(always)]
     fn kick_drift_kick(&mut self) {
-        self.work.node.momentum.fill(T::lift(0.0));
+        self.work.node.momentum.copy_from_slice(&self.phase.p);
         self.kick_at(0.0);
-        let Work { increment, sum, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
-        for ((p, &kick), &p0) in sum.iter_mut().zip(momentum.iter()).zip(self.phase.p.iter()) {
-            *p = p0 + kick;
-        }
-        self.mass.solve(sum, velocity);
+        let Work { increment, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
+        self.mass.solve(momentum, velocity);
         for (i, (delta, &v)) in increment.iter_mut().zip(velocity.iter()).enumerate() {
             *delta = self.step.h * v / self.coefficients.sums(i).mixed;
         }
         self.reach();
         self.kick_at(1.0);
-        self.arrive();
-    }
-
-    /// p1, from the sum of the kicks.
-    #[inline(always)]
-    fn arrive(&mut self) {
-        let Work { sum, node: NodeWork { momentum, .. }, .. } = &mut *self.work;
-        sum.copy_from_slice(momentum);
-        for (p, &p0) in momentum.iter_mut().zip(self.phase.p.iter()) {
-            *p = p0 + *p;
-        }
     }
 
     /// What the end `c` of the step adds to `momentum`.
@@ -262,7 +247,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         } else {
             self.reach();
         }
-        self.work.node.momentum.fill(T::lift(0.0));
+        self.work.node.momentum.copy_from_slice(&self.phase.p);
         for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
             self.kick(node, c, |basis| basis.b + basis.b_bar);
         }
@@ -274,7 +259,6 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
             }
             self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
         }
-        self.arrive();
         Ok(())
     }
 }

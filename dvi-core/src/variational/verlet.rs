@@ -6,11 +6,14 @@
 //! Source: Hairer, Lubich & Wanner 2003, "Geometric numerical integration illustrated by the Störmer–Verlet
 //! method".
 
+use super::Step;
 use super::memory::Work;
 use crate::error::StepFailure;
+use crate::frequency::Frequency;
 use crate::mass::Mass;
 use crate::method::Clock;
-use crate::phase::{Arrival, PhasePoint};
+use crate::phase::{Arrival, Increments, PhasePoint};
+use crate::quadrature::Rule;
 use crate::space::scratch;
 use crate::walk::{Walk, walk};
 use crate::{Real, RegularLagrangian, Vector, norm};
@@ -36,6 +39,34 @@ pub(super) fn steps<S: RegularLagrangian, T: Real>(
     f1.copy_from_slice(&phase.force);
     let half = T::lift(0.5) * clock.step_size();
     walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v }, 0, count)
+}
+
+/// One step with compensated sums, forces being evaluated at these.
+#[inline(never)]
+pub(super) fn compensated<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    mass: &Mass<S, T>,
+    phase: &mut PhasePoint<S, T>,
+    Work { node, increment, next, trial: force, sum }: &mut Work<S, T>,
+    q: &mut Vector<S, T>,
+) -> Result<(), StepFailure> {
+    let half = T::lift(0.5) * step.h;
+    for (impulse, &f) in sum.iter_mut().zip(phase.force.iter()) {
+        *impulse = half * f;
+    }
+    phase.kick(sum, &mut node.momentum);
+    mass.solve(&node.momentum, increment);
+    for delta in increment.iter_mut() {
+        *delta *= step.h;
+    }
+    phase.reach(q, increment, next);
+    step.system.force(next, &[], step.node_time(1.0), force);
+    for (impulse, &f) in sum.iter_mut().zip(force.iter()) {
+        *impulse += half * f;
+    }
+    phase.kick(sum, &mut node.momentum);
+    let by = Increments { q: increment, p: sum };
+    phase.advance(q, &Arrival { q: next, p: &node.momentum, force }, by, step.h)
 }
 
 /// The present point, momentum and force, and where they are kept.
@@ -81,7 +112,7 @@ impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
 
     #[inline(always)]
     fn keep(&mut self) {
-        self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 }, None);
+        self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 });
     }
 
     #[inline(always)]

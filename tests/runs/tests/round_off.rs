@@ -4,6 +4,7 @@ use dvi_core::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::larger;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -96,6 +97,74 @@ fn a_far_body_does_not_spoil_the_others() -> Outcome {
         check(Variational { solver, ..Variational::simpson() })?;
         check(Galerkin::<3> { solver, ..Galerkin::new() })?;
         check(Newmark { solver, ..Newmark::new(0.25) })?;
+    }
+    Ok(())
+}
+
+/// max |L − L(0)| over many short steps on a Kepler orbit: the angular momentum is conserved but for rounding.
+fn angular_error<M: Method<Kepler, f64>>(
+    method: M,
+    h: f64,
+    steps: u64,
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
+    let mut run = Integrator::new(&Kepler { mu: 1.0 }, method, h, start)?;
+    let value = |run: &Integrator<'_, Kepler, M>| run.momentum(0).unwrap_or(f64::NAN);
+    let (initial, mut largest) = (value(&run), 0.0);
+    for _ in 0..1000 {
+        run.take_steps(steps / 1000)?;
+        largest = larger(largest, (value(&run) - initial).abs());
+    }
+    Ok(largest)
+}
+
+/// With short steps increments are small, and so is what a compensated sum rounds.
+#[test]
+fn compensated_sums_round_less() -> Outcome {
+    let (h, steps) = (1e-3, 1_000_000);
+    let summation = Summation::Compensated;
+    let trapezoid = Variational::trapezoid();
+    let simpson = Variational::simpson();
+    let galerkin = Galerkin::<3>::new();
+    for (name, plain, compensated) in [
+        (
+            "trapezoid",
+            angular_error(trapezoid, h, steps)?,
+            angular_error(Variational { summation, ..trapezoid }, h, steps)?,
+        ),
+        (
+            "Simpson",
+            angular_error(simpson, h, steps)?,
+            angular_error(Variational { summation, ..simpson }, h, steps)?,
+        ),
+        (
+            "Galerkin",
+            angular_error(galerkin, h, steps)?,
+            angular_error(Galerkin { summation, ..galerkin }, h, steps)?,
+        ),
+    ] {
+        assert!(10.0 * compensated < plain, "{name}: {compensated:e} {plain:e}");
+        assert!(compensated < 3e-15, "{name}: {compensated:e}");
+    }
+    Ok(())
+}
+
+/// The rounded sums are what steps are taken from: the motion is the same.
+#[test]
+fn compensated_runs_are_the_same_motion() -> Outcome {
+    let (system, start) = quasi_periodic();
+    let end = |summation| -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+        let mut run = Integrator::new(&system, Sigma { summation, ..Sigma::midpoint() }, 0.01, start)?;
+        run.take_steps(1000)?;
+        Ok(run.q().to_vec())
+    };
+    let [plain, compensated] = [end(Summation::Plain)?, end(Summation::Compensated)?];
+    let apart = plain.iter().zip(&compensated).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+    assert!(apart > 0.0 && apart < 1e-12, "{apart:e}");
+    for sigma in [0.0, 1.0] {
+        let method = Sigma { summation: Summation::Compensated, ..Sigma::new(sigma) };
+        let error = Integrator::new(&system, method, 0.01, start).err();
+        assert!(matches!(error, Some(StartError::Unsupported { option: "Summation::Compensated", .. })));
     }
     Ok(())
 }
