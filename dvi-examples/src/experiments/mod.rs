@@ -16,6 +16,7 @@ mod oscillator;
 mod parasitic;
 mod quasi_periodic;
 mod rivals;
+mod round_off;
 mod sections;
 mod stability;
 mod symmetry;
@@ -40,4 +41,5 @@ pub const ALL: &[Experiment] = &[
     kepler_work::EXPERIMENT,
     barnes::EXPERIMENT,
     double_pendulum::EXPERIMENT,
+    round_off::EXPERIMENT,
 ];

@@ -152,8 +152,9 @@ impl Graph {
         Some(terms)
     }
 
-    /// weight · factor, where the weight is the derivative of a formula by a part of it. A weight that is a sum of choices of
-    /// zero over an index takes the factor in, if that may be no number: it need not be one where no choice asks for it.
+    /// weight · factor, where the weight is the derivative of a formula by a part of it. A weight that is a sum over an index
+    /// of choices of zero, or over a range that may be empty, takes the factor in, if that may be no number: it need not be
+    /// one where nothing asks for it.
     ///
     /// No constructor does this: it raises the heights of sums, which must not change while indices are renamed.
     pub(super) fn weighted(&mut self, weight: Expr, factor: Expr) -> Expr {
@@ -161,7 +162,7 @@ impl Graph {
             return self.multiply(weight, factor);
         };
         let free = self.free(weight.node).and(self.free(factor.node));
-        if !self.sums_choices(weight.node) || !self.has_domain(factor.node) || free.bound != 0 {
+        if !self.may_vanish(weight.node) || !self.has_domain(factor.node) || free.bound != 0 {
             return self.multiply(weight, factor);
         }
         let inner = self.opened(height, body, free.depth());
@@ -169,13 +170,16 @@ impl Graph {
         self.fold(fold, Atom::Open(free.depth()), range, product).scaled(weight.scale)
     }
 
-    /// Whether it is a sum over an index, all terms of which may be zero by a choice.
-    fn sums_choices(&self, id: Id) -> bool {
-        let Node::Reduce { fold: Fold::Sum, body, .. } = self.node(id) else { return false };
-        match self.node(body.node) {
-            Node::Sum(terms) => terms.iter().all(|term| self.chooses_zero(term.node)),
-            _ => self.chooses_zero(body.node) || self.sums_choices(body.node),
-        }
+    /// Whether it is a sum over an index that has no terms for some values of others, or whose terms may all be zero by a
+    /// choice.
+    fn may_vanish(&self, id: Id) -> bool {
+        let Node::Reduce { fold: Fold::Sum, range, body, .. } = self.node(id) else { return false };
+        let vanishes = |node: Id| self.chooses_zero(node) || self.may_vanish(node);
+        let terms_vanish = match self.node(body.node) {
+            Node::Sum(terms) => terms.iter().all(|term| vanishes(term.node)),
+            _ => vanishes(body.node),
+        };
+        terms_vanish || !range.is_filled()
     }
 
     /// Whether it may be no number somewhere.

@@ -30,6 +30,9 @@ const PARTS: usize = 1 + FIRST + SECOND + MIXED * SECOND;
 /// The cube of such a number is near to overflow.
 const HUGE: f64 = 1e100;
 
+/// A number this much smaller than the terms that it was added up from is not known.
+const NOISE: f64 = 1e-10;
+
 /// A number and the sum of the absolute terms behind it, in units of which its rounding error is some small
 /// multiple of the machine precision.
 #[derive(Clone, Copy, Debug, Default)]
@@ -202,7 +205,11 @@ impl Jet {
             return result;
         }
         let size = f.map(f64::abs);
-        let u = self.0.size[0];
+        let (x, u) = (self.0.value[0], self.0.size[0]);
+        if x.abs() < NOISE * u && size[2] * x.abs() > 0.1 * size[1] {
+            // Near a singularity, and nothing but rounding: another order of operations gives another number.
+            return Self::number(f64::NAN);
+        }
         result.0.size[0] = size[0] + size[1] * u;
         for k in 1..=FIRST + SECOND {
             result.0.value[k] = d1 * self.0.value[k];
