@@ -7,14 +7,16 @@
 //!
 //! The second is written with a sum that is of order h, which rounds less.
 
+mod general;
 mod node;
 
 use crate::error::StepFailure;
-use crate::method::Method;
+use crate::method::Scheme;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Matrix, Real, Vector, elimination, norm};
 
+pub use general::{General, GeneralMemory};
 pub(crate) use node::NodeWork;
 pub use node::OneNode;
 
@@ -95,7 +97,8 @@ pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> 
     ) -> Result<(), StepFailure>;
 }
 
-/// A method whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian.
+/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`] around it, it
+/// is a method.
 ///
 /// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
 /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives.
@@ -104,7 +107,7 @@ pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> 
     label = "its steps are not variational, or it reads a frequency from the motion",
     note = "variational methods are `Sigma`, `Variational` with a frequency that is given, and `EnergyLimit` around them"
 )]
-pub trait VariationalMethod<S: Lagrangian, T: Real>: Method<S, T> {
+pub trait VariationalMethod<S: Lagrangian, T: Real>: Scheme {
     /// What one interval contributes.
     type DiscreteLagrangian: TwiceDifferentiable<S, T>;
 

@@ -6,11 +6,11 @@
 use crate::error::StepFailure;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::statistics::Statistics;
-use crate::{Matrix, Real, RegularLagrangian, Space, Vector, Weights, elimination, norm};
+use crate::{Lagrangian, Matrix, Real, Space, Vector, Weights, elimination, norm};
 
 /// Storage for the transform.
 #[derive(Debug)]
-pub(crate) struct Legendre<S: RegularLagrangian, T: Real> {
+pub(crate) struct Legendre<S: Lagrangian, T: Real> {
     matrix: Matrix<S, T>,
     residual: Vector<S, T>,
     /// By how much the velocity has changed in the last iteration.
@@ -21,7 +21,7 @@ pub(crate) struct Legendre<S: RegularLagrangian, T: Real> {
 /// How often a correction that leads out of the domain of L is halved.
 const HALVINGS: usize = 60;
 
-impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
+impl<S: Lagrangian, T: Real> Legendre<S, T> {
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
         Self {
@@ -32,7 +32,7 @@ impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
         }
     }
 
-    /// Improves the guess `v` until ∂L/∂v = `p`.
+    /// Improves the guess `v` until ∂L/∂v = `p`; once, where L is quadratic in v.
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where the mass matrix is, [`StepFailure::NotConverged`] where there is no
@@ -44,10 +44,11 @@ impl<S: RegularLagrangian, T: Real> Legendre<S, T> {
         p: &[T],
         t: T,
         v: &mut [T],
+        is_quadratic: bool,
     ) -> Result<(), StepFailure> {
         self.correction.fill(T::lift(0.0));
         self.improve(system, q, p, t, v)?;
-        if S::QUADRATIC {
+        if is_quadratic {
             return norm::finite(v);
         }
         let stopping = Stopping::default();

@@ -113,7 +113,10 @@ mod vector_field;
 mod walk;
 
 pub use composition::{Composition, CompositionMemory};
-pub use discrete::{DiscreteLagrangian, Ends, Interval, OneNode, TwiceDifferentiable, VariationalMethod};
+pub use discrete::{
+    DiscreteLagrangian, Ends, General, GeneralMemory, Interval, OneNode, TwiceDifferentiable,
+    VariationalMethod,
+};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use energy_limit::{EnergyLimit, EnergyLimitMemory};

@@ -239,10 +239,10 @@ impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
             Self::Varying(_) => {
                 phase.history.extrapolate(v);
                 let mut legendre = Legendre::new(system);
-                legendre.solve(system, q, &phase.p, t, v).or_else(|_| {
+                legendre.solve(system, q, &phase.p, t, v, S::QUADRATIC).or_else(|_| {
                     // Extrapolated, it may be beyond what L is defined for.
                     v.fill(T::lift(0.0));
-                    legendre.solve(system, q, &phase.p, t, v)
+                    legendre.solve(system, q, &phase.p, t, v, S::QUADRATIC)
                 })
             }
         }

@@ -33,7 +33,7 @@ pub trait Rule: Copy + core::fmt::Debug {
     /// Whether Σ w c = ½, up to rounding, so that linear functions are integrated exactly: symmetric rules are, and Radau's.
     fn is_exact_for_linear(&self) -> bool {
         let sum: f64 = self.nodes().iter().zip(self.weights()).map(|(c, w)| w * (c - 0.5)).sum();
-        sum <= 1e-15 && sum >= -1e-15
+        (-1e-15..=1e-15).contains(&sum)
     }
 
     /// Whether a node is neither 0 nor 1.

@@ -23,7 +23,7 @@ impl<S: Lagrangian, T: Real> AlternatingComponent<S, T> {
         Self { ring: core::array::from_fn(|_| vector()), filtered: vector(), seen: 0 }
     }
 
-    /// Takes the next point, as [`Integrator::q`](crate::Integrator::q) gives it, and returns the
+    /// Takes the next point, as [`Run::q`](crate::Run::q) gives it, and returns the
     /// alternating component at the point two steps before it, one entry per coordinate; `None` for the
     /// first four points.
     pub fn push(&mut self, q: &[T]) -> Option<&[T]> {

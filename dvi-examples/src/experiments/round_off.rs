@@ -23,6 +23,9 @@ pub const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
+/// [steps, error] in intervals of the logarithm of the steps.
+type Rows = Vec<[f64; 2]>;
+
 const H: f64 = 0.1;
 /// Runs from different points, over which the square of the error is averaged.
 const RUNS: usize = 4;
@@ -39,7 +42,7 @@ struct Conserved {
     is_energy: bool,
     /// Fewer steps where they are dear: the share of the most that are taken.
     share: f64,
-    errors: fn(&Job<'_>, Summation, usize, u64) -> Result<Vec<[f64; 2]>>,
+    errors: fn(&Job<'_>, Summation, usize, u64) -> Result<Rows>,
 }
 
 #[rustfmt::skip]
@@ -50,11 +53,11 @@ const CASES: [Conserved; 4] = [
     Conserved { name: "Kepler, Verlet",     title: "Angular momentum on a Kepler orbit, Störmer–Verlet", is_energy: false, share: 1.0, errors: kepler },
 ];
 
-/// [steps, root mean square of the relative error] in intervals of the logarithm of the steps.
+/// The root mean square of the relative error over several runs.
 struct Series {
     case: usize,
     summation: Summation,
-    rows: Vec<[f64; 2]>,
+    rows: Rows,
 }
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
@@ -70,7 +73,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     let one = |&(case, summation, run): &(usize, Summation, usize)| {
         (CASES[case].errors)(job, summation, run, of_case(&CASES[case]))
     };
-    let errors: Vec<Vec<[f64; 2]>> = all.par_iter().map(one).collect::<Result<_>>()?;
+    let errors: Vec<Rows> = all.par_iter().map(one).collect::<Result<_>>()?;
     let series: Vec<Series> = all
         .chunks(RUNS)
         .zip(errors.chunks(RUNS))
@@ -81,7 +84,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// The root of the mean square over runs, as far as all of them have come.
-fn mean(runs: &[Vec<[f64; 2]>]) -> Vec<[f64; 2]> {
+fn mean(runs: &[Rows]) -> Rows {
     let len = runs.iter().map(Vec::len).min().unwrap_or(0);
     let square = |k: usize| runs.iter().map(|run| run[k][1] * run[k][1]).sum::<f64>() / runs.len() as f64;
     (0..len).map(|k| [runs[0][k][0], square(k).sqrt()]).collect()
@@ -93,7 +96,7 @@ fn follow<R: Run<Scalar = f64>>(
     mut run: R,
     steps: u64,
     value: impl Fn(&R) -> f64,
-) -> Result<Vec<[f64; 2]>> {
+) -> Result<Rows> {
     let (initial, mut rows) = (value(&run), Vec::new());
     let (mut squares, mut looks, mut interval) = (0.0, 0_u64, (STRIDE as f64).log10() * PER_DECADE);
     let mut reported = 0;
@@ -124,14 +127,14 @@ fn phase(run: usize) -> f64 {
     0.2 + 1.1 * run as f64
 }
 
-fn rotation(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Vec<[f64; 2]>> {
+fn rotation(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Rows> {
     let (y, x) = phase(run).sin_cos();
     let method = Sigma { summation, ..Sigma::midpoint() };
     let run = Integrator::new(&Rotation { omega: 1.0 }, method, H, RotationState { x, y })?;
     follow(job, run, steps, |run| run.energy())
 }
 
-fn spring(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Vec<[f64; 2]>> {
+fn spring(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Rows> {
     let (dot_x, x) = phase(run).sin_cos();
     let method = Variational { summation, ..Variational::trapezoid() };
     let run = Integrator::new(&Spring { k: 1.0 }, method, H, SpringState { x, dot_x })?;
@@ -141,7 +144,7 @@ fn spring(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result
     })
 }
 
-fn vortices(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Vec<[f64; 2]>> {
+fn vortices(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Rows> {
     const ANGULAR: usize = 2;
     let Case { vortices, mut start } = models::quasi_periodic();
     let (sin, cos) = phase(run).sin_cos();
@@ -152,7 +155,7 @@ fn vortices(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Resu
     follow(job, run, steps, |run| run.momentum(ANGULAR).unwrap_or(f64::NAN))
 }
 
-fn kepler(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Vec<[f64; 2]>> {
+fn kepler(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result<Rows> {
     let start = Orbit { e: 0.1 + 0.1 * run as f64 }.pericentre();
     let method = Variational { summation, ..Variational::trapezoid() };
     let run = Integrator::new(&Kepler {}, method, H, start)?;

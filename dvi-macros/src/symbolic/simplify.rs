@@ -158,6 +158,17 @@ impl Graph {
     ///
     /// No constructor does this: it raises the heights of sums, which must not change while indices are renamed.
     pub(super) fn weighted(&mut self, weight: Expr, factor: Expr) -> Expr {
+        if let Node::Product(factors) = self.node(weight.node)
+            && let Some(position) = factors.iter().position(|(id, power)| *power == 1 && self.may_vanish(*id))
+            && self.has_domain(factor.node)
+        {
+            let mut others = factors.clone();
+            let (vanishing, _) = others.remove(position);
+            let powers: Vec<Expr> =
+                others.into_iter().map(|(id, exponent)| self.power(id.into(), exponent)).collect();
+            let factor = self.product(&[powers.as_slice(), &[factor]].concat());
+            return self.weighted(vanishing.into(), factor).scaled(weight.scale);
+        }
         let Node::Reduce { fold, height, range, body } = self.node(weight.node).clone() else {
             return self.multiply(weight, factor);
         };

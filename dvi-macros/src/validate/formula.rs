@@ -68,8 +68,9 @@ pub(super) struct Evaluation<'a> {
     /// Operations that may still be carried out.
     pub(super) budget: u64,
     pub(super) sides: Sides,
-    /// Whether some part of the formulas has a huge value, even if the whole has not.
-    pub(super) is_huge: bool,
+    /// Whether rounding may decide what comes out: some part of the formulas has a huge value, even if the whole has not, or
+    /// two sides of a comparison cannot be told apart.
+    pub(super) is_delicate: bool,
     scope: Vec<(Rc<str>, Binding)>,
 }
 
@@ -95,7 +96,7 @@ impl<'a> Evaluation<'a> {
             is_still: false,
             budget,
             sides: Sides::default(),
-            is_huge: false,
+            is_delicate: false,
             scope: Vec::new(),
         }
     }
@@ -125,7 +126,7 @@ impl<'a> Evaluation<'a> {
     pub(super) fn number(&mut self, syntax: &Expr) -> Value<Jet> {
         self.budget = self.budget.checked_sub(1).ok_or(NoValue::TooLong)?;
         let value = self.evaluate(syntax)?;
-        self.is_huge |= value.is_huge();
+        self.is_delicate |= value.is_huge();
         Ok(value)
     }
 
@@ -199,6 +200,7 @@ impl<'a> Evaluation<'a> {
                     _ => unknown(condition),
                 };
                 let (left, right) = (self.number(&binary.left)?, self.number(&binary.right)?);
+                self.is_delicate |= !left.value().is_distinct_from(right.value());
                 Ok(self.side(binary, compared(left.value().value, right.value().value)))
             }
             _ => unknown(condition),

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{LN_2, LN_10, PI};
 
-use super::jet::{Jet, Taylor};
+use super::jet::{Jet, NOISE, Sized, Taylor};
 use crate::internal::internal;
 
 /// The derivatives of a function of one number at x, or `None` if there is no function of that name.
@@ -69,7 +69,9 @@ fn inverse_sine(x: f64) -> [f64; 3] {
 
 /// f(x) for a function of one number.
 pub(super) fn unary(name: &str, x: &Jet) -> Option<Jet> {
-    if name == "signum" && x.is_zero_without_sign() {
+    let Sized { value, size } = x.value();
+    let is_noise = value != 0.0 && value.abs() < NOISE * size;
+    if name == "signum" && (x.is_zero_without_sign() || is_noise) {
         return Some(Jet::number(f64::NAN));
     }
     Some(x.through(taylor(name, x.value().value)?))

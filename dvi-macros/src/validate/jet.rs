@@ -31,7 +31,7 @@ const PARTS: usize = 1 + FIRST + SECOND + MIXED * SECOND;
 const HUGE: f64 = 1e100;
 
 /// A number this much smaller than the terms that it was added up from is not known.
-const NOISE: f64 = 1e-10;
+pub(super) const NOISE: f64 = 1e-10;
 
 /// A number and the sum of the absolute terms behind it, in units of which its rounding error is some small
 /// multiple of the machine precision.
@@ -48,6 +48,15 @@ impl Sized {
 
     pub(super) fn times(self, factor: f64) -> Self {
         Self { value: self.value * factor, size: self.size * factor.abs() }
+    }
+
+    /// Whether another order of operations leaves the two in their order: they differ by more than rounding, or are equal
+    /// without any.
+    pub(super) fn is_distinct_from(self, other: Self) -> bool {
+        let difference = (self.value - other.value).abs();
+        let is_plain = |x: Self| x.size <= x.value.abs();
+        difference > NOISE * (self.size + other.size)
+            || (difference == 0.0 && is_plain(self) && is_plain(other))
     }
 }
 

@@ -68,7 +68,7 @@ pub(super) struct Outputs {
     hamiltonian: Jet,
     momenta: Vec<Jet>,
     pub(super) sides: Sides,
-    is_huge: bool,
+    is_delicate: bool,
     /// The operations that it took.
     pub(super) cost: u64,
 }
@@ -119,8 +119,8 @@ impl System<'_> {
             .map(|momentum| evaluation.number(&momentum.formula));
         let momenta = momenta.collect::<Result<_, _>>()?;
         let cost = budget - evaluation.budget;
-        let Evaluation { sides, is_huge, .. } = evaluation;
-        Ok(Outputs { lagrangian, form, hamiltonian, momenta, sides, is_huge, cost })
+        let Evaluation { sides, is_delicate, .. } = evaluation;
+        Ok(Outputs { lagrangian, form, hamiltonian, momenta, sides, is_delicate, cost })
     }
 }
 
@@ -152,10 +152,10 @@ impl Output {
 }
 
 impl Outputs {
-    /// Whether everything is finite, and nothing on the way near to overflow.
+    /// Whether everything is finite, and nothing on the way decided by rounding.
     pub(super) fn is_moderate(&self) -> bool {
         let jets = [&self.lagrangian, &self.form, &self.hamiltonian];
-        !self.is_huge && jets.into_iter().chain(&self.momenta).all(Jet::is_moderate)
+        !self.is_delicate && jets.into_iter().chain(&self.momenta).all(Jet::is_moderate)
     }
 
     /// a Dα + b (Dα)ᵀ between the two directions.

@@ -33,6 +33,7 @@ impl Evaluation<'_> {
             ("mul_add", [factor, term]) => receiver.times(factor).plus(term),
             ("min" | "max", [other]) => {
                 let (a, b) = (receiver.value().value, other.value().value);
+                self.is_delicate |= !receiver.value().is_distinct_from(other.value());
                 let holds = if name == "min" { a <= b } else { a >= b };
                 match (self.side(call, holds), a.is_nan() || b.is_nan()) {
                     // Which of the two is taken differs from what Rust does: such a point is drawn again.

@@ -101,9 +101,9 @@ where
         let (plus, minus) = (end(1.0)?, end(-1.0)?);
         let [mut dq, mut dp] = [system.space().vector(), system.space().vector()];
         if direction < 2 {
-            dq[direction] = 1.0
+            dq[direction] = 1.0;
         } else {
-            dp[direction - 2] = 1.0
+            dp[direction - 2] = 1.0;
         }
         map.apply(&mut dq, &mut dp);
         for (k, &found) in dq.iter().chain(dp.iter()).enumerate() {
