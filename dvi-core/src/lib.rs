@@ -108,6 +108,7 @@ mod space;
 mod statistics;
 mod step_control;
 mod summation;
+mod symmetrised;
 mod variational;
 mod vector_field;
 mod walk;
@@ -147,6 +148,7 @@ pub use step_control::{
     Reversible, ReversibleMemory, StepControl,
 };
 pub use summation::Summation;
+pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
 pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
 pub use vector_field::VectorField;
 

@@ -1,7 +1,7 @@
 //! The fast steps of the methods against the general step of the same discrete Lagrangian.
 
 use dvi_core::prelude::*;
-use dvi_core::{General, Lagrangian, Method, VariationalMethod};
+use dvi_core::{General, Interval, Lagrangian, Method, Symmetrised, VariationalMethod};
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::larger;
 use dvi_tests::systems::*;
@@ -101,4 +101,28 @@ fn steps_on_regular_systems_equal_the_general_step() -> Outcome {
     )?;
     let driven = DrivenOscillator { depth: 0.3, omega: 2.0 };
     check(&driven, Variational::trapezoid(), &DrivenOscillatorState { x: 0.4, dot_x: 0.9 })
+}
+
+/// ½ (L_d^α + L_d^{1−α}) is the quadrature rule with these two nodes.
+#[test]
+fn the_symmetrised_family_is_the_rule_of_its_two_nodes() -> Outcome {
+    let (h, alpha) = (0.05, 0.2);
+    let system = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
+    let start = DoublePendulumState { a: 0.5, b: 0.2, dot_a: 0.4, dot_b: -0.7 };
+    let rule = Quadrature::new(&[alpha, 1.0 - alpha], &[0.5; 2])?;
+    let mut by_rule = Integrator::new(&system, Variational::new(rule), h, start)?;
+    let mut symmetrised = Integrator::new(&system, General::new(Symmetrised { alpha }), h, start)?;
+    let mut map = TangentMap::new(&system, symmetrised.method());
+    for _ in 0..20 {
+        let (t, q0) = (symmetrised.time(), symmetrised.q().to_vec());
+        by_rule.advance()?;
+        symmetrised.advance()?;
+        let q1 = symmetrised.q();
+        let apart = by_rule.q().iter().zip(q1).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        assert!(apart < 1e-13, "{apart:e}");
+        map.evaluate(&system, Interval { t, h }, &q0, q1)?;
+        let defect = map.symplectic_defect(&system);
+        assert!(defect < 1e-12, "{defect:e}");
+    }
+    Ok(())
 }

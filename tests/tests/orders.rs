@@ -1,6 +1,7 @@
 //! Orders of convergence, by regression.
 
 use dvi_core::prelude::*;
+use dvi_core::{General, Symmetrised};
 use dvi_tests::configurations::{chaotic, leapfrogging};
 use dvi_tests::larger;
 use dvi_tests::systems::{Oscillator, OscillatorState, PointVortices, PointVorticesState};
@@ -65,6 +66,11 @@ fn every_sigma_is_of_second_order_on_vortices() -> Outcome {
 fn baselines_have_their_orders_on_vortices() -> Outcome {
     let coarse = [32, 48, 64, 96];
     for (order, expected, name) in [
+        (
+            observed(chaotic(), General::new(Symmetrised { alpha: 0.25 }), 2.0, [256, 512, 1024, 2048])?,
+            2.0,
+            "symmetrised",
+        ),
         (observed(chaotic(), RungeKutta::midpoint(), 2.0, [512, 768, 1024, 1536])?, 2.0, "midpoint"),
         (observed(chaotic(), RungeKutta::heun(), 2.0, [512, 768, 1024, 1536])?, 2.0, "Heun"),
         (observed(chaotic(), RungeKutta::classical(), 2.0, [128, 192, 256, 384])?, 4.0, "classical"),
