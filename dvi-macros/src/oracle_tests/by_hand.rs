@@ -50,6 +50,9 @@ const HAMILTONIANS: &[&str] = &[
     // Choices of zero in a sum over an index that nothing else in it depends on.
     "sum_ordered_pairs(0..N, |i, j| if u > 5 { sum_pairs(0..N, |k, l| (w - 9).sqrt() * x[i]) } else { 1 }) + w",
     "sum_pairs(0..N, |i, j| sum_ordered_pairs(0..i + 2, |k, l| if u < 9 { u } else { 1 })) * sum_pairs(0..2, |k, l| if u < 9 { (w * w + 1).sqrt() * u } else { 1 })",
+    "sum(0..N, |i| if x[i] < 5 { x[i] } else { sum(0..N, |k| (x[k] - 50).sqrt()) }) * u",
+    "(sum(0..N, |i| if x[i] < 5 { x[i] } else { sum(0..N, |k| (x[k] - 50).sqrt()) }).powi(2) + 1).ln()",
+    "sum(0..N, |j| (x[j] + sum(0..N, |i| if u > 9 { sum(0..N, |k| (x[k] - 50).sqrt()) } else { x[i] * u })).powi(2))",
     // What no term of an empty sum asks for.
     "sum_pairs(0..N, |i, j| sum(0..N, |k| sum_ordered_pairs(0..k + 1, |l, m| y[k]).hypot(sum(i + 1..N, |l| 1)) * x[k]))",
     "sum(0..N, |i| sum(i + 1..N, |j| (x[i] * x[i] - i as f64 + N as f64 - 2 + u * u).sqrt() + y[j]))",

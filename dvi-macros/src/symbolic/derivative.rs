@@ -43,6 +43,14 @@ struct Family {
     ranges: Vec<Range>,
 }
 
+/// What a part of a formula is multiplied by in the derivative of the whole.
+#[derive(Clone, Copy)]
+struct Outer {
+    factor: Expr,
+    /// How often the formula as written asks for that part: where it does not, the part need not be a number.
+    asked: Expr,
+}
+
 impl Graph {
     /// ∂of/∂by with `by` taken as an independent variable, whatever it depends on.
     pub(crate) fn derivative(&mut self, of: Expr, by: Id) -> Expr {
@@ -141,16 +149,16 @@ impl Graph {
     /// The gradient of `root`, which stands inside `loops`, by all coordinates and velocities.
     pub(crate) fn gradient(&mut self, root: Expr, loops: &[Loop]) -> Vec<Contribution> {
         let mut found = Vec::new();
-        self.collect(root, Expr::ONE, loops, None, &mut found);
+        self.collect(root, Outer { factor: Expr::ONE, asked: Expr::ONE }, loops, None, &mut found);
         found
     }
 
-    /// Adds the contributions of weight · body; with `newest` given, only those of variables that
+    /// Adds the contributions of outer · body, where it is asked for; with `newest` given, only those of variables that
     /// depend on the loop at that depth, because the others were taken further out.
     fn collect(
         &mut self,
         body: Expr,
-        weight: Expr,
+        outer: Outer,
         loops: &[Loop],
         newest: Option<u32>,
         found: &mut Vec<Contribution>,
@@ -165,25 +173,28 @@ impl Graph {
             match self.node(id).clone() {
                 Node::Coordinate(_) | Node::Velocity(_) => {
                     let partial = self.derivative(body, id);
-                    let value = self.weighted(weight, partial);
+                    let value = self.multiply(outer.factor, partial);
+                    let value = self.where_asked(outer.asked, value);
                     if !value.is_zero() {
                         found.push(Contribution { loops: loops.to_vec(), target: id, value });
                     }
                 }
                 Node::Reduce { fold, height, range, body: inner } => {
                     let partial = self.derivative(body, id);
-                    let mut weight = self.weighted(weight, partial);
-                    if weight.is_zero() {
+                    let mut factor = self.multiply(outer.factor, partial);
+                    if factor.is_zero() {
                         continue;
                     }
+                    let inside_asked = self.asked(body.node, id);
+                    let asked = self.multiply(outer.asked, inside_asked);
                     let depth = loops.len() as u32;
                     if fold == Fold::Product {
                         let others = self.other_factors(height, &range, inner, depth);
-                        weight = self.weighted(weight, others);
+                        factor = self.multiply(factor, others);
                     }
                     let inner = self.opened(height, inner, depth);
                     let inside: Vec<Loop> = loops.iter().cloned().chain([Loop { depth, range }]).collect();
-                    self.collect(inner, weight, &inside, Some(depth), found);
+                    self.collect(inner, Outer { factor, asked }, &inside, Some(depth), found);
                 }
                 _ => {}
             }

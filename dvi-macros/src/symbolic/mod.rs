@@ -3,6 +3,7 @@
 //! Pure: no tokens, no spans, no errors. Formulas enter through the constructors of [`Graph`] and
 //! leave as statements of a [`program`](crate::program); everything in between is arithmetic on ids.
 
+mod asked;
 mod bind;
 mod derivative;
 mod energy;

@@ -152,49 +152,8 @@ impl Graph {
         Some(terms)
     }
 
-    /// weight · factor, where the weight is the derivative of a formula by a part of it. A weight that is a sum over an index
-    /// of choices of zero, or over a range that may be empty, takes the factor in, if that may be no number: it need not be
-    /// one where nothing asks for it.
-    ///
-    /// No constructor does this: it raises the heights of sums, which must not change while indices are renamed.
-    pub(super) fn weighted(&mut self, weight: Expr, factor: Expr) -> Expr {
-        if let Node::Product(factors) = self.node(weight.node)
-            && let Some(position) = factors.iter().position(|(id, power)| *power == 1 && self.may_vanish(*id))
-            && self.has_domain(factor.node)
-        {
-            let mut others = factors.clone();
-            let (vanishing, _) = others.remove(position);
-            let powers: Vec<Expr> =
-                others.into_iter().map(|(id, exponent)| self.power(id.into(), exponent)).collect();
-            let factor = self.product(&[powers.as_slice(), &[factor]].concat());
-            return self.weighted(vanishing.into(), factor).scaled(weight.scale);
-        }
-        let Node::Reduce { fold, height, range, body } = self.node(weight.node).clone() else {
-            return self.multiply(weight, factor);
-        };
-        let free = self.free(weight.node).and(self.free(factor.node));
-        if !self.may_vanish(weight.node) || !self.has_domain(factor.node) || free.bound != 0 {
-            return self.multiply(weight, factor);
-        }
-        let inner = self.opened(height, body, free.depth());
-        let product = self.weighted(inner, factor);
-        self.fold(fold, Atom::Open(free.depth()), range, product).scaled(weight.scale)
-    }
-
-    /// Whether it is a sum over an index that has no terms for some values of others, or whose terms may all be zero by a
-    /// choice.
-    fn may_vanish(&self, id: Id) -> bool {
-        let Node::Reduce { fold: Fold::Sum, range, body, .. } = self.node(id) else { return false };
-        let vanishes = |node: Id| self.chooses_zero(node) || self.may_vanish(node);
-        let terms_vanish = match self.node(body.node) {
-            Node::Sum(terms) => terms.iter().all(|term| vanishes(term.node)),
-            _ => vanishes(body.node),
-        };
-        terms_vanish || !range.is_filled()
-    }
-
     /// Whether it may be no number somewhere.
-    fn has_domain(&self, id: Id) -> bool {
+    pub(super) fn has_domain(&self, id: Id) -> bool {
         self.depends(id, |node| match node {
             Node::Unary(function, _) => !rules::is_smooth(*function),
             Node::Reciprocal(_) | Node::Binary(..) | Node::Call(..) => true,

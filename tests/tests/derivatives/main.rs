@@ -1,5 +1,6 @@
 //! Every generated derivative of every kind of system against an independent oracle.
 
+mod asked;
 mod functions;
 mod gauges;
 mod indices;

@@ -1,0 +1,65 @@
+//! How often a formula as written asks for the value of one of its parts.
+//!
+//! A part that stands in a branch that is not taken, or in a sum without terms, has no value to be asked for, and need not
+//! be a number. The derivative of the whole by that part is zero there, and zero times what is no number is none: so the
+//! product is chosen only where the part is asked for.
+
+use rustc_hash::FxHashMap as HashMap;
+
+use super::graph::{Expr, Fold, Graph, Id, Node, Relation};
+use super::index::Atom;
+
+impl Graph {
+    /// `value` where `asked` is not zero, else zero.
+    pub(super) fn where_asked(&mut self, asked: Expr, value: Expr) -> Expr {
+        if asked.as_number().is_some() || value.is_zero() || !self.has_domain(value.node) {
+            return value;
+        }
+        self.choose(asked, Relation::HasMore, Expr::ZERO, value, Expr::ZERO)
+    }
+
+    /// How often `whole` asks for `part`; 1 where it always does, whatever the number.
+    pub(super) fn asked(&mut self, whole: Id, part: Id) -> Expr {
+        let mut known = HashMap::default();
+        self.count_asked(whole, part, &mut known)
+    }
+
+    fn count_asked(&mut self, whole: Id, part: Id, known: &mut HashMap<Id, Expr>) -> Expr {
+        if whole == part {
+            return Expr::ONE;
+        }
+        // An operand has a smaller id than the node that uses it.
+        if whole < part {
+            return Expr::ZERO;
+        }
+        if let Some(count) = known.get(&whole) {
+            return *count;
+        }
+        let count = match self.node(whole).clone() {
+            Node::Choose { left, relation, right, then, otherwise } => {
+                let [then, otherwise] =
+                    [then, otherwise].map(|branch| self.count_asked(branch.node, part, known));
+                self.choose(left, relation, right, then, otherwise)
+            }
+            Node::Reduce { fold: _, height, range, body } => {
+                let depth = self.free(whole).depth().max(self.free(part).depth());
+                let inner = self.opened(height, body, depth);
+                // Opened, it is another formula.
+                let inside = self.asked(inner.node, part);
+                match inside.as_number() {
+                    Some(_) if range.is_filled() => inside,
+                    _ => self.fold(Fold::Sum, Atom::Open(depth), range, inside),
+                }
+            }
+            _ => {
+                let operands = self.node(whole).operands();
+                let counts: Vec<Expr> =
+                    operands.into_iter().map(|operand| self.count_asked(operand, part, known)).collect();
+                let always = counts.iter().any(|count| count.as_number().is_some_and(|count| count > 0.0));
+                if always { Expr::ONE } else { self.sum(&counts) }
+            }
+        };
+        known.insert(whole, count);
+        count
+    }
+}
