@@ -64,7 +64,9 @@ use proc_macro::TokenStream;
 /// `cbrt`, and the first derivatives of `cos` and `cosh` of a distance. In products of such powers with coordinates and
 /// smooth functions, and in sums of these, limits are looked for too; where none is found the derivative is not a number,
 /// as it is where it does not exist, of `x.hypot(y)` at the origin for instance. The derivative of `x.abs()` at 0 is taken
-/// to be 0, and its square to be 1.
+/// to be 0, and its square to be 1; so is that of the root of an even power, a product of such sizes. A function of a
+/// sum without terms is a constant where that sum stands directly under a root; of other functions that have no derivative
+/// at 0, the derivative is not a number there.
 ///
 /// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
 /// `Vec`, and the size of the system is known at run time only.

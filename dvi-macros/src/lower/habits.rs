@@ -46,16 +46,23 @@ pub(super) fn other_name(name: &str) -> Option<String> {
 impl Lowering<'_> {
     /// `x ** 2` and `x ^ 2`, where the right side binds more loosely than a power does.
     pub(super) fn not_a_power(&mut self, whole: &impl quote::ToTokens, base: &Syntax, exponent: &Syntax) {
-        let mut base = base;
+        // `^` binds more loosely than `+` and `*`: what is meant are the operands beside it.
+        let (mut base, mut exponent) = (base, exponent);
         while let Syntax::Binary(product) = base {
             base = &product.right;
+        }
+        while let Syntax::Binary(product) = exponent {
+            exponent = &product.left;
         }
         let function = match self.literal_index(exponent) {
             Some(_) => "powi",
             None => "powf",
         };
         let message = match base {
-            Syntax::Unary(_) | Syntax::Cast(_) => {
+            Syntax::Unary(negative) => {
+                format!("a power is written `-{}.{function}({})`", text(&negative.expr), text(exponent))
+            }
+            Syntax::Cast(_) => {
                 format!("a power is written `(…).{function}({})`", text(exponent))
             }
             _ => format!("a power is written `{}.{function}({})`", text(base), text(exponent)),

@@ -87,7 +87,7 @@ impl Graph {
                 }
                 let derivative = self.chain(u, by, |graph| graph.unary_derivative(function, u, of.into()));
                 match function {
-                    Unary::Sqrt | Unary::Cbrt => self.unless_empty(u, derivative),
+                    Unary::Sqrt | Unary::Cbrt => self.unless_empty(&[u], derivative),
                     _ => derivative,
                 }
             }
@@ -105,7 +105,8 @@ impl Graph {
                 let partials = self.binary_derivatives(function, a, b, of.into());
                 let terms =
                     [self.multiply(partials[0], tangents[0]), self.multiply(partials[1], tangents[1])];
-                self.factored_sum(&terms)
+                let derivative = self.factored_sum(&terms);
+                self.unless_empty(&tangents, derivative)
             }
             Node::Choose { left, relation, right, then, otherwise } => {
                 let (then, otherwise) = (self.derivative(then, by), self.derivative(otherwise, by));
@@ -143,7 +144,8 @@ impl Graph {
             return Expr::ZERO;
         }
         let outer = outer(self);
-        self.multiply(outer, tangent)
+        let derivative = self.multiply(outer, tangent);
+        if self.has_domain(outer.node) { self.unless_empty(&[tangent], derivative) } else { derivative }
     }
 
     /// The gradient of `root`, which stands inside `loops`, by all coordinates and velocities.

@@ -134,14 +134,17 @@ impl Graph {
                 belongs && self.is_smooth(a.node) && self.is_smooth(b.node)
             }
             Root::Sqrt(u) => {
-                let terms = match self.node(u.node) {
-                    Node::Sum(terms) => terms.clone(),
-                    _ => vec![u.node.into()],
-                };
-                let belongs = *self.node(w) == Node::Unary(Unary::Sqrt, u)
-                    || terms.iter().any(|term| self.factors(term.node) == [(w, 2)]);
+                let belongs = *self.node(w) == Node::Unary(Unary::Sqrt, u) || self.holds_square(u.node, w);
                 belongs && u.scale > 0.0 && self.is_never_negative(u.node) && self.is_smooth(u.node)
             }
+        }
+    }
+
+    /// Whether w² is a term of a sum, or of a sum in it.
+    fn holds_square(&self, of: Id, w: Id) -> bool {
+        match self.node(of) {
+            Node::Sum(terms) => terms.iter().any(|term| self.holds_square(term.node, w)),
+            _ => self.factors(of) == [(w, 2)],
         }
     }
 
@@ -195,15 +198,18 @@ impl Graph {
         Some(self.multiply(rest, quotient).scaled(p))
     }
 
-    /// The derivative d of f(u), where u may be a sum of no terms: f is a constant then, whatever d is.
-    pub(super) fn unless_empty(&mut self, u: Expr, derivative: Expr) -> Expr {
+    /// The derivative of f(u, …), where u, or u' and its like, may be sums of no terms: f does not change then, whatever its
+    /// own derivatives are.
+    pub(super) fn unless_empty(&mut self, sums: &[Expr], derivative: Expr) -> Expr {
         if derivative.is_zero() {
             return derivative;
         }
-        let terms = self.terms(u.node);
-        if terms.as_number().is_some() {
+        let sums = sums.iter().filter(|sum| !sum.is_zero());
+        let counts: Vec<Expr> = sums.map(|sum| self.terms(sum.node)).collect();
+        if counts.iter().any(|count| count.as_number().is_some()) {
             return derivative;
         }
+        let terms = self.sum(&counts);
         self.choose(terms, Relation::HasMore, Expr::ZERO, derivative, Expr::ZERO)
     }
 

@@ -109,3 +109,39 @@ fn no_limit_is_made_up_at_the_end_of_a_domain() {
         assert!(first[0].is_nan(), "{first:?}");
     }
 }
+
+/// The same in space: sums are grouped as they are written.
+macro_rules! in_space {
+    ($($name:ident: $hamiltonian:expr;)*) => {
+        $(
+            #[degenerate_lagrangian(
+                coordinates(x, y, z, w),
+                one_form = x * d(y) + z * d(w),
+                hamiltonian = $hamiltonian,
+            )]
+            struct $name;
+        )*
+
+        #[test]
+        fn second_derivatives_at_the_origin_of_space_are_limits() -> Outcome {
+            $(
+                let (q, v) = ([0.0; 4], [0.0; 4]);
+                let (mut gradient, mut momentum, mut matrix) = ([0.0; 4], [0.0; 4], [0.0; 16]);
+                let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
+                $name.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut matrix);
+                if gradient != [0.0; 4] || matrix != [0.0; 16] {
+                    return Err(format!("{}: {gradient:?}, {matrix:?}", stringify!($hamiltonian)));
+                }
+            )*
+            Ok(())
+        }
+    };
+}
+
+in_space! {
+    ThreeHalves: (x * x + y * y + z * z).powf(1.5);
+    FiveQuarters: (x * x + y * y + z * z + w * w).powf(1.25);
+    CubeOfRoot: (x * x + y * y + z * z).sqrt().powi(3);
+    TimesRoot: { let r2 = x * x + y * y + z * z; r2 * r2.sqrt() };
+    Weighted: (2.0 * x * x + 0.5 * y.powi(2) + z * z).powf(1.5);
+}

@@ -35,7 +35,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // Pairs of variables of one family, or of two, are dropped or counted twice.
     mistake("symbolic/derivative.rs", "if row <= column {", "if row < column {"),
     mistake("symbolic/derivative.rs", "mirrored: row < column,", "mirrored: true,"),
-    mistake("symbolic/derivative.rs", "let mut weight = self.multiply(weight, partial);", "let mut weight = partial;"),
+    mistake("symbolic/derivative.rs", "let mut factor = self.multiply(outer.factor, partial);", "let mut factor = partial;"),
     mistake("symbolic/derivative.rs", "range.without(Index::open(depth))", "range.clone()"),
     mistake("symbolic/derivative.rs", "let range = outer.range.as_written();", "let range = outer.range.clone();"),
     mistake("symbolic/rules.rs", "Unary::Cos    => self.unary(Unary::Sin, u).negated(),", "Unary::Cos    => self.unary(Unary::Sin, u),"),
