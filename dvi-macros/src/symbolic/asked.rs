@@ -8,10 +8,14 @@ use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{Expr, Fold, Graph, Id, Node, Relation};
 use super::index::Atom;
+use super::rules;
 
 impl Graph {
     /// `value` where `asked` is not zero, else zero.
     pub(super) fn where_asked(&mut self, asked: Expr, value: Expr) -> Expr {
+        if asked.is_zero() {
+            return Expr::ZERO;
+        }
         if asked.as_number().is_some() || value.is_zero() || !self.has_domain(value.node) {
             return value;
         }
@@ -61,5 +65,14 @@ impl Graph {
         };
         known.insert(whole, count);
         count
+    }
+
+    /// Whether it may be no number somewhere.
+    pub(super) fn has_domain(&self, id: Id) -> bool {
+        self.depends(id, |node| match node {
+            Node::Unary(function, _) => !rules::is_smooth(*function),
+            Node::Reciprocal(_) | Node::Binary(..) | Node::Call(..) => true,
+            _ => false,
+        })
     }
 }

@@ -70,9 +70,7 @@ impl Graph {
         self.sum(&[a, b.negated()])
     }
 
-    /// a · b · …: factors merge into powers, literal factors multiply; a choice of zero chooses between the
-    /// whole product and zero, so that what the other factors are where they do not count is not asked; the same for
-    /// a sum of such choices.
+    /// a · b · …: factors merge into powers, literal factors multiply.
     pub(crate) fn product(&mut self, factors: &[Expr]) -> Expr {
         let mut scale = 1.0;
         let mut collected: Vec<(Id, u32)> = Vec::new();
@@ -94,19 +92,6 @@ impl Graph {
         if scale == 0.0 {
             return Expr::ZERO;
         }
-        if let Some(position) = collected.iter().position(|(id, _)| self.chooses_zero(*id)) {
-            let (choice, exponent) = collected.remove(position);
-            let others: Vec<Expr> =
-                collected.iter().map(|(id, exponent)| self.power((*id).into(), *exponent)).collect();
-            return self.chosen_product(choice, exponent, &others).scaled(scale);
-        }
-        if let Some(terms) = self.take_choices(&mut collected) {
-            let others: Vec<Expr> =
-                collected.iter().map(|(id, exponent)| self.power((*id).into(), *exponent)).collect();
-            let products: Vec<Expr> =
-                terms.into_iter().map(|term| self.product(&[others.as_slice(), &[term]].concat())).collect();
-            return self.sum(&products).scaled(scale);
-        }
         self.drop_signs(&mut collected);
         collected.sort_unstable();
         let node = match collected.as_slice() {
@@ -125,53 +110,6 @@ impl Graph {
             }
         }
         factors.retain(|(_, exponent)| *exponent > 0);
-    }
-
-    /// Whether one side of a choice is zero, or of a choice inside of it.
-    fn chooses_zero(&self, id: Id) -> bool {
-        let Node::Choose { then, otherwise, .. } = self.node(id) else { return false };
-        [then, otherwise].iter().any(|side| side.is_zero() || self.chooses_zero(side.node))
-    }
-
-    /// Takes a sum of choices of zero out of several factors: all of its terms may be zero where the other factors are
-    /// no numbers, so the product is distributed over them.
-    fn take_choices(&self, factors: &mut Vec<(Id, u32)>) -> Option<Vec<Expr>> {
-        if factors.len() < 2 {
-            return None;
-        }
-        let (position, terms) = factors.iter().enumerate().find_map(|(position, factor)| match *factor {
-            (id, 1) => match self.node(id) {
-                Node::Sum(terms) if terms.iter().all(|term| self.chooses_zero(term.node)) => {
-                    Some((position, terms.clone()))
-                }
-                _ => None,
-            },
-            _ => None,
-        })?;
-        factors.remove(position);
-        Some(terms)
-    }
-
-    /// Whether it may be no number somewhere.
-    pub(super) fn has_domain(&self, id: Id) -> bool {
-        self.depends(id, |node| match node {
-            Node::Unary(function, _) => !rules::is_smooth(*function),
-            Node::Reciprocal(_) | Node::Binary(..) | Node::Call(..) => true,
-            _ => false,
-        })
-    }
-
-    /// The product of a choice, to a power, and others, chosen as a whole.
-    fn chosen_product(&mut self, choice: Id, exponent: u32, others: &[Expr]) -> Expr {
-        let Node::Choose { left, relation, right, then, otherwise } = self.node(choice).clone() else {
-            internal("a choice was expected")
-        };
-        let [then, otherwise] = [then, otherwise].map(|branch| {
-            let branch = self.power(branch, exponent);
-            let factors: Vec<Expr> = others.iter().copied().chain([branch]).collect();
-            self.product(&factors)
-        });
-        self.choose(left, relation, right, then, otherwise)
     }
 
     pub(crate) fn multiply(&mut self, a: Expr, b: Expr) -> Expr {
@@ -202,9 +140,6 @@ impl Graph {
             Node::One => return Expr::number(scale),
             _ if exponent == 0 => return Expr::ONE,
             _ if exponent == 1 => base.node,
-            Node::Choose { .. } if self.chooses_zero(base.node) => {
-                return self.chosen_product(base.node, exponent, &[]).scaled(scale);
-            }
             _ => {
                 let factors = self.factors(base.node);
                 let powers = factors.iter().map(|(id, known)| (*id, whole(known.checked_mul(exponent))));

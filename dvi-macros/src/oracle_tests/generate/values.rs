@@ -64,8 +64,20 @@ impl Generator<'_> {
                 Formula::Own(function, Box::new(self.value(scope, less)))
             }
             78..=81 => {
-                let (then, otherwise) = (self.value(scope, less), self.value(scope, less));
+                let (mut then, mut otherwise) = (self.value(scope, less), self.value(scope, less));
                 let condition = self.condition(scope, less.min(2));
+                match self.random.below(8) {
+                    0 | 1 => {
+                        let sum = self.sum(scope, less);
+                        then = self.undefined(sum);
+                    }
+                    2 | 3 => {
+                        let sum = self.sum(scope, less);
+                        otherwise = self.undefined(sum);
+                    }
+                    4 => otherwise = self.undefined(otherwise),
+                    _ => {}
+                }
                 Formula::If(Box::new(condition), Box::new(then), Box::new(otherwise))
             }
             82..=86 => {
@@ -159,6 +171,19 @@ impl Generator<'_> {
             2 => one().plus(Formula::Unary(function("sin"), Box::new(of))),
             3 => Formula::Number("1").plus(of.clone().times(of)),
             _ => of,
+        }
+    }
+
+    /// Something that is no number as a rule, in every term if it is a sum: for a branch, which need not be taken.
+    fn undefined(&mut self, of: Formula) -> Formula {
+        let name = *self.random.pick(&["sqrt", "ln"]);
+        let nowhere =
+            |of: Formula| Formula::Unary(function(name), Box::new(of.minus(Formula::Number("900"))));
+        match of {
+            Formula::Sum(loops, level, lower, upper, body) => {
+                Formula::Sum(loops, level, lower, upper, Box::new(nowhere(*body)))
+            }
+            other => nowhere(other),
         }
     }
 
