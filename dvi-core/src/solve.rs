@@ -62,25 +62,35 @@ pub(crate) fn iterate<T: Real>(
     result
 }
 
-/// How the implicit steps of a run are solved, decided when it begins: `N` is the storage that Newton needs.
+/// How the implicit steps of a run are solved, decided when it begins: by the fixed point, by Newton, or by Newton
+/// where the fixed point fails.
 #[derive(Debug)]
-pub(crate) enum Ladder<N> {
-    FixedPoint,
-    Newton(N),
-    /// The fixed point; Newton where that fails, and for the steps that are left to it.
-    Automatic {
-        newton: N,
-        steps_left: u32,
-    },
+pub(crate) struct Ladder<N> {
+    newton: Option<Newton<N>>,
+}
+
+/// Newton, with the storage that it needs.
+#[derive(Debug)]
+struct Newton<N> {
+    storage: N,
+    turn: Turn,
+}
+
+/// Which steps are Newton's without the fixed point being tried.
+#[derive(Clone, Copy, Debug)]
+enum Turn {
+    All,
+    Next(u32),
 }
 
 impl<N> Ladder<N> {
     pub(crate) fn new(solver: Solver, storage: impl FnOnce() -> N) -> Self {
-        match solver {
-            Solver::FixedPoint => Self::FixedPoint,
-            Solver::Newton => Self::Newton(storage()),
-            Solver::Automatic => Self::Automatic { newton: storage(), steps_left: 0 },
-        }
+        let turn = match solver {
+            Solver::FixedPoint => return Self { newton: None },
+            Solver::Newton => Turn::All,
+            Solver::Automatic => Turn::Next(0),
+        };
+        Self { newton: Some(Newton { storage: storage(), turn }) }
     }
 
     /// Solves the step of `attempt`: by the fixed point where this run has one, and by Newton where it has not or that
@@ -94,62 +104,48 @@ impl<N> Ladder<N> {
         attempt: &mut A,
         statistics: &mut Statistics,
         fixed_point: impl FnOnce(&mut A, &mut Statistics) -> Result<(), StepFailure>,
-        newton: impl FnMut(&mut A, &mut N, Guess, &mut Statistics) -> Result<(), StepFailure>,
+        solve_by_newton: impl FnMut(&mut A, &mut N, Guess, &mut Statistics) -> Result<(), StepFailure>,
     ) -> Result<(), StepFailure> {
-        let begins_with_fixed_point = match self {
-            Self::FixedPoint => true,
-            Self::Newton(_) => false,
-            Self::Automatic { steps_left, .. } => *steps_left == 0,
-        };
-        if begins_with_fixed_point {
-            let result = fixed_point(attempt, statistics);
-            match (&result, &self) {
+        let newton = match &mut self.newton {
+            Some(newton) if matches!(newton.turn, Turn::All | Turn::Next(1..)) => newton,
+            newton => match (fixed_point(attempt, statistics), newton) {
                 // Where there is nothing to iterate on, Newton does not help.
-                (Ok(()) | Err(StepFailure::Resonance { .. } | StepFailure::Frequency { .. }), _)
-                | (_, Self::FixedPoint | Self::Newton(_)) => return result,
-                (Err(_), Self::Automatic { .. }) => {}
-            }
-        }
-        self.solve_by_newton(attempt, statistics, newton)
-    }
-
-    #[inline(never)]
-    fn solve_by_newton<A>(
-        &mut self,
-        attempt: &mut A,
-        statistics: &mut Statistics,
-        mut newton: impl FnMut(&mut A, &mut N, Guess, &mut Statistics) -> Result<(), StepFailure>,
-    ) -> Result<(), StepFailure> {
-        let mut by_newton = |storage: &mut N| {
-            newton(attempt, storage, Guess::Extrapolated, statistics)
-                .or_else(|_| newton(attempt, storage, Guess::Zero, statistics))
+                (result @ (Ok(()) | Err(StepFailure::Resonance { .. } | StepFailure::Frequency { .. })), _)
+                | (result, None) => return result,
+                (Err(_), Some(newton)) => newton,
+            },
         };
-        match self {
-            // It has returned.
-            Self::FixedPoint => Err(StepFailure::Singular { column: 0, pivot: f64::NAN }),
-            Self::Newton(storage) => by_newton(storage),
-            Self::Automatic { newton, steps_left } => {
-                by_newton(newton)?;
-                // A step that failed leaves no trace.
-                *steps_left = if *steps_left == 0 { STEPS_BEFORE_RETRY - 1 } else { *steps_left - 1 };
-                Ok(())
-            }
-        }
+        newton.solve(attempt, statistics, solve_by_newton)
     }
 
     /// How many iterations the fixed point gets of at most `max`; fewer, `patience`, where Newton stands by.
     #[inline(always)]
     pub(crate) fn budget(&self, max: usize, patience: usize) -> usize {
-        match self {
-            Self::FixedPoint | Self::Newton(_) => max,
-            Self::Automatic { .. } => max.min(patience),
-        }
+        if self.newton.is_some() { max.min(patience) } else { max }
     }
 
     /// Takes over what the next step depends on.
     pub(crate) fn restore(&mut self, from: &Self) {
-        if let (Self::Automatic { steps_left, .. }, Self::Automatic { steps_left: from, .. }) = (self, from) {
-            *steps_left = *from;
+        if let (Some(newton), Some(from)) = (&mut self.newton, &from.newton) {
+            newton.turn = from.turn;
         }
+    }
+}
+
+impl<N> Newton<N> {
+    #[inline(never)]
+    fn solve<A>(
+        &mut self,
+        attempt: &mut A,
+        statistics: &mut Statistics,
+        mut solve: impl FnMut(&mut A, &mut N, Guess, &mut Statistics) -> Result<(), StepFailure>,
+    ) -> Result<(), StepFailure> {
+        solve(attempt, &mut self.storage, Guess::Extrapolated, statistics)
+            .or_else(|_| solve(attempt, &mut self.storage, Guess::Zero, statistics))?;
+        // A step that failed leaves no trace.
+        if let Turn::Next(steps) = &mut self.turn {
+            *steps = if *steps == 0 { STEPS_BEFORE_RETRY - 1 } else { *steps - 1 };
+        }
+        Ok(())
     }
 }

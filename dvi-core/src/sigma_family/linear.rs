@@ -109,15 +109,7 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    if !memory.defect_vanishes {
-        memory.shift_by_defect(step.system);
-    }
-    let SigmaMemory { ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, .. } = memory;
-    let budget = step.budget(ladder, q.len());
-    let defect = (!*defect_vanishes).then_some(&*defect);
-    let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
-    ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
-    finish(step, memory, q)
+    solve(step, memory, q, statistics, |attempt, _, statistics| attempt.fixed_point(statistics))
 }
 
 /// The same with compensated sums.
@@ -128,6 +120,20 @@ fn compensated<S: DegenerateLagrangian, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
+    solve(step, memory, q, statistics, |attempt, carried, statistics| {
+        attempt.compensated_fixed_point(carried, statistics)
+    })
+}
+
+/// An implicit step with this fixed point, to which is passed what rounding has left out of the coordinates.
+#[inline(always)]
+fn solve<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+    fixed_point: impl FnOnce(&mut Attempt<'_, S, T>, &Carried<S, T>, &mut Statistics) -> Result<(), StepFailure>,
+) -> Result<(), StepFailure> {
     if !memory.defect_vanishes {
         memory.shift_by_defect(step.system);
     }
@@ -137,12 +143,10 @@ fn compensated<S: DegenerateLagrangian, T: Real>(
     let budget = step.budget(ladder, q.len());
     let defect = (!*defect_vanishes).then_some(&*defect);
     let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
-    ladder.solve(
-        &mut attempt,
-        statistics,
-        |attempt, statistics| attempt.compensated_fixed_point(carried, statistics),
-        Attempt::newton,
-    )?;
+    let fixed_point = |attempt: &mut Attempt<'_, S, T>, statistics: &mut Statistics| {
+        fixed_point(attempt, carried, statistics)
+    };
+    ladder.solve(&mut attempt, statistics, fixed_point, Attempt::newton)?;
     finish(step, memory, q)
 }
 
