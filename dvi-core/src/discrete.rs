@@ -12,9 +12,11 @@ mod node;
 
 use crate::error::StepFailure;
 use crate::method::Scheme;
+use crate::sink::Sink;
 use crate::solve::{Convergence, Stopping, iterate};
+use crate::square::SquareMatrix;
 use crate::statistics::Statistics;
-use crate::{Lagrangian, Matrix, Real, Vector, elimination, norm};
+use crate::{Lagrangian, Real, Square, Vector, norm};
 
 pub use general::{General, GeneralMemory};
 pub(crate) use node::NodeWork;
@@ -65,35 +67,34 @@ pub trait DiscreteLagrangian<S: Lagrangian, T: Real> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
 
-    /// Adds D₁L_d to `d1` and D₁D₂L_d to the row-major `matrix`; of a frequency that is read from the motion the matrix
-    /// takes no notice, which is close enough for Newton's method to contract.
+    /// Adds D₁L_d to `d1` and D₁D₂L_d to `sink`, entry (i, j) of q0ⁱ and q1ʲ. Of a frequency that is read from the motion
+    /// the entries take no notice, which is close enough for Newton's method to contract.
     ///
     /// # Errors
     /// As [`derivatives`](Self::derivatives).
-    fn linearize(
+    fn linearize<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
         d1: &mut [T],
-        matrix: &mut [T],
+        sink: &mut K,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
 }
 
 /// A discrete Lagrangian with all of its second derivatives, from which tangent maps and the preserved two-form come.
 pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> {
-    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, and D₂D₂L_d to row-major
-    /// matrices.
+    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, and D₂D₂L_d to sinks.
     ///
     /// # Errors
     /// As [`derivatives`](DiscreteLagrangian::derivatives).
-    fn hessian(
+    fn hessian<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
-        matrices: [&mut [T]; 3],
+        sinks: [&mut K; 3],
     ) -> Result<(), StepFailure>;
 }
 
@@ -105,7 +106,7 @@ pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> 
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian that can be differentiated twice",
     label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "variational methods are `Sigma`, `Variational` with a frequency that is given, and `EnergyLimit` around them"
+    note = "such methods are `Sigma`, `Variational` with a frequency that is given, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
 )]
 pub trait VariationalMethod<S: Lagrangian, T: Real>: Scheme {
     /// What one interval contributes.
@@ -127,7 +128,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian, T: Real>(
     interval: Interval<T>,
     [q0, p0]: [&[T]; 2],
     delta: &mut [T],
-    (matrix, residual): (&mut Matrix<S, T>, &mut Vector<S, T>),
+    (matrix, residual): (&mut Square<S, T>, &mut Vector<S, T>),
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -135,12 +136,12 @@ pub(crate) fn solve_by_newton<S: Lagrangian, T: Real>(
     let convergence = Convergence::new(stopping, scale, q0, stopping.max_iterations);
     iterate(convergence, statistics, |statistics| {
         residual.copy_from_slice(p0);
-        matrix.fill(T::lift(0.0));
-        l_d.linearize(system, interval, Ends { q0, delta }, residual, matrix, statistics)?;
+        let entries = matrix.cleared();
+        l_d.linearize(system, interval, Ends { q0, delta }, residual, entries, statistics)?;
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let finite = norm::finite(residual);
-        if let Err(singular) = elimination::eliminate(matrix, residual) {
+        if let Err(singular) = matrix.eliminate(residual) {
             return Err(finite.err().unwrap_or(singular));
         }
         for (delta, &correction) in delta.iter_mut().zip(residual.iter()) {

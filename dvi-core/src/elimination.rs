@@ -11,7 +11,7 @@ use crate::norm::{larger, singular};
 use crate::{Real, Scalar};
 
 /// What a pivot is compared with at least: n ε times this still has a finite reciprocal.
-const LEAST: f64 = 1e-290;
+pub(crate) const LEAST: f64 = 1e-290;
 
 /// Overwrites the n×n `matrix` with L (unit diagonal, not stored) and U, and `permutation` with the row
 /// that was exchanged with row k at stage k. n is the length of `permutation`.

@@ -6,10 +6,10 @@
 //! factored.
 
 use crate::error::StepFailure;
+use crate::sink::{Places, Product as ProductSink};
+use crate::square::SquareMatrix;
 use crate::statistics::Statistics;
-use crate::{
-    DegenerateLagrangian, Lagrangian, Matrix, Permutation, Real, Scalar, Space, Vector, elimination, norm,
-};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Scalar, Space, Square, Vector, norm};
 
 /// The coefficients of a combination a Dα + b (Dα)ᵀ.
 #[derive(Clone, Copy, Debug)]
@@ -30,14 +30,14 @@ pub(crate) enum Form<S: Lagrangian, T: Real> {
     /// Entry j is one over the only entry of column j.
     Reciprocals(Vector<S, T>),
     /// The factors of the matrix.
-    Factors(Matrix<S, T>, Permutation<S>),
+    Factors(Square<S, T>),
 }
 
 impl<S: Lagrangian, T: Real> Clone for Form<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
-            Self::Factors(matrix, permutation) => Self::Factors(matrix.clone(), permutation.clone()),
+            Self::Factors(matrix) => Self::Factors(matrix.clone()),
         }
     }
 }
@@ -49,7 +49,12 @@ impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
         if combination.is_matching::<S>() {
             Self::Reciprocals(space.vector())
         } else {
-            Self::Factors(space.matrix(), space.permutation())
+            let Combination { a, b } = combination;
+            Self::Factors(space.square(|visit| {
+                let rest: Vector<S, T> = space.vector();
+                let mut places = Places(|row: usize, column: usize, _| visit(row, column));
+                system.one_form_jacobian(&rest, T::lift(0.0), a, b, &mut places);
+            }))
         }
     }
 
@@ -73,11 +78,10 @@ impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
                 }
                 Ok(())
             }
-            Self::Factors(matrix, permutation) => {
+            Self::Factors(matrix) => {
                 statistics.factorisations += 1;
-                matrix.fill(T::lift(0.0));
-                system.one_form_jacobian(q, t, a, b, matrix);
-                elimination::factor(matrix, permutation)
+                system.one_form_jacobian(q, t, a, b, matrix.cleared());
+                matrix.factor()
             }
         }
     }
@@ -93,9 +97,9 @@ impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
             }
             // Never built for such a system; saying so keeps elimination out of its steps.
             Self::Factors(..) if S::MATCHING => {}
-            Self::Factors(matrix, permutation) => {
+            Self::Factors(matrix) => {
                 x.copy_from_slice(rhs);
-                elimination::solve(matrix, permutation, x);
+                matrix.solve(x);
             }
         }
     }
@@ -106,15 +110,15 @@ impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
 pub(crate) enum Product<S: Lagrangian, T: Real> {
     /// Entry i is the only entry of row i.
     Entries(Vector<S, T>),
-    /// All entries.
-    Dense(Matrix<S, T>),
+    /// Evaluated again for each product.
+    Coefficients(Combination<T>),
 }
 
 impl<S: Lagrangian, T: Real> Clone for Product<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Entries(entries) => Self::Entries(entries.clone()),
-            Self::Dense(matrix) => Self::Dense(matrix.clone()),
+            Self::Coefficients(combination) => Self::Coefficients(*combination),
         }
     }
 }
@@ -122,15 +126,12 @@ impl<S: Lagrangian, T: Real> Clone for Product<S, T> {
 impl<S: DegenerateLagrangian, T: Real> Product<S, T> {
     /// The combination at (`q`, `t`).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
-        let (space, Combination { a, b }) = (system.space(), combination);
         if combination.is_matching::<S>() {
-            let mut entries = space.vector();
-            system.partner_entries(q, t, a, b, &mut entries);
+            let mut entries = system.space().vector();
+            system.partner_entries(q, t, combination.a, combination.b, &mut entries);
             Self::Entries(entries)
         } else {
-            let mut matrix = space.matrix();
-            system.one_form_jacobian(q, t, a, b, &mut matrix);
-            Self::Dense(matrix)
+            Self::Coefficients(combination)
         }
     }
 
@@ -153,10 +154,12 @@ impl<S: DegenerateLagrangian, T: Real> Product<S, T> {
                     *out = x[system.partner(i)] * entry;
                 }
             }
-            Self::Dense(_) if S::MATCHING => {}
-            Self::Dense(matrix) => {
+            Self::Coefficients(_) if S::MATCHING => {}
+            Self::Coefficients(Combination { a, b }) => {
                 out.fill(T::lift(0.0));
-                elimination::multiply_add(matrix, x, out);
+                // Dα is the same at every point.
+                let mut sink = ProductSink { x, sum: out };
+                system.one_form_jacobian(x, T::lift(0.0), *a, *b, &mut sink);
             }
         }
     }

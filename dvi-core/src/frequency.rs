@@ -9,7 +9,8 @@ use core::fmt::Debug;
 use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
 use crate::norm;
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+use crate::sink::Product;
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 
 /// How a frequency that depends on the motion enters a step from q0 to q1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -214,32 +215,40 @@ impl Frequency for Curvature {
 impl<T: Real> FrequencyIn<T> for Curvature {
     #[inline]
     fn at(&self, _q: &[T], v: &[T], a: &[T]) -> T {
-        across(v, a).0 / Scalar::sqrt(dot(v, v))
+        area(v, a) / dot(v, v)
     }
 
     fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
         let omega = self.at(q, v, a);
-        let (vv, (length, ratio)) = (dot(v, v), across(v, a));
-        let speed = Scalar::sqrt(vv);
-        // With the unit vector n along a⊥: ∂ω/∂a = n/|v|, ∂ω/∂v = −(v·a/v²)n/|v| − ωv/v². On a straight path there is no n.
-        let per_length = if length > T::lift(0.0) { T::lift(1.0) / length } else { T::lift(0.0) };
+        let (vv, area) = (dot(v, v), area(v, a));
+        let ratio = dot(v, a) / vv;
+        // ∂ω/∂a = a⊥/(|v||a⊥|), ∂ω/∂v = −(v·a/v²)∂ω/∂a − ωv/v². On a straight path a⊥ has no direction.
+        let per_area = if area > T::lift(0.0) { T::lift(1.0) / area } else { T::lift(0.0) };
         dq.fill(T::lift(0.0));
         for i in 0..v.len() {
-            da[i] = per_length * (a[i] - ratio * v[i]) / speed;
+            da[i] = per_area * (a[i] - ratio * v[i]);
             dv[i] = -ratio * da[i] - omega / vv * v[i];
         }
         Some(omega)
     }
 }
 
-/// |a⊥| and v·a/v². √ has no derivative at zero.
-fn across<T: Real>(v: &[T], a: &[T]) -> (T, T) {
-    let ratio = dot(v, a) / dot(v, v);
-    let square = v.iter().zip(a).fold(T::lift(0.0), |sum, (&v, &a)| {
-        let across = a - ratio * v;
-        sum + across * across
-    });
-    (if square == T::lift(0.0) { square } else { Scalar::sqrt(square) }, ratio)
+/// |v||a⊥|, the area that v and a span.
+fn area<T: Real>(v: &[T], a: &[T]) -> T {
+    let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
+    let difference = vv * aa - va * va;
+    // Where more than two digits would cancel, the path is nearly straight, and a⊥ is summed by itself.
+    let square = if difference > T::lift(1.0 / 64.0) * (vv * aa) {
+        difference
+    } else {
+        let ratio = va / vv;
+        v.iter().zip(a).fold(T::lift(0.0), |sum, (&v, &a)| {
+            let across = a - ratio * v;
+            sum + across * across
+        }) * vv
+    };
+    // √ has no derivative at zero.
+    if square == T::lift(0.0) { square } else { Scalar::sqrt(square) }
 }
 
 /// ω = √(|a|/|q|): the frequency of the oscillator q'' = −ω²q with the same acceleration at the same distance
@@ -296,13 +305,12 @@ pub(crate) struct Local<S: Lagrangian, T: Real> {
     acceleration: Vector<S, T>,
     da: Vector<S, T>,
     l: [Vector<S, T>; 2],
-    hessian: Option<Matrix<S, T>>,
+    reading: Option<Reading>,
 }
 
 impl<S: RegularLagrangian, T: Real> Local<S, T> {
     pub(crate) fn new(system: &S, reading: Option<Reading>) -> Self {
         let space = system.space();
-        let differentiated = reading == Some(Reading::Variational);
         Self {
             omega: T::lift(0.0),
             dq: space.vector(),
@@ -310,7 +318,7 @@ impl<S: RegularLagrangian, T: Real> Local<S, T> {
             acceleration: space.vector(),
             da: space.vector(),
             l: [space.vector(), space.vector()],
-            hessian: differentiated.then(|| space.matrix()),
+            reading,
         }
     }
 
@@ -339,22 +347,21 @@ impl<S: RegularLagrangian, T: Real> Local<S, T> {
         v: &[T],
         t: T,
     ) -> Result<(), StepFailure> {
-        // Kept whenever the reading is variational.
-        let Some(hessian) = &mut self.hessian else { return Ok(()) };
-        let zero = T::lift(0.0);
-        hessian.fill(zero);
-        let weights = Weights { qq: T::lift(1.0), qv: zero, vq: zero, vv: zero };
-        let [l_q, l_v] = &mut self.l;
-        system.linearize(q, v, t, weights, l_q, l_v, hessian);
-        mass.solve(l_q, &mut self.acceleration);
-        let Self { acceleration, dq, dv, da, .. } = self;
+        if self.reading != Some(Reading::Variational) {
+            return Ok(());
+        }
+        let Self { acceleration, dq, dv, da, l: [l_q, l_v], .. } = self;
+        system.gradient(q, v, t, l_q, l_v);
+        mass.solve(l_q, acceleration);
         // Refused at the start if there are none.
         let Some(omega) = frequency.derivatives(q, v, acceleration, dq, dv, da) else {
             return Err(StepFailure::Frequency { omega: f64::NAN });
         };
         self.omega = omega;
-        mass.solve(&self.da, l_v);
-        crate::elimination::multiply_add(hessian, l_v, &mut self.dq);
+        mass.solve(da, acceleration);
+        let (zero, mut product) = (T::lift(0.0), Product { x: acceleration, sum: dq });
+        let weights = Weights { qq: T::lift(1.0), qv: zero, vq: zero, vv: zero };
+        system.linearize(q, v, t, weights, l_q, l_v, &mut product);
         defined(self.omega)?;
         norm::finite(&self.dq)
     }

@@ -17,6 +17,26 @@ pub(crate) struct Inertia<T> {
 }
 
 impl<T: Real> Inertia<T> {
+    fn none() -> Self {
+        Self { negative: 0, least: [T::lift(0.0); 2] }
+    }
+
+    /// Of a diagonal matrix.
+    ///
+    /// # Errors
+    /// As [`inertia`].
+    pub(crate) fn of_diagonal(entries: &[T]) -> Result<Self, StepFailure> {
+        let mut found = Self::none();
+        for (column, &entry) in entries.iter().enumerate() {
+            let usable = entry != T::lift(0.0) && entry.is_finite();
+            if !usable {
+                return Err(StepFailure::Singular { column, pivot: reported(entry) });
+            }
+            found.count(entry);
+        }
+        Ok(found)
+    }
+
     fn count(&mut self, pivot: T) {
         let zero = T::lift(0.0);
         let sign = usize::from(pivot < zero);
@@ -37,7 +57,7 @@ pub(crate) fn inertia<T: Real>(matrix: &mut [T], removed: &mut [T]) -> Result<In
     let (n, zero) = (removed.len(), T::lift(0.0));
     removed.fill(zero);
     let rounding = T::default_epsilon() * T::lift(n as f64);
-    let mut found = Inertia { negative: 0, least: [zero; 2] };
+    let mut found = Inertia::none();
     let mut k = 0;
     while k < n {
         let rows = choose_pivot(matrix, removed, k);

@@ -15,6 +15,7 @@ use core::fmt::Debug;
 
 use crate::error::{IndexError, LengthError};
 use crate::report::Report;
+use crate::sink::Sink;
 use crate::{Scalar, Space};
 
 /// A state with named coordinates, as users see it: (q, v) for a regular system, q for a degenerate one.
@@ -73,10 +74,10 @@ pub trait Lagrangian {
     fn lagrangian<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
     /// Sets `l_q` to ∂L/∂q and `l_v` to ∂L/∂v.
     fn gradient<T: Scalar>(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
-    /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to the row-major `matrix`
+    /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j),
     /// w.qq ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ.
     #[allow(clippy::too_many_arguments)]
-    fn linearize<T: Scalar>(
+    fn linearize<T: Scalar, K: Sink<T>>(
         &self,
         q: &[T],
         v: &[T],
@@ -84,7 +85,7 @@ pub trait Lagrangian {
         w: Weights<T>,
         l_q: &mut [T],
         l_v: &mut [T],
-        matrix: &mut [T],
+        sink: &mut K,
     );
 
     /// The energy E = v·∂L/∂v − L. For degenerate systems this is H(q, t), and `v` may be empty.
@@ -122,8 +123,8 @@ pub trait DegenerateLagrangian: Lagrangian {
     fn flow_source<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets `out` to the components of α(q, t).
     fn one_form<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
-    /// Adds a Dα + b (Dα)ᵀ to the row-major `matrix`.
-    fn one_form_jacobian<T: Scalar>(&self, q: &[T], t: T, a: T, b: T, matrix: &mut [T]);
+    /// Adds a Dα + b (Dα)ᵀ to `sink`.
+    fn one_form_jacobian<T: Scalar, K: Sink<T>>(&self, q: &[T], t: T, a: T, b: T, sink: &mut K);
     /// Where [`CANONICAL`](Self::CANONICAL) holds: sets `out[i]` to the entry of a Dα + b (Dα)ᵀ in row i
     /// and the column of i's partner. Elsewhere it leaves zeros.
     fn partner_entries<T: Scalar>(&self, q: &[T], t: T, a: T, b: T, out: &mut [T]);

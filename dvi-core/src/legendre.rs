@@ -5,13 +5,14 @@
 
 use crate::error::StepFailure;
 use crate::solve::{Convergence, Stopping, iterate};
+use crate::square::{SquareMatrix, of_second_derivatives};
 use crate::statistics::Statistics;
-use crate::{Lagrangian, Matrix, Real, Space, Vector, Weights, elimination, norm};
+use crate::{Lagrangian, Real, Space, Square, Vector, Weights, norm};
 
 /// Storage for the transform.
 #[derive(Debug)]
 pub(crate) struct Legendre<S: Lagrangian, T: Real> {
-    matrix: Matrix<S, T>,
+    matrix: Square<S, T>,
     residual: Vector<S, T>,
     /// By how much the velocity has changed in the last iteration.
     correction: Vector<S, T>,
@@ -25,7 +26,7 @@ impl<S: Lagrangian, T: Real> Legendre<S, T> {
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
         Self {
-            matrix: space.matrix(),
+            matrix: of_second_derivatives(system),
             residual: space.vector(),
             correction: space.vector(),
             l_q: space.vector(),
@@ -72,7 +73,7 @@ impl<S: Lagrangian, T: Real> Legendre<S, T> {
             defined = self.linearize(system, q, p, t, v);
         }
         defined?;
-        elimination::eliminate(&mut self.matrix, &mut self.residual)?;
+        self.matrix.eliminate(&mut self.residual)?;
         self.correction.copy_from_slice(&self.residual);
         for (v, &correction) in v.iter_mut().zip(self.correction.iter()) {
             *v -= correction;
@@ -84,8 +85,7 @@ impl<S: Lagrangian, T: Real> Legendre<S, T> {
     fn linearize(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &[T]) -> Result<(), StepFailure> {
         let zero = T::lift(0.0);
         let mass = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
-        self.matrix.fill(zero);
-        system.linearize(q, v, t, mass, &mut self.l_q, &mut self.residual, &mut self.matrix);
+        system.linearize(q, v, t, mass, &mut self.l_q, &mut self.residual, self.matrix.cleared());
         for (r, &p) in self.residual.iter_mut().zip(p) {
             *r -= p;
         }

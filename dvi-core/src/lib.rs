@@ -103,8 +103,10 @@ mod run;
 mod runge_kutta;
 mod scalar;
 mod sigma_family;
+pub mod sink;
 mod solve;
 mod space;
+mod square;
 mod statistics;
 mod step_control;
 mod summation;
@@ -139,9 +141,13 @@ pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};
 pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
 pub use solve::{Solver, Stopping};
-#[cfg(feature = "alloc")]
-pub use space::RunTime;
+pub use sink::Sink;
 pub use space::{Fixed, FixedMatrix, FixedVector, Space};
+#[cfg(feature = "alloc")]
+pub use space::{RunTime, RunTimeMatrix};
+#[cfg(feature = "alloc")]
+pub use square::RunTimeSquare;
+pub use square::{FixedSquare, SquareMatrix};
 pub use statistics::Statistics;
 pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
@@ -156,5 +162,7 @@ pub use vector_field::VectorField;
 pub type Vector<S, T> = <<S as Lagrangian>::Space as Space>::Vector<T>;
 /// A square matrix over the space of `S`.
 pub type Matrix<S, T> = <<S as Lagrangian>::Space as Space>::Matrix<T>;
+/// A square matrix over the space of `S` that is solved with.
+pub type Square<S, T> = <<S as Lagrangian>::Space as Space>::Square<T>;
 /// A row permutation over the space of `S`.
 pub type Permutation<S> = <<S as Lagrangian>::Space as Space>::Permutation;

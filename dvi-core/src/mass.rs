@@ -4,9 +4,8 @@
 //! elimination otherwise.
 
 use crate::error::StepFailure;
-use crate::{
-    Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Vector, Weights, elimination, norm,
-};
+use crate::square::{SquareMatrix, of_entries};
+use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, Vector, Weights, norm};
 
 /// M and M⁻¹.
 #[derive(Debug)]
@@ -15,15 +14,14 @@ pub(crate) struct Mass<S: Lagrangian, T: Real> {
     masses: Vector<S, T>,
     reciprocals: Vector<S, T>,
     /// If M is not diagonal.
-    dense: Option<Dense<S, T>>,
+    coupled: Option<Coupled<S, T>>,
 }
 
 /// A matrix and its factors.
 #[derive(Debug)]
-struct Dense<S: Lagrangian, T: Real> {
-    matrix: Matrix<S, T>,
-    factors: Matrix<S, T>,
-    permutation: Permutation<S>,
+struct Coupled<S: Lagrangian, T: Real> {
+    matrix: Square<S, T>,
+    factors: Square<S, T>,
 }
 
 impl<S: RegularLagrangian, T: Real> Mass<S, T> {
@@ -41,26 +39,26 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
             for (column, (&mass, reciprocal)) in masses.iter().zip(reciprocals.iter_mut()).enumerate() {
                 *reciprocal = norm::reciprocal(mass, column)?;
             }
-            return Ok(Self { masses, reciprocals, dense: None });
+            return Ok(Self { masses, reciprocals, coupled: None });
         }
-        let (mut matrix, mut permutation) = (space.matrix(), space.permutation());
         let zero = T::lift(0.0);
         let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
-        system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut matrix);
+        let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
+        system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, matrix.cleared());
         let mut factors = matrix.clone();
-        elimination::factor(&mut factors, &mut permutation)?;
+        factors.factor()?;
         let [masses, reciprocals] = [space.vector(), space.vector()];
-        Ok(Self { masses, reciprocals, dense: Some(Dense { matrix, factors, permutation }) })
+        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
     }
 
     /// Sets `v` to M⁻¹`p`.
     #[inline(always)]
     pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {
         // What is known when compiled keeps elimination out of the steps with a diagonal matrix.
-        match &self.dense {
-            Some(Dense { factors, permutation, .. }) if !S::DIAGONAL_MASS => {
+        match &self.coupled {
+            Some(Coupled { factors, .. }) if !S::DIAGONAL_MASS => {
                 v.copy_from_slice(p);
-                elimination::solve(factors, permutation, v);
+                factors.solve(v);
             }
             _ => {
                 for ((v, &p), &reciprocal) in v.iter_mut().zip(p).zip(self.reciprocals.iter()) {
@@ -73,13 +71,8 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
     /// Adds `factor` M`x` to `p`.
     #[inline(always)]
     pub(crate) fn multiply_add(&self, factor: T, x: &[T], p: &mut [T]) {
-        match &self.dense {
-            Some(Dense { matrix, .. }) if !S::DIAGONAL_MASS => {
-                for (p, row) in p.iter_mut().zip(matrix.chunks_exact(x.len())) {
-                    let product = row.iter().zip(x).fold(T::lift(0.0), |sum, (&m, &x)| sum + m * x);
-                    *p += factor * product;
-                }
-            }
+        match &self.coupled {
+            Some(Coupled { matrix, .. }) if !S::DIAGONAL_MASS => matrix.multiply_add(factor, x, p),
             _ => {
                 for ((p, &x), &mass) in p.iter_mut().zip(x).zip(self.masses.iter()) {
                     *p += factor * mass * x;

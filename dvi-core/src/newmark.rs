@@ -14,9 +14,10 @@ use crate::method::{Carries, Method, PreservedForm, Scheme};
 use crate::norm::{self, reported};
 use crate::phase::{Arrival, Increments, PhasePoint};
 use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate};
+use crate::square::{SquareMatrix, of_second_derivatives};
 use crate::statistics::Statistics;
 use crate::summation::Summation;
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination};
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Square, Vector, Weights};
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t); [`StartError::Unsupported`] for any other L.
 ///
@@ -57,7 +58,7 @@ pub struct NewmarkMemory<S: Lagrangian, T: Real> {
     phase: PhasePoint<S, T>,
     mass: Mass<S, T>,
     /// With the matrix of Newton's method; explicit steps do not use it.
-    ladder: Ladder<Matrix<S, T>>,
+    ladder: Ladder<Square<S, T>>,
     work: Work<S, T>,
 }
 
@@ -111,7 +112,7 @@ impl<S: RegularLagrangian, T: Real> Attempt<'_, S, T> {
     /// The same by Newton: (M − βh² ∂²L/∂q∂q)d = MΔ − h[p½ + βh(F1 − F0)], Δ ← Δ − d.
     fn newton(
         &mut self,
-        matrix: &mut Matrix<S, T>,
+        matrix: &mut Square<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
@@ -162,7 +163,7 @@ impl<S: RegularLagrangian, T: Real> Attempt<'_, S, T> {
     }
 
     /// One iteration of Newton's method; returns the size of d.
-    fn improve(&mut self, matrix: &mut Matrix<S, T>, statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(&mut self, matrix: &mut Square<S, T>, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let (zero, one, h) = (T::lift(0.0), T::lift(1.0), self.interval.h);
         let Work { increment, next, transfer, velocity, momentum, next_force, .. } = &mut *self.work;
         for transfer in transfer.iter_mut() {
@@ -170,13 +171,12 @@ impl<S: RegularLagrangian, T: Real> Attempt<'_, S, T> {
         }
         self.mass.multiply_add(one, increment, transfer);
         norm::finite(transfer)?;
-        matrix.fill(zero);
         let weights = Weights { qq: -(self.beta * h * h), qv: zero, vq: zero, vv: one };
         let end = self.interval.time(one);
-        self.system.linearize(next, velocity, end, weights, next_force, momentum, matrix);
+        self.system.linearize(next, velocity, end, weights, next_force, momentum, matrix.cleared());
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        elimination::eliminate(matrix, transfer)?;
+        matrix.eliminate(transfer)?;
         for (delta, &change) in increment.iter_mut().zip(transfer.iter()) {
             *delta -= change;
         }
@@ -222,7 +222,7 @@ impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
         Ok(NewmarkMemory {
             phase: PhasePoint::new(system, q, v, t, self.summation)?,
             mass: Mass::new(system, q, t).map_err(StartError::Starter)?,
-            ladder: Ladder::new(solver, || system.space().matrix()),
+            ladder: Ladder::new(solver, || of_second_derivatives(system)),
             work: Work::new(system),
         })
     }

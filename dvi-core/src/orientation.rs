@@ -11,6 +11,7 @@
 use crate::error::StepFailure;
 use crate::inertia::{Inertia, inertia};
 use crate::norm::reported;
+use crate::sink::Places;
 use crate::{
     DegenerateLagrangian, Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights,
 };
@@ -136,9 +137,21 @@ fn pfaffian_sign<T: Real>(a: &mut [T], n: usize) -> T {
 #[derive(Debug)]
 pub(crate) struct MassOrientation<S: Lagrangian, T: Real> {
     inertia: Inertia<T>,
-    matrix: Matrix<S, T>,
+    work: Work<S, T>,
+}
+
+#[derive(Debug)]
+struct Work<S: Lagrangian, T: Real> {
+    entries: Entries<S, T>,
     l_q: Vector<S, T>,
     l_v: Vector<S, T>,
+}
+
+/// The entries of a mass matrix.
+#[derive(Debug)]
+enum Entries<S: Lagrangian, T: Real> {
+    Diagonal(Vector<S, T>),
+    All(Matrix<S, T>),
 }
 
 impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
@@ -148,9 +161,10 @@ impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
     /// [`StepFailure::Singular`].
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StepFailure> {
         let space = system.space();
-        let (mut matrix, mut l_q, mut l_v) = (space.matrix(), space.vector(), space.vector());
-        let inertia = Self::evaluate(system, q, v, t, &mut matrix, [&mut l_q, &mut l_v])?;
-        Ok(Self { inertia, matrix, l_q, l_v })
+        let entries =
+            if S::DIAGONAL_MASS { Entries::Diagonal(space.vector()) } else { Entries::All(space.matrix()) };
+        let mut work = Work { entries, l_q: space.vector(), l_v: space.vector() };
+        Ok(Self { inertia: work.evaluate(system, q, v, t)?, work })
     }
 
     /// Compares the mass matrix at (`q`, `v`, `t`), the end of a step, with the last, and keeps it.
@@ -158,8 +172,7 @@ impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] and [`StepFailure::Orientation`]; the last is kept then.
     pub(crate) fn check(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<(), StepFailure> {
-        let Self { matrix, l_q, l_v, .. } = self;
-        let after = Self::evaluate(system, q, v, t, matrix, [l_q, l_v])?;
+        let after = self.work.evaluate(system, q, v, t)?;
         let before = core::mem::replace(&mut self.inertia, after);
         if after.negative == before.negative {
             return Ok(());
@@ -175,21 +188,30 @@ impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
     pub(crate) fn restore(&mut self, from: &Self) {
         self.inertia = from.inertia;
     }
+}
 
-    fn evaluate(
-        system: &S,
-        q: &[T],
-        v: &[T],
-        t: T,
-        matrix: &mut [T],
-        [l_q, l_v]: [&mut Vector<S, T>; 2],
-    ) -> Result<Inertia<T>, StepFailure> {
-        let zero = T::lift(0.0);
-        matrix.fill(zero);
+impl<S: RegularLagrangian, T: Real> Work<S, T> {
+    fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<Inertia<T>, StepFailure> {
+        let (zero, Self { entries, l_q, l_v }) = (T::lift(0.0), self);
         let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
-        system.linearize(q, v, t, weights, l_q, l_v, matrix);
-        // The gradients are not needed.
-        inertia(matrix, l_q)
+        match entries {
+            Entries::Diagonal(diagonal) => {
+                diagonal.fill(zero);
+                let mut sink = Places(|row: usize, column: usize, entry: T| {
+                    if row == column {
+                        diagonal[row] += entry;
+                    }
+                });
+                system.linearize(q, v, t, weights, l_q, l_v, &mut sink);
+                Inertia::of_diagonal(diagonal)
+            }
+            Entries::All(matrix) => {
+                matrix.fill(zero);
+                system.linearize(q, v, t, weights, l_q, l_v, matrix);
+                // The gradients are not needed.
+                inertia(matrix, l_q)
+            }
+        }
     }
 }
 

@@ -11,7 +11,9 @@
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
 
-use crate::Scalar;
+use crate::sink::Sink;
+use crate::square::{FixedSquare, SquareMatrix};
+use crate::{Real, Scalar};
 
 /// The shape of a configuration space and the storage for it.
 pub trait Space: Copy + Debug + PartialEq {
@@ -21,7 +23,9 @@ pub trait Space: Copy + Debug + PartialEq {
     /// A point, a velocity or a covector: `dimension` numbers.
     type Vector<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug;
     /// A square matrix, `dimension`² numbers row by row.
-    type Matrix<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug;
+    type Matrix<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug + Sink<T>;
+    /// A square matrix that is solved with, in the storage that its pattern needs.
+    type Square<T: Real>: SquareMatrix<T>;
     /// A row permutation, `dimension` indices.
     type Permutation: Deref<Target = [usize]> + DerefMut + Clone + Debug;
 
@@ -31,6 +35,8 @@ pub trait Space: Copy + Debug + PartialEq {
     fn vector<T: Scalar>(self) -> Self::Vector<T>;
     /// A matrix of zeros.
     fn matrix<T: Scalar>(self) -> Self::Matrix<T>;
+    /// A matrix of zeros with room for the entries in the rows and columns that `entries` visits.
+    fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T>;
     /// A permutation, all zeros until it is written.
     fn permutation(self) -> Self::Permutation;
 }
@@ -92,10 +98,18 @@ impl<T, const BLOCKS: usize, const N: usize> DerefMut for FixedMatrix<T, BLOCKS,
     }
 }
 
+impl<T: Scalar, const BLOCKS: usize, const N: usize> Sink<T> for FixedMatrix<T, BLOCKS, N> {
+    #[inline(always)]
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        self[row * (BLOCKS * N) + column] += entry;
+    }
+}
+
 impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
     const ON_STACK: bool = true;
     type Vector<T: Scalar> = FixedVector<T, BLOCKS, N>;
     type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N>;
+    type Square<T: Real> = FixedSquare<T, BLOCKS, N>;
     type Permutation = FixedVector<usize, BLOCKS, N>;
 
     #[inline(always)]
@@ -111,6 +125,10 @@ impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
         FixedMatrix([[[[T::lift(0.0); N]; BLOCKS]; N]; BLOCKS])
     }
     #[inline(always)]
+    fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
+        FixedSquare::new(self)
+    }
+    #[inline(always)]
     fn permutation(self) -> Self::Permutation {
         FixedVector([[0; N]; BLOCKS])
     }
@@ -124,11 +142,43 @@ pub struct RunTime {
     pub dimension: usize,
 }
 
+/// The matrix of a [`RunTime`] space.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunTimeMatrix<T> {
+    entries: alloc::vec::Vec<T>,
+    dimension: usize,
+}
+
+#[cfg(feature = "alloc")]
+impl<T> Deref for RunTimeMatrix<T> {
+    type Target = [T];
+    fn deref(&self) -> &[T] {
+        &self.entries
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T> DerefMut for RunTimeMatrix<T> {
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.entries
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Sink<T> for RunTimeMatrix<T> {
+    #[inline(always)]
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        self.entries[row * self.dimension + column] += entry;
+    }
+}
+
 #[cfg(feature = "alloc")]
 impl Space for RunTime {
     const ON_STACK: bool = false;
     type Vector<T: Scalar> = alloc::vec::Vec<T>;
-    type Matrix<T: Scalar> = alloc::vec::Vec<T>;
+    type Matrix<T: Scalar> = RunTimeMatrix<T>;
+    type Square<T: Real> = crate::square::RunTimeSquare<T>;
     type Permutation = alloc::vec::Vec<usize>;
 
     fn dimension(self) -> usize {
@@ -138,7 +188,11 @@ impl Space for RunTime {
         alloc::vec![T::lift(0.0); self.dimension]
     }
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
-        alloc::vec![T::lift(0.0); self.dimension * self.dimension]
+        let Self { dimension } = self;
+        RunTimeMatrix { entries: alloc::vec![T::lift(0.0); dimension * dimension], dimension }
+    }
+    fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
+        crate::square::RunTimeSquare::new(self, entries)
     }
     fn permutation(self) -> Self::Permutation {
         alloc::vec![0; self.dimension]

@@ -5,6 +5,7 @@
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, TwiceDifferentiable, VariationalMethod};
 use crate::error::StepFailure;
 use crate::method::{PreservedForm, Scheme};
+use crate::sink::{Scaled, Sink};
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Space, Vector};
 
@@ -68,23 +69,21 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<
         Ok(())
     }
 
-    fn linearize(
+    fn linearize<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
         d1: &mut [T],
-        matrix: &mut [T],
+        sink: &mut K,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { nodes, twice: [first, _] } = self;
         first.fill(T::lift(0.0));
-        // What is added to the matrix is halved with what stood there.
-        matrix.iter_mut().for_each(|entry| *entry *= T::lift(2.0));
+        let mut half = Scaled { sink, factor: |_, _| T::lift(0.5) };
         for node in nodes {
-            node.linearize(system, interval, ends, first, matrix, statistics)?;
+            node.linearize(system, interval, ends, first, &mut half, statistics)?;
         }
-        matrix.iter_mut().for_each(|entry| *entry *= T::lift(0.5));
         for (d1, &first) in d1.iter_mut().zip(first.iter()) {
             *d1 += T::lift(0.5) * first;
         }
@@ -93,22 +92,17 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<
 }
 
 impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for SymmetrisedLagrangian<S, T> {
-    fn hessian(
+    fn hessian<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
-        matrices: [&mut [T]; 3],
+        sinks: [&mut K; 3],
     ) -> Result<(), StepFailure> {
-        let [d11, d12, d22] = matrices;
-        let scale = |matrices: [&mut [T]; 3], factor: f64| {
-            matrices.into_iter().flatten().for_each(|entry| *entry *= T::lift(factor));
-        };
-        scale([d11, d12, d22], 2.0);
+        let [mut d11, mut d12, mut d22] = sinks.map(|sink| Scaled { sink, factor: |_, _| T::lift(0.5) });
         for node in &mut self.nodes {
-            node.hessian(system, interval, ends, [d11, d12, d22])?;
+            node.hessian(system, interval, ends, [&mut d11, &mut d12, &mut d22])?;
         }
-        scale([d11, d12, d22], 0.5);
         Ok(())
     }
 }

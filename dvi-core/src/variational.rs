@@ -22,7 +22,7 @@ use crate::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::solve::{Guess, Solver, Stopping};
 use crate::statistics::Statistics;
 use crate::summation::Summation;
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Vector};
+use crate::{Lagrangian, Real, RegularLagrangian, Square, Vector};
 
 pub use lagrangian::QuadratureLagrangian;
 use memory::Parts;
@@ -170,7 +170,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F
     #[inline(always)]
     fn newton(
         &mut self,
-        matrix: &mut Matrix<S, T>,
+        matrix: &mut Square<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {

@@ -152,15 +152,16 @@ impl Function<'_> {
                 quote!(#array[#index])
             }
             Place::MatrixEntry(row, column) => {
-                let (row, column) = (self.flat(row), self.flat(column));
-                quote!(__matrix[(#row) * __dimension + #column])
+                let (krate, row, column) = (self.emitter.krate(), self.flat(row), self.flat(column));
+                let value = self.signed(value);
+                return quote!(#krate::Sink::add(__sink, #row, #column, #value););
             }
         };
         let register = self.register(value.register);
         if value.negative { quote!(#target -= #register;) } else { quote!(#target += #register;) }
     }
 
-    /// The position of a coordinate in a flat slice.
+    /// The number of a coordinate in the order of declaration.
     fn flat(&self, coordinate: &Coordinate) -> TokenStream {
         let offset = local(format_args!("offset{}", coordinate.block));
         let index = self.emitter.index(&coordinate.index);

@@ -31,6 +31,9 @@ use document::Account;
 pub(crate) use regular::regular;
 pub(crate) use state::{State, state};
 
+/// A function of this many instructions at most is inlined wherever it is called.
+const SHORT: usize = 128;
+
 /// Which inputs a statement list reads.
 struct Inputs {
     q: bool,
@@ -79,7 +82,8 @@ impl Emitter<'_> {
         quote!(#array.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
     }
 
-    fn matrix(&self) -> TokenStream {
+    /// The number of the first coordinate of each block.
+    fn offsets(&self) -> TokenStream {
         let mut offset = crate::symbolic::Index::default();
         let mut tokens = TokenStream::new();
         for block in 0..self.model.blocks.len() {
@@ -87,8 +91,7 @@ impl Emitter<'_> {
             tokens.extend(quote!(let #name: usize = #value;));
             offset = offset.plus(&self.model.block_size(block), 1);
         }
-        let dimension = self.index(&offset);
-        quote!(#tokens let __dimension: usize = #dimension;)
+        tokens
     }
 
     /// The body of a function that returns a value.
@@ -192,7 +195,9 @@ fn lagrangian(
     let (read, body) = (emitter.read(&programs.gradient), emitter.body(&programs.gradient));
     let (read_all, linearize) = (emitter.read(&programs.linearize), emitter.body(&programs.linearize));
     let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
-    let matrix = emitter.matrix();
+    let offsets = emitter.offsets();
+    // A call costs as much as a few terms of a sum.
+    let always = (programs.linearize.code.len() <= SHORT).then(|| quote!((always)));
     let indices = 0..programs.momenta.len();
     let momenta = programs.momenta.iter().map(|value| emitter.value(value));
     quote! {
@@ -217,12 +222,12 @@ fn lagrangian(
             ) {
                 #read #l_q #l_v #body
             }
-            #[inline]
-            fn linearize<__T: #krate::Scalar>(
+            #[inline #always]
+            fn linearize<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
                 &self, __q: &[__T], __v: &[__T], __t: __T, __w: #krate::Weights<__T>,
-                __l_q: &mut [__T], __l_v: &mut [__T], __matrix: &mut [__T],
+                __l_q: &mut [__T], __l_v: &mut [__T], __sink: &mut __K,
             ) {
-                #read_all #l_q #l_v #matrix #linearize
+                #read_all #l_q #l_v #offsets #linearize
             }
             #[inline]
             fn energy<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }

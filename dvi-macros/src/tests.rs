@@ -64,7 +64,6 @@ fn oscillator() {
                 let _ = __rest;
                 let __offset0: usize = 0usize;
                 let __offset1: usize = 1usize;
-                let __dimension: usize = 2usize;
                 let __r2 = __q0[0usize];
                 let __r4 = T::lift(
                     __private::Number::number(self.omega),
@@ -80,12 +79,12 @@ fn oscillator() {
                     -= (T::lift(0.5f64) * (__v0[0usize] + (__r10 * __r5)));
                 __l_v1[0usize] += (T::lift(0.5f64) * __r2);
                 __l_v0[0usize] -= (T::lift(0.5f64) * __r10);
-                __matrix[(__offset0 + 0usize) * __dimension + __offset0 + 0usize] -= __r17;
-                __matrix[(__offset0 + 0usize) * __dimension + __offset1 + 0usize] += __r19;
-                __matrix[(__offset1 + 0usize) * __dimension + __offset0 + 0usize] += __r21;
-                __matrix[(__offset1 + 0usize) * __dimension + __offset1 + 0usize] -= __r17;
-                __matrix[(__offset1 + 0usize) * __dimension + __offset0 + 0usize] -= __r19;
-                __matrix[(__offset0 + 0usize) * __dimension + __offset1 + 0usize] -= __r21;
+                Sink::add(__sink, __offset0 + 0usize, __offset0 + 0usize, (-__r17));
+                Sink::add(__sink, __offset0 + 0usize, __offset1 + 0usize, __r19);
+                Sink::add(__sink, __offset1 + 0usize, __offset0 + 0usize, __r21);
+                Sink::add(__sink, __offset1 + 0usize, __offset1 + 0usize, (-__r17));
+                Sink::add(__sink, __offset1 + 0usize, __offset0 + 0usize, (-__r19));
+                Sink::add(__sink, __offset0 + 0usize, __offset1 + 0usize, (-__r21));
             }
         "#]],
     );

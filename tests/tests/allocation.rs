@@ -1,5 +1,6 @@
-//! No step allocates, whatever the method and the size of the system.
+//! No step allocates, and what a run of a chain takes before its first step is linear in the length of the chain.
 
+use dvi_core::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
 use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};
@@ -33,8 +34,26 @@ macro_rules! assert_none_controlled {
     )+};
 }
 
+/// Bytes that a run of a chain of `n` masses takes.
+fn of_chain<M: Method<RunTimeChain, f64>>(method: M, n: usize) -> f64 {
+    let chain = RunTimeChain { mass: vec![1.0; n], coupling: 0.125 };
+    let wave = |phase: f64| (0..n).map(|j| 0.3 * (j as f64 + phase).sin()).collect::<Vec<f64>>();
+    let start = RunTimeChainState { q: wave(0.0), wall: 0.3, dot_q: wave(1.0), dot_wall: 0.2 };
+    let before = dhat::HeapStats::get().total_bytes;
+    let mut run = Integrator::new(&chain, method, 0.1, start).expect("starts");
+    run.take_steps(3).expect("steps");
+    (dhat::HeapStats::get().total_bytes - before) as f64
+}
+
+macro_rules! assert_linear {
+    ($($method:expr),+ $(,)?) => {$(
+        let [short, long] = [1000, 4000].map(|n| of_chain($method, n));
+        assert!(long < 4.1 * short, "{}: {short} bytes and {long}", stringify!($method));
+    )+};
+}
+
 #[test]
-fn steps_do_not_allocate() {
+fn steps_do_not_allocate_and_chains_take_storage_like_their_length() {
     let _profiler = dhat::Profiler::builder().testing().build();
     let counted = of_steps(|| drop(std::hint::black_box(vec![0_u8; 16])));
     assert_eq!(counted, 100, "the counter counts");
@@ -74,5 +93,15 @@ fn steps_do_not_allocate() {
         Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged)),
         Newmark::new(0.25),
         Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },
+    );
+
+    // Masses that are coupled, Newton's method, and a fixed point with Newton's method behind it.
+    let newton = Solver::Newton;
+    assert_linear!(
+        Variational::trapezoid(),
+        Variational::midpoint(),
+        Variational { solver: newton, ..Variational::midpoint() },
+        Newmark::new(0.25),
+        Newmark { solver: newton, ..Newmark::new(0.25) },
     );
 }

@@ -47,9 +47,16 @@ impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> DiscreteHessian<S, L,
         q0: &[T],
         q1: &[T],
     ) -> Result<(), StepFailure> {
-        for (i, (&q0, &q1)) in q0.iter().zip(q1).enumerate().take(self.delta.len()) {
-            self.start[i] = q0;
-            self.delta[i] = q1 - q0;
+        self.start.fill(T::lift(0.0));
+        self.delta.fill(T::lift(0.0));
+        for (start, &q0) in self.start.iter_mut().zip(q0) {
+            *start = q0;
+        }
+        for (delta, &q1) in self.delta.iter_mut().zip(q1) {
+            *delta = q1;
+        }
+        for (delta, &q0) in self.delta.iter_mut().zip(self.start.iter()) {
+            *delta -= q0;
         }
         for matrix in [&mut self.d11, &mut self.d12, &mut self.d22] {
             matrix.fill(T::lift(0.0));

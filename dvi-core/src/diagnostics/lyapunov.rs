@@ -8,6 +8,7 @@ use crate::discrete::{Interval, TwiceDifferentiable, VariationalMethod};
 use crate::error::StepError;
 use crate::norm::reported;
 use crate::run::Run;
+use crate::sink::Product;
 use crate::{Lagrangian, Real, Scalar, Space, Vector, Weights};
 
 /// The growth of a perturbation along a run, accumulated step by step.
@@ -57,11 +58,10 @@ impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L
     fn along(system: &S, q: &[T], t: T, dq: &[T]) -> Vector<S, T> {
         let space = system.space();
         let [rest, mut l_q, mut l_v, mut dp]: [Vector<S, T>; 4] = core::array::from_fn(|_| space.vector());
-        let mut jacobian = space.matrix();
         let zero = T::lift(0.0);
         let weights = Weights { qq: zero, qv: zero, vq: T::lift(1.0), vv: zero };
-        system.linearize(q, &rest, t, weights, &mut l_q, &mut l_v, &mut jacobian);
-        crate::elimination::multiply_add(&jacobian, dq, &mut dp);
+        let mut product = Product { x: dq, sum: &mut dp };
+        system.linearize(q, &rest, t, weights, &mut l_q, &mut l_v, &mut product);
         dp
     }
 

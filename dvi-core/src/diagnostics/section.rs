@@ -15,6 +15,7 @@ use crate::{Lagrangian, Real, Scalar, Space, State, Vector};
 const WINDOW: usize = 8;
 /// The interval of the window in which crossings are looked for.
 const CENTRE: usize = WINDOW / 2 - 1;
+
 /// The crossings that a section keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {

@@ -7,11 +7,12 @@ use crate::legendre::Legendre;
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::run::evaluate;
 use crate::solve::Stopping;
+use crate::square::of_second_derivatives;
 use crate::statistics::Statistics;
-use crate::{Lagrangian, Matrix, Real, Space, Vector, norm};
+use crate::{Lagrangian, Real, Space, Square, Vector, norm};
 
-/// The general step of the discrete Lagrangian of `scheme`, whatever its structure (Marsden & West 2001, eqs. 1.5.2 and
-/// 1.5.3). Runs start from p = ∂L/∂v, which is α(q) for a degenerate system.
+/// The general step of the discrete Lagrangian of `scheme`, by Newton's method, on degenerate and on regular systems
+/// (Marsden & West 2001, eqs. 1.5.2 and 1.5.3). Runs start from p = ∂L/∂v, which is α(q) for a degenerate system.
 ///
 /// The methods of this crate have faster steps of the same equations, guards and starts of their own. This one is for
 /// discrete Lagrangians that have no method yet, and what the others are tested against.
@@ -38,7 +39,7 @@ pub struct GeneralMemory<S: Lagrangian, L, T: Real> {
     history: History<S, T>,
     last_step: T,
     l_d: L,
-    matrix: Matrix<S, T>,
+    matrix: Square<S, T>,
     residual: Vector<S, T>,
     increment: Vector<S, T>,
     sum: Vector<S, T>,
@@ -90,7 +91,7 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Genera
             history: History::new(system, Some(seed)),
             last_step: T::lift(0.0),
             l_d: self.scheme.discrete_lagrangian(system),
-            matrix: space.matrix(),
+            matrix: of_second_derivatives(system),
             residual: space.vector(),
             increment: space.vector(),
             sum: space.vector(),

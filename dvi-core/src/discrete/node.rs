@@ -7,6 +7,7 @@
 
 use super::{DiscreteLagrangian, Ends, Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
+use crate::sink::Sink;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Space, Vector, Weights};
 
@@ -87,13 +88,13 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
     }
 
     #[inline(always)]
-    fn linearize(
+    fn linearize<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
         d1: &mut [T],
-        matrix: &mut [T],
+        sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.place(interval, ends);
@@ -101,19 +102,19 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
         let (h, sigma, left) = (interval.h, self.sigma, T::lift(1.0) - self.sigma);
         let vv = if S::REGULAR { -T::lift(1.0) / h } else { T::lift(0.0) };
         let weights = Weights { qq: sigma * left * h, qv: left, vq: -sigma, vv };
-        system.linearize(point, velocity, interval.time(sigma), weights, gradient, momentum, matrix);
+        system.linearize(point, velocity, interval.time(sigma), weights, gradient, momentum, sink);
         self.add_first(h, d1);
         Ok(())
     }
 }
 
 impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
-    fn hessian(
+    fn hessian<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
-        [d11, d12, d22]: [&mut [T]; 3],
+        [d11, d12, d22]: [&mut K; 3],
     ) -> Result<(), StepFailure> {
         self.place(interval, ends);
         let NodeWork { point, velocity, gradient, momentum } = &mut self.work;
@@ -124,9 +125,9 @@ impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
             (Weights { qq: h * left * right, qv: left, vq: -right, vv: -per_h }, d12),
             (Weights { qq: h * right * right, qv: right, vq: right, vv: per_h }, d22),
         ];
-        for (weights, matrix) in weights {
+        for (weights, sink) in weights {
             let t = interval.time(right);
-            system.linearize(point, velocity, t, weights, gradient, momentum, matrix);
+            system.linearize(point, velocity, t, weights, gradient, momentum, sink);
         }
         Ok(())
     }

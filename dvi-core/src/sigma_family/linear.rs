@@ -19,7 +19,7 @@ use crate::solve::{Convergence, Guess, iterate};
 use crate::space::scratch;
 use crate::statistics::Statistics;
 use crate::summation::{Carried, Summation};
-use crate::{DegenerateLagrangian, Matrix, Real, Vector};
+use crate::{DegenerateLagrangian, Real, Square, Vector};
 
 #[inline(always)]
 pub(super) fn step<S: DegenerateLagrangian, T: Real>(
@@ -237,7 +237,7 @@ impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
     #[inline]
     fn newton(
         &mut self,
-        matrix: &mut Matrix<S, T>,
+        matrix: &mut Square<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {

@@ -16,7 +16,8 @@ use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::statistics::Statistics;
 use crate::summation::Carried;
-use crate::{DegenerateLagrangian, Lagrangian, Matrix, Real, Space, Vector};
+use crate::square::of_second_derivatives;
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Square, Vector};
 
 /// The defect of a run of the σ-family, its guesses and its work space.
 #[derive(Debug)]
@@ -38,7 +39,7 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
     pub(super) ahead: Option<Ahead<S, T>>,
     pub(super) l_d: OneNode<S, T>,
     /// With the matrix of Newton's method. Explicit steps do not use it.
-    pub(super) ladder: Ladder<Matrix<S, T>>,
+    pub(super) ladder: Ladder<Square<S, T>>,
     pub(super) monitor: Monitor<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
     /// What rounding has left out of the coordinates, if α is affine and σ neither 0 nor 1.
@@ -192,7 +193,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             product,
             ahead,
             l_d: OneNode::new(system, sigma),
-            ladder: Ladder::new(solver, || space.matrix()),
+            ladder: Ladder::new(solver, || of_second_derivatives(system)),
             monitor: Monitor::new(system, limit, pace),
             orientation: FormOrientation::new(system, q, t),
             carried: Carried::new(system, method.summation),

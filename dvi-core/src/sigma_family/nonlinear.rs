@@ -13,7 +13,7 @@ use crate::history::History;
 use crate::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::statistics::Statistics;
-use crate::{DegenerateLagrangian, Matrix, Real, Vector};
+use crate::{DegenerateLagrangian, Real, Square, Vector};
 
 #[inline]
 pub(super) fn step<S: DegenerateLagrangian, T: Real>(
@@ -122,7 +122,7 @@ impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
     #[inline]
     fn newton(
         &mut self,
-        matrix: &mut Matrix<S, T>,
+        matrix: &mut Square<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {

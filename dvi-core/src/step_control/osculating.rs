@@ -14,7 +14,8 @@ use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
 use crate::method::VariableStep;
 use crate::norm::larger;
-use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights, elimination};
+use crate::sink::Product;
+use crate::{Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 
 /// How far the centre of the osculating circle moves in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,20 +89,20 @@ struct Work<S: RegularLagrangian, T: Real> {
     jerk: Vector<S, T>,
     l_q: Vector<S, T>,
     l_v: Vector<S, T>,
-    hessian: Matrix<S, T>,
+    /// ∂²L/∂q∂q v
+    force_rate: Vector<S, T>,
 }
 
 impl<S: RegularLagrangian, T: Real> Work<S, T> {
     /// The osculating circle at (`q`, `v`), by one evaluation of the second derivatives.
     fn circle(&mut self, system: &S, mass: &Mass<S, T>, q: &[T], v: &[T], t: T) -> Circle<T> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let Self { acceleration, jerk, l_q, l_v, hessian } = self;
-        hessian.fill(zero);
-        system.linearize(q, v, t, Weights { qq: one, qv: zero, vq: zero, vv: zero }, l_q, l_v, hessian);
+        let Self { acceleration, jerk, l_q, l_v, force_rate } = self;
+        force_rate.fill(zero);
+        let mut product = Product { x: v, sum: force_rate };
+        system.linearize(q, v, t, Weights { qq: one, qv: zero, vq: zero, vv: zero }, l_q, l_v, &mut product);
         mass.solve(l_q, acceleration);
-        l_q.fill(zero);
-        elimination::multiply_add(hessian, v, l_q);
-        mass.solve(l_q, jerk);
+        mass.solve(force_rate, jerk);
         let dot = |x: &[T], y: &[T]| x.iter().zip(y).fold(zero, |sum, (&x, &y)| sum + x * y);
         let (vv, va, aa) = (dot(v, v), dot(v, acceleration), dot(acceleration, acceleration));
         let (vj, aj) = (dot(v, jerk), dot(acceleration, jerk));
@@ -156,7 +157,7 @@ impl<S: RegularLagrangian, T: Real> StepControl<S, T> for Osculating {
             jerk: vector(),
             l_q: vector(),
             l_v: vector(),
-            hessian: space.matrix(),
+            force_rate: space.vector(),
         };
         let circle = work.circle(system, &mass, q, v, t);
         if !(circle.radius + circle.rate).is_finite() {

@@ -12,7 +12,8 @@ use crate::error::StepFailure;
 use crate::frequency::{self, FrequencyIn};
 use crate::norm::reported;
 use crate::quadrature::{NODES, Rule};
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+use crate::sink::{Scaled, Sink};
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 
 /// sin u and S count as zero below this.
 const RESONANCE: f64 = 1e-4;
@@ -40,14 +41,14 @@ pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
 
     /// Adds what a node, at which `work` stands, contributes to the second derivative of L_d by these two ends; sets ∂L/∂q
     /// and ∂L/∂v in `work`.
-    fn add_second(
+    fn add_second<K: Sink<T>>(
         &mut self,
         node: usize,
         ends: [End; 2],
         system: &S,
         at: [T; 2],
         work: &mut NodeWork<S, T>,
-        matrix: &mut [T],
+        sink: &mut K,
     );
 
     /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
@@ -182,20 +183,20 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
     }
 
     #[inline]
-    fn add_second(
+    fn add_second<K: Sink<T>>(
         &mut self,
         node: usize,
         ends: [End; 2],
         system: &S,
         [t, h]: [T; 2],
         NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
-        matrix: &mut [T],
+        sink: &mut K,
     ) {
         let (w, Basis { b, b_bar, d, d_bar }) = (self.weights[node], self.bases[node]);
         let [[r, r_dot], [c, c_dot]] = ends.map(|end| end.of([[b, d], [b_bar, d_bar]]));
         let weights =
             Weights { qq: w * h * r * c, qv: w * r * c_dot, vq: w * r_dot * c, vv: w * r_dot * c_dot / h };
-        system.linearize(point, velocity, t, weights, gradient, momentum, matrix);
+        system.linearize(point, velocity, t, weights, gradient, momentum, sink);
     }
 
     fn slope<F: FrequencyIn<T>, R: Rule>(
@@ -263,8 +264,6 @@ pub(super) struct Each<S: Lagrangian, T: Real> {
     left: Vector<S, T>,
     right: Vector<S, T>,
     compliance: Vector<S, T>,
-    /// One block of second derivatives of L.
-    block: Matrix<S, T>,
 }
 
 impl<S: RegularLagrangian, T: Real> Each<S, T> {
@@ -282,7 +281,6 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
             left: space.vector(),
             right: space.vector(),
             compliance: space.vector(),
-            block: space.matrix(),
         }
     }
 }
@@ -322,18 +320,18 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
     }
 
     /// Block by block.
-    fn add_second(
+    fn add_second<K: Sink<T>>(
         &mut self,
         node: usize,
         ends: [End; 2],
         system: &S,
         [t, h]: [T; 2],
         work: &mut NodeWork<S, T>,
-        matrix: &mut [T],
+        sink: &mut K,
     ) {
-        let (zero, one, n) = (T::lift(0.0), T::lift(1.0), self.mixed.len());
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let Self { weights, b, b_bar, d, d_bar, block, .. } = self;
+        let Self { weights, b, b_bar, d, d_bar, .. } = self;
         let NodeWork { point, velocity, gradient, momentum } = work;
         let [[r, r_dot], [c, c_dot]] =
             ends.map(|end| end.of([[&b[node], &d[node]], [&b_bar[node], &d_bar[node]]]));
@@ -344,13 +342,9 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
             (Weights { vv: one, ..none }, r_dot, c_dot, one / h),
         ];
         for (kind, row, column, factor) in blocks {
-            block.fill(zero);
-            system.linearize(point, velocity, t, kind, gradient, momentum, block);
-            for i in 0..n {
-                for j in 0..n {
-                    matrix[i * n + j] += weights[node] * factor * row[i] * column[j] * block[i * n + j];
-                }
-            }
+            let factor = |i: usize, j: usize| weights[node] * factor * row[i] * column[j];
+            let sink = &mut Scaled { sink: &mut *sink, factor };
+            system.linearize(point, velocity, t, kind, gradient, momentum, sink);
         }
     }
 

@@ -14,14 +14,14 @@ use crate::quadrature::Rule;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::statistics::Statistics;
 use crate::summation::Summation;
-use crate::{Matrix, Real, RegularLagrangian, Scalar, norm};
+use crate::{Real, RegularLagrangian, Scalar, Square, norm};
 
 /// A step by Newton's method from a guess.
 #[inline(never)]
 pub(super) fn by_newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     parts: &mut Parts<'_, S, T>,
-    matrix: &mut Matrix<S, T>,
+    matrix: &mut Square<S, T>,
     guess: Guess,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -92,7 +92,7 @@ fn newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>,
     phase: &PhasePoint<S, T>,
     work: &mut Work<S, T>,
     q: &[T],
-    matrix: &mut Matrix<S, T>,
+    matrix: &mut Square<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let Work { node, next, increment, trial, sum } = work;

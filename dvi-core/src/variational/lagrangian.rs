@@ -15,6 +15,7 @@ use crate::error::StepFailure;
 use crate::frequency::{Frequency, FrequencyIn, Local, Reading};
 use crate::mass::Mass;
 use crate::quadrature::Rule;
+use crate::sink::Sink;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, RegularLagrangian, Vector};
 
@@ -111,18 +112,18 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
         Ok(())
     }
 
-    fn linearize(
+    fn linearize<K: Sink<T>>(
         &mut self,
         system: &S,
         Interval { t, h }: Interval<T>,
         ends: Ends<'_, T>,
         d1: &mut [T],
-        matrix: &mut [T],
+        sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self.method, t, h };
         self.read_frequency(&step, ends)?;
-        add_linearized(&step, self.coefficients, ends, self.node, d1, matrix);
+        add_linearized(&step, self.coefficients, ends, self.node, d1, sink);
         self.vary_frequency(&step, ends, d1, None);
         Ok(())
     }
@@ -174,17 +175,17 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangi
         })
     }
 
-    fn linearize(
+    fn linearize<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
         d1: &mut [T],
-        matrix: &mut [T],
+        sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         with_coefficients!(self, system, interval, |step, coefficients| {
-            add_linearized(&step, coefficients, ends, &mut self.node, d1, matrix);
+            add_linearized(&step, coefficients, ends, &mut self.node, d1, sink);
         })
     }
 }
@@ -192,12 +193,12 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangi
 impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
     for QuadratureLagrangian<S, F, R, T>
 {
-    fn hessian(
+    fn hessian<K: Sink<T>>(
         &mut self,
         system: &S,
         interval: Interval<T>,
         ends: Ends<'_, T>,
-        [d11, d12, d22]: [&mut [T]; 3],
+        [d11, d12, d22]: [&mut K; 3],
     ) -> Result<(), StepFailure> {
         with_coefficients!(self, system, interval, |step, coefficients| {
             for (node, &c) in self.method.rule.nodes().iter().enumerate() {
@@ -235,18 +236,18 @@ fn add_derivatives<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S,
 }
 
 /// Adds D₁ℓ and D₁D₂ℓ.
-fn add_linearized<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn add_linearized<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real, K: Sink<T>>(
     step: &Step<'_, S, F, R, T>,
     coefficients: &mut C,
     ends: Ends<'_, T>,
     work: &mut NodeWork<S, T>,
     d1: &mut [T],
-    matrix: &mut [T],
+    sink: &mut K,
 ) {
     for (node, &c) in step.method.rule.nodes().iter().enumerate() {
         place(coefficients, node, step.h, ends, work);
         let at = [step.node_time(c), step.h];
-        coefficients.add_second(node, [End::Left, End::Right], step.system, at, work, matrix);
+        coefficients.add_second(node, [End::Left, End::Right], step.system, at, work, sink);
         add_first(coefficients, node, step.h, work, d1);
     }
 }

@@ -8,7 +8,8 @@ use crate::frequency::{Frequency, FrequencyIn, Local};
 use crate::phase::{Inertial, PhasePoint};
 use crate::quadrature::Rule;
 use crate::solve::{Ladder, Solver};
-use crate::{Lagrangian, Matrix, Real, RegularLagrangian, Space, Vector};
+use crate::square::of_second_derivatives;
+use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, Vector};
 
 /// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ pub struct VariationalMemory<S: Lagrangian, T: Real> {
     pub(super) phase: PhasePoint<S, T>,
     pub(super) inertial: Inertial<S, T>,
     /// With the matrix of Newton's method; explicit steps do not use it.
-    pub(super) ladder: Ladder<Matrix<S, T>>,
+    pub(super) ladder: Ladder<Square<S, T>>,
     pub(super) work: Work<S, T>,
 }
 
@@ -84,7 +85,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
             ends: [Local::new(system, reading), Local::new(system, reading)],
             phase: PhasePoint::new(system, q, v, t, method.summation)?,
             inertial: Inertial::new(system, q, v, t)?,
-            ladder: Ladder::new(solver, || system.space().matrix()),
+            ladder: Ladder::new(solver, || of_second_derivatives(system)),
             work: Work::new(system),
         })
     }

@@ -229,8 +229,7 @@ fn references(job: &Job<'_>, all: &[Series]) -> Vec<Check> {
         Check::new(
             "(23) per arc length, 1e-5: max|ΔE| over 10⁵ periods",
             job.only_full(coarse.course.energy),
-            // Where the step control locks in depends on the last rounding.
-            Bound::Near(8.428e-3, 1e-4),
+            Bound::Near(8.428e-3, 1e-6),
         ),
     ]
 }

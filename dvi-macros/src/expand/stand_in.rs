@@ -76,8 +76,8 @@ impl StandIn<'_> {
                     fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
                     fn lagrangian<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
                     fn gradient<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T], _: &mut [__T]) #never
-                    fn linearize<__T: #krate::Scalar>(
-                        &self, _: &[__T], _: &[__T], _: __T, _: #krate::Weights<__T>, _: &mut [__T], _: &mut [__T], _: &mut [__T],
+                    fn linearize<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
+                        &self, _: &[__T], _: &[__T], _: __T, _: #krate::Weights<__T>, _: &mut [__T], _: &mut [__T], _: &mut __K,
                     ) #never
                     fn energy<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
                     fn momentum<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: &[__T], _: __T) -> __T #never
@@ -101,7 +101,9 @@ impl StandIn<'_> {
                 fn hamiltonian_gradient<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
                 fn one_form<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
                 fn flow_source<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                fn one_form_jacobian<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
+                fn one_form_jacobian<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
+                    &self, _: &[__T], _: __T, _: __T, _: __T, _: &mut __K,
+                ) #never
                 fn partner_entries<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
                 fn partner(&self, _: usize) -> usize #never
                 fn momentum_gradient<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T, _: &mut [__T]) #never

@@ -60,7 +60,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let hamiltonian_gradient = emitter.vector(&programs.hamiltonian_gradient);
     let one_form = emitter.vector(&programs.one_form);
     let flow_source = emitter.vector(&programs.flow_source);
-    let (read, matrix) = (emitter.read(&programs.one_form_jacobian), emitter.matrix());
+    let (read, offsets) = (emitter.read(&programs.one_form_jacobian), emitter.offsets());
     let jacobian = emitter.body(&programs.one_form_jacobian);
     let partner_entries = emitter.vector(&programs.partner_entries);
     let partner = partner(emitter, structure);
@@ -85,10 +85,10 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
                 #flow_source
             }
             #[inline]
-            fn one_form_jacobian<__T: #krate::Scalar>(
-                &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __matrix: &mut [__T],
+            fn one_form_jacobian<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
+                &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __sink: &mut __K,
             ) {
-                #read #matrix #jacobian
+                #read #offsets #jacobian
             }
             #[inline]
             fn partner_entries<__T: #krate::Scalar>(

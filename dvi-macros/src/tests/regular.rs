@@ -23,53 +23,60 @@ fn kepler_linearized() {
         kepler(),
         "linearize",
         &expect![[r#"
-        fn linearize() {
-            let (__q0, __rest) = __q.split_at(1usize);
-            let (__q1, __rest) = __rest.split_at(1usize);
-            let _ = __rest;
-            let (__v0, __rest) = __v.split_at(1usize);
-            let (__v1, __rest) = __rest.split_at(1usize);
-            let _ = __rest;
-            __l_q.fill(T::lift(-0.0));
-            let (__l_q0, __rest) = __l_q.split_at_mut(1usize);
-            let (__l_q1, __rest) = __rest.split_at_mut(1usize);
-            let _ = __rest;
-            __l_v.fill(T::lift(-0.0));
-            let (__l_v0, __rest) = __l_v.split_at_mut(1usize);
-            let (__l_v1, __rest) = __rest.split_at_mut(1usize);
-            let _ = __rest;
-            let __offset0: usize = 0usize;
-            let __offset1: usize = 1usize;
-            let __dimension: usize = 2usize;
-            let __r0 = __q0[0usize];
-            let __r2 = __r0 * __r0;
-            let __r3 = __q1[0usize];
-            let __r4 = __r3 * __r3;
-            let __r7 = T::lift(1f64)
-                / (T::sqrt((__r2 + __r4)));
-            let __r9 = __r7 * __r7;
-            let __r11 = __r7
-                * (T::lift(
-                    __private::Number::number(self.mu),
-                ) * __r9);
-            let __r17 = T::lift(3f64) * __r9;
-            let __r21 = __w.qq * __r11;
-            let __r25 = ((__r0 * __r3) * __r17) * __r21;
-            let __r26 = __w.vv;
-            __l_q0[0usize] -= (__r0 * __r11);
-            __l_v0[0usize] += __v0[0usize];
-            __l_q1[0usize] -= (__r3 * __r11);
-            __l_v1[0usize] += __v1[0usize];
-            __matrix[(__offset0 + 0usize) * __dimension + __offset0 + 0usize]
-                += (((__r17 * __r2) - T::lift(1f64)) * __r21);
-            __matrix[(__offset0 + 0usize) * __dimension + __offset1 + 0usize] += __r25;
-            __matrix[(__offset1 + 0usize) * __dimension + __offset0 + 0usize] += __r25;
-            __matrix[(__offset0 + 0usize) * __dimension + __offset0 + 0usize] += __r26;
-            __matrix[(__offset1 + 0usize) * __dimension + __offset1 + 0usize]
-                += (((__r17 * __r4) - T::lift(1f64)) * __r21);
-            __matrix[(__offset1 + 0usize) * __dimension + __offset1 + 0usize] += __r26;
-        }
-    "#]],
+            fn linearize() {
+                let (__q0, __rest) = __q.split_at(1usize);
+                let (__q1, __rest) = __rest.split_at(1usize);
+                let _ = __rest;
+                let (__v0, __rest) = __v.split_at(1usize);
+                let (__v1, __rest) = __rest.split_at(1usize);
+                let _ = __rest;
+                __l_q.fill(T::lift(-0.0));
+                let (__l_q0, __rest) = __l_q.split_at_mut(1usize);
+                let (__l_q1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                __l_v.fill(T::lift(-0.0));
+                let (__l_v0, __rest) = __l_v.split_at_mut(1usize);
+                let (__l_v1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                let __offset0: usize = 0usize;
+                let __offset1: usize = 1usize;
+                let __r0 = __q0[0usize];
+                let __r2 = __r0 * __r0;
+                let __r3 = __q1[0usize];
+                let __r4 = __r3 * __r3;
+                let __r7 = T::lift(1f64)
+                    / (T::sqrt((__r2 + __r4)));
+                let __r9 = __r7 * __r7;
+                let __r11 = __r7
+                    * (T::lift(
+                        __private::Number::number(self.mu),
+                    ) * __r9);
+                let __r17 = T::lift(3f64) * __r9;
+                let __r21 = __w.qq * __r11;
+                let __r25 = ((__r0 * __r3) * __r17) * __r21;
+                let __r26 = __w.vv;
+                __l_q0[0usize] -= (__r0 * __r11);
+                __l_v0[0usize] += __v0[0usize];
+                __l_q1[0usize] -= (__r3 * __r11);
+                __l_v1[0usize] += __v1[0usize];
+                Sink::add(
+                    __sink,
+                    __offset0 + 0usize,
+                    __offset0 + 0usize,
+                    (((__r17 * __r2) - T::lift(1f64)) * __r21),
+                );
+                Sink::add(__sink, __offset0 + 0usize, __offset1 + 0usize, __r25);
+                Sink::add(__sink, __offset1 + 0usize, __offset0 + 0usize, __r25);
+                Sink::add(__sink, __offset0 + 0usize, __offset0 + 0usize, __r26);
+                Sink::add(
+                    __sink,
+                    __offset1 + 0usize,
+                    __offset1 + 0usize,
+                    (((__r17 * __r4) - T::lift(1f64)) * __r21),
+                );
+                Sink::add(__sink, __offset1 + 0usize, __offset1 + 0usize, __r26);
+            }
+        "#]],
     );
 }
 

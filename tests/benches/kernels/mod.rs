@@ -4,19 +4,22 @@ mod kepler_by_hand;
 mod vortices_by_hand;
 
 use dvi_core::prelude::*;
-use dvi_core::{Frequency, FrequencyIn, Rule};
+use dvi_core::{
+    DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, Lagrangian, OneNode, Rule, Space, Statistics, Vector,
+};
 use dvi_tests::configurations;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 8] = [
+pub(crate) const KERNELS: [[&str; 2]; 9] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["explicit, parasitic mode limited/generated", "explicit, parasitic mode limited/by hand"],
     ["fixed point/generated", "fixed point/by hand"],
     ["newton/generated", "newton/by hand"],
+    ["residual and matrix/generated", "residual and matrix/by hand"],
     ["Kepler, Verlet/generated", "Kepler, Verlet/by hand"],
     ["Kepler, Simpson fitted to √(|a|÷|q|)/generated", "Kepler, Simpson fitted to √(|a|÷|q|)/by hand"],
     ["Kepler, Simpson fitted to r^(−3÷2)/generated", "Kepler, Simpson fitted to r^(−3÷2)/by hand"],
@@ -50,6 +53,8 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
         "newton/generated" => generated(implicit(Solver::Newton), |run| run.take_steps(steps)),
         "explicit, parasitic mode limited/generated" => limited(steps),
         "explicit, parasitic mode limited/by hand" => limited_by_hand(steps),
+        "residual and matrix/generated" => residual_and_matrix(steps),
+        "residual and matrix/by hand" => residual_and_matrix_by_hand(field, steps),
         "explicit/by hand" => {
             let mut leapfrog = vortices_by_hand::Leapfrog::new(field, H, start());
             (0..steps).for_each(|_| leapfrog.step());
@@ -91,6 +96,40 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
         }
         _ => f64::NAN,
     }
+}
+
+/// The residual and the matrix of Newton's method for an increment of zero, of which the entry (x₁, y₂) moves the first
+/// vortex.
+#[inline(never)]
+fn residual_and_matrix(steps: u64) -> f64 {
+    let system = black_box(configurations::quasi_periodic().0);
+    let space = system.space();
+    let (mut z, delta, mut statistics) = (start(), [0.0; 8], Statistics::default());
+    let mut l_d = OneNode::new(&system, 0.5);
+    let (mut residual, mut matrix): (Vector<PointVortices<4>, f64>, _) = (space.vector(), space.matrix());
+    for _ in 0..steps {
+        residual.fill(0.0);
+        matrix.fill(0.0);
+        let (interval, ends) = (Interval { t: 0.0, h: H }, Ends { q0: &z, delta: &delta });
+        let result = l_d.linearize(&system, interval, ends, &mut residual, &mut matrix, &mut statistics);
+        if result.is_err() {
+            return f64::NAN;
+        }
+        black_box((&residual, &matrix));
+        z[0] += 2.0 * matrix[5];
+    }
+    z[0]
+}
+
+#[inline(never)]
+fn residual_and_matrix_by_hand(field: vortices_by_hand::Field, steps: u64) -> f64 {
+    let (mut z, field) = (start(), black_box(field));
+    for _ in 0..steps {
+        let (v, matrix) = field.newton_matrix(&z, 0.5 * H);
+        black_box((&v.map(|v| -H * v), &matrix));
+        z[0] += matrix[4][5];
+    }
+    z[0]
 }
 
 fn implicit(solver: Solver) -> Sigma {

@@ -36,7 +36,7 @@ impl Field {
 
     /// The velocity, and 1 − (h/2) Df.
     #[inline(always)]
-    fn newton_matrix(&self, z: &State, half: f64) -> (State, [State; 8]) {
+    pub(crate) fn newton_matrix(&self, z: &State, half: f64) -> (State, [State; 8]) {
         let mut v = [0.0; 8];
         let mut m = [[0.0; 8]; 8];
         for i in 0..8 {

@@ -15,13 +15,10 @@ pub(crate) struct Pinned {
 
 /// The rows of `instructions.csv`.
 pub(crate) fn rows() -> Vec<Pinned> {
-    let mut rows = Vec::new();
-    for line in include_str!("../instructions.csv").lines().skip(1) {
-        let mut cells = line.rsplitn(3, ',');
-        let mut number = || cells.next().and_then(|cell| cell.parse().ok()).unwrap_or(f64::NAN);
-        let (by_hand, generated) = (number(), number());
-        let name = cells.next().unwrap_or_default().trim_matches('"').to_owned();
-        rows.push(Pinned { name, generated, by_hand });
-    }
-    rows
+    let mut table = csv::Reader::from_reader(include_str!("../instructions.csv").as_bytes());
+    let rows = table.deserialize().map(|row| {
+        let (name, generated, by_hand) = row.expect("a name and two numbers");
+        Pinned { name, generated, by_hand }
+    });
+    rows.collect()
 }

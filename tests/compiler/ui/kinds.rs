@@ -18,6 +18,12 @@ fn regular_method_on_a_degenerate_system() {
     let _ = Integrator::new(&Degenerate, Variational::midpoint(), 0.1, state);
 }
 
+fn exponent_of_steps_without_a_discrete_lagrangian() {
+    let state = DegenerateState { x: 1.0, y: 0.0 };
+    let run = Integrator::new(&Degenerate, RungeKutta::classical(), 0.1, state).unwrap();
+    let _ = dvi_core::diagnostics::LyapunovExponent::new(&run);
+}
+
 fn integer_step() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 1, state);

@@ -1,6 +1,7 @@
 //! Derivatives at points where the rules of differentiation give 0/0, against limits found by hand.
 
 use dvi_core::prelude::*;
+use dvi_core::sink::Dense;
 use dvi_core::{Space, Weights};
 
 type Outcome = Result<(), String>;
@@ -128,7 +129,7 @@ macro_rules! in_space {
                 let (q, v) = ([0.0; 4], [0.0; 4]);
                 let (mut gradient, mut momentum, mut matrix) = ([0.0; 4], [0.0; 4], [0.0; 16]);
                 let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-                $name.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut matrix);
+                $name.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut Dense::new(&mut matrix, 4));
                 if gradient != [0.0; 4] || matrix != [0.0; 16] {
                     return Err(format!("{}: {gradient:?}, {matrix:?}", stringify!($hamiltonian)));
                 }

@@ -16,6 +16,8 @@ pub(super) enum Callee {
     Wrap,
     Remainder,
     CheckIndex,
+    /// `Sink::add`, of a dense matrix.
+    AddEntry,
     Ok,
     /// Another generated function.
     Generated(String),
@@ -62,6 +64,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "__private", "wrap"] => Callee::Wrap,
         [.., "__private", "remainder"] => Callee::Remainder,
         [.., "__private", "check_index"] => Callee::CheckIndex,
+        [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,
         [.., owner, name] if TRAITS.contains(owner) => Callee::Generated((*name).into()),
         ["dvi_core" | "core", ..] => panic!("the interpreter does not know the function {}", path.join("::")),

@@ -1,0 +1,129 @@
+//! Chains of many masses: Newton's method on Toda's chain, and Verlet's steps on the chain of Fermi, Pasta, Ulam and Tsingou
+//! beside the same steps by hand.
+//!
+//! `cargo bench -p dvi-benches --bench large`. Times are those of a step; throughput counts masses.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use dvi_core::prelude::*;
+use std::hint::black_box;
+
+/// Toda's chain between walls.
+#[lagrangian(
+    coordinates(q[n]),
+    lagrangian = sum(0..n, |j| dot(q[j]).powi(2)) / 2.0 - q[0].exp() + q[0] - (-q[n - 1]).exp() - q[n - 1]
+        - sum(1..n, |j| (q[j] - q[j - 1]).exp() - (q[j] - q[j - 1])),
+)]
+struct Toda {
+    n: usize,
+}
+
+/// The chain with cubic terms of strength `alpha`, between walls.
+#[lagrangian(
+    coordinates(q[n]),
+    lagrangian = sum(0..n, |j| dot(q[j]).powi(2)) / 2.0 - q[0].powi(2) / 2.0 - alpha / 3.0 * q[0].powi(3)
+        - q[n - 1].powi(2) / 2.0 + alpha / 3.0 * q[n - 1].powi(3)
+        - sum(1..n, |j| (q[j] - q[j - 1]).powi(2) / 2.0 + alpha / 3.0 * (q[j] - q[j - 1]).powi(3)),
+)]
+struct Fput {
+    n: usize,
+    alpha: f64,
+}
+
+const ALPHA: f64 = 0.25;
+const H: f64 = 0.1;
+
+/// A wave of small amplitude.
+fn wave(n: usize, phase: f64) -> Vec<f64> {
+    (0..n).map(|j| 0.1 * (0.3 * j as f64 + phase).sin()).collect()
+}
+
+fn newton(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("Toda, midpoint, Newton, h = 1");
+    group.sample_size(10);
+    for n in [100, 1000, 10_000, 100_000] {
+        let system = Toda { n };
+        let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
+        let start = TodaState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
+        let Ok(mut run) = Integrator::new(&system, method, 1.0, start) else { panic!("it starts") };
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
+            bencher.iter(|| assert!(run.advance().is_ok()));
+        });
+    }
+    group.finish();
+}
+
+/// Verlet's steps by hand, in one pass over the chain.
+struct ByHand {
+    q: Vec<f64>,
+    p: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl ByHand {
+    fn new(n: usize) -> Self {
+        let mut new = Self { q: wave(n, 0.0), p: wave(n, 1.0), force: vec![0.0; n] };
+        let mut left = tension(new.q[0]);
+        for j in 0..n {
+            let stretch = if j + 1 < n { new.q[j + 1] - new.q[j] } else { -new.q[j] };
+            let right = tension(stretch);
+            new.force[j] = right - left;
+            left = right;
+        }
+        new
+    }
+
+    fn step(&mut self) {
+        let (n, half) = (self.q.len(), 0.5 * H);
+        let move_one = |q: &mut f64, p: &mut f64, force: f64| {
+            *p += half * force;
+            *q += H * *p;
+        };
+        move_one(&mut self.q[0], &mut self.p[0], self.force[0]);
+        let mut left = tension(self.q[0]);
+        for j in 0..n {
+            let stretch = if j + 1 < n {
+                move_one(&mut self.q[j + 1], &mut self.p[j + 1], self.force[j + 1]);
+                self.q[j + 1] - self.q[j]
+            } else {
+                -self.q[j]
+            };
+            let right = tension(stretch);
+            self.force[j] = right - left;
+            self.p[j] += half * self.force[j];
+            left = right;
+        }
+    }
+}
+
+#[inline(always)]
+fn tension(stretch: f64) -> f64 {
+    stretch + ALPHA * stretch * stretch
+}
+
+fn verlet(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("FPUT, Verlet");
+    for n in [1000, 100_000] {
+        let system = black_box(Fput { n, alpha: ALPHA });
+        let start = || FputState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
+        let begin = || Integrator::new(&system, Variational::trapezoid(), H, start());
+        let (Ok(mut run), mut by_hand) = (begin(), ByHand::new(n)) else { panic!("it starts") };
+        for _ in 0..100 {
+            assert!(run.advance().is_ok());
+            by_hand.step();
+        }
+        let difference = run.q().iter().zip(&by_hand.q).map(|(a, b)| (a - b).abs()).fold(0.0, dvi_tests::larger);
+        assert!(difference < 1e-12, "they differ by {difference:e}");
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(BenchmarkId::new("generated", n), |bencher| {
+            bencher.iter(|| assert!(run.take_steps(10).is_ok()));
+        });
+        group.bench_function(BenchmarkId::new("by hand", n), |bencher| {
+            bencher.iter(|| (0..10).for_each(|_| by_hand.step()));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, newton, verlet);
+criterion_main!(benches);

@@ -1,0 +1,148 @@
+//! Systems whose number of coordinates is known at run time only: their matrices are banded, and a run is that of the same
+//! system of fixed size, whose matrices are dense.
+
+use dvi_core::prelude::*;
+use dvi_core::{Composition, General, Method, Symmetrised};
+
+const N: usize = 24;
+
+/// Toda's ring with masses of their own.
+macro_rules! ring {
+    ($name:ident [$($generics:tt)*] $masses:ty, $($n:tt)+) => {
+        #[lagrangian(
+            coordinates(q[$($n)+]),
+            lagrangian = sum(0..$($n)+, |j| m[j] * dot(q[j]).powi(2) / 2.0
+                - (q[(j + 1) % ($($n)+)] - q[j]).exp() + (q[(j + 1) % ($($n)+)] - q[j])),
+        )]
+        #[derive(Clone, Debug)]
+        struct $name $($generics)* { m: $masses }
+    };
+}
+
+/// A chain whose neighbours' velocities are coupled, and depend on the positions where `bend` is not zero.
+macro_rules! chain {
+    ($name:ident [$($generics:tt)*] $masses:ty, $bend:literal, $($n:tt)+) => {
+        #[lagrangian(
+            coordinates(q[$($n)+]),
+            lagrangian = sum(0..$($n)+, |j| m[j] * dot(q[j]).powi(2) * (1.0 + $bend * q[j] * q[j]) / 2.0
+                    - q[j].powi(4) / 4.0)
+                + sum(1..$($n)+, |j| 0.2 * dot(q[j]) * dot(q[j - 1]) - (q[j] - q[j - 1]).powi(2)),
+        )]
+        #[derive(Clone, Debug)]
+        struct $name $($generics)* { m: $masses }
+    };
+}
+
+/// A lattice with two coordinates at each site, and a one-form that couples neighbours, with a term that is not affine
+/// where `bend` is not zero.
+macro_rules! lattice {
+    ($name:ident [$($generics:tt)*] $masses:ty, $bend:literal, $($n:tt)+) => {
+        #[degenerate_lagrangian(
+            coordinates(x[$($n)+], y[$($n)+]),
+            one_form = sum(0..$($n)+, |j| m[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j])) + $bend * x[j].powi(3) * d(y[j]))
+                + sum(1..$($n)+, |j| 0.1 * x[j - 1] * d(y[j])),
+            hamiltonian = sum(0..$($n)+, |j| (x[j] * x[j] + y[j] * y[j]) / 2.0 + x[j].powi(4) / 8.0)
+                + sum(1..$($n)+, |j| 0.3 * x[j] * x[j - 1] + 0.2 * y[j] * y[j - 1]),
+        )]
+        #[derive(Clone, Debug)]
+        struct $name $($generics)* { m: $masses }
+    };
+}
+
+ring!(Ring [<const N: usize>] [f64; N], N);
+ring!(LongRing [] Vec<f64>, m.len());
+chain!(Chain [<const N: usize>] [f64; N], 0.0, N);
+chain!(LongChain [] Vec<f64>, 0.0, m.len());
+chain!(Bent [<const N: usize>] [f64; N], 0.3, N);
+chain!(LongBent [] Vec<f64>, 0.3, m.len());
+lattice!(Lattice [<const N: usize>] [f64; N], 0.0, N);
+lattice!(LongLattice [] Vec<f64>, 0.0, m.len());
+lattice!(BentLattice [<const N: usize>] [f64; N], 0.05, N);
+lattice!(LongBentLattice [] Vec<f64>, 0.05, m.len());
+
+fn masses() -> [f64; N] {
+    std::array::from_fn(|j| 1.0 + 0.3 * (j as f64).sin())
+}
+
+fn wave(phase: f64) -> [f64; N] {
+    std::array::from_fn(|j| 0.4 * (0.7 * j as f64 + phase).sin())
+}
+
+/// Where a run is after some steps.
+fn end<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, h: f64, start: S::State<f64>) -> Vec<f64> {
+    let mut run = Integrator::new(system, method, h, start).expect("starts");
+    run.take_steps(40).expect("steps");
+    run.q().to_vec()
+}
+
+macro_rules! same {
+    ($fixed:expr, $fixed_start:expr, $long:expr, $long_start:expr, $h:expr, $($method:expr),+ $(,)?) => {$({
+        let expected = end(&$fixed, $method, $h, $fixed_start);
+        let found = end(&$long, $method, $h, $long_start);
+        let distance = |(a, b): (&f64, &f64)| (a - b).abs();
+        let difference = expected.iter().zip(&found).map(distance).fold(0.0, dvi_tests::larger);
+        assert!(difference < 1e-11, "{}: {difference:e}", stringify!($method));
+    })+};
+}
+
+#[test]
+fn regular_systems_are_those_of_fixed_size() {
+    let newton = Solver::Newton;
+    macro_rules! pair {
+        ($fixed:ident, $fixed_state:ident, $long:ident, $long_state:ident, $($method:expr),+ $(,)?) => {
+            same!(
+                $fixed { m: masses() },
+                $fixed_state { q: wave(0.0), dot_q: wave(1.0) },
+                $long { m: masses().to_vec() },
+                $long_state { q: wave(0.0).to_vec(), dot_q: wave(1.0).to_vec() },
+                0.3,
+                $($method),+
+            )
+        };
+    }
+    pair!(
+        Ring, RingState, LongRing, LongRingState,
+        Variational { solver: newton, ..Variational::midpoint() },
+        Variational { solver: newton, ..Variational::simpson() },
+        Variational { solver: newton, ..Variational::midpoint().phase_fitted(PerCoordinate(wave(0.0).map(f64::abs))) },
+        Newmark { solver: newton, ..Newmark::new(0.25) },
+        General::new(Variational::simpson()),
+        General::new(Symmetrised { alpha: 0.2 }),
+        Composition::triple_jump(Variational { solver: newton, ..Variational::midpoint() }),
+    );
+    pair!(
+        Chain, ChainState, LongChain, LongChainState,
+        Variational { solver: newton, ..Variational::midpoint() },
+        Newmark { solver: newton, ..Newmark::new(0.25) },
+    );
+    pair!(Bent, BentState, LongBent, LongBentState, Variational::midpoint(), Variational::trapezoid());
+}
+
+#[test]
+fn degenerate_systems_are_those_of_fixed_size() {
+    let newton = Solver::Newton;
+    macro_rules! pair {
+        ($fixed:ident, $fixed_state:ident, $long:ident, $long_state:ident, $($method:expr),+ $(,)?) => {
+            same!(
+                $fixed { m: masses() },
+                $fixed_state { x: wave(0.0), y: wave(1.0) },
+                $long { m: masses().to_vec() },
+                $long_state { x: wave(0.0).to_vec(), y: wave(1.0).to_vec() },
+                0.1,
+                $($method),+
+            )
+        };
+    }
+    pair!(
+        Lattice, LatticeState, LongLattice, LongLatticeState,
+        Sigma { solver: newton, ..Sigma::midpoint() },
+        Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
+        General::new(Sigma::midpoint()),
+        RungeKutta::classical(),
+    );
+    pair!(
+        BentLattice, BentLatticeState, LongBentLattice, LongBentLatticeState,
+        Sigma { solver: newton, ..Sigma::midpoint() },
+        Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
+    );
+}
