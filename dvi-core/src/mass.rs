@@ -51,6 +51,12 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
     }
 
+    /// 1/m of each coordinate, if M is diagonal.
+    #[inline(always)]
+    pub(crate) fn reciprocals(&self) -> Option<&[T]> {
+        S::DIAGONAL_MASS.then_some(&*self.reciprocals)
+    }
+
     /// Sets `v` to M⁻¹`p`.
     #[inline(always)]
     pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {

@@ -87,12 +87,20 @@ impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
     #[inline(always)]
     fn step(&mut self, number: u64) {
         let Self { half, q1, p1, f1, v, .. } = self;
-        for (p, &f) in p1.iter_mut().zip(f1.iter()) {
-            *p += *half * f;
-        }
-        self.mass.solve(p1, v);
-        for (q, &v) in q1.iter_mut().zip(v.iter()) {
-            *q += self.clock.step_size() * v;
+        if let Some(reciprocals) = self.mass.reciprocals() {
+            // In one pass over memory.
+            for (((p, &f), q), &reciprocal) in p1.iter_mut().zip(f1.iter()).zip(q1.iter_mut()).zip(reciprocals) {
+                *p += *half * f;
+                *q += self.clock.step_size() * (*p * reciprocal);
+            }
+        } else {
+            for (p, &f) in p1.iter_mut().zip(f1.iter()) {
+                *p += *half * f;
+            }
+            self.mass.solve(p1, v);
+            for (q, &v) in q1.iter_mut().zip(v.iter()) {
+                *q += self.clock.step_size() * v;
+            }
         }
         self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
         for (p, &f) in p1.iter_mut().zip(f1.iter()) {
