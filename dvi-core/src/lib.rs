@@ -140,8 +140,8 @@ pub use run::{Run, Stepper};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use scalar::{Comparison, Real, Scalar};
 pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
-pub use solve::{Solver, Stopping};
 pub use sink::Sink;
+pub use solve::{Solver, Stopping};
 pub use space::{Fixed, FixedMatrix, FixedVector, Space};
 #[cfg(feature = "alloc")]
 pub use space::{RunTime, RunTimeMatrix};

@@ -110,7 +110,10 @@ impl<N> Ladder<N> {
             Some(newton) if matches!(newton.turn, Turn::All | Turn::Next(1..)) => newton,
             newton => match (fixed_point(attempt, statistics), newton) {
                 // Where there is nothing to iterate on, Newton does not help.
-                (result @ (Ok(()) | Err(StepFailure::Resonance { .. } | StepFailure::Frequency { .. })), _)
+                (
+                    result @ (Ok(()) | Err(StepFailure::Resonance { .. } | StepFailure::Frequency { .. })),
+                    _,
+                )
                 | (result, None) => return result,
                 (Err(_), Some(newton)) => newton,
             },

@@ -99,7 +99,8 @@ fn expand(
     let mut errors = Errors::default();
     let mut attribute = parse_attribute(kind, attribute, &mut errors);
     let model = Model::new(&mut attribute, item, &mut errors);
-    let mut stages = Stages { attribute, model, graph: Graph::new(), errors };
+    let block_sizes = (0..model.blocks.len()).map(|block| model.block_size(block)).collect();
+    let mut stages = Stages { attribute, model, graph: Graph::new(block_sizes), errors };
     let system = guarded(|| ending(&mut stages)).unwrap_or_else(|mistake| {
         stages.errors.push_syn(syn::Error::new(Span::call_site(), mistake));
         None

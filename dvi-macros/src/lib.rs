@@ -58,15 +58,20 @@ use proc_macro::TokenStream;
 /// field of a field, whose types are not known, are taken for integers there.
 ///
 /// At the zeros of a root the rules of differentiation give 0/0. Where a limit exists, it is the derivative for powers of
-/// a sum of squares that is written out with positive literal coefficients, and of `x.hypot(y)`: for the first
-/// derivatives of powers of the distance above 1, for the second above 2. So those of `x.powf(1.5)` at 0 and of
-/// `(x*x + y*y).powf(1.5)` at the origin are 0. It is so for even roots of even powers, third and higher powers of
-/// `cbrt`, and the first derivatives of `cos` and `cosh` of a distance. In products of such powers with coordinates and
-/// smooth functions, and in sums of these, limits are looked for too; where none is found the derivative is not a number,
-/// as it is where it does not exist, of `x.hypot(y)` at the origin for instance. The derivative of `x.abs()` at 0 is taken
-/// to be 0, and its square to be 1; so is that of the root of an even power, a product of such sizes. A function of a
+/// a sum of squares that is written out with positive literal coefficients or runs over a whole array of coordinates, and
+/// of `x.hypot(y)`: for the first derivatives of powers of the distance above 1, for the second above 2, of sums over an
+/// array from 3 on. So those of `x.powf(1.5)` at 0 and of `(x*x + y*y).powf(1.5)` at the origin are 0. It is so for even
+/// roots of even powers, third and higher powers of `cbrt`, and the first derivatives of `cos` and `cosh` of a distance.
+/// In products of such powers with coordinates and smooth functions, and in sums of these, limits are looked for too;
+/// where none is found the derivative is not a number, as it is where it does not exist, of `x.hypot(y)` at the origin for
+/// instance. The derivative of `x.abs()` at 0 is taken to be 0, and its square to be 1; so is that of the root of an even power, a product of such sizes. A function of a
 /// sum without terms is a constant where that sum stands directly under a root; of other functions that have no derivative
-/// at 0, the derivative is not a number there.
+/// at 0, the derivative is not a number there. Sizes are taken to be at least 1 in all this.
+///
+/// Derivatives are as exact as the arithmetic of their terms. Where a part of one is beyond the range of the numbers,
+/// a derivative can be no number or lose its digits although the formula has a value: `x.exp().atan()` at x = 800, or
+/// `(x*a).hypot(y*a)/a` with a = 1e-170. The reciprocal of a sum with exponentials, as in Fermi's function
+/// `1/(1 + x.exp())`, is taken to be constant where it is 0.
 ///
 /// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
 /// `Vec`, and the size of the system is known at run time only.

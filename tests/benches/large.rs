@@ -113,7 +113,8 @@ fn verlet(criterion: &mut Criterion) {
             assert!(run.advance().is_ok());
             by_hand.step();
         }
-        let difference = run.q().iter().zip(&by_hand.q).map(|(a, b)| (a - b).abs()).fold(0.0, dvi_tests::larger);
+        let difference =
+            run.q().iter().zip(&by_hand.q).map(|(a, b)| (a - b).abs()).fold(0.0, dvi_tests::larger);
         assert!(difference < 1e-12, "they differ by {difference:e}");
         group.throughput(Throughput::Elements(100 * n as u64));
         group.bench_function(BenchmarkId::new("generated", n), |bencher| {

@@ -101,17 +101,26 @@ fn regular_systems_are_those_of_fixed_size() {
         };
     }
     pair!(
-        Ring, RingState, LongRing, LongRingState,
+        Ring,
+        RingState,
+        LongRing,
+        LongRingState,
         Variational { solver: newton, ..Variational::midpoint() },
         Variational { solver: newton, ..Variational::simpson() },
-        Variational { solver: newton, ..Variational::midpoint().phase_fitted(PerCoordinate(wave(0.0).map(f64::abs))) },
+        Variational {
+            solver: newton,
+            ..Variational::midpoint().phase_fitted(PerCoordinate(wave(0.0).map(f64::abs)))
+        },
         Newmark { solver: newton, ..Newmark::new(0.25) },
         General::new(Variational::simpson()),
         General::new(Symmetrised { alpha: 0.2 }),
         Composition::triple_jump(Variational { solver: newton, ..Variational::midpoint() }),
     );
     pair!(
-        Chain, ChainState, LongChain, LongChainState,
+        Chain,
+        ChainState,
+        LongChain,
+        LongChainState,
         Variational { solver: newton, ..Variational::midpoint() },
         Newmark { solver: newton, ..Newmark::new(0.25) },
     );
@@ -134,14 +143,20 @@ fn degenerate_systems_are_those_of_fixed_size() {
         };
     }
     pair!(
-        Lattice, LatticeState, LongLattice, LongLatticeState,
+        Lattice,
+        LatticeState,
+        LongLattice,
+        LongLatticeState,
         Sigma { solver: newton, ..Sigma::midpoint() },
         Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
         General::new(Sigma::midpoint()),
         RungeKutta::classical(),
     );
     pair!(
-        BentLattice, BentLatticeState, LongBentLattice, LongBentLatticeState,
+        BentLattice,
+        BentLatticeState,
+        LongBentLattice,
+        LongBentLatticeState,
         Sigma { solver: newton, ..Sigma::midpoint() },
         Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
     );

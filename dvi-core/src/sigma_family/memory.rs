@@ -14,9 +14,9 @@ use crate::history::History;
 use crate::orientation::FormOrientation;
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
+use crate::square::of_second_derivatives;
 use crate::statistics::Statistics;
 use crate::summation::Carried;
-use crate::square::of_second_derivatives;
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Square, Vector};
 
 /// The defect of a run of the σ-family, its guesses and its work space.

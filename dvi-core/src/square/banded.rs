@@ -73,9 +73,9 @@ impl<T: Scalar> Banded<T> {
     pub(super) fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
         for (row, &i) in self.coordinate.iter().enumerate() {
             let line = &self.entries[row * self.width()..];
-            let terms = self.columns(row).map(|column| {
-                line[self.bandwidth + column - row] * x[self.coordinate[column] as usize]
-            });
+            let terms = self
+                .columns(row)
+                .map(|column| line[self.bandwidth + column - row] * x[self.coordinate[column] as usize]);
             sum[i as usize] += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
         }
     }
@@ -193,7 +193,9 @@ mod tests {
     #[test]
     fn solutions_agree_with_nalgebra() {
         let mut next = numbers(7);
-        for (n, reach, shuffled) in [(40, 1, false), (60, 1, true), (90, 2, true), (200, 3, false), (8, 0, true)] {
+        for (n, reach, shuffled) in
+            [(40, 1, false), (60, 1, true), (90, 2, true), (200, 3, false), (8, 0, true)]
+        {
             let places = places(n, reach, shuffled);
             let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, |visit| {
                 places.iter().for_each(|&(i, j)| visit(i, j));
@@ -227,7 +229,8 @@ mod tests {
     #[test]
     fn a_singular_matrix_names_a_coordinate_that_it_leaves_free() {
         let n = 30;
-        let chain = |visit: &mut dyn FnMut(usize, usize)| (1..n).for_each(|i| visit(i * 7 % n, (i - 1) * 7 % n));
+        let chain =
+            |visit: &mut dyn FnMut(usize, usize)| (1..n).for_each(|i| visit(i * 7 % n, (i - 1) * 7 % n));
         let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, chain);
         assert!(matches!(matrix, RunTimeSquare::Banded(_)));
         matrix.cleared();

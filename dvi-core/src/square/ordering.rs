@@ -78,7 +78,8 @@ impl Pattern {
             begins[i + 1] += begins[i];
         }
         let degree = |i: u32| begins[i as usize + 1] - begins[i as usize];
-        let neighbours = |i: u32| self.places[begins[i as usize]..begins[i as usize + 1]].iter().map(|&(_, j)| j);
+        let neighbours =
+            |i: u32| self.places[begins[i as usize]..begins[i as usize + 1]].iter().map(|&(_, j)| j);
         let mut visited = vec![false; n];
         let mut order: Vec<u32> = Vec::with_capacity(n);
         // Appends what is connected to `start`, and returns the last of it, which is as far away as any.

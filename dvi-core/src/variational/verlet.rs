@@ -89,7 +89,9 @@ impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
         let Self { half, q1, p1, f1, v, .. } = self;
         if let Some(reciprocals) = self.mass.reciprocals() {
             // In one pass over memory.
-            for (((p, &f), q), &reciprocal) in p1.iter_mut().zip(f1.iter()).zip(q1.iter_mut()).zip(reciprocals) {
+            for (((p, &f), q), &reciprocal) in
+                p1.iter_mut().zip(f1.iter()).zip(q1.iter_mut()).zip(reciprocals)
+            {
                 *p += *half * f;
                 *q += self.clock.step_size() * (*p * reciprocal);
             }

@@ -3,6 +3,7 @@
 use syn::{BinOp, Expr as Syntax, ExprIf, Pat, Stmt, UnOp};
 
 use super::{Binding, Lowering, Written, bound_name};
+use crate::errors::text;
 use crate::symbolic::{Expr, Relation};
 
 impl Lowering<'_> {
@@ -89,6 +90,19 @@ impl Lowering<'_> {
                     BinOp::Or(_) => {
                         let inner = self.condition(&binary.right, then, otherwise);
                         return self.condition(&binary.left, then, inner);
+                    }
+                    BinOp::Eq(_) | BinOp::Ne(_) => {
+                        let (a, b) = (text(&binary.left), text(&binary.right));
+                        let equal = matches!(binary.op, BinOp::Eq(_));
+                        let meant = if equal {
+                            format!("{a} <= {b} && {a} >= {b}")
+                        } else {
+                            format!("{a} < {b} || {a} > {b}")
+                        };
+                        let message =
+                            format!("a condition compares with `<`, `<=`, `>` or `>=`, as in `{meant}`");
+                        self.errors.push(condition, message);
+                        return None;
                     }
                     _ => {
                         self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");

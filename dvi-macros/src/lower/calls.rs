@@ -4,9 +4,9 @@ use syn::token::Dot;
 use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
-use super::habits::other_name;
+use super::habits::{as_receiver, meant};
 use super::{Lowering, Role};
-use crate::errors::{listed, nearest, similar};
+use crate::errors::{listed, nearest, similar, text};
 use crate::symbolic::{Expr, Node, Relation, binary_by_name, unary_by_name, unary_names};
 use crate::syntax::Kind;
 
@@ -32,7 +32,8 @@ impl Lowering<'_> {
             return None;
         }
         let Some(arity) = arity(&name) else {
-            self.unknown_function(&call.method, &name);
+            let arguments: Vec<&Syntax> = call.args.iter().collect();
+            self.unknown_function(&call.method, &name, Some(&call.receiver), &arguments);
             for argument in &call.args {
                 self.expr(argument);
             }
@@ -142,10 +143,14 @@ impl Lowering<'_> {
 
     fn own_function(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
         let Some(function) = self.model.functions.iter().position(|function| function.name == name) else {
+            let (receiver, arguments) = (call.args.first(), call.args.iter().skip(1).collect::<Vec<_>>());
             if arity(name).is_some() {
-                self.errors.push(&call.func, format!("functions are written as methods: `x.{name}()`"));
+                let receiver = receiver.map_or_else(|| "x".to_string(), as_receiver);
+                let arguments: Vec<String> = arguments.into_iter().map(text).collect();
+                let written = format!("{receiver}.{name}({})", arguments.join(", "));
+                self.errors.push(&call.func, format!("functions are written as methods: `{written}`"));
             } else {
-                self.unknown_function(&call.func, name);
+                self.unknown_function(&call.func, name, receiver, &arguments);
             }
             return None;
         };
@@ -159,12 +164,18 @@ impl Lowering<'_> {
         self.admitted(call, value)
     }
 
-    fn unknown_function(&mut self, at: &impl quote::ToTokens, name: &str) {
+    fn unknown_function(
+        &mut self,
+        at: &impl quote::ToTokens,
+        name: &str,
+        receiver: Option<&Syntax>,
+        arguments: &[&Syntax],
+    ) {
         if self.model.lost_functions {
             return;
         }
         let kind = format!("function {name}");
-        if let Some(meant) = other_name(name) {
+        if let Some(meant) = meant(name, receiver, arguments) {
             self.errors.push_once(&kind, at, format!("unknown function `{name}`; write `{meant}`"));
             return;
         }

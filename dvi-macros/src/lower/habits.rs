@@ -8,17 +8,13 @@ use crate::model::velocity_name;
 
 /// Functions by other names.
 #[rustfmt::skip]
-const OTHER_NAMES: [(&str, &str); 22] = [
+const OTHER_NAMES: [(&str, &str); 18] = [
     ("log",      "ln"),
     ("loge",     "ln"),
     ("lg",       "log10"),
     ("lb",       "log2"),
     ("log1p",    "ln_1p"),
     ("expm1",    "exp_m1"),
-    ("pow",      "powi"),
-    ("sqr",      "powi"),
-    ("square",   "powi"),
-    ("squared",  "powi"),
     ("root",     "sqrt"),
     ("arcsin",   "asin"),
     ("arccos",   "acos"),
@@ -33,14 +29,44 @@ const OTHER_NAMES: [(&str, &str); 22] = [
     ("inv",      "recip"),
 ];
 
-/// The function that is meant by a name of another language, as it is written.
-pub(super) fn other_name(name: &str) -> Option<String> {
-    let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == name)?;
-    Some(match *meant {
-        "powi" => "powi(2)` or `powf(0.5)".to_string(),
-        "atan2" => "atan2(x)".to_string(),
-        plain => format!("{plain}()"),
-    })
+/// What is meant by a function of another language with this receiver and these arguments.
+pub(super) fn meant(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]) -> Option<String> {
+    let x = receiver.map_or_else(|| "x".to_string(), as_receiver);
+    let texts: Vec<String> = arguments.iter().map(|argument| text(argument)).collect();
+    let arguments: Vec<&str> = texts.iter().map(String::as_str).collect();
+    let written = match (name, arguments.as_slice()) {
+        ("dot", []) => match receiver {
+            Some(Syntax::Paren(inner)) => format!("dot({})", text(&inner.expr)),
+            _ => format!("dot({x})"),
+        },
+        ("log", ["2" | "2." | "2.0"]) => format!("{x}.log2()"),
+        ("log", ["10" | "10." | "10.0"]) => format!("{x}.log10()"),
+        ("log", [base]) => format!("{x}.ln() / ({base}).ln()"),
+        ("clamp", [least, most]) => format!("{x}.max({least}).min({most})"),
+        ("copysign", [sign]) => format!("{x}.abs() * ({sign}).signum()"),
+        ("pow", [exponent]) if exponent.parse::<i32>().is_ok() => format!("{x}.powi({exponent})"),
+        ("pow", [exponent]) => format!("{x}.powf({exponent})"),
+        ("sqr" | "square" | "squared", []) => format!("{x}.powi(2)"),
+        _ => {
+            let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == name)?;
+            format!("{x}.{meant}({})", arguments.join(", "))
+        }
+    };
+    Some(written)
+}
+
+/// An expression in front of a method.
+pub(super) fn as_receiver(syntax: &Syntax) -> String {
+    match syntax {
+        Syntax::Path(_)
+        | Syntax::Paren(_)
+        | Syntax::Call(_)
+        | Syntax::MethodCall(_)
+        | Syntax::Index(_)
+        | Syntax::Field(_) => text(syntax),
+        Syntax::Lit(literal) if text(literal).contains('.') => text(syntax),
+        _ => format!("({})", text(syntax)),
+    }
 }
 
 impl Lowering<'_> {

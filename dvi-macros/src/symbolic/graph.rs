@@ -151,6 +151,8 @@ pub(crate) struct Graph {
     /// Sums that derivatives made and that stand in no formula as written.
     pub(super) unsigned_sums: HashSet<Id>,
     pub(super) derivatives: HashMap<(Id, Id), Expr>,
+    /// The number of coordinates in each block of the declaration.
+    pub(super) block_sizes: Vec<Index>,
 }
 
 impl PartialEq for Expr {
@@ -226,7 +228,7 @@ impl Node {
 impl Graph {
     pub(crate) const ONE: Id = Id(0);
 
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(block_sizes: Vec<Index>) -> Self {
         let mut graph = Self {
             nodes: Vec::new(),
             free: Vec::new(),
@@ -234,6 +236,7 @@ impl Graph {
             known: HashMap::default(),
             unsigned_sums: HashSet::default(),
             derivatives: HashMap::default(),
+            block_sizes,
         };
         graph.intern(Node::One);
         graph

@@ -10,11 +10,12 @@
 //! | f(R) where f' is below R, such as cos R | (f'(R)/R)·(R²)'/2 |
 //! | w·(R + …) | term by term |
 //! | w·uᵖ, where w and u' are below √u | of its factor uᵖ: p·uᵖ·(w/√u)·(u'/√u) |
+//! | w·uᵖ, p > ½, where w is below √u | of its factor uᵖ: p·uᵖ⁻¹ᐟ²·(w/√u)·u' |
 //! | Rᵖ, p > 1; uᵖ, ½ < p < 1 | p·Rᵖ⁻¹·((R²)'/2)/R; p·uᵖ⁻¹ᐟ²·u'/√u |
 //! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
 
 use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
-use super::index::Atom;
+use super::index::{Atom, Index, Range};
 use super::powers::{Part, Root, take};
 use super::rules;
 
@@ -58,7 +59,15 @@ impl Graph {
         };
         let (w, _) = others.iter().copied().find(|(w, _)| self.is_below(*w, root))?;
         if !self.is_below(slope.node, root) {
-            return None;
+            if base.is_some() || p < 0.5 {
+                return None;
+            }
+            // p·uᵖ⁻¹ᐟ²·(w/√u)·u'
+            take(others, w, 1);
+            let (rest, length) =
+                (self.binary(Binary::Powf, u, Expr::number(p - 0.5)), self.unary(Unary::Sqrt, u));
+            let quotient = self.quotient(w.into(), length);
+            return Some(self.product(&[rest, quotient, slope]).scaled(p));
         }
         take(others, w, 1);
         let length = if base.is_some() { u.node.into() } else { self.unary(Unary::Sqrt, u) };
@@ -144,8 +153,33 @@ impl Graph {
     fn holds_square(&self, of: Id, w: Id) -> bool {
         match self.node(of) {
             Node::Sum(terms) => terms.iter().any(|term| self.holds_square(term.node, w)),
+            Node::Reduce { fold: Fold::Sum, height, range, body } => {
+                self.holds_entry(body.node, w, *height, range)
+            }
             _ => self.factors(of) == [(w, 2)],
         }
+    }
+
+    /// Whether the terms of a sum over `range` hold the squares of all entries of an array, of which w is one.
+    fn holds_entry(&self, of: Id, w: Id, height: u32, range: &Range) -> bool {
+        if let Node::Sum(terms) = self.node(of) {
+            return terms.iter().any(|term| self.holds_entry(term.node, w, height, range));
+        }
+        let [(of, 2)] = *self.factors(of).as_slice() else { return false };
+        let (entry, w) = match (self.node(of), self.node(w)) {
+            (Node::Coordinate(entry), Node::Coordinate(w)) | (Node::Velocity(entry), Node::Velocity(w)) => {
+                (entry, w)
+            }
+            _ => return false,
+        };
+        let follows = entry.index == Index::atom(Atom::Bound(height));
+        entry.block == w.block && follows && self.is_whole(range, w.block)
+    }
+
+    /// Whether a range runs over all entries of a block of coordinates.
+    fn is_whole(&self, range: &Range, block: u32) -> bool {
+        let size = self.block_sizes.get(block as usize);
+        range.lower == Index::default() && Some(&range.upper) == size && range.left_out().next().is_none()
     }
 
     /// Whether it is made of functions that are smooth everywhere.
@@ -159,13 +193,14 @@ impl Graph {
             | Node::Count(_)
             | Node::Weight(_)
             | Node::Sum(_)
-            | Node::Product(_) => false,
+            | Node::Product(_)
+            | Node::Reduce { fold: Fold::Sum, .. } => false,
             Node::Unary(function, _) => !rules::is_smooth(*function),
             Node::Reciprocal(_)
             | Node::Binary(..)
             | Node::Call(..)
             | Node::Choose { .. }
-            | Node::Reduce { .. } => true,
+            | Node::Reduce { fold: Fold::Product, .. } => true,
         })
     }
 
@@ -284,6 +319,9 @@ impl Graph {
                 [Unary::Sqrt, Unary::Exp, Unary::Exp2, Unary::Cosh, Unary::Abs].contains(function)
             }
             Node::Binary(function, ..) => *function == Binary::Hypot,
+            Node::Reduce { fold: Fold::Sum, body, .. } => {
+                body.scale > 0.0 && self.is_never_negative(body.node)
+            }
             _ => false,
         }
     }

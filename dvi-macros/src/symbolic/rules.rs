@@ -4,7 +4,7 @@
 
 use core::f64::consts::{FRAC_2_SQRT_PI, LN_2, LOG2_E, LOG10_E};
 
-use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
+use super::graph::{Binary, Expr, Graph, Id, Node, Relation, Unary};
 use crate::internal::internal;
 
 pub(super) type UnaryRow = (&'static str, Unary, fn(f64) -> f64, Option<f64>);
@@ -65,6 +65,12 @@ const SMOOTH: [Unary; 11] = [
     Unary::Asinh,
     Unary::Erf,
 ];
+
+/// Whether it overflows at moderate arguments.
+fn grows_fast(node: &Node) -> bool {
+    let exponentials = [Unary::Exp, Unary::Exp2, Unary::ExpM1, Unary::Sinh, Unary::Cosh];
+    matches!(node, Node::Unary(function, _) if exponentials.contains(function))
+}
 
 pub(super) fn is_smooth(function: Unary) -> bool {
     SMOOTH.contains(&function)
@@ -222,7 +228,12 @@ impl Graph {
             return Expr::ZERO;
         }
         let square = self.power(f.into(), 2);
-        self.multiply(square, tangent).negated()
+        let derivative = self.multiply(square, tangent).negated();
+        if self.depends(u, grows_fast) {
+            // Where u has overflowed, 1/u is 0 and does not change; u' may have overflowed too.
+            return self.choose(square, Relation::HasMore, Expr::ZERO, derivative, Expr::ZERO);
+        }
+        derivative
     }
 
     /// (∂f/∂a, ∂f/∂b), where `f` is the node f(a, b) itself.
@@ -242,7 +253,10 @@ impl Graph {
                 let less = self.subtract(b, Expr::ONE);
                 let power = self.binary(Binary::Powf, a, less);
                 let logarithm = self.unary(Unary::Ln, a);
-                [self.multiply(b, power), self.multiply(f, logarithm)]
+                // a⁰ does not change with a, not even where a⁻¹ is no number.
+                let slope = self.multiply(b, power);
+                let squared = self.power(b, 2);
+                [self.where_asked(squared, slope), self.multiply(f, logarithm)]
             }
             Binary::OverRoot => {
                 let over = self.reciprocal(b);

@@ -5,7 +5,8 @@ mod vortices_by_hand;
 
 use dvi_core::prelude::*;
 use dvi_core::{
-    DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, Lagrangian, OneNode, Rule, Space, Statistics, Vector,
+    DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, Lagrangian, OneNode, Rule, Space, Statistics,
+    Vector,
 };
 use dvi_tests::configurations;
 use dvi_tests::systems::{PointVortices, PointVorticesState};

@@ -297,3 +297,52 @@ mod quotient_of_a_field_of_a_field {
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (m.n / 2) as f64 * y)]
     pub struct System { pub m: Material }
 }
+
+mod logarithm_to_a_base {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log(2.0) + y)]
+    pub struct System;
+}
+
+mod power_with_an_argument {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (x + y).pow(3))]
+    pub struct System;
+}
+
+mod bounds_by_one_name {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.clamp(0.0, 1.0) + y)]
+    pub struct System;
+}
+
+mod function_of_two_numbers {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = max(x, 2.0 * y))]
+    pub struct System;
+}
+
+mod function_by_another_name_as_in_c {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = pow(x, 2) + y)]
+    pub struct System;
+}
+
+mod condition_of_equality {
+    use dvi_core::degenerate_lagrangian;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = if x == 1.0 { x } else { y })]
+    pub struct System;
+}
+
+mod velocity_as_a_method {
+    use dvi_core::lagrangian;
+
+    #[lagrangian(coordinates(x), lagrangian = x.dot().powi(2) / 2.0 - x * x)]
+    pub struct System;
+}

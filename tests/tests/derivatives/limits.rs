@@ -146,3 +146,59 @@ in_space! {
     TimesRoot: { let r2 = x * x + y * y + z * z; r2 * r2.sqrt() };
     Weighted: (2.0 * x * x + 0.5 * y.powi(2) + z * z).powf(1.5);
 }
+
+/// r³ of a particle in space, as a sum over an array; and of each of two particles.
+#[lagrangian(
+    coordinates(x[3], y[3]),
+    lagrangian = sum(0..3, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2
+        - sum(0..3, |i| x[i].powi(2)).powf(1.5) - sum(0..3, |i| x[i] * x[i] + y[i] * y[i]).sqrt().powi(3)
+        - sum(0..3, |i| y[i].powi(2)).powf(1.75),
+)]
+struct Cubes;
+
+/// Powers whose exponents are indices or parameters: 1 + u + u² and uⁿ.
+#[lagrangian(coordinates(u), lagrangian = dot(u).powi(2) / 2 - sum(0..3, |j| u.powf(j as f64)) - u.powf(n))]
+struct IndexPowers {
+    n: f64,
+}
+
+/// Fermi's and Bose's functions, whose exponentials overflow long before their values matter.
+#[lagrangian(coordinates(u), lagrangian = dot(u).powi(2) / 2 - 1 / (1 + (u / a).exp()) - u / (u / a).exp_m1())]
+struct Steep {
+    a: f64,
+}
+
+/// ∂L/∂q and ∂²L/∂q∂q.
+fn position_derivatives<S: Lagrangian, const N: usize>(system: &S, q: [f64; N]) -> ([f64; N], Vec<f64>) {
+    let (mut gradient, mut momentum, mut matrix) = ([0.0; N], [0.0; N], vec![0.0; N * N]);
+    let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
+    let sink = &mut Dense::new(&mut matrix, N);
+    system.linearize(&q, &[0.0; N], 0.0, weights, &mut gradient, &mut momentum, sink);
+    (gradient, matrix)
+}
+
+#[test]
+fn powers_of_distances_that_are_sums_over_arrays_have_limits() {
+    assert_eq!(position_derivatives(&Cubes, [0.0; 6]), ([0.0; 6], vec![0.0; 36]));
+}
+
+#[test]
+fn powers_with_exponents_that_are_not_literal_have_derivatives_at_zero() {
+    for (n, slope, curvature) in [(0.0, 0.0, 0.0), (1.0, 1.0, 0.0), (2.0, 0.0, 2.0), (3.5, 0.0, 0.0)] {
+        let (gradient, matrix) = position_derivatives(&IndexPowers { n }, [0.0]);
+        assert_eq!((gradient, matrix), ([-1.0 - slope], vec![-2.0 - curvature]), "n = {n}");
+    }
+}
+
+#[test]
+fn steep_walls_have_derivatives_on_both_sides() {
+    let system = Steep { a: 1e-3 };
+    for (u, gradient) in [(2.0, 0.0), (-2.0, 1.0)] {
+        let found = position_derivatives(&system, [u]);
+        assert_eq!(found, ([gradient], vec![0.0]), "u = {u}");
+    }
+    // e^(u/a) is 20.
+    let (gradient, _) = position_derivatives(&system, [1e-3 * 20_f64.ln()]);
+    let exact = 20.0 / 441.0 / 1e-3 - (1.0 / 19.0 - 20_f64.ln() * 20.0 / 361.0);
+    assert!((gradient[0] / exact - 1.0).abs() < 1e-14, "{gradient:?} {exact}");
+}

@@ -257,7 +257,9 @@ impl Machine<'_> {
                 })
             }
             Callee::AddEntry => {
-                let Value::View { array, start, length } = arguments[0] else { panic!("a matrix is a slice") };
+                let Value::View { array, start, length } = arguments[0] else {
+                    panic!("a matrix is a slice")
+                };
                 let (row, column, n) = (integer(1), integer(2), length.isqrt() as i128);
                 if !(0..n).contains(&row) || !(0..n).contains(&column) {
                     return Err(panicked(format!("entry ({row}, {column}) of a matrix of {n} rows")));

@@ -68,7 +68,7 @@ struct Plane {
 
 impl Plane {
     fn new() -> Self {
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(Vec::new());
         let mut coordinate =
             |block| graph.intern(Node::Coordinate(Coordinate { block, index: Index::literal(0) }));
         let (x, y) = (coordinate(0), coordinate(1));

@@ -180,7 +180,7 @@ proptest! {
 fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
     let size = raw_value(tree, point);
     prop_assume!(size.is_sharp() && size.error < 1e4);
-    let mut graph = Graph::new();
+    let mut graph = Graph::new(Vec::new());
     let hamiltonian = tree.lower(&mut graph, 0);
     let one_form = one_form(&mut graph);
     let formulas = DegenerateFormulas { one_form, hamiltonian, momenta: Vec::new() };

@@ -38,14 +38,14 @@ proptest! {
     fn simplified_formulas_have_the_value_of_the_raw_ones(tree in tree(3), point in point()) {
         let expected = raw_value(&tree, &point);
         prop_assume!(expected.is_sharp());
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(Vec::new());
         let root = tree.lower(&mut graph, 0);
         agree("value", Evaluation::new(&graph, &point).expr(root, &Vec::new()), expected)?;
     }
 
     #[test]
     fn derivatives_agree_with_dual_numbers(tree in tree(0), point in point()) {
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(Vec::new());
         let root = tree.lower(&mut graph, 0);
         let values = variables(&point);
         let n = point.coordinates[0].len();
@@ -66,7 +66,7 @@ proptest! {
 
     #[test]
     fn energies_agree_with_dual_numbers(tree in tree(3), point in point()) {
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(Vec::new());
         let root = tree.lower(&mut graph, 0);
         let values = variables(&point);
         let first_velocity = point.coordinates.iter().map(Vec::len).sum::<usize>();
@@ -86,7 +86,7 @@ proptest! {
     #[test]
     fn the_same_formula_is_the_same_node(tree in tree(3), other in tree(3), point in point()) {
         prop_assume!(raw_value(&tree, &point).is_sharp());
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(Vec::new());
         let root = tree.lower(&mut graph, 0);
         other.lower(&mut graph, 0);
         prop_assert_eq!(tree.lower(&mut graph, 0), root);
@@ -96,7 +96,7 @@ proptest! {
 
     #[test]
     fn nodes_are_in_normal_form(tree in tree(3)) {
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(Vec::new());
         let root = tree.lower(&mut graph, 0);
         let gradient = graph.gradient(root, &[]);
         let roots = gradient.iter().map(|contribution| contribution.value.node).chain([root.node]);

@@ -72,7 +72,7 @@ struct Variables {
 
 impl Variables {
     fn new() -> Self {
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(Vec::new());
         let mut coordinate =
             |block| graph.intern(Node::Coordinate(Coordinate { block, index: Index::literal(0) }));
         let (a, b) = (coordinate(0), coordinate(1));

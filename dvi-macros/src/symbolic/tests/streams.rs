@@ -54,7 +54,7 @@ fn hessian(graph: &mut Graph, root: Expr, point: &Point) -> Vec<f64> {
 
 fn check(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
     prop_assume!(raw_value(tree, point).is_sharp());
-    let mut graph = Graph::new();
+    let mut graph = Graph::new(Vec::new());
     let root = tree.lower(&mut graph, 0);
     let (first, second) = (gradient(&mut graph, root, point), hessian(&mut graph, root, point));
     let n = first.len();

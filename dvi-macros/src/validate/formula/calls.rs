@@ -19,7 +19,10 @@ impl Evaluation<'_> {
     /// A function of the language by its name.
     fn function<T: ToTokens>(&mut self, call: &T, name: &str, receiver: Jet, rest: &[&Expr]) -> Value<Jet> {
         if name == "powi" {
-            return Ok(receiver.power(exponent(rest[0])));
+            let power = receiver.power(exponent(rest[0]));
+            // Another order of operations may overflow before it divides.
+            self.is_delicate |= power.reciprocal().is_huge();
+            return Ok(power);
         }
         let mut arguments = Vec::new();
         for argument in rest {
