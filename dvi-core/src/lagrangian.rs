@@ -156,3 +156,28 @@ pub trait RegularLagrangian: Lagrangian {
     /// not read, and may be empty.
     fn force<T: Scalar>(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
 }
+
+/// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
+/// [`SEPARABLE`](RegularLagrangian::SEPARABLE) holds.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M",
+    label = "its report says what the mass matrix depends on",
+    note = "`Variational` and `Galerkin` step any regular system"
+)]
+pub trait Separable: RegularLagrangian {}
+
+/// A system whose L is a polynomial of degree at most two in v. The attribute implements it where
+/// [`QUADRATIC`](RegularLagrangian::QUADRATIC) holds.
+#[diagnostic::on_unimplemented(
+    message = "the Lagrangian of `{Self}` is not quadratic in the velocities",
+    label = "p = ∂L/∂v is not affine in v"
+)]
+pub trait QuadraticInVelocity: RegularLagrangian {}
+
+/// A system whose α is affine in q with constant coefficients. The attribute implements it where
+/// [`LINEAR`](DegenerateLagrangian::LINEAR) holds.
+#[diagnostic::on_unimplemented(
+    message = "the one-form of `{Self}` is not affine in the coordinates",
+    label = "Dα is not one constant matrix"
+)]
+pub trait AffineOneForm: DegenerateLagrangian {}

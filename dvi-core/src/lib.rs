@@ -130,7 +130,9 @@ pub use frequency::{
 pub use galerkin::{Galerkin, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
-pub use lagrangian::{DegenerateLagrangian, Lagrangian, RegularLagrangian, State, Weights};
+pub use lagrangian::{
+    AffineOneForm, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, RegularLagrangian, Separable, State, Weights,
+};
 pub use method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
 pub use newmark::{Newmark, NewmarkMemory};
 pub use number::Number;

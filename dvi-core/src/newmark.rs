@@ -17,9 +17,9 @@ use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate};
 use crate::square::{SquareMatrix, of_second_derivatives};
 use crate::statistics::Statistics;
 use crate::summation::Summation;
-use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Square, Vector, Weights};
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Separable, Space, Square, Vector, Weights};
 
-/// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t); [`StartError::Unsupported`] for any other L.
+/// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
 ///
 /// Order 2, symmetric. β = 0 is Störmer–Verlet, explicit; β = ¼ the average acceleration method, stable on linear
 /// oscillators at every step; other β > 0 are implicit too and stable on them for (¼ − β)(ωh)² < 1. One ∂L/∂q an
@@ -85,7 +85,7 @@ impl<S: RegularLagrangian, T: Real> NewmarkMemory<S, T> {
 }
 
 /// A step as it is being solved: `work.increment` becomes Δ.
-struct Attempt<'a, S: RegularLagrangian, T: Real> {
+struct Attempt<'a, S: Separable, T: Real> {
     system: &'a S,
     beta: T,
     interval: Interval<T>,
@@ -97,7 +97,7 @@ struct Attempt<'a, S: RegularLagrangian, T: Real> {
     work: &'a mut Work<S, T>,
 }
 
-impl<S: RegularLagrangian, T: Real> Attempt<'_, S, T> {
+impl<S: Separable, T: Real> Attempt<'_, S, T> {
     /// Δ ← h M⁻¹[p½ + βh(F1 − F0)].
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         self.guess();
@@ -206,16 +206,11 @@ impl<S: Lagrangian, T: Real> Carries<S, T> for Newmark<T> {
     type Memory = NewmarkMemory<S, T>;
 }
 
-impl<S: RegularLagrangian, T: Real> Method<S, T> for Newmark<T> {
+impl<S: Separable, T: Real> Method<S, T> for Newmark<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
             let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
             return Err(StartError::Parameter { name: "beta", value, range });
-        }
-        if !S::SEPARABLE {
-            let reason =
-                "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Variational or Galerkin";
-            return Err(StartError::Unsupported { option: "Newmark", reason });
         }
         self.stopping.validate()?;
         let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver };

@@ -93,6 +93,7 @@ impl StandIn<'_> {
         let Self { name, krate, .. } = self;
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         quote! {
+            impl #impl_generics #krate::AffineOneForm for #name #type_generics #where_clause {}
             impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
                 const LINEAR: bool = false;
                 const MATCHING: bool = false;
@@ -115,6 +116,8 @@ impl StandIn<'_> {
         let Self { name, krate, .. } = self;
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         quote! {
+            impl #impl_generics #krate::Separable for #name #type_generics #where_clause {}
+            impl #impl_generics #krate::QuadraticInVelocity for #name #type_generics #where_clause {}
             impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
                 const SEPARABLE: bool = false;
                 const DIAGONAL_MASS: bool = false;

@@ -55,7 +55,11 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
     let MassMatrix { separable, diagonal, quadratic, .. } = *structure;
     let force = emitter.vector(&programs.force);
+    let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
+    let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
+    let traits = traits.map(|structure| quote!(impl #impl_generics #krate::#structure for #name #type_generics #where_clause {}));
     quote! {
+        #(#traits)*
         impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
             const SEPARABLE: bool = #separable;
             const DIAGONAL_MASS: bool = #diagonal;

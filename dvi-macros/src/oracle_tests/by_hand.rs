@@ -32,6 +32,8 @@ const HAMILTONIANS: &[&str] = &[
     "sum(-1..2, |k| x[k + 1])",
     "sum_pairs(-2..1, |i, j| x[i + 2] * y[j + 2])",
     "sum(0..N, |i| sum(i - 1..i + 2, |k| x[k % N] * y[i]))",
+    // A power that overflows before it divides.
+    "u.powi(-600) + w",
     // A branch that is not taken has no value.
     "if u > 5 { sum(0..N, |i| (x[i] - 9).sqrt()) } else { u * u }",
     "if u > 5 || w > 5 { sum(0..N, |i| (x[i] - 9).sqrt()) } else { u * u }",

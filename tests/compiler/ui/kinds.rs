@@ -18,6 +18,14 @@ fn regular_method_on_a_degenerate_system() {
     let _ = Integrator::new(&Degenerate, Variational::midpoint(), 0.1, state);
 }
 
+#[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x) * dot(x) / 2.0 - x * x)]
+pub struct NotSeparable;
+
+fn newmark_on_a_system_that_is_not_separable() {
+    let state = NotSeparableState { x: 1.0, dot_x: 0.0 };
+    let _ = Integrator::new(&NotSeparable, Newmark::new(0.25), 0.1, state);
+}
+
 fn exponent_of_steps_without_a_discrete_lagrangian() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let run = Integrator::new(&Degenerate, RungeKutta::classical(), 0.1, state).unwrap();

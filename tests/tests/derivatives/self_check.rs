@@ -10,6 +10,14 @@ use dvi_core::prelude::*;
 )]
 struct SignsOfZero<const N: usize>;
 
+/// A difference that is zero everywhere is left out, and with it the sign that it would have.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = (x * (x - x)).signum() * y + (y * (x - x)).atan2(x) + x * y,
+)]
+struct DifferenceOfNothing;
+
 /// Functions of large constants have rounding errors that their values do not show.
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -52,5 +60,6 @@ fn roots_of_nothing_are_zero() {
     assert_eq!(RootOfNothing::<3>.hamiltonian(&[0.7, 2.0], 0.0), 4.0);
     let constant = (std::f64::consts::PI.powi(5) * 1001.0).sin();
     assert!((LargeConstants.hamiltonian(&[2.0, 0.0], 0.0) - 4.0 * constant - 1.0).abs() < 1e-9);
+    assert_eq!(DifferenceOfNothing.hamiltonian(&[2.0, 3.0], 0.0), 9.0);
     assert_eq!(NearOverflow { n: 2 }.hamiltonian(&[3.0, 1.0, 0.01, 0.02], 0.0), 2.0);
 }

@@ -28,6 +28,8 @@ impl Evaluation<'_> {
         for argument in rest {
             arguments.push(self.number(argument)?);
         }
+        // These see the sign of a zero, which another order of operations may exchange.
+        self.is_delicate |= ["signum", "atan2"].contains(&name) && receiver.value().value == 0.0;
         let degree = std::f64::consts::PI / 180.0;
         let value = match (name, arguments.as_slice()) {
             ("recip", []) => receiver.reciprocal(),
