@@ -5,6 +5,7 @@
 //! (Hairer, Lubich & Wanner 2006, section V.3.2). Order 4 asks for Σ γᵢ³ = 0 besides; higher orders have
 //! the conditions that the tests of this file walk. Some of the γᵢ are negative: a composition steps back.
 
+use crate::memory::{Memory, lasting};
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
@@ -156,6 +157,10 @@ impl<I, V> CompositionMemory<I, V> {
     }
 }
 
+impl<I: Memory<T>, V, T: Real> Memory<T> for CompositionMemory<I, V> {
+    lasting!(T; part inner);
+}
+
 impl<M: Scheme> Scheme for Composition<M> {
     /// That of the composition, or of the composed method if this is higher. If the composed method is not
     /// symmetric, its error terms of even power remain: one order is gained at most.
@@ -199,13 +204,13 @@ impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition
     ) -> Result<(), StepFailure> {
         let CompositionMemory { inner, checkpoint, q: before } = memory;
         before.copy_from_slice(q);
-        self.method.restore(inner, checkpoint);
+        checkpoint.restore(inner);
         let mut elapsed = 0.0;
         for gamma in self.table.steps() {
             let (begin, length) = (t + T::lift(elapsed) * h, T::lift(gamma) * h);
             if let Err(failure) = self.method.step(system, inner, q, begin, length, statistics) {
                 q.copy_from_slice(before);
-                self.method.restore(checkpoint, inner);
+                inner.restore(checkpoint);
                 return Err(failure);
             }
             elapsed += gamma;
@@ -222,11 +227,6 @@ impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         self.method.velocity(system, &memory.inner, q, t, v)
-    }
-
-    #[inline]
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        self.method.restore(&from.inner, &mut to.inner);
     }
 }
 

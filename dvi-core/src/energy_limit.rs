@@ -5,6 +5,7 @@
 
 use crate::discrete::VariationalMethod;
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm::reported;
 use crate::statistics::Statistics;
@@ -39,6 +40,10 @@ impl<I, V, T> EnergyLimitMemory<I, V, T> {
     pub fn inner(&self) -> &I {
         &self.inner
     }
+}
+
+impl<I: Memory<T>, V, T: Real> Memory<T> for EnergyLimitMemory<I, V, T> {
+    lasting!(T; part inner, number start);
 }
 
 impl<M: Scheme> Scheme for EnergyLimit<M> {
@@ -80,7 +85,7 @@ impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
     ) -> Result<(), StepFailure> {
         let EnergyLimitMemory { inner, checkpoint, q: before, v, start } = memory;
         before.copy_from_slice(q);
-        self.method.restore(inner, checkpoint);
+        checkpoint.restore(inner);
         self.method.step(system, inner, q, t, h, statistics)?;
         let verdict = self.method.velocity(system, inner, q, t + h, v).and_then(|()| {
             let now = system.energy(q, if S::REGULAR { v } else { &[] }, t + h);
@@ -91,7 +96,7 @@ impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
         });
         if verdict.is_err() {
             q.copy_from_slice(before);
-            self.method.restore(checkpoint, inner);
+            inner.restore(checkpoint);
         }
         verdict
     }
@@ -105,10 +110,6 @@ impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         self.method.velocity(system, &memory.inner, q, t, v)
-    }
-
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        self.method.restore(&from.inner, &mut to.inner);
     }
 }
 

@@ -84,6 +84,34 @@ pub enum StartError {
     /// The step that computes the starting values failed.
     #[error("the starting step failed: {0}")]
     Starter(StepFailure),
+    /// A checkpoint is not one of this method on this system.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+}
+
+/// A checkpoint that does not fit the run that is to go on from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// It has less than the method carries.
+    #[error("the checkpoint has less than this method on this system carries: it is one of another run")]
+    Short,
+    /// It has more than the method carries.
+    #[error(
+        "the checkpoint has {more} numbers more than this method on this system carries: it is one of another run"
+    )]
+    Long {
+        /// How many numbers and counts were not read.
+        more: usize,
+    },
+    /// It has another number of coordinates.
+    #[error("the checkpoint has {found} coordinates, but the system has {expected}")]
+    Coordinates {
+        /// The dimension of the system.
+        expected: usize,
+        /// The coordinates of the checkpoint.
+        found: usize,
+    },
 }
 
 /// Why a step could not be completed.

@@ -183,11 +183,6 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Metho
     ) -> Result<(), StepFailure> {
         memory.path.inertial.velocity(system, &memory.path.phase, q, t, v)
     }
-
-    #[inline]
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.restore(from);
-    }
 }
 
 impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> VariableStep<S, T>

@@ -5,6 +5,7 @@
 //! down to rounding errors, from the collocation polynomial of the last step, continued.
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
 use crate::orientation::FormOrientation;
@@ -104,6 +105,10 @@ pub struct GaussMemory<const STAGES: usize, S: Lagrangian, T: Real> {
     orientation: FormOrientation<S, T>,
 }
 
+impl<const STAGES: usize, S: Lagrangian, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
+    lasting!(T; vectors completed, part orientation);
+}
+
 impl<const S: usize> Scheme for Gauss<S> {
     fn order(&self) -> usize {
         2 * S
@@ -168,15 +173,6 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
             completed.copy_from_slice(slope);
         }
         Ok(())
-    }
-
-    /// The slopes of the last step, from which the next is guessed, and the orientation of Ω.
-    #[inline]
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.orientation.restore(&from.orientation);
-        for (to, from) in to.completed.iter_mut().zip(&from.completed) {
-            to.copy_from_slice(from);
-        }
     }
 }
 

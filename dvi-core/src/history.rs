@@ -3,6 +3,7 @@
 //! The guess is the value at the next step of the polynomial through the last m increments:
 //! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
 
+use crate::memory::{Memory, lasting};
 use crate::{Lagrangian, Real, Scalar, Space, Vector};
 
 /// How many increments are kept.
@@ -31,23 +32,25 @@ pub(crate) struct History<S: Lagrangian, T: Real> {
     len: usize,
     /// Where the next increment goes: the place of the oldest once the ring is full.
     next: usize,
-    seed: Option<Vector<S, T>>,
+    /// The first guess.
+    seed: Vector<S, T>,
 }
 
 impl<S: Lagrangian, T: Real> History<S, T> {
     /// No increments yet; the first guess is `seed`, or zero.
     pub(crate) fn new(system: &S, seed: Option<Vector<S, T>>) -> Self {
-        Self { ring: core::array::from_fn(|_| system.space().vector()), len: 0, next: 0, seed }
+        let vector = || system.space().vector();
+        Self { ring: core::array::from_fn(|_| vector()), len: 0, next: 0, seed: seed.unwrap_or_else(vector) }
     }
 
     /// Sets `guess` to the extrapolated increment.
     #[inline(always)]
     pub(crate) fn extrapolate(&self, guess: &mut [T]) {
         // The full sum has a known length and makes straight code.
-        match (self.len, &self.seed) {
-            (DEPTH, _) => self.combine(DEPTH, guess),
-            (0, Some(seed)) => guess.copy_from_slice(seed),
-            (len, _) => self.combine(len, guess),
+        match self.len {
+            DEPTH => self.combine(DEPTH, guess),
+            0 => guess.copy_from_slice(&self.seed),
+            len => self.combine(len, guess),
         }
     }
 
@@ -66,14 +69,6 @@ impl<S: Lagrangian, T: Real> History<S, T> {
     /// Forgets all increments, but not the seed.
     pub(crate) fn clear(&mut self) {
         self.len = 0;
-    }
-
-    /// Takes over the increments of another history.
-    pub(crate) fn restore(&mut self, from: &Self) {
-        for (increment, other) in self.ring.iter_mut().zip(&from.ring) {
-            increment.copy_from_slice(other);
-        }
-        (self.len, self.next) = (from.len, from.next);
     }
 
     /// Remembers the increment of a completed step.
@@ -99,6 +94,10 @@ impl<S: Lagrangian, T: Real> History<S, T> {
             self.len += 1;
         }
     }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for History<S, T> {
+    lasting!(T; vectors ring, count len, count next, numbers seed);
 }
 
 /// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same

@@ -4,6 +4,7 @@
 //! the blocks of D count. Source: Bunch & Kaufman 1977, Math. Comp. 31, 163–179.
 
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::norm::{larger, reported};
 use crate::{Real, Scalar};
 
@@ -46,6 +47,10 @@ impl<T: Real> Inertia<T> {
             *least = pivot;
         }
     }
+}
+
+impl<T: Real> Memory<T> for Inertia<T> {
+    lasting!(T; count negative, numbers least);
 }
 
 /// Of the row-major n×n `matrix`, which is overwritten; `removed` has n entries of storage. A pivot counts as zero when

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+#[cfg(feature = "alloc")]
+use crate::checkpoint::Checkpoint;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::method::{Carries, Clock, Method, TwoPoint};
 use crate::norm::reported;
@@ -45,6 +47,28 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         Ok(Self::assemble(system, method, memory, q, t, h))
     }
 
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
+    /// [step](Checkpoint::with_step_size) or other parameters, from the same momenta.
+    ///
+    /// # Errors
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it is one of another system or method.
+    #[cfg(feature = "alloc")]
+    pub fn resume(system: &'a S, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
+        let (t, h) = (checkpoint.time, checkpoint.step_size);
+        validate(system, t, h)?;
+        let [q, v] = checkpoint.point(system)?;
+        let mut memory = method.begin_again(system, &q, &v[..velocities(system)], t, h)?;
+        let mut clock = Clock::new(t, h);
+        checkpoint.load::<S, M>(&mut memory, |reader| {
+            clock = Clock::load(checkpoint, reader)?;
+            Ok(())
+        })?;
+        let mut run = Self::assemble(system, method, memory, q, t, h);
+        run.clock = clock;
+        run.stepper.statistics = checkpoint.statistics;
+        Ok(run)
+    }
+
     fn assemble(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>, t: T, h: T) -> Self {
         Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h) }
     }
@@ -64,6 +88,11 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T> {
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
         self.stepper.steps(clock, count).map_err(|failure| self.error(failure))
+    }
+
+    #[cfg(feature = "alloc")]
+    fn checkpoint(&self) -> Checkpoint<T> {
+        Checkpoint::of(&self.stepper, [self.time(), self.step_size()], |record| self.clock.save(record))
     }
 
     /// t₀ + steps · h, which does not accumulate rounding errors.

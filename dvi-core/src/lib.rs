@@ -73,6 +73,8 @@ extern crate alloc;
 #[path = "private.rs"]
 pub mod __private;
 mod basis;
+#[cfg(feature = "alloc")]
+mod checkpoint;
 mod composition;
 pub mod diagnostics;
 mod discrete;
@@ -90,6 +92,7 @@ mod integrator;
 mod lagrangian;
 mod legendre;
 mod mass;
+mod memory;
 mod method;
 mod newmark;
 mod norm;
@@ -115,6 +118,8 @@ mod variational;
 mod vector_field;
 mod walk;
 
+#[cfg(feature = "alloc")]
+pub use checkpoint::Checkpoint;
 pub use composition::{Composition, CompositionMemory};
 pub use discrete::{
     DiscreteLagrangian, Ends, General, GeneralMemory, Interval, OneNode, TwiceDifferentiable,
@@ -123,7 +128,7 @@ pub use discrete::{
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
-pub use error::{IndexError, LengthError, StartError, StepError, StepFailure};
+pub use error::{CheckpointError, IndexError, LengthError, StartError, StepError, StepFailure};
 pub use frequency::{
     Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, PerCoordinate, Radial, Reading, Unfitted,
 };
@@ -131,8 +136,12 @@ pub use galerkin::{Galerkin, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use integrator::Integrator;
 pub use lagrangian::{
-    AffineOneForm, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, RegularLagrangian, Separable, State, Weights,
+    AffineOneForm, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, RegularLagrangian, Separable,
+    State, Weights,
 };
+pub use memory::Memory;
+#[cfg(feature = "alloc")]
+pub use memory::{Reader, Record};
 pub use method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
 pub use newmark::{Newmark, NewmarkMemory};
 pub use number::Number;

@@ -1,6 +1,7 @@
 //! What an integrator is to a run.
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::Memory;
 use crate::statistics::Statistics;
 use crate::{Lagrangian, Real, Vector};
 
@@ -35,9 +36,9 @@ pub trait Scheme {
 /// The times at which the steps of a run begin: start + k h, which does not accumulate rounding errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock<T> {
-    start: T,
-    h: T,
-    step: u64,
+    pub(crate) start: T,
+    pub(crate) h: T,
+    pub(crate) step: u64,
 }
 
 impl<T: Real> Clock<T> {
@@ -50,7 +51,7 @@ impl<T: Real> Clock<T> {
     #[must_use]
     #[inline(always)]
     pub fn after(self, steps: u64) -> Self {
-        Self { step: self.step + steps, ..self }
+        Self { step: self.step.wrapping_add(steps), ..self }
     }
 
     /// The present time.
@@ -73,7 +74,7 @@ impl<T: Real> Clock<T> {
 /// place only, where a run begins, and the user reads one error.
 pub trait Carries<S: Lagrangian, T: Real> {
     /// What a run carries from step to step besides the coordinates: momenta, guesses, work space.
-    type Memory;
+    type Memory: Memory<T>;
 }
 
 /// A method that can step a system `S` in the arithmetic of `T`.
@@ -85,6 +86,22 @@ pub trait Method<S: Lagrangian, T: Real>: Scheme + Carries<S, T> {
     /// [`StartError::Parameter`] if an option is out of range; [`StartError::Starter`] if the starting
     /// values cannot be computed, or a matrix that is the same for all steps is singular.
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError>;
+
+    /// Prepares a run that goes on from a checkpoint, as [`begin`](Self::begin) does, for a memory that is
+    /// [loaded](Memory::load) next.
+    ///
+    /// # Errors
+    /// As [`begin`](Self::begin).
+    fn begin_again(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        v: &[T],
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError> {
+        self.begin(system, q, v, t, h)
+    }
 
     /// Advances `q` from `t` to `t + h`, without allocation.
     ///
@@ -114,11 +131,6 @@ pub trait Method<S: Lagrangian, T: Real>: Scheme + Carries<S, T> {
     ) -> Result<(), StepFailure> {
         Ok(())
     }
-
-    /// Sets the dynamical part of `to`, all that the result of the next step can depend on, to that of
-    /// `from`, without allocation. Both were made by [`begin`](Self::begin) of this method on one system and, unless
-    /// the method is a [`VariableStep`], with the same step.
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory);
 
     /// Takes `count` steps from the present time of `clock`, or as many as succeed, and counts them in
     /// `statistics.steps`. A method with something to gain from many steps at once does better than the

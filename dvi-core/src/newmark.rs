@@ -10,6 +10,7 @@
 use crate::discrete::Interval;
 use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
+use crate::memory::{Memory, lasting};
 use crate::method::{Carries, Method, PreservedForm, Scheme};
 use crate::norm::{self, reported};
 use crate::phase::{Arrival, Increments, PhasePoint};
@@ -82,6 +83,10 @@ impl<S: RegularLagrangian, T: Real> NewmarkMemory<S, T> {
     pub fn p(&self) -> &[T] {
         &self.phase.p
     }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for NewmarkMemory<S, T> {
+    lasting!(T; part phase, part ladder);
 }
 
 /// A step as it is being solved: `work.increment` becomes Δ.
@@ -255,11 +260,6 @@ impl<S: Separable, T: Real> Method<S, T> for Newmark<T> {
         phase.kick(sum, momentum);
         let by = Increments { q: increment, p: sum };
         phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, by, h)
-    }
-
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.phase.restore(&from.phase);
-        to.ladder.restore(&from.ladder);
     }
 
     fn velocity(

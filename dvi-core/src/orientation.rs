@@ -10,10 +10,16 @@
 
 use crate::error::StepFailure;
 use crate::inertia::{Inertia, inertia};
+use crate::memory::{Memory, lasting};
 use crate::norm::reported;
 use crate::sink::Places;
 use crate::{
     DegenerateLagrangian, Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights,
+};
+#[cfg(feature = "alloc")]
+use crate::{
+    error::CheckpointError,
+    memory::{Reader, Record},
 };
 
 /// Ω at the end of the last step; nothing if it is the same everywhere.
@@ -81,8 +87,15 @@ impl<S: DegenerateLagrangian, T: Real> FormOrientation<S, T> {
         }
     }
 
-    /// Takes over what another has kept.
-    pub(crate) fn restore(&mut self, from: &Self) {
+    fn pfaffian(system: &S, q: &[T], t: T, matrix: &mut Matrix<S, T>) -> T {
+        matrix.fill(T::lift(0.0));
+        system.one_form_jacobian(q, t, T::lift(-1.0), T::lift(1.0), matrix);
+        pfaffian_sign(matrix, system.space().dimension())
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for FormOrientation<S, T> {
+    fn restore(&mut self, from: &Self) {
         match (self, from) {
             (Self::Pairs([entries, _]), Self::Pairs([from, _])) => entries.copy_from_slice(from),
             (Self::Pfaffian(sign, _), Self::Pfaffian(from, _)) => *sign = *from,
@@ -90,11 +103,21 @@ impl<S: DegenerateLagrangian, T: Real> FormOrientation<S, T> {
             _ => {}
         }
     }
-
-    fn pfaffian(system: &S, q: &[T], t: T, matrix: &mut Matrix<S, T>) -> T {
-        matrix.fill(T::lift(0.0));
-        system.one_form_jacobian(q, t, T::lift(-1.0), T::lift(1.0), matrix);
-        pfaffian_sign(matrix, system.space().dimension())
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>) {
+        match self {
+            Self::Constant => {}
+            Self::Pairs([entries, _]) => record.numbers(entries),
+            Self::Pfaffian(sign, _) => record.numbers(&[*sign]),
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        match self {
+            Self::Constant => Ok(()),
+            Self::Pairs([entries, _]) => reader.numbers(entries),
+            Self::Pfaffian(sign, _) => reader.numbers(core::slice::from_mut(sign)),
+        }
     }
 }
 
@@ -183,11 +206,10 @@ impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
         let [before, after] = [before.least[from], after.least[to]].map(reported);
         Err(StepFailure::Orientation { matrix: "the mass matrix", before, after })
     }
+}
 
-    /// Takes over what another has kept.
-    pub(crate) fn restore(&mut self, from: &Self) {
-        self.inertia = from.inertia;
-    }
+impl<S: Lagrangian, T: Real> Memory<T> for MassOrientation<S, T> {
+    lasting!(T; part inertia);
 }
 
 impl<S: RegularLagrangian, T: Real> Work<S, T> {

@@ -4,9 +4,15 @@ use crate::error::{StartError, StepFailure};
 use crate::history::{History, is_similar};
 use crate::legendre::Legendre;
 use crate::mass::Mass;
+use crate::memory::{Memory, lasting};
 use crate::orientation::MassOrientation;
 use crate::summation::{Carried, Summation};
 use crate::{Lagrangian, Real, RegularLagrangian, Space, Vector, norm};
+#[cfg(feature = "alloc")]
+use crate::{
+    error::CheckpointError,
+    memory::{Reader, Record},
+};
 
 /// The momentum and the force at the current point, and the last increments.
 #[derive(Debug)]
@@ -147,17 +153,10 @@ impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
             self.force.copy_from_slice(to.force);
         }
     }
+}
 
-    /// Takes over all that the next step can depend on.
-    pub(crate) fn restore(&mut self, from: &Self) {
-        self.p.copy_from_slice(&from.p);
-        self.force.copy_from_slice(&from.force);
-        self.history.restore(&from.history);
-        self.last_step = from.last_step;
-        for (carried, from) in self.carried.iter_mut().zip(&from.carried) {
-            carried.restore(from);
-        }
-    }
+impl<S: Lagrangian, T: Real> Memory<T> for PhasePoint<S, T> {
+    lasting!(T; numbers p, numbers force, part history, number last_step, parts carried);
 }
 
 /// The mass matrix ∂²L/∂v∂v of a run.
@@ -213,12 +212,6 @@ impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
         orientation.check(system, q, velocity, t)
     }
 
-    pub(crate) fn restore(&mut self, from: &Self) {
-        if let (Self::Varying(orientation), Self::Varying(from)) = (self, from) {
-            orientation.restore(from);
-        }
-    }
-
     /// Sets `v` to the velocity with ∂L/∂v = p at (`q`, `t`).
     ///
     /// # Errors
@@ -245,6 +238,27 @@ impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
                     legendre.solve(system, q, &phase.p, t, v, S::QUADRATIC)
                 })
             }
+        }
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for Inertial<S, T> {
+    fn restore(&mut self, from: &Self) {
+        if let (Self::Varying(orientation), Self::Varying(from)) = (self, from) {
+            orientation.restore(from);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>) {
+        if let Self::Varying(orientation) = self {
+            orientation.save(record);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        match self {
+            Self::Constant(_) => Ok(()),
+            Self::Varying(orientation) => orientation.load(reader),
         }
     }
 }

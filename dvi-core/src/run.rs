@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+#[cfg(feature = "alloc")]
+use crate::checkpoint::Checkpoint;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::method::{Carries, Clock, Method};
 use crate::norm::reported;
@@ -56,6 +58,10 @@ pub trait Run {
         let Stepper { system, q, .. } = self.stepper();
         self.stepper().with_velocity(self.time(), |v| system.energy(q, v, self.time()))
     }
+
+    /// The run as data, from which another one can go on as if this had not stopped.
+    #[cfg(feature = "alloc")]
+    fn checkpoint(&self) -> Checkpoint<Self::Scalar>;
 
     /// The current coordinates, flat, in the order of declaration.
     #[inline]
@@ -167,7 +173,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
     }
 
     /// Passes the velocity on, or nothing if the system is degenerate.
-    fn with_velocity<R>(&self, t: T, read: impl FnOnce(&[T]) -> R) -> R {
+    pub(crate) fn with_velocity<R>(&self, t: T, read: impl FnOnce(&[T]) -> R) -> R {
         if !S::REGULAR {
             return read(&[]);
         }

@@ -3,6 +3,7 @@
 //! kᵢ = X(q + h Σⱼ aᵢⱼ kⱼ, t + cᵢh),   q⁺ = q + h Σᵢ bᵢ kᵢ
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::norm;
 use crate::orientation::FormOrientation;
@@ -99,6 +100,10 @@ pub struct RungeKuttaMemory<S: Lagrangian, T: Real> {
     orientation: FormOrientation<S, T>,
 }
 
+impl<S: Lagrangian, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
+    lasting!(T; part orientation);
+}
+
 impl Scheme for RungeKutta {
     fn order(&self) -> usize {
         self.tableau.order
@@ -149,12 +154,6 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
         orientation.check(system, point, t + h)?;
         q.copy_from_slice(point);
         Ok(())
-    }
-
-    /// The orientation of Ω: else a step depends on q only.
-    #[inline]
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.orientation.restore(&from.orientation);
     }
 }
 

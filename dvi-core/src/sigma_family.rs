@@ -204,6 +204,19 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
         SigmaMemory::between(system, self, q, &q1, t, h)
     }
 
+    /// Without a second point.
+    fn begin_again(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        _v: &[T],
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError> {
+        self.validate(S::LINEAR)?;
+        SigmaMemory::without_defect(system, self, q, t, h)
+    }
+
     #[inline]
     fn step(
         &self,
@@ -220,10 +233,6 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
         } else {
             nonlinear::step(&step, memory, q, statistics)
         }
-    }
-
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.restore(from);
     }
 
     #[inline]

@@ -4,6 +4,7 @@ mod stopping;
 
 use crate::Real;
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::statistics::Statistics;
 
 pub(crate) use stopping::Convergence;
@@ -73,24 +74,19 @@ pub(crate) struct Ladder<N> {
 #[derive(Debug)]
 struct Newton<N> {
     storage: N,
-    turn: Turn,
-}
-
-/// Which steps are Newton's without the fixed point being tried.
-#[derive(Clone, Copy, Debug)]
-enum Turn {
-    All,
-    Next(u32),
+    /// Whether all steps are Newton's, and else how many are before the fixed point is tried again.
+    always: bool,
+    steps_left: u32,
 }
 
 impl<N> Ladder<N> {
     pub(crate) fn new(solver: Solver, storage: impl FnOnce() -> N) -> Self {
-        let turn = match solver {
+        let always = match solver {
             Solver::FixedPoint => return Self { newton: None },
-            Solver::Newton => Turn::All,
-            Solver::Automatic => Turn::Next(0),
+            Solver::Newton => true,
+            Solver::Automatic => false,
         };
-        Self { newton: Some(Newton { storage: storage(), turn }) }
+        Self { newton: Some(Newton { storage: storage(), always, steps_left: 0 }) }
     }
 
     /// Solves the step of `attempt`: by the fixed point where this run has one, and by Newton where it has not or that
@@ -107,7 +103,7 @@ impl<N> Ladder<N> {
         solve_by_newton: impl FnMut(&mut A, &mut N, Guess, &mut Statistics) -> Result<(), StepFailure>,
     ) -> Result<(), StepFailure> {
         let newton = match &mut self.newton {
-            Some(newton) if matches!(newton.turn, Turn::All | Turn::Next(1..)) => newton,
+            Some(newton) if newton.always || newton.steps_left > 0 => newton,
             newton => match (fixed_point(attempt, statistics), newton) {
                 // Where there is nothing to iterate on, Newton does not help.
                 (
@@ -126,13 +122,14 @@ impl<N> Ladder<N> {
     pub(crate) fn budget(&self, max: usize, patience: usize) -> usize {
         if self.newton.is_some() { max.min(patience) } else { max }
     }
+}
 
-    /// Takes over what the next step depends on.
-    pub(crate) fn restore(&mut self, from: &Self) {
-        if let (Some(newton), Some(from)) = (&mut self.newton, &from.newton) {
-            newton.turn = from.turn;
-        }
-    }
+impl<N, T: Real> Memory<T> for Ladder<N> {
+    lasting!(T; parts newton);
+}
+
+impl<N, T: Real> Memory<T> for Newton<N> {
+    lasting!(T; count steps_left);
 }
 
 impl<N> Newton<N> {
@@ -146,9 +143,7 @@ impl<N> Newton<N> {
         solve(attempt, &mut self.storage, Guess::Extrapolated, statistics)
             .or_else(|_| solve(attempt, &mut self.storage, Guess::Zero, statistics))?;
         // A step that failed leaves no trace.
-        if let Turn::Next(steps) = &mut self.turn {
-            *steps = if *steps == 0 { STEPS_BEFORE_RETRY - 1 } else { *steps - 1 };
-        }
+        self.steps_left = if self.steps_left == 0 { STEPS_BEFORE_RETRY - 1 } else { self.steps_left - 1 };
         Ok(())
     }
 }

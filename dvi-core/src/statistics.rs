@@ -4,6 +4,7 @@ use core::ops::AddAssign;
 
 /// Counters of the work done by a run, starting values not included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
     /// Completed steps.
     pub steps: u64,

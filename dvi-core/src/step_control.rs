@@ -13,6 +13,7 @@ mod reversible;
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::Memory;
 use crate::method::VariableStep;
 use crate::{Lagrangian, Real};
 
@@ -28,7 +29,7 @@ pub trait StepControl<S: Lagrangian, T: Real>: Debug {
     /// Whether steps may be taken back, so that the run has to keep what it takes.
     const REJECTS: bool = false;
     /// What is carried from step to step.
-    type Memory;
+    type Memory: Memory<T>;
 
     /// Prepares a run from (`q`, `t`) with velocity `v`, which is empty for degenerate systems. Returns the
     /// length of the first step too. Everything that needs memory is allocated here.

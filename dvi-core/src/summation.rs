@@ -5,6 +5,7 @@
 //! (Kahan 1965; Neumaier 1974). A plain sum rounds x, a compensated one Δ, which is smaller by a factor of order h.
 
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::{Lagrangian, Real, Scalar, Space, Vector, norm};
 
 /// How the increments of the steps are added to coordinates and momenta.
@@ -23,21 +24,24 @@ pub enum Summation {
 
 /// What rounding has left out of a vector that moves by increments; nothing where sums are plain.
 #[derive(Debug)]
-pub(crate) struct Carried<S: Lagrangian, T: Real>(Option<Vector<S, T>>);
+pub(crate) struct Carried<S: Lagrangian, T: Real> {
+    rest: Option<Vector<S, T>>,
+}
 
 impl<S: Lagrangian, T: Real> Carried<S, T> {
     #[inline(always)]
     pub(crate) fn new(system: &S, summation: Summation) -> Self {
-        Self(match summation {
+        let rest = match summation {
             Summation::Plain => None,
             Summation::Compensated => Some(system.space().vector()),
-        })
+        };
+        Self { rest }
     }
 
     /// Sets `sum` to x + Δ, or x + (Δ + e).
     pub(crate) fn add(&self, x: &[T], increment: &[T], sum: &mut [T]) {
         for i in 0..x.len() {
-            let delta = self.0.as_ref().map_or(increment[i], |rest| increment[i] + rest[i]);
+            let delta = self.rest.as_ref().map_or(increment[i], |rest| increment[i] + rest[i]);
             sum[i] = x[i] + delta;
         }
     }
@@ -45,7 +49,7 @@ impl<S: Lagrangian, T: Real> Carried<S, T> {
     /// Moves `x` to `sum`, as [`add`](Self::add) has made it, and takes note of what rounding has left out.
     #[inline(always)]
     pub(crate) fn advance(&mut self, x: &mut [T], increment: &[T], sum: &[T]) {
-        if let Some(rest) = &mut self.0 {
+        if let Some(rest) = &mut self.rest {
             carry(rest, x, increment, sum);
         }
         x.copy_from_slice(sum);
@@ -59,12 +63,10 @@ impl<S: Lagrangian, T: Real> Carried<S, T> {
         self.advance(x, increment, sum);
         Ok(())
     }
+}
 
-    pub(crate) fn restore(&mut self, from: &Self) {
-        if let (Some(rest), Some(from)) = (&mut self.0, &from.0) {
-            rest.copy_from_slice(from);
-        }
-    }
+impl<S: Lagrangian, T: Real> Memory<T> for Carried<S, T> {
+    lasting!(T; vectors rest);
 }
 
 #[inline(never)]

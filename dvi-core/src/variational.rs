@@ -322,11 +322,6 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
             one_by_one(self, system, memory, q, clock, count, statistics)
         }
     }
-
-    #[inline]
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.restore(from);
-    }
 }
 
 impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}

@@ -1,7 +1,10 @@
 //! Compositions of the implicit midpoint rule: orders, reversal, and failures that leave no trace.
 
 use dvi_core::prelude::*;
-use dvi_core::{Carries, Composition, Method, Scheme, Statistics, StepFailure, VariableStep};
+use dvi_core::{
+    Carries, CheckpointError, Composition, Memory, Method, Reader, Record, Scheme, Statistics, StepFailure,
+    VariableStep,
+};
 use dvi_tests::larger;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 
@@ -96,8 +99,23 @@ impl Scheme for Failing {
 type Gauss1Memory = <Gauss<1> as Carries<LotkaVolterra, f64>>::Memory;
 type Point = dvi_core::Vector<LotkaVolterra, f64>;
 
+/// The memory of the method within, and how often a step was asked for, which no restoring takes back.
+struct FailingMemory(Gauss1Memory, u64);
+
+impl Memory<f64> for FailingMemory {
+    fn restore(&mut self, from: &Self) {
+        self.0.restore(&from.0);
+    }
+    fn save(&self, record: &mut Record<f64>) {
+        self.0.save(record);
+    }
+    fn load(&mut self, reader: &mut Reader<'_, f64>) -> Result<(), CheckpointError> {
+        self.0.load(reader)
+    }
+}
+
 impl Carries<LotkaVolterra, f64> for Failing {
-    type Memory = (Gauss1Memory, u64);
+    type Memory = FailingMemory;
 }
 
 impl Method<LotkaVolterra, f64> for Failing {
@@ -109,7 +127,7 @@ impl Method<LotkaVolterra, f64> for Failing {
         t: f64,
         h: f64,
     ) -> Result<Self::Memory, dvi_core::StartError> {
-        Ok((self.method.begin(system, q, v, t, h)?, 0))
+        Ok(FailingMemory(self.method.begin(system, q, v, t, h)?, 0))
     }
 
     fn step(
@@ -127,10 +145,6 @@ impl Method<LotkaVolterra, f64> for Failing {
         } else {
             self.method.step(system, &mut memory.0, q, t, h, statistics)
         }
-    }
-
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        self.method.restore(&from.0, &mut to.0);
     }
 }
 

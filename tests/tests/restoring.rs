@@ -1,7 +1,7 @@
 //! A run goes on from a copy of what another one carries, bit by bit, and ends where its energy goes astray.
 
 use dvi_core::prelude::*;
-use dvi_core::{Lagrangian, Method, Space, Statistics};
+use dvi_core::{Lagrangian, Memory, Method, Space, Statistics};
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
@@ -34,7 +34,7 @@ fn check<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, q0: &[f64], v0
         for step in 0..before {
             method.step(system, &mut kept, &mut q, t + f64::from(step) * h, h, &mut statistics)?;
         }
-        method.restore(&kept, &mut other);
+        other.restore(&kept);
         let mut same = q.clone();
         for step in before..before + 20 {
             let now = t + f64::from(step) * h;

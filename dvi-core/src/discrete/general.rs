@@ -4,6 +4,7 @@ use super::{DiscreteLagrangian, Ends, Interval, VariationalMethod, solve_by_newt
 use crate::error::{StartError, StepFailure};
 use crate::history::{History, is_similar};
 use crate::legendre::Legendre;
+use crate::memory::{Memory, lasting};
 use crate::method::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::run::evaluate;
 use crate::solve::Stopping;
@@ -60,6 +61,10 @@ impl<S: Lagrangian, L, T: Real> GeneralMemory<S, L, T> {
         }
         self.history.clear();
     }
+}
+
+impl<S: Lagrangian, L, T: Real> Memory<T> for GeneralMemory<S, L, T> {
+    lasting!(T; numbers p, part history, number last_step);
 }
 
 impl<M: Scheme> Scheme for General<M> {
@@ -145,12 +150,6 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Genera
         }
         memory.history.extrapolate(v);
         Legendre::new(system).solve(system, q, &memory.p, t, v, false)
-    }
-
-    fn restore(&self, from: &Self::Memory, to: &mut Self::Memory) {
-        to.p.copy_from_slice(&from.p);
-        to.history.restore(&from.history);
-        to.last_step = from.last_step;
     }
 }
 

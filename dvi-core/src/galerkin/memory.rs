@@ -5,6 +5,7 @@ use super::coefficients::{Coefficients, differentiation};
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{FrequencyIn, Local};
 use crate::history::History;
+use crate::memory::{Memory, lasting};
 use crate::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::quadrature::Quadrature;
 use crate::solve::{Ladder, Solver};
@@ -100,12 +101,14 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
         });
         Ok(Self { ladder, path })
     }
+}
 
-    /// Takes over all that the next step can depend on.
-    pub(super) fn restore(&mut self, from: &Self) {
-        self.path.restore(&from.path);
-        self.ladder.restore(&from.ladder);
-    }
+impl<const NODES: usize, S: Lagrangian, T: Real> Memory<T> for GalerkinMemory<NODES, S, T> {
+    lasting!(T; part path, part ladder);
+}
+
+impl<const NODES: usize, S: Lagrangian, T: Real> Memory<T> for Path<NODES, S, T> {
+    lasting!(T; part phase, part inertial, parts displacements);
 }
 
 impl<const NODES: usize, S: RegularLagrangian, T: Real> Path<NODES, S, T> {
@@ -192,14 +195,6 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> Path<NODES, S, T> {
             history.push_scaled(displacement, per_h * per_h);
         }
         Ok(())
-    }
-
-    fn restore(&mut self, from: &Self) {
-        self.phase.restore(&from.phase);
-        self.inertial.restore(&from.inertial);
-        for (history, from) in self.displacements.iter_mut().zip(&from.displacements) {
-            history.restore(from);
-        }
     }
 }
 

@@ -11,6 +11,7 @@ use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode};
 use crate::error::StartError;
 use crate::form::{Combination, Form, Product};
 use crate::history::History;
+use crate::memory::{Memory, lasting};
 use crate::orientation::FormOrientation;
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
@@ -74,6 +75,18 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
             next: vector(),
         }
     }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for SigmaMemory<S, T> {
+    lasting!(
+        T;
+        numbers defect, flag defect_vanishes, numbers one_form, part history, part ladder, part monitor, part orientation,
+        part carried, part work,
+    );
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for Work<S, T> {
+    lasting!(T; numbers ahead);
 }
 
 impl<S: Lagrangian, T: Real> SigmaMemory<S, T> {
@@ -144,19 +157,6 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         }
         memory.history = History::new(system, Some(memory.work.increment.clone()));
         Ok(memory)
-    }
-
-    /// Sets what the next step depends on to that of a run of the same method with the same step.
-    pub(super) fn restore(&mut self, from: &Self) {
-        self.defect.copy_from_slice(&from.defect);
-        self.defect_vanishes = from.defect_vanishes;
-        self.one_form.copy_from_slice(&from.one_form);
-        self.history.restore(&from.history);
-        self.ladder.restore(&from.ladder);
-        self.monitor.restore(&from.monitor);
-        self.orientation.restore(&from.orientation);
-        self.carried.restore(&from.carried);
-        self.work.ahead.copy_from_slice(&from.work.ahead);
     }
 
     fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {

@@ -7,6 +7,7 @@
 //! (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
 
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::norm::{larger, reported};
 use crate::walk::BLOCK;
 use crate::{Lagrangian, Real, Scalar, Space, Vector};
@@ -96,8 +97,9 @@ pub(super) struct Monitor<S: Lagrangian, T: Real> {
     /// The run is examined where the number of steps is a multiple of this power of two.
     period: u64,
     limit: Option<f64>,
-    /// The last examination: before which step, and what it measured.
-    latest: Option<(u64, ParasiticMode<T>)>,
+    /// Before which step it was examined last, zero if it was not, and what was measured.
+    examined: u64,
+    mode: ParasiticMode<T>,
     /// How many looks in a row, the last among them, have seen it above the limit.
     above: u32,
     /// How many looks have passed, of those at each step, since the mode has become large at once.
@@ -128,25 +130,21 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
                 Pace::Seldom => BLOCK,
             },
             limit,
-            latest: None,
+            examined: 0,
+            mode: ParasiticMode { amplitude: T::lift(0.0), relative: T::lift(0.0), is_significant: false },
             above: 0,
             since_jump: u32::MAX,
             first: First::default(),
         }
     }
 
-    pub(super) fn restore(&mut self, from: &Self) {
-        for (point, from) in self.points.iter_mut().zip(&from.points) {
-            point.copy_from_slice(from);
-        }
-        self.sizes.copy_from_slice(&from.sizes);
-        (self.steps, self.period) = (from.steps, from.period);
-        (self.together, self.latest) = (from.together, from.latest);
-        (self.above, self.since_jump, self.first) = (from.above, from.since_jump, from.first);
+    pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
+        self.last().map(|(_, mode)| mode)
     }
 
-    pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
-        self.latest.map(|(_, mode)| mode)
+    /// The last examination: before which step, and what it measured.
+    fn last(&self) -> Option<(u64, ParasiticMode<T>)> {
+        (self.examined > 0).then_some((self.examined, self.mode))
     }
 
     /// The number of steps from one examination to the next, a power of two.
@@ -190,7 +188,7 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         if step < KEPT as u64 {
             return Ok(());
         }
-        let mode = match self.latest {
+        let mode = match self.last() {
             // A step that failed is tried again.
             Some((last, mode)) if last == step => mode,
             _ => self.measure(step, q),
@@ -252,11 +250,11 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         if self.pace == Pace::WithTheFlow {
             self.keep_pace(step, &mode, reported(turned), reported(moved));
         }
-        let has_jumped = self.latest.is_some_and(|(_, last)| mode.relative > T::lift(JUMP) * last.relative);
+        let has_jumped = self.last().is_some_and(|(_, last)| mode.relative > T::lift(JUMP) * last.relative);
         let is_jump = self.pace == Pace::EachStep && has_jumped;
         self.since_jump = if is_jump { 0 } else { self.since_jump.saturating_add(1) };
         self.above = if self.is_above(&mode) { self.above + 1 } else { 0 };
-        self.latest = Some((step, mode));
+        (self.examined, self.mode) = (step, mode);
         mode
     }
 
@@ -274,8 +272,8 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         }
         let limit = self.limit.unwrap_or(super::PARASITIC_LIMIT).max(GROWTH * self.first.relative);
         let room = Scalar::ln((limit / relative).clamp(1.0, f64::MAX));
-        let grown = self.latest.map_or(0.0, |(_, last)| Scalar::ln((relative / size(&last)).max(1.0)));
-        let since = self.latest.map_or(1, |(last, _)| step - last) as f64;
+        let grown = self.last().map_or(0.0, |(_, last)| Scalar::ln((relative / size(&last)).max(1.0)));
+        let since = self.last().map_or(1, |(last, _)| step - last) as f64;
         // (steps · angle)² ≤ (RADIANS room)², which is false of what is not a number.
         let fits = |steps: u64| {
             let (by_angle, steps_squared) = (RADIANS * room, (steps * steps) as f64);
@@ -288,4 +286,20 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
             self.period *= 2;
         }
     }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for Monitor<S, T> {
+    lasting!(
+        T;
+        vectors points, numbers sizes, number together, count steps, count period, count examined, part mode, count above,
+        count since_jump, part first,
+    );
+}
+
+impl<T: Real> Memory<T> for ParasiticMode<T> {
+    lasting!(T; number amplitude, number relative, flag is_significant);
+}
+
+impl<T: Real> Memory<T> for First {
+    lasting!(T; count looks, bits relative, bits amplitude);
 }

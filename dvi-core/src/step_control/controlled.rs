@@ -1,5 +1,6 @@
 //! A run in the hands of its step control.
 
+use crate::memory::Memory;
 use core::fmt;
 
 use crate::error::{StartError, StepFailure};
@@ -21,13 +22,11 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
         system: &'a S,
         method: M,
         q: Vector<S, T>,
-        v: &[T],
-        [t, h]: [T; 2],
         rejects: bool,
+        begin: impl Fn(&M, &Vector<S, T>) -> Result<M::Memory, StartError>,
     ) -> Result<Self, StartError> {
-        let begin = || method.begin(system, &q, v, t, h);
-        let memory = begin()?;
-        let checkpoint = rejects.then(begin).transpose()?.map(|memory| (memory, q.clone()));
+        let memory = begin(&method, &q)?;
+        let checkpoint = rejects.then(|| begin(&method, &q)).transpose()?.map(|memory| (memory, q.clone()));
         Ok(Self { stepper: Stepper::new(system, method, memory, q), checkpoint })
     }
 
@@ -69,7 +68,7 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
     /// reject steps.
     pub fn keep(&mut self) {
         if let Some((memory, q)) = &mut self.checkpoint {
-            self.stepper.method.restore(&self.stepper.memory, memory);
+            memory.restore(&self.stepper.memory);
             q.copy_from_slice(&self.stepper.q);
         }
     }
@@ -77,7 +76,7 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
     /// Goes back to the point that was kept, without allocation.
     pub fn go_back(&mut self) {
         if let Some((memory, q)) = &self.checkpoint {
-            self.stepper.method.restore(memory, &mut self.stepper.memory);
+            self.stepper.memory.restore(memory);
             self.stepper.q.copy_from_slice(q);
         }
     }

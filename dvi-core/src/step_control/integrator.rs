@@ -3,10 +3,13 @@
 use core::fmt;
 
 use super::{ControlledRun, Reversible, StepControl, reversible};
+#[cfg(feature = "alloc")]
+use crate::checkpoint::Checkpoint;
 use crate::error::{StartError, StepError};
+use crate::memory::{Memory, lasting};
 use crate::method::{Carries, VariableStep};
 use crate::run::{Run, Stepper, evaluate, flatten, validate, velocities};
-use crate::{Lagrangian, Real, RegularLagrangian, Scalar};
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
 
 /// A run of a method on a system with steps chosen by a [`StepControl`].
 ///
@@ -52,8 +55,37 @@ where
         evaluate(system, &q, &v, t)?;
         let v = &v[..velocities(system)];
         let (control_memory, h) = control.begin(system, &q, v, t)?;
-        let controlled = ControlledRun::new(system, method, q, v, [t, h], C::REJECTS)?;
+        let begin = |method: &M, q: &Vector<S, T>| method.begin(system, q, v, t, h);
+        let controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
         Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
+    }
+
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped.
+    ///
+    /// # Errors
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it is one of another system, method or control.
+    #[cfg(feature = "alloc")]
+    pub fn resume(
+        system: &'a S,
+        method: M,
+        control: C,
+        checkpoint: &Checkpoint<T>,
+    ) -> Result<Self, StartError> {
+        let (t, mut h) = (checkpoint.time, checkpoint.step_size);
+        validate(system, t)?;
+        let [q, v] = checkpoint.point(system)?;
+        let v = &v[..velocities(system)];
+        let (mut control_memory, _) = control.begin(system, &q, v, t)?;
+        let begin = |method: &M, q: &Vector<S, T>| method.begin_again(system, q, v, t, h);
+        let mut controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
+        let mut clock = VariableClock::new(t);
+        checkpoint.load::<S, M>(&mut controlled.stepper.memory, |reader| {
+            control_memory.load(reader)?;
+            clock.load(reader)?;
+            reader.numbers(core::slice::from_mut(&mut h))
+        })?;
+        controlled.stepper.statistics = checkpoint.statistics;
+        Ok(Self { controlled, control, control_memory, clock, h })
     }
 
     /// The step control.
@@ -97,6 +129,15 @@ where
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         (0..count).try_for_each(|_| self.step())
+    }
+
+    #[cfg(feature = "alloc")]
+    fn checkpoint(&self) -> Checkpoint<T> {
+        Checkpoint::of(&self.controlled.stepper, [self.time(), self.h], |record| {
+            self.control_memory.save(record);
+            self.clock.save(record);
+            record.numbers(&[self.h]);
+        })
     }
 
     /// The sum of all steps, compensated, so that its error does not grow with their number.
@@ -183,6 +224,10 @@ where
 struct VariableClock<T> {
     sum: T,
     rest: T,
+}
+
+impl<T: Real> Memory<T> for VariableClock<T> {
+    lasting!(T; number sum, number rest);
 }
 
 impl<T: Real> VariableClock<T> {

@@ -12,6 +12,7 @@
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::mass::Mass;
+use crate::memory::{Memory, lasting};
 use crate::method::VariableStep;
 use crate::norm::larger;
 use crate::sink::Product;
@@ -91,6 +92,14 @@ struct Work<S: RegularLagrangian, T: Real> {
     l_v: Vector<S, T>,
     /// ∂²L/∂q∂q v
     force_rate: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> Memory<T> for OsculatingMemory<S, T> {
+    lasting!(T; number h, part circle);
+}
+
+impl<T: Real> Memory<T> for Circle<T> {
+    lasting!(T; number radius, number rate, number speed);
 }
 
 impl<S: RegularLagrangian, T: Real> Work<S, T> {

@@ -12,6 +12,7 @@ use core::fmt::Debug;
 
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::method::VariableStep;
 use crate::norm::reported;
 use crate::{Real, RegularLagrangian, Space, Vector};
@@ -101,6 +102,10 @@ pub struct ReversibleMemory<S: RegularLagrangian, T: Real> {
     /// ρ_{k−1/2}; for k = 0, as if there had been a step before.
     density: T,
     v: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> Memory<T> for ReversibleMemory<S, T> {
+    lasting!(T; number density);
 }
 
 impl<S: RegularLagrangian, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {

@@ -5,6 +5,7 @@ use super::{Step, Variational};
 use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
 use crate::frequency::{Frequency, FrequencyIn, Local};
+use crate::memory::{Memory, lasting};
 use crate::phase::{Inertial, PhasePoint};
 use crate::quadrature::Rule;
 use crate::solve::{Ladder, Solver};
@@ -89,12 +90,10 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
             work: Work::new(system),
         })
     }
+}
 
-    pub(super) fn restore(&mut self, from: &Self) {
-        self.phase.restore(&from.phase);
-        self.inertial.restore(&from.inertial);
-        self.ladder.restore(&from.ladder);
-    }
+impl<S: Lagrangian, T: Real> Memory<T> for VariationalMemory<S, T> {
+    lasting!(T; part phase, part inertial, part ladder);
 }
 
 impl<S: Lagrangian, T: Real> Work<S, T> {

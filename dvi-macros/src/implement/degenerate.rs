@@ -66,9 +66,8 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let partner = partner(emitter, structure);
     let indices = 0..programs.momentum_gradients.len();
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
-    let affine = linear.then(|| {
-        quote!(impl #impl_generics #krate::AffineOneForm for #name #type_generics #where_clause {})
-    });
+    let affine = linear
+        .then(|| quote!(impl #impl_generics #krate::AffineOneForm for #name #type_generics #where_clause {}));
     quote! {
         #affine
         impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {

@@ -57,7 +57,9 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     let force = emitter.vector(&programs.force);
     let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
-    let traits = traits.map(|structure| quote!(impl #impl_generics #krate::#structure for #name #type_generics #where_clause {}));
+    let traits = traits.map(
+        |structure| quote!(impl #impl_generics #krate::#structure for #name #type_generics #where_clause {}),
+    );
     quote! {
         #(#traits)*
         impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {

@@ -1,7 +1,7 @@
 //! Newmark's method: M(x1 − x0)/h = p0 + h[(½ − β)F0 + βF1] and p1 = p0 + (h/2)(F0 + F1), with F = ∂L/∂q.
 
-use dvi_core::{Separable, State};
 use dvi_core::prelude::*;
+use dvi_core::{Separable, State};
 use dvi_tests::larger;
 
 use super::equations::{Formula, dual};

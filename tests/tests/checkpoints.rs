@@ -1,0 +1,180 @@
+//! A run goes on from its checkpoint, written to a file and read again, bit by bit as if it had not stopped.
+
+use dvi_core::prelude::*;
+use dvi_core::{Checkpoint, CheckpointError, General, Method, RegularLagrangian, StepControl, VariableStep};
+use dvi_tests::configurations::{leapfrogging, quasi_periodic};
+use dvi_tests::systems::*;
+use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+const KEPLER: Kepler = Kepler { mu: 1.0 };
+
+/// A mass that depends on the place.
+#[lagrangian(
+    coordinates(r, phi),
+    lagrangian = (dot(r).powi(2) + r * r * dot(phi).powi(2)) / 2.0 + 1.0 / r,
+)]
+#[derive(Clone, Debug)]
+struct Polar;
+
+/// As a text, and back.
+fn written_and_read(checkpoint: &Checkpoint) -> Result<Checkpoint, serde_json::Error> {
+    let read = serde_json::from_str(&serde_json::to_string(checkpoint)?)?;
+    assert_eq!(&read, checkpoint);
+    Ok(read)
+}
+
+/// What can be asked of a run, numbers as bits.
+fn asked<R: Run<Scalar = f64>>(run: &R) -> (Vec<u64>, u64, u64, dvi_core::Statistics, Checkpoint) {
+    let bits = run.q().iter().map(|x| x.to_bits()).collect();
+    (bits, run.time().to_bits(), run.energy().to_bits(), run.statistics(), run.checkpoint())
+}
+
+fn check<S, M>(system: &S, method: M, start: S::State<f64>) -> Outcome
+where
+    S: Lagrangian,
+    M: Method<S, f64> + Clone,
+{
+    for before in [0, 1, 5, 30] {
+        let mut run = Integrator::new_at(system, method.clone(), 0.3, 0.05, start.clone())?;
+        run.take_steps(before)?;
+        let checkpoint = written_and_read(&run.checkpoint())?;
+        let mut again = Integrator::resume(system, method.clone(), &checkpoint)?;
+        for _ in 0..3 {
+            assert_eq!(asked(&run), asked(&again), "after {before} steps and some more");
+            run.take_steps(20)?;
+            again.take_steps(20)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_controlled<M, C>(method: M, control: C, start: KeplerState) -> Outcome
+where
+    M: VariableStep<Kepler, f64> + Clone,
+    C: StepControl<Kepler, f64> + Clone,
+{
+    for before in [0, 1, 200] {
+        let mut run = ControlledIntegrator::new(&KEPLER, method.clone(), control.clone(), start)?;
+        run.take_steps(before)?;
+        let checkpoint = written_and_read(&run.checkpoint())?;
+        let mut again = ControlledIntegrator::resume(&KEPLER, method.clone(), control.clone(), &checkpoint)?;
+        for _ in 0..3 {
+            assert_eq!(asked(&run), asked(&again), "after {before} steps and some more");
+            assert_eq!(run.step_size().to_bits(), again.step_size().to_bits());
+            run.take_steps(20)?;
+            again.take_steps(20)?;
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn degenerate_runs_go_on() -> Outcome {
+    let summation = Summation::Compensated;
+    let (vortices, start) = quasi_periodic();
+    for sigma in [0.0, 0.25, 0.5, 1.0] {
+        for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
+            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
+            check(&vortices, method, start)?;
+            check(&Curved { kappa: 0.3 }, method, CurvedState { x: 0.4, y: 0.1 })?;
+        }
+    }
+    check(&vortices, Sigma { summation, ..Sigma::midpoint() }, start)?;
+    check(&vortices, Gauss::<2>::new(), start)?;
+    check(&vortices, RungeKutta::midpoint(), start)?;
+    check(&vortices, General::new(Sigma::midpoint()), start)?;
+    check(&vortices, EnergyLimit { method: Sigma::midpoint(), limit: 1.0 }, start)?;
+    // The parasitic mode is watched on as it was.
+    let (pairs, start) = leapfrogging();
+    check(&pairs, Sigma::leapfrog(), start)
+}
+
+#[test]
+fn regular_runs_go_on() -> Outcome {
+    let summation = Summation::Compensated;
+    let planet = KeplerState { x: 0.7, y: 0.2, dot_x: 0.3, dot_y: 1.1 };
+    let particle = PolarState { r: 0.7, phi: 0.2, dot_r: 0.3, dot_phi: 1.1 };
+    for beta in [0.0, 0.25] {
+        check(&KEPLER, Newmark::new(beta), planet)?;
+        check(&KEPLER, EnergyLimit { method: Newmark::new(beta), limit: 1.0 }, planet)?;
+    }
+    check(&KEPLER, Newmark { summation, ..Newmark::new(0.25) }, planet)?;
+    check(&KEPLER, Variational::trapezoid(), planet)?;
+    check(&KEPLER, Variational { summation, ..Variational::trapezoid() }, planet)?;
+    check(&KEPLER, Variational::simpson().phase_fitted(Radial(Reading::Averaged)), planet)?;
+    check(&KEPLER, Variational::simpson().phase_fitted(Constant(1.0)), planet)?;
+    check(&KEPLER, Galerkin::<4>::new(), planet)?;
+    check(&KEPLER, dvi_core::Composition::kahan_li_6(Variational::trapezoid()), planet)?;
+    check(&Polar, Variational::midpoint(), particle)?;
+    check(&Polar, Galerkin::<3>::new(), particle)?;
+    let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
+    let wave =
+        RunTimeChainState { q: vec![0.1, 0.5, -0.2], wall: 0.3, dot_q: vec![0.3, 0.1, -0.4], dot_wall: 0.2 };
+    check(&chain, Variational::midpoint(), wave)
+}
+
+#[test]
+fn controlled_runs_go_on() -> Outcome {
+    let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    let fitted = Variational::simpson().phase_fitted(Curvature(Reading::LeftFrozen));
+    check_controlled(Variational::trapezoid(), Reversible::power(0.02, 1.5), start)?;
+    check_controlled(fitted, Osculating::new(1e-3, 0.01), start)
+}
+
+/// The step of a run is halved on the way: its time goes on, and its energy stays where a run of such steps has it.
+#[test]
+fn a_run_goes_on_with_another_step() -> Outcome {
+    let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 0.01, start)?;
+    run.take_steps(100)?;
+    let checkpoint = run.checkpoint().with_step_size(0.005);
+    let mut slow = Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint)?;
+    assert_eq!((slow.q(), slow.time(), slow.steps()), (run.q(), run.time(), 100));
+    slow.take_steps(200)?;
+    assert_eq!(slow.time(), 2.0);
+    let mut same = Integrator::new_at(&KEPLER, Variational::trapezoid(), run.time(), 0.005, run.state())?;
+    same.take_steps(200)?;
+    let distance = |a: &[f64], b: &[f64]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
+    assert!(distance(slow.q(), same.q()) < 1e-13);
+    Ok(())
+}
+
+#[test]
+fn a_checkpoint_of_another_run_is_refused() -> Outcome {
+    let refused = |error: Option<StartError>| match error {
+        Some(StartError::Checkpoint(error)) => Ok(error),
+        other => Err(format!("{other:?}")),
+    };
+    let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    let checkpoint = Integrator::new(&KEPLER, Variational::trapezoid(), 0.01, start)?.checkpoint();
+    let other = Integrator::resume(&KEPLER, Galerkin::<3>::new(), &checkpoint).err();
+    assert_eq!(refused(other)?, CheckpointError::Short);
+    let fuller = Integrator::new(&KEPLER, Galerkin::<3>::new(), 0.01, start)?.checkpoint();
+    let other = Integrator::resume(&KEPLER, Variational::trapezoid(), &fuller).err();
+    assert!(matches!(refused(other)?, CheckpointError::Long { more } if more > 0));
+    let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
+    let other = Integrator::resume(&chain, Variational::trapezoid(), &checkpoint).err();
+    assert_eq!(refused(other)?, CheckpointError::Coordinates { expected: 4, found: 2 });
+    let beyond = Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint.with_step_size(0.0)).err();
+    assert!(matches!(beyond, Some(StartError::Step { .. })), "{beyond:?}");
+    Ok(())
+}
+
+/// Whatever the system is, a run can be kept by those who do not know its method.
+fn kept<R: Run<Scalar = f64>>(run: &R) -> usize
+where
+    R::System: RegularLagrangian,
+{
+    run.checkpoint().v.len()
+}
+
+#[test]
+fn a_checkpoint_has_the_velocities_of_a_regular_system() -> Outcome {
+    let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    assert_eq!(kept(&Integrator::new(&KEPLER, Variational::trapezoid(), 0.01, start)?), 2);
+    let checkpoint = Integrator::new(&KEPLER, Variational::trapezoid(), 0.01, start)?.checkpoint();
+    assert_eq!((checkpoint.q, checkpoint.v), (vec![0.5, 0.0], vec![0.0, 3.0_f64.sqrt()]));
+    Ok(())
+}
