@@ -26,6 +26,18 @@ struct DifferenceOfNothing;
 )]
 struct LargeConstants;
 
+/// Where the derivative of a sine of a large number is small, the second is not.
+#[degenerate_lagrangian(
+    coordinates(x[4], y[4], z[2], w[2]),
+    lagrangian = {
+        let a0 = sum_pairs(0..=4 - 1, |_i, _j| PI).powi(2) + b[1];
+        1.atan2(a0.powi(5).sin())
+    } + x[0] * dot(y[0]) + x[1] * dot(y[1]) + x[2] * dot(y[2]) + x[3] * dot(y[3]) + sum(0..2, |i| z[i] * dot(w[i])),
+)]
+struct TurningPoint {
+    b: Vec<f64>,
+}
+
 /// A product with an empty sum is zero, and its root has no derivative: such points say nothing.
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -60,6 +72,7 @@ fn roots_of_nothing_are_zero() {
     assert_eq!(RootOfNothing::<3>.hamiltonian(&[0.7, 2.0], 0.0), 4.0);
     let constant = (std::f64::consts::PI.powi(5) * 1001.0).sin();
     assert!((LargeConstants.hamiltonian(&[2.0, 0.0], 0.0) - 4.0 * constant - 1.0).abs() < 1e-9);
+    assert!(f64::is_finite(TurningPoint { b: vec![0.0, 1.0] }.hamiltonian(&[0.0; 12], 0.0)));
     assert_eq!(DifferenceOfNothing.hamiltonian(&[2.0, 3.0], 0.0), 9.0);
     assert_eq!(NearOverflow { n: 2 }.hamiltonian(&[3.0, 1.0, 0.01, 0.02], 0.0), 2.0);
 }
