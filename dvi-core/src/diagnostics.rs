@@ -1,11 +1,11 @@
 //! What can be measured on a run: parasitic modes, preserved two-forms, sections, Lyapunov exponents.
 //!
-//! Energy and momenta are methods of [`Run`](crate::Run). The tangent maps here are those of methods whose discrete
-//! Lagrangian can be differentiated twice, [`VariationalMethod`](crate::VariationalMethod). The tangent map of any other
+//! Energy and momenta are methods of [`Run`](crate::run::Run). The tangent maps here are those of methods whose discrete
+//! Lagrangian can be differentiated twice, [`VariationalMethod`](crate::methods::VariationalMethod). The tangent map of any other
 //! method is its run on numbers that carry a derivative: runs are generic over [`Real`](crate::Real), which the dual
 //! numbers of the crate num-dual are. That is exact where a step is explicit. An iteration decides by the values alone, because dual numbers are compared by their values; where these have
 //! converged before the derivatives, at an equilibrium for one, the derivatives are those of an iterate and no tangent
-//! map; nor are they where a frequency that is read from the motion has a kink, which [`Curvature`](crate::Curvature) has
+//! map; nor are they where a frequency that is read from the motion has a kink, which [`Curvature`](crate::discrete::Curvature) has
 //! on straight paths.
 
 mod alternating;

@@ -7,20 +7,26 @@
 //!
 //! The second is written with a sum that is of order h, which rounds less.
 
-mod general;
 mod node;
 
-use crate::error::StepFailure;
-use crate::method::Scheme;
-use crate::sink::Sink;
-use crate::solve::{Convergence, Stopping, iterate};
-use crate::square::SquareMatrix;
-use crate::statistics::Statistics;
-use crate::{Lagrangian, Real, Square, Vector, norm};
+pub(crate) mod basis;
+pub(crate) mod frequency;
+pub(crate) mod quadrature;
 
-pub use general::{General, GeneralMemory};
+use crate::error::StepFailure;
+use crate::scalar::norm;
+use crate::solve::{Convergence, Stopping, iterate};
+use crate::space::sink::Sink;
+use crate::space::square::SquareMatrix;
+use crate::state::Statistics;
+use crate::{Lagrangian, Real, Square, Vector};
+
+pub use frequency::{
+    Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, PerCoordinate, Radial, Reading, Unfitted,
+};
 pub(crate) use node::NodeWork;
 pub use node::OneNode;
+pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 
 /// The time from t to t + h.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,24 +102,6 @@ pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> 
         ends: Ends<'_, T>,
         sinks: [&mut K; 3],
     ) -> Result<(), StepFailure>;
-}
-
-/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`] around it, it
-/// is a method.
-///
-/// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
-/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has no discrete Lagrangian that can be differentiated twice",
-    label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "such methods are `Sigma`, `Variational` with a frequency that is given, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
-)]
-pub trait VariationalMethod<S: Lagrangian, T: Real>: Scheme {
-    /// What one interval contributes.
-    type DiscreteLagrangian: TwiceDifferentiable<S, T>;
-
-    /// The discrete Lagrangian on `system`, with the storage that it needs.
-    fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
 }
 
 /// Solves p0 + D₁L_d(q0, q0 + Δ) = 0 by Newton's method, from the `delta` that stands there.

@@ -161,7 +161,7 @@ pub enum StepFailure {
         /// The largest candidate.
         pivot: f64,
     },
-    /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::EnergyLimit)).
+    /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::methods::EnergyLimit)).
     #[error(
         "the energy was {start:e} at the start and would become {now:e}; the limit of its change is {limit:e}"
     )]
@@ -181,7 +181,7 @@ pub enum StepFailure {
     ParasiticMode {
         /// Its amplitude in the coordinates.
         amplitude: f64,
-        /// Its size, relative to h²q̈/4: see [`ParasiticMode::relative`](crate::ParasiticMode::relative).
+        /// Its size, relative to h²q̈/4: see [`ParasiticMode::relative`](crate::methods::ParasiticMode::relative).
         relative: f64,
         /// The largest relative size that was allowed.
         limit: f64,

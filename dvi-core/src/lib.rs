@@ -2,7 +2,7 @@
 //!
 //! A degenerate Lagrangian is affine in the velocities, L(q, v, t) = α(q, t)·v − H(q, t). Its
 //! Euler–Lagrange equations are of first order, Ω q' = ∇H with Ω = (Dα)ᵀ − Dα. Declare α and H on the
-//! struct of the parameters, choose a [method](Method), and iterate:
+//! struct of the parameters, choose a [method](methods), and iterate:
 //!
 //! ```
 //! use dvi_core::prelude::*;
@@ -45,23 +45,28 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | to find | look at |
+//! | room | what is in it |
 //! |---|---|
-//! | what the attributes understand | [`degenerate_lagrangian`], [`lagrangian`](macro@lagrangian) |
-//! | the run: stepping, state, energy, momenta, errors | [`Integrator`], [`Run`] |
-//! | steps of variable length | [`ControlledIntegrator`], [`Reversible`] |
-//! | the σ-family of Rowley & Marsden and its limits | [`Sigma`] |
-//! | baselines on q' = X(q) | [`RungeKutta`], [`Gauss`] |
-//! | regular systems: Störmer–Verlet, quadrature rules, phase fitting | [`Variational`], [`Frequency`] |
-//! | order 4, 6 and 8 for regular systems; Newmark's method | [`Galerkin`], [`Composition`], [`Newmark`] |
-//! | sections, exponents, preserved forms, orders | [`diagnostics`] |
-//! | what the macros implement, to be implemented by hand if need be | [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`] |
+//! | [`system`] | what the attributes implement: [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`], [`Report`] |
+//! | [`methods`] | the σ-family, quadrature rules with phase fitting, Galerkin, Newmark, compositions, baselines |
+//! | [`run`] | stepping with a fixed or a controlled step: state, energy, momenta, errors, checkpoints |
+//! | [`diagnostics`] | sections, exponents, tangent maps, preserved forms, orders |
+//! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
+//! | [`solve`] | how implicit steps are solved, and when they count as solved |
+//! | [`mechanics`] | the vector field of a degenerate system |
+//! | [`state`] | what a run carries from step to step, compensated sums, what a run has cost |
+//! | [`space`], [`scalar`] | storage for points and matrices; sinks; numbers |
+//! | [`error`] | failures as values |
+//!
+//! What the attributes understand is in their own documentation, [`degenerate_lagrangian`] and
+//! [`lagrangian`](macro@lagrangian); what a first program needs is in the [`prelude`].
 //!
 //! # Features
 //! - `macros` (default): the attributes.
 //! - `std` (default): elementary functions from the platform; implies `alloc`.
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
+//! - `serde`: checkpoints can be written to files; implies `alloc`.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -72,108 +77,27 @@ extern crate alloc;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
-mod basis;
-#[cfg(feature = "alloc")]
-mod checkpoint;
-mod composition;
 pub mod diagnostics;
-mod discrete;
-mod elimination;
-mod energy_limit;
-mod error;
-mod error_function;
-mod form;
-mod frequency;
-mod galerkin;
-mod gauss;
-mod history;
-mod inertia;
-mod integrator;
-mod lagrangian;
-mod legendre;
-mod mass;
-mod memory;
-mod method;
-mod newmark;
-mod norm;
-mod number;
-mod orientation;
-mod phase;
+pub mod discrete;
+pub mod error;
+pub mod mechanics;
+pub mod methods;
 pub mod prelude;
-mod quadrature;
-mod report;
-mod run;
-mod runge_kutta;
-mod scalar;
-mod sigma_family;
-pub mod sink;
-mod solve;
-mod space;
-mod square;
-mod statistics;
-mod step_control;
-mod summation;
-mod symmetrised;
-mod variational;
-mod vector_field;
-mod walk;
+pub mod run;
+pub mod scalar;
+pub mod solve;
+pub mod space;
+pub mod state;
+pub mod system;
 
-#[cfg(feature = "alloc")]
-pub use checkpoint::Checkpoint;
-pub use composition::{Composition, CompositionMemory};
-pub use discrete::{
-    DiscreteLagrangian, Ends, General, GeneralMemory, Interval, OneNode, TwiceDifferentiable,
-    VariationalMethod,
-};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
-pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
-pub use error::{CheckpointError, IndexError, LengthError, StartError, StepError, StepFailure};
-pub use frequency::{
-    Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, PerCoordinate, Radial, Reading, Unfitted,
-};
-pub use galerkin::{Galerkin, GalerkinMemory};
-pub use gauss::{Gauss, GaussMemory};
-pub use integrator::Integrator;
-pub use lagrangian::{
-    AffineOneForm, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, RegularLagrangian, Separable,
-    State, Weights,
-};
-pub use memory::Memory;
-#[cfg(feature = "alloc")]
-pub use memory::{Reader, Record};
-pub use method::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, VariableStep};
-pub use newmark::{Newmark, NewmarkMemory};
-pub use number::Number;
-pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
-pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
-pub use run::{Run, Stepper};
-pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
-pub use scalar::{Comparison, Real, Scalar};
-pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
-pub use sink::Sink;
-pub use solve::{Solver, Stopping};
-pub use space::{Fixed, FixedMatrix, FixedVector, Space};
+pub use error::{IndexError, LengthError};
+pub use scalar::{Comparison, Number, Real, Scalar};
+pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 #[cfg(feature = "alloc")]
 pub use space::{RunTime, RunTimeMatrix};
-#[cfg(feature = "alloc")]
-pub use square::RunTimeSquare;
-pub use square::{FixedSquare, SquareMatrix};
-pub use statistics::Statistics;
-pub use step_control::{
-    CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
-    Reversible, ReversibleMemory, StepControl,
+pub use system::{
+    AffineOneForm, CoordinateBlock, DegenerateLagrangian, Entry, Formula, Lagrangian, Matrix, OperationCount,
+    Permutation, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, Vector, Weights,
 };
-pub use summation::Summation;
-pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
-pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
-pub use vector_field::VectorField;
-
-/// A point, velocity or covector of the space of `S`.
-pub type Vector<S, T> = <<S as Lagrangian>::Space as Space>::Vector<T>;
-/// A square matrix over the space of `S`.
-pub type Matrix<S, T> = <<S as Lagrangian>::Space as Space>::Matrix<T>;
-/// A square matrix over the space of `S` that is solved with.
-pub type Square<S, T> = <<S as Lagrangian>::Space as Space>::Square<T>;
-/// A row permutation over the space of `S`.
-pub type Permutation<S> = <<S as Lagrangian>::Space as Space>::Permutation;

@@ -4,11 +4,17 @@ pub use crate::diagnostics::{
     AlternatingComponent, Crossing, Direction, LyapunovExponent, Section, TangentMap, TwoPointTangentMap,
     convergence_order,
 };
-pub use crate::{
-    CentreSpeed, Composition, Constant, ControlledIntegrator, Curvature, DegenerateLagrangian, Density,
-    EnergyLimit, Fitting, Galerkin, Gauss, Integrator, Lagrangian, Newmark, Osculating, ParasiticMode,
-    PerCoordinate, Power, Quadrature, Radial, Reading, RegularLagrangian, Reversible, Run, RungeKutta,
-    Scheme, Sigma, Solver, Start, StartError, StepError, StepFailure, Stopping, Summation, Variational,
+pub use crate::discrete::{Constant, Curvature, PerCoordinate, Quadrature, Radial, Reading};
+pub use crate::error::{StartError, StepError, StepFailure};
+pub use crate::methods::{
+    Composition, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, ParasiticMode, RungeKutta, Scheme, Sigma,
+    Start, Variational,
 };
+pub use crate::run::{
+    CentreSpeed, ControlledIntegrator, Density, Integrator, Osculating, Power, Reversible, Run,
+};
+pub use crate::solve::{Solver, Stopping};
+pub use crate::state::Summation;
+pub use crate::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

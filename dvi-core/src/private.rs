@@ -3,7 +3,7 @@
 #[cfg(feature = "alloc")]
 pub use alloc::vec::Vec;
 
-pub use crate::number::Number;
+pub use crate::Number;
 
 #[cfg(feature = "alloc")]
 use crate::Scalar;

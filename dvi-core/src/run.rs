@@ -1,17 +1,28 @@
 //! A run: a system, a method, and where they have got to, whatever chooses the lengths of the steps.
 
+#[cfg(feature = "alloc")]
+mod checkpoint;
+mod integrator;
+mod step_control;
+
 use core::fmt;
 
-#[cfg(feature = "alloc")]
-use crate::checkpoint::Checkpoint;
-use crate::error::{StartError, StepError, StepFailure};
-use crate::method::{Carries, Clock, Method};
-use crate::norm::reported;
-use crate::statistics::Statistics;
+use crate::error::{StepError, StepFailure};
+use crate::methods::{Carries, Clock, Method};
+use crate::scalar::norm::reported;
+use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, State, Vector};
 
-/// A run of a method on a system: what [`Integrator`](crate::Integrator), with a fixed step, and
-/// [`ControlledIntegrator`](crate::ControlledIntegrator), with steps of a control, can both do. Sections and exponents
+#[cfg(feature = "alloc")]
+pub use checkpoint::Checkpoint;
+pub use integrator::Integrator;
+pub use step_control::{
+    CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
+    Reversible, ReversibleMemory, StepControl,
+};
+
+/// A run of a method on a system: what [`Integrator`], with a fixed step, and
+/// [`ControlledIntegrator`], with steps of a control, can both do. Sections and exponents
 /// take either.
 pub trait Run {
     /// The system that is stepped.
@@ -182,62 +193,5 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
             v.fill(T::lift(f64::NAN));
         }
         read(&v)
-    }
-}
-
-/// Whether a run can begin at time `t`, and the formulas of `system` stay within its arrays.
-pub(crate) fn validate<S: Lagrangian, T: Real>(system: &S, t: T) -> Result<(), StartError> {
-    if !t.is_finite() {
-        return Err(StartError::Parameter { name: "t", value: reported(t), range: "finite" });
-    }
-    Ok(system.check()?)
-}
-
-/// Whether energy and derivatives of L are finite at the start of a run.
-///
-/// # Errors
-/// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is −∇H for
-/// one, and the energy that is not.
-pub(crate) fn evaluate<S: Lagrangian, T: Real>(system: &S, q: &[T], v: &[T], t: T) -> Result<(), StartError> {
-    let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
-    // Of a degenerate system v is zero here, and ∂L/∂q is −∇H.
-    system.gradient(q, v, t, &mut l_q, &mut l_v);
-    let [momentum, force] = if S::REGULAR {
-        ["the momentum ∂L/∂v", "the force ∂L/∂q"]
-    } else {
-        ["the one-form α", "the gradient of H"]
-    };
-    for (quantity, values) in [(momentum, &l_v), (force, &l_q)] {
-        if let Some(coordinate) = values.iter().position(|x| !x.is_finite()) {
-            let value = reported(values[coordinate]);
-            return Err(StartError::Undefined { quantity, coordinate: Some(coordinate), value });
-        }
-    }
-    let energy = system.energy(q, v, t);
-    if energy.is_finite() {
-        return Ok(());
-    }
-    let quantity = if S::REGULAR { "the energy" } else { "the Hamiltonian" };
-    Err(StartError::Undefined { quantity, coordinate: None, value: reported(energy) })
-}
-
-/// The number of velocities that a state carries.
-pub(crate) fn velocities<S: Lagrangian>(system: &S) -> usize {
-    if S::REGULAR { system.space().dimension() } else { 0 }
-}
-
-/// The coordinates and, if the system is regular, the velocities of a state.
-pub(crate) fn flatten<S: Lagrangian, T: Real>(
-    system: &S,
-    state: &S::State<T>,
-) -> Result<[Vector<S, T>; 2], StartError> {
-    let (mut q, mut v) = (system.space().vector(), system.space().vector());
-    state.write(|block| system.block_len(block), &mut q, &mut v)?;
-    match q.iter().chain(v.iter()).position(|x| !x.is_finite()) {
-        Some(coordinate) => {
-            let value = if coordinate < q.len() { q[coordinate] } else { v[coordinate - q.len()] };
-            Err(StartError::NotFinite { coordinate, value: reported(value) })
-        }
-        None => Ok([q, v]),
     }
 }

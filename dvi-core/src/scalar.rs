@@ -5,10 +5,16 @@
 //! numbers); a pack of SIMD lanes can become one, because nothing here orders or tests a value.
 //! The solvers, which must decide, ask for [`Real`].
 
+mod error_function;
+pub(crate) mod norm;
+mod number;
+
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use nalgebra::RealField;
+
+pub use number::Number;
 
 /// How an `if` of a formula compares its two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +76,7 @@ macro_rules! scalar {
             }
             /// The error function 2/√π ∫ e^(−s²) ds from 0 to `self`.
             fn erf(self) -> Self {
-                crate::error_function::erf(self)
+                crate::scalar::error_function::erf(self)
             }
             $($(#[$doc])* fn $name(self) -> Self;)*
         }

@@ -4,8 +4,8 @@ mod stopping;
 
 use crate::Real;
 use crate::error::StepFailure;
-use crate::memory::{Memory, lasting};
-use crate::statistics::Statistics;
+use crate::state::Statistics;
+use crate::state::memory::{Memory, lasting};
 
 pub(crate) use stopping::Convergence;
 pub use stopping::Stopping;

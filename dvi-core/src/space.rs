@@ -8,12 +8,20 @@
 //! A fixed space is `BLOCKS` blocks of `N` coordinates, because stable Rust can write
 //! `[[T; N]; BLOCKS]` where it cannot yet write `[T; BLOCKS * N]`.
 
+pub(crate) mod elimination;
+pub(crate) mod inertia;
+pub mod sink;
+pub(crate) mod square;
+
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
 
-use crate::sink::Sink;
-use crate::square::{FixedSquare, SquareMatrix};
 use crate::{Real, Scalar};
+
+pub use sink::Sink;
+#[cfg(feature = "alloc")]
+pub use square::RunTimeSquare;
+pub use square::{FixedSquare, SquareMatrix};
 
 /// The shape of a configuration space and the storage for it.
 pub trait Space: Copy + Debug + PartialEq {
@@ -178,7 +186,7 @@ impl Space for RunTime {
     const ON_STACK: bool = false;
     type Vector<T: Scalar> = alloc::vec::Vec<T>;
     type Matrix<T: Scalar> = RunTimeMatrix<T>;
-    type Square<T: Real> = crate::square::RunTimeSquare<T>;
+    type Square<T: Real> = RunTimeSquare<T>;
     type Permutation = alloc::vec::Vec<usize>;
 
     fn dimension(self) -> usize {
@@ -192,7 +200,7 @@ impl Space for RunTime {
         RunTimeMatrix { entries: alloc::vec![T::lift(0.0); dimension * dimension], dimension }
     }
     fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
-        crate::square::RunTimeSquare::new(self, entries)
+        RunTimeSquare::new(self, entries)
     }
     fn permutation(self) -> Self::Permutation {
         alloc::vec![0; self.dimension]

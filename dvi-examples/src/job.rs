@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
-use dvi_core::StepError;
+use dvi_core::error::StepError;
 use indicatif::ProgressBar;
 
 use crate::figure::Figure;

@@ -242,6 +242,18 @@ fn lagrangian(
     }
 }
 
+/// The implementation of a trait without functions.
+fn marker(emitter: &Emitter<'_>, structure: &TokenStream) -> TokenStream {
+    let (krate, allow) = (emitter.krate(), allow());
+    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
+    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    quote! {
+        #[automatically_derived]
+        #allow
+        impl #impl_generics #krate::#structure for #name #type_generics #where_clause {}
+    }
+}
+
 /// Generated code answers to no style lint.
 pub(crate) fn allow() -> TokenStream {
     quote! {

@@ -33,7 +33,8 @@ pub mod configurations {
 
 /// Oracles that do not use the integrators.
 pub mod oracle {
-    use dvi_core::{Lagrangian, Real, Rule};
+    use dvi_core::discrete::Rule;
+    use dvi_core::{Lagrangian, Real};
 
     /// L_d(q0, q1) = h L(q_σ, (q1 − q0)/h, t + σh).
     pub fn discrete_lagrangian<S: Lagrangian, T: Real>(
@@ -60,7 +61,7 @@ pub mod oracle {
         [q0, q1]: [&[T]; 2],
         displacements: &[T],
     ) -> T {
-        let Ok(rule) = dvi_core::Quadrature::lobatto(NODES) else { return T::lift(f64::NAN) };
+        let Ok(rule) = dvi_core::discrete::Quadrature::lobatto(NODES) else { return T::lift(f64::NAN) };
         let (c, n) = (rule.nodes(), q0.len());
         let derivative = |k: usize, at: f64| {
             let others = || (0..NODES).filter(move |&m| m != k);

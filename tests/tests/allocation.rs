@@ -1,6 +1,6 @@
 //! No step allocates, and what a run of a chain takes before its first step is linear in the length of the chain.
 
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
 use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};

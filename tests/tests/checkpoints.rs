@@ -1,7 +1,10 @@
 //! A run goes on from its checkpoint, written to a file and read again, bit by bit as if it had not stopped.
 
+use dvi_core::RegularLagrangian;
+use dvi_core::error::CheckpointError;
+use dvi_core::methods::{General, Method, VariableStep};
 use dvi_core::prelude::*;
-use dvi_core::{Checkpoint, CheckpointError, General, Method, RegularLagrangian, StepControl, VariableStep};
+use dvi_core::run::{Checkpoint, StepControl};
 use dvi_tests::configurations::{leapfrogging, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
@@ -26,7 +29,7 @@ fn written_and_read(checkpoint: &Checkpoint) -> Result<Checkpoint, serde_json::E
 }
 
 /// What can be asked of a run, numbers as bits.
-fn asked<R: Run<Scalar = f64>>(run: &R) -> (Vec<u64>, u64, u64, dvi_core::Statistics, Checkpoint) {
+fn asked<R: Run<Scalar = f64>>(run: &R) -> (Vec<u64>, u64, u64, dvi_core::state::Statistics, Checkpoint) {
     let bits = run.q().iter().map(|x| x.to_bits()).collect();
     (bits, run.time().to_bits(), run.energy().to_bits(), run.statistics(), run.checkpoint())
 }
@@ -106,7 +109,7 @@ fn regular_runs_go_on() -> Outcome {
     check(&KEPLER, Variational::simpson().phase_fitted(Radial(Reading::Averaged)), planet)?;
     check(&KEPLER, Variational::simpson().phase_fitted(Constant(1.0)), planet)?;
     check(&KEPLER, Galerkin::<4>::new(), planet)?;
-    check(&KEPLER, dvi_core::Composition::kahan_li_6(Variational::trapezoid()), planet)?;
+    check(&KEPLER, dvi_core::methods::Composition::kahan_li_6(Variational::trapezoid()), planet)?;
     check(&Polar, Variational::midpoint(), particle)?;
     check(&Polar, Galerkin::<3>::new(), particle)?;
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };

@@ -1,10 +1,9 @@
 //! Compositions of the implicit midpoint rule: orders, reversal, and failures that leave no trace.
 
+use dvi_core::error::{CheckpointError, StepFailure};
+use dvi_core::methods::{Carries, Composition, Method, Scheme, VariableStep};
 use dvi_core::prelude::*;
-use dvi_core::{
-    Carries, CheckpointError, Composition, Memory, Method, Reader, Record, Scheme, Statistics, StepFailure,
-    VariableStep,
-};
+use dvi_core::state::{Memory, Reader, Record, Statistics};
 use dvi_tests::larger;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 
@@ -91,7 +90,7 @@ impl Scheme for Failing {
     fn is_symmetric(&self) -> bool {
         true
     }
-    fn preserved_form(&self) -> dvi_core::PreservedForm {
+    fn preserved_form(&self) -> dvi_core::methods::PreservedForm {
         self.method.preserved_form()
     }
 }
@@ -126,7 +125,7 @@ impl Method<LotkaVolterra, f64> for Failing {
         v: &[f64],
         t: f64,
         h: f64,
-    ) -> Result<Self::Memory, dvi_core::StartError> {
+    ) -> Result<Self::Memory, dvi_core::error::StartError> {
         Ok(FailingMemory(self.method.begin(system, q, v, t, h)?, 0))
     }
 

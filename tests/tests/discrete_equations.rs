@@ -171,7 +171,7 @@ fn an_explicit_step_costs_one_gradient_and_nothing_else() -> Outcome {
         for _ in 0..100 {
             run.advance()?;
         }
-        let expected = dvi_core::Statistics { steps: 100, gradients: 100, ..Default::default() };
+        let expected = dvi_core::state::Statistics { steps: 100, gradients: 100, ..Default::default() };
         assert_eq!(run.statistics(), expected, "sigma = {sigma}");
     }
     Ok(())

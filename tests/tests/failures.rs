@@ -247,7 +247,7 @@ struct Vanishing;
 #[derive(Clone, Debug)]
 struct Coupled;
 
-fn crossing<S: DegenerateLagrangian, M: dvi_core::Method<S, f64> + core::fmt::Debug>(
+fn crossing<S: DegenerateLagrangian, M: dvi_core::methods::Method<S, f64> + core::fmt::Debug>(
     system: &S,
     method: M,
     h: f64,

@@ -1,7 +1,10 @@
 //! The fast steps of the methods against the general step of the same discrete Lagrangian.
 
+use dvi_core::Lagrangian;
+use dvi_core::discrete::Interval;
+use dvi_core::methods::VariationalMethod;
+use dvi_core::methods::{General, Method, Symmetrised};
 use dvi_core::prelude::*;
-use dvi_core::{General, Interval, Lagrangian, Method, Symmetrised, VariationalMethod};
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::larger;
 use dvi_tests::systems::*;
@@ -55,7 +58,8 @@ fn steps_on_degenerate_systems_equal_the_general_step() -> Outcome {
 
 /// The same from the second point of the fast run: both preserve the pair (q0, q1) as the state of a two-step map.
 fn from_its_momentum<S: DegenerateLagrangian>(system: &S, method: Sigma, start: &S::State<f64>) -> Outcome {
-    use dvi_core::{Carries, Statistics};
+    use dvi_core::methods::Carries;
+    use dvi_core::state::Statistics;
     let h = 0.02;
     let mut fast = Integrator::new(system, method, h, start.clone())?;
     let general = General::new(method);

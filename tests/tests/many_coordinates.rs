@@ -1,8 +1,8 @@
 //! Systems whose number of coordinates is known at run time only: their matrices are banded, and a run is that of the same
 //! system of fixed size, whose matrices are dense.
 
+use dvi_core::methods::{Composition, General, Method, Symmetrised};
 use dvi_core::prelude::*;
-use dvi_core::{Composition, General, Method, Symmetrised};
 
 const N: usize = 24;
 

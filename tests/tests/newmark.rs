@@ -1,7 +1,8 @@
 //! Newmark's method: order, closed form, the potential of its own coordinates, and failures.
 
+use dvi_core::methods::{Method, PreservedForm};
 use dvi_core::prelude::*;
-use dvi_core::{Method, PreservedForm, Scalar, Separable};
+use dvi_core::{Scalar, Separable};
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;

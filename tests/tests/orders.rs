@@ -1,7 +1,7 @@
 //! Orders of convergence, by regression.
 
+use dvi_core::methods::{General, Symmetrised};
 use dvi_core::prelude::*;
-use dvi_core::{General, Symmetrised};
 use dvi_tests::configurations::{chaotic, leapfrogging};
 use dvi_tests::larger;
 use dvi_tests::systems::{Oscillator, OscillatorState, PointVortices, PointVorticesState};
@@ -9,7 +9,7 @@ use dvi_tests::systems::{Oscillator, OscillatorState, PointVortices, PointVortic
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// The largest distance of a run from `reference` at `time`.
-fn error<M: dvi_core::Method<PointVortices<4>, f64>>(
+fn error<M: dvi_core::methods::Method<PointVortices<4>, f64>>(
     system: &PointVortices<4>,
     start: PointVorticesState<4>,
     method: M,
@@ -37,7 +37,7 @@ fn reference(
     Ok(run.q().to_vec())
 }
 
-fn observed<M: dvi_core::Method<PointVortices<4>, f64> + Copy>(
+fn observed<M: dvi_core::methods::Method<PointVortices<4>, f64> + Copy>(
     (system, start): (PointVortices<4>, PointVorticesState<4>),
     method: M,
     time: f64,

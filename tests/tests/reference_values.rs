@@ -11,7 +11,7 @@ fn energies<M>(
     h: f64,
 ) -> Result<[f64; 3], Box<dyn core::error::Error>>
 where
-    M: dvi_core::Method<PointVortices<4>, f64>,
+    M: dvi_core::methods::Method<PointVortices<4>, f64>,
 {
     let mut run = Integrator::new(&system, method, h, state)?;
     let mut energies = [0.0; 3];

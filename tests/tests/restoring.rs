@@ -1,7 +1,9 @@
 //! A run goes on from a copy of what another one carries, bit by bit, and ends where its energy goes astray.
 
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{Lagrangian, Memory, Method, Space, Statistics};
+use dvi_core::state::{Memory, Statistics};
+use dvi_core::{Lagrangian, Space};
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};

@@ -1,6 +1,6 @@
 //! A mass matrix that becomes singular ends a run: no step goes over to the other side.
 
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;

@@ -1,8 +1,10 @@
 //! What the schemes preserve, and how far they are stable.
 
+use dvi_core::DegenerateLagrangian;
 use dvi_core::diagnostics::{AlternatingComponent, DiscreteHessian};
+use dvi_core::discrete::Interval;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{DegenerateLagrangian, Interval, Method};
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
 use dvi_tests::larger;
 use dvi_tests::oracle::discrete_lagrangian;

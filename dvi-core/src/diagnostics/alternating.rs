@@ -3,7 +3,8 @@
 //! d_k = (q_{k−2} − 4q_{k−1} + 6q_k − 4q_{k+1} + q_{k+2})/16. On (−1)ᵏa the filter gives (−1)ᵏa; on a
 //! smooth orbit it leaves (h⁴/16) q⁗, and on cubics nothing.
 
-use crate::{Lagrangian, Real, Space, Vector, norm};
+use crate::scalar::norm;
+use crate::{Lagrangian, Real, Space, Vector};
 
 const WINDOW: usize = 5;
 const WEIGHTS: [f64; WINDOW] = [1.0 / 16.0, -4.0 / 16.0, 6.0 / 16.0, -4.0 / 16.0, 1.0 / 16.0];
@@ -23,7 +24,7 @@ impl<S: Lagrangian, T: Real> AlternatingComponent<S, T> {
         Self { ring: core::array::from_fn(|_| vector()), filtered: vector(), seen: 0 }
     }
 
-    /// Takes the next point, as [`Run::q`](crate::Run::q) gives it, and returns the
+    /// Takes the next point, as [`Run::q`](crate::run::Run::q) gives it, and returns the
     /// alternating component at the point two steps before it, one entry per coordinate; `None` for the
     /// first four points.
     pub fn push(&mut self, q: &[T]) -> Option<&[T]> {

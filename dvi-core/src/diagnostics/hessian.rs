@@ -1,7 +1,8 @@
 //! The second derivatives of a discrete Lagrangian L_d(q0, q1).
 
-use crate::discrete::{Ends, Interval, TwiceDifferentiable, VariationalMethod};
+use crate::discrete::{Ends, Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
+use crate::methods::VariationalMethod;
 use crate::{Lagrangian, Matrix, Real, Space, Vector};
 
 /// D₁D₁L_d, D₁D₂L_d and D₂D₂L_d at a pair of points, row-major, of the discrete Lagrangian `L`.

@@ -4,11 +4,12 @@
 //! one after each (Benettin et al. 1980).
 
 use super::TangentMap;
-use crate::discrete::{Interval, TwiceDifferentiable, VariationalMethod};
+use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepError;
-use crate::norm::reported;
+use crate::methods::VariationalMethod;
 use crate::run::Run;
-use crate::sink::Product;
+use crate::scalar::norm::reported;
+use crate::space::sink::Product;
 use crate::{Lagrangian, Real, Scalar, Space, Vector, Weights};
 
 /// The growth of a perturbation along a run, accumulated step by step.
@@ -68,7 +69,7 @@ impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L
     /// Takes one step of the run and lets the perturbation grow with it. Nothing is allocated.
     ///
     /// # Errors
-    /// As [`Run::advance`], and [`Singular`](crate::StepFailure::Singular) if the step has no
+    /// As [`Run::advance`], and [`Singular`](crate::error::StepFailure::Singular) if the step has no
     /// tangent map; the run has then completed its step.
     pub fn advance<R: Run<System = S, Scalar = T>>(&mut self, run: &mut R) -> Result<(), StepError>
     where

@@ -8,8 +8,8 @@
 //! Interpolation in barycentric form: Berrut & Trefethen 2004, eq. 4.2.
 
 use crate::error::StepError;
-use crate::norm::larger;
 use crate::run::Run;
+use crate::scalar::norm::larger;
 use crate::{Lagrangian, Real, Scalar, Space, State, Vector};
 
 const WINDOW: usize = 8;

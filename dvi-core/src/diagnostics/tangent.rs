@@ -6,9 +6,10 @@
 //! δp1 = (D₁D₂)ᵀδq0 + D₂D₂δq1
 
 use super::DiscreteHessian;
-use crate::discrete::{Interval, TwiceDifferentiable, VariationalMethod};
-use crate::elimination::{self, multiply_add, multiply_transposed_add};
+use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
+use crate::methods::VariationalMethod;
+use crate::space::elimination::{self, multiply_add, multiply_transposed_add};
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, Vector};
 
 /// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.

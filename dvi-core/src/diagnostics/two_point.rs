@@ -7,9 +7,10 @@
 //! The map preserves Ω_d = ∂²L_d/∂q0ⁱ∂q1ʲ dq0ⁱ ∧ dq1ʲ (Rowley & Marsden 2002, eq. 17).
 
 use super::DiscreteHessian;
-use crate::discrete::{Interval, TwiceDifferentiable, VariationalMethod};
-use crate::elimination::{self, multiply_add, multiply_transposed_add};
+use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
+use crate::methods::VariationalMethod;
+use crate::space::elimination::{self, multiply_add, multiply_transposed_add};
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, Vector};
 
 /// The tangent map (δq0, δq1) ↦ (δq1, δq2) of one step of the discrete Lagrangian `L`.

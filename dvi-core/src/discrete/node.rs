@@ -7,8 +7,8 @@
 
 use super::{DiscreteLagrangian, Ends, Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
-use crate::sink::Sink;
-use crate::statistics::Statistics;
+use crate::space::sink::Sink;
+use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, Vector, Weights};
 
 /// The discrete Lagrangian h L(q_σ, Δ/h) of any L, with the storage that it needs.

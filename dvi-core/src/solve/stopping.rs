@@ -13,7 +13,7 @@
 
 use crate::Real;
 use crate::error::{StartError, StepFailure};
-use crate::norm::{reported, smallest};
+use crate::scalar::norm::{reported, smallest};
 
 /// When an iteration is done.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use anyhow::Result;
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{Bound, Check, Claim};

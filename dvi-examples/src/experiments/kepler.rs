@@ -4,8 +4,8 @@ use crate::claim::larger;
 use std::f64::consts::TAU;
 
 use anyhow::{Result, ensure};
+use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
-use dvi_core::{Method, VariableStep};
 
 use crate::job::Job;
 use crate::models::{Kepler, Orbit};

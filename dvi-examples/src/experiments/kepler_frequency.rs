@@ -8,7 +8,7 @@ use crate::claim::larger;
 use std::f64::consts::TAU;
 
 use anyhow::Result;
-use dvi_core::FrequencyIn;
+use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim};
@@ -47,7 +47,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
 
 /// Both frequencies along a phase-fitted run.
 fn readings(job: &Job<'_>) -> Result<Vec<Reading>> {
-    let averaged = dvi_core::Reading::Averaged;
+    let averaged = dvi_core::discrete::Reading::Averaged;
     let method = Variational::simpson().phase_fitted(Radial(averaged));
     let mut run = Integrator::new(&Kepler {}, method, TAU / STEPS as f64, ORBIT.pericentre())?;
     let mut readings = Vec::with_capacity((PERIODS * STEPS) as usize);

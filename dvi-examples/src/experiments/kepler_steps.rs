@@ -6,8 +6,8 @@
 
 use crate::claim::larger;
 use anyhow::{Context as _, Result};
+use dvi_core::discrete::{FrequencyIn, Unfitted};
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, Unfitted};
 use rayon::prelude::*;
 
 use super::kepler::{Course, fixed, follow, osculating};

@@ -3,8 +3,9 @@
 
 use crate::claim::larger;
 use anyhow::Result;
+use dvi_core::discrete::Interval;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{Interval, Method};
 
 use crate::claim::{BEYOND, Bound, Claim};
 use crate::figure::{AMBER, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, PURPLE, Panel, VERMILLION};

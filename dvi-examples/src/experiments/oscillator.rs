@@ -6,8 +6,8 @@
 
 use crate::claim::larger;
 use anyhow::Result;
+use dvi_core::discrete::{Frequency, FrequencyIn, Rule};
 use dvi_core::prelude::*;
-use dvi_core::{Frequency, FrequencyIn, Rule};
 use rayon::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Check, Claim};

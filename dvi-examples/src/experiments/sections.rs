@@ -6,7 +6,7 @@
 
 use crate::claim::larger;
 use anyhow::Result;
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use rayon::prelude::*;
 

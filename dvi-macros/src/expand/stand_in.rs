@@ -90,10 +90,9 @@ impl StandIn<'_> {
     }
 
     fn degenerate(&self, never: &TokenStream) -> TokenStream {
-        let Self { name, krate, .. } = self;
+        let (Self { name, krate, .. }, allow) = (self, implement::allow());
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         quote! {
-            impl #impl_generics #krate::AffineOneForm for #name #type_generics #where_clause {}
             impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
                 const LINEAR: bool = false;
                 const MATCHING: bool = false;
@@ -109,21 +108,28 @@ impl StandIn<'_> {
                 fn partner(&self, _: usize) -> usize #never
                 fn momentum_gradient<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T, _: &mut [__T]) #never
             }
+            #[automatically_derived]
+            #allow
+            impl #impl_generics #krate::AffineOneForm for #name #type_generics #where_clause {}
         }
     }
 
     fn regular(&self, never: &TokenStream) -> TokenStream {
-        let Self { name, krate, .. } = self;
+        let (Self { name, krate, .. }, allow) = (self, implement::allow());
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         quote! {
-            impl #impl_generics #krate::Separable for #name #type_generics #where_clause {}
-            impl #impl_generics #krate::QuadraticInVelocity for #name #type_generics #where_clause {}
             impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
                 const SEPARABLE: bool = false;
                 const DIAGONAL_MASS: bool = false;
                 const QUADRATIC: bool = false;
                 fn force<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T]) #never
             }
+            #[automatically_derived]
+            #allow
+            impl #impl_generics #krate::Separable for #name #type_generics #where_clause {}
+            #[automatically_derived]
+            #allow
+            impl #impl_generics #krate::QuadraticInVelocity for #name #type_generics #where_clause {}
         }
     }
 }

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::document::{Account, quantity};
+use super::marker;
 use crate::emit::Emitter;
 use crate::program::{DegenerateFormulas, DegeneratePrograms};
 use crate::structure::OneForm;
@@ -66,10 +67,8 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let partner = partner(emitter, structure);
     let indices = 0..programs.momentum_gradients.len();
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
-    let affine = linear
-        .then(|| quote!(impl #impl_generics #krate::AffineOneForm for #name #type_generics #where_clause {}));
+    let affine = linear.then(|| marker(emitter, &quote!(AffineOneForm)));
     quote! {
-        #affine
         impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
             const LINEAR: bool = #linear;
             const MATCHING: bool = #matching;
@@ -111,6 +110,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
                 }
             }
         }
+        #affine
     }
 }
 

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::document::{Account, quantity};
+use super::marker;
 use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
 use crate::structure::MassMatrix;
@@ -57,11 +58,8 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     let force = emitter.vector(&programs.force);
     let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
-    let traits = traits.map(
-        |structure| quote!(impl #impl_generics #krate::#structure for #name #type_generics #where_clause {}),
-    );
+    let traits = traits.map(|structure| marker(emitter, &structure));
     quote! {
-        #(#traits)*
         impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
             const SEPARABLE: bool = #separable;
             const DIAGONAL_MASS: bool = #diagonal;
@@ -72,5 +70,6 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
                 #force
             }
         }
+        #(#traits)*
     }
 }

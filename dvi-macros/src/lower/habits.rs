@@ -32,7 +32,7 @@ const OTHER_NAMES: [(&str, &str); 18] = [
 /// What is meant by a function of another language with this receiver and these arguments.
 pub(super) fn meant(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]) -> Option<String> {
     let x = receiver.map_or_else(|| "x".to_string(), as_receiver);
-    let texts: Vec<String> = arguments.iter().map(|argument| text(argument)).collect();
+    let texts: Vec<String> = arguments.iter().map(text).collect();
     let arguments: Vec<&str> = texts.iter().map(String::as_str).collect();
     let written = match (name, arguments.as_slice()) {
         ("dot", []) => match receiver {

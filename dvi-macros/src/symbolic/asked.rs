@@ -16,7 +16,8 @@ impl Graph {
         if asked.is_zero() {
             return Expr::ZERO;
         }
-        if asked.as_number().is_some() || value.is_zero() || !self.has_domain(value.node) {
+        let may_be_none = self.has_domain(value.node) || self.depends(value.node, rules::grows_fast);
+        if asked.as_number().is_some() || value.is_zero() || !may_be_none {
             return value;
         }
         self.choose(asked, Relation::HasMore, Expr::ZERO, value, Expr::ZERO)

@@ -67,7 +67,7 @@ const SMOOTH: [Unary; 11] = [
 ];
 
 /// Whether it overflows at moderate arguments.
-fn grows_fast(node: &Node) -> bool {
+pub(super) fn grows_fast(node: &Node) -> bool {
     let exponentials = [Unary::Exp, Unary::Exp2, Unary::ExpM1, Unary::Sinh, Unary::Cosh];
     matches!(node, Node::Unary(function, _) if exponentials.contains(function))
 }

@@ -3,11 +3,10 @@
 mod kepler_by_hand;
 mod vortices_by_hand;
 
+use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule};
 use dvi_core::prelude::*;
-use dvi_core::{
-    DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, Lagrangian, OneNode, Rule, Space, Statistics,
-    Vector,
-};
+use dvi_core::state::Statistics;
+use dvi_core::{Lagrangian, Space, Vector};
 use dvi_tests::configurations;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState};

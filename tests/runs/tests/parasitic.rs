@@ -1,6 +1,6 @@
 //! The parasitic mode is measured for every σ, and a run in which it has taken over ends with an error.
 
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
 use dvi_tests::larger;

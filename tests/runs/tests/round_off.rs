@@ -1,6 +1,6 @@
 //! Round-off: what a step leaves over has no direction, and no coordinate pays for the size of another.
 
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::larger;

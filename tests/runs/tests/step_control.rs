@@ -2,8 +2,9 @@
 //! the control of Kosmas & Vlachos measures, and how both fail.
 
 use core::f64::consts::{PI, TAU};
+use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
-use dvi_core::{Method, StepControl, VariableStep};
+use dvi_core::run::StepControl;
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Kepler, KeplerState, Relativistic, RelativisticState};
 

@@ -1,7 +1,7 @@
 //! Derivatives at points where the rules of differentiation give 0/0, against limits found by hand.
 
 use dvi_core::prelude::*;
-use dvi_core::sink::Dense;
+use dvi_core::space::sink::Dense;
 use dvi_core::{Space, Weights};
 
 type Outcome = Result<(), String>;

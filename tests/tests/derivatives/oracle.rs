@@ -5,7 +5,7 @@
 //! be off by [`UNITS`]·ε·(the largest entry of it and of the (k+1)-th derivative; for k = 2, of it and
 //! of the first).
 
-use dvi_core::sink::Dense;
+use dvi_core::space::sink::Dense;
 use dvi_core::{DegenerateLagrangian, Lagrangian, Space, Weights};
 use dvi_tests::larger;
 use num_dual::{Dual64, DualNum, HyperDual64};

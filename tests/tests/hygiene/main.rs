@@ -5,7 +5,9 @@
 
 mod regular;
 
-use dvi_core::{Integrator, Lagrangian, Sigma};
+use dvi_core::Lagrangian;
+use dvi_core::methods::Sigma;
+use dvi_core::run::Integrator;
 
 /// Parameters with the names of types, variants, crates, and of what generated code might use.
 mod fields {

@@ -1,7 +1,8 @@
 //! Interior displacements: p0 = −D₁L_d and p1 = D₂L_d where L_d(q0, q1, δ) is stationary in δ.
 
+use dvi_core::State;
+use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, State};
 use dvi_tests::larger;
 use nalgebra::{DMatrix, DVector, RealField, convert};
 

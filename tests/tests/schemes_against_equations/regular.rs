@@ -1,7 +1,8 @@
 //! The quadrature family: p0 = −D₁L_d(q0, q1) and p1 = D₂L_d(q0, q1).
 
+use dvi_core::State;
+use dvi_core::discrete::{FrequencyIn, Rule as Nodes};
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, Rule as Nodes, State};
 use dvi_tests::larger;
 
 use super::equations::{Formula, Rule, defect, size, slots};

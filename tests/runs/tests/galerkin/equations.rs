@@ -1,8 +1,8 @@
 //! A step solves the equations that define it, whose derivatives are taken here by dual numbers from the value
 //! of L alone, however it solves them.
 
+use dvi_core::discrete::{FrequencyIn, Unfitted};
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, Unfitted};
 use dvi_tests::larger;
 use dvi_tests::oracle::displaced_lagrangian;
 use dvi_tests::zoo::regular::*;

@@ -1,7 +1,7 @@
 //! Failures are values, and the last good state is kept.
 
 use core::f64::consts::PI;
-use dvi_core::FrequencyIn;
+use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 

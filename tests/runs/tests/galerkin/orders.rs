@@ -1,7 +1,7 @@
 //! Orders 4, 6 and 8, also where the interpolation is fitted.
 
 use core::f64::consts::TAU;
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::systems::{KEPLER, Outcome, apart, double_pendulum, pericentre, run};

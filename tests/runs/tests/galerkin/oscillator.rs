@@ -1,6 +1,6 @@
 //! What fitting does on the oscillator that it is fitted to.
 
-use dvi_core::FrequencyIn;
+use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 

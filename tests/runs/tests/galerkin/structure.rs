@@ -1,7 +1,10 @@
 //! What the steps preserve, and that they can be undone.
 
+use dvi_core::discrete::FrequencyIn;
+use dvi_core::methods::{Method, PreservedForm};
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, Method, PreservedForm, Space, State, Statistics};
+use dvi_core::state::Statistics;
+use dvi_core::{Space, State};
 use dvi_tests::larger;
 use num_dual::Dual64;
 

@@ -1,6 +1,6 @@
 //! The systems and starts of these tests, and runs of them.
 
-use dvi_core::Method;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;

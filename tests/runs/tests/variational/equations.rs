@@ -3,8 +3,9 @@
 
 use super::Outcome;
 use super::phase_space::Start;
+use dvi_core::discrete::{FrequencyIn, Rule};
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, Real, Rule, State};
+use dvi_core::{Real, State};
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;

@@ -1,8 +1,9 @@
 //! Failures are values, and the last good state is kept.
 
 use super::Outcome;
+use dvi_core::discrete::{Frequency, FrequencyIn};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{Frequency, FrequencyIn, Method};
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 

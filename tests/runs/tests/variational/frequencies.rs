@@ -1,8 +1,8 @@
 //! Frequencies of the user's own, and steps that failed because of a frequency.
 
 use super::Outcome;
+use dvi_core::discrete::{Frequency, FrequencyIn};
 use dvi_core::prelude::*;
-use dvi_core::{Frequency, FrequencyIn};
 use dvi_tests::zoo::regular::*;
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
@@ -88,16 +88,16 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
     struct Trying {
         tries: bool,
     }
-    impl dvi_core::StepControl<Pair, f64> for Trying {
+    impl dvi_core::run::StepControl<Pair, f64> for Trying {
         type Memory = ();
         const REJECTS: bool = true;
         fn begin(&self, _system: &Pair, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
             Ok(((), 0.1))
         }
-        fn step<M: dvi_core::VariableStep<Pair, f64>>(
+        fn step<M: dvi_core::methods::VariableStep<Pair, f64>>(
             &self,
             _memory: &mut (),
-            run: &mut dvi_core::ControlledRun<'_, Pair, M, f64>,
+            run: &mut dvi_core::run::ControlledRun<'_, Pair, M, f64>,
             t: f64,
         ) -> Result<f64, StepFailure> {
             if self.tries {

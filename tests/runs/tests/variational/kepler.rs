@@ -1,8 +1,9 @@
 //! One period of Kepler's problem against the values of independent programs, orders, and invariants.
 
 use core::f64::consts::TAU;
+use dvi_core::discrete::{FrequencyIn, Rule};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, Method, Rule};
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 

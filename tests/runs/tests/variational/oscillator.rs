@@ -1,8 +1,9 @@
 //! The oscillator of the fitted frequency is solved exactly, at any step.
 
 use super::Outcome;
+use dvi_core::discrete::Rule;
+use dvi_core::lagrangian;
 use dvi_core::prelude::*;
-use dvi_core::{Rule, lagrangian};
 use dvi_tests::larger;
 
 /// A harmonic oscillator.

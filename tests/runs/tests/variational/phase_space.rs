@@ -1,7 +1,8 @@
 //! A run on dual numbers as its own tangent map: the derivatives of whole steps, except at an equilibrium.
 
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{Method, Space, State};
+use dvi_core::{Space, State};
 use dvi_tests::larger;
 use num_dual::Dual64;
 

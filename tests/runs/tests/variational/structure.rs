@@ -2,8 +2,8 @@
 
 use super::Outcome;
 use super::phase_space::{Start, return_error, symplectic_defect};
+use dvi_core::methods::{Method, PreservedForm};
 use dvi_core::prelude::*;
-use dvi_core::{Method, PreservedForm};
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
 

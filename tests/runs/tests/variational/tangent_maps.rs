@@ -5,8 +5,9 @@ use super::Outcome;
 use super::equations::{Omega, discrete_lagrangian};
 use super::phase_space::Start;
 use dvi_core::diagnostics::DiscreteHessian;
+use dvi_core::discrete::{FrequencyIn, GivenFrequency, Interval, Rule};
 use dvi_core::prelude::*;
-use dvi_core::{FrequencyIn, GivenFrequency, Interval, Rule, Space, State};
+use dvi_core::{Space, State};
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 use num_dual::HyperDual64;
@@ -77,7 +78,7 @@ fn tangent_matches_runs<R: Run<System = Kepler, Scalar = f64>>(
     begin: impl Fn(KeplerState) -> Result<R, StartError>,
 ) -> Outcome
 where
-    R::Method: dvi_core::VariationalMethod<Kepler, f64>,
+    R::Method: dvi_core::methods::VariationalMethod<Kepler, f64>,
 {
     let system = Kepler { mu: 1.0 };
     let start = [0.8, 0.1, -0.1, 1.2];

@@ -1,0 +1,377 @@
+//! The frequency that a phase-fitted interpolation is fitted to.
+//!
+//! Kosmas & Vlachos interpolate between q0 and q1 by sin ωt and cos ωt. ω may be one number, one number per
+//! coordinate, or taken from the motion: from the curvature of the path (their eq. 19), or from the ratio of
+//! acceleration to distance. How it is taken, the [`Reading`], decides what a step preserves.
+
+use core::fmt::Debug;
+
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::mass::Mass;
+use crate::scalar::norm;
+use crate::space::sink::Product;
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+
+/// How a frequency that depends on the motion enters a step from q0 to q1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// ω at (q0, v0), held constant: what Kosmas & Vlachos do. The step is neither symplectic (its defect is
+    /// O(h³)) nor reversible, and with fixed or with reversible steps the energy drifts like O(h³)t.
+    LeftFrozen,
+    /// The mean of ω at both ends, held constant in the derivatives of L_d. Reversible, hence without drift
+    /// on reversible orbits; not symplectic.
+    Averaged,
+    /// The mean of ω at both ends, differentiated with the rest of L_d. Symplectic and reversible; the most
+    /// expensive of the three: a step needs the second derivatives of L.
+    Variational,
+}
+
+/// A rule for the frequency ω of a step.
+pub trait Frequency: Debug {
+    /// Whether it is zero, and the interpolation linear.
+    const UNFITTED: bool = false;
+    /// Whether each coordinate has a frequency of its own.
+    const PER_COORDINATE: bool = false;
+    /// Whether ω depends on the velocity.
+    const OF_VELOCITY: bool = false;
+
+    /// How the motion is read; `None` if the frequency does not depend on it.
+    fn reading(&self) -> Option<Reading> {
+        None
+    }
+}
+
+/// A [`Frequency`] in the arithmetic of `T`, in radians per unit of time.
+pub trait FrequencyIn<T: Real>: Frequency {
+    /// The frequency of a coordinate, where it does not depend on the motion: needed if
+    /// [`reading`](Frequency::reading) is `None`. Not a number unless it is given; a run that needs it is then
+    /// refused.
+    fn fixed(&self, _coordinate: usize) -> T {
+        T::lift(f64::NAN)
+    }
+
+    /// ω at (q, v), from the acceleration a = M⁻¹∂L/∂q: needed if the frequency is read from the motion. Not a
+    /// number unless it is given; a step that needs it then fails.
+    fn at(&self, _q: &[T], _v: &[T], _a: &[T]) -> T {
+        T::lift(f64::NAN)
+    }
+
+    /// ω at (q, v, a) after setting `dq`, `dv` and `da` to its derivatives: needed for
+    /// [`Reading::Variational`]. `None` unless they are given; a run with that reading is then refused.
+    fn derivatives(
+        &self,
+        _q: &[T],
+        _v: &[T],
+        _a: &[T],
+        _dq: &mut [T],
+        _dv: &mut [T],
+        _da: &mut [T],
+    ) -> Option<T> {
+        None
+    }
+
+    /// Checks the options against a system of `dimension` coordinates.
+    ///
+    /// # Errors
+    /// [`StartError::Parameter`] names the option that is out of range.
+    fn validate(&self, _dimension: usize) -> Result<(), StartError> {
+        Ok(())
+    }
+}
+
+/// A frequency that does not depend on the motion, so that L_d can be differentiated twice.
+pub trait GivenFrequency: Frequency {}
+
+impl GivenFrequency for Unfitted {}
+impl GivenFrequency for Constant {}
+impl<A: Debug> GivenFrequency for PerCoordinate<A> {}
+
+/// No frequency: linear interpolation, the limit ω → 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unfitted;
+
+impl Frequency for Unfitted {
+    const UNFITTED: bool = true;
+}
+
+impl<T: Real> FrequencyIn<T> for Unfitted {
+    #[inline(always)]
+    fn fixed(&self, _coordinate: usize) -> T {
+        T::lift(0.0)
+    }
+}
+
+/// One frequency for all coordinates and all times. Symplectic, and exact on oscillators of that frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant(
+    /// ω ≥ 0.
+    pub f64,
+);
+
+impl Frequency for Constant {}
+
+impl<T: Real> FrequencyIn<T> for Constant {
+    fn fixed(&self, _coordinate: usize) -> T {
+        T::lift(self.0)
+    }
+    fn validate(&self, _dimension: usize) -> Result<(), StartError> {
+        in_range("omega", self.0)
+    }
+}
+
+/// One frequency for each coordinate, for all times, in the order of declaration: an array, a `Vec` or a
+/// slice. Symplectic, and exact on uncoupled oscillators. It is the interpolation of the coordinates that is
+/// fitted: with mass matrices that couple them it is still consistent, but exact on nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PerCoordinate<A>(
+    /// ωᵢ ≥ 0.
+    pub A,
+);
+
+impl<A: Debug> Frequency for PerCoordinate<A> {
+    const PER_COORDINATE: bool = true;
+}
+
+impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
+    fn fixed(&self, coordinate: usize) -> T {
+        T::lift(self.0.as_ref().get(coordinate).copied().unwrap_or(f64::NAN))
+    }
+    fn validate(&self, dimension: usize) -> Result<(), StartError> {
+        let omega = self.0.as_ref();
+        if omega.len() != dimension {
+            let (value, range) = (omega.len() as f64, "one frequency for each coordinate");
+            return Err(StartError::Parameter { name: "omega.len()", value, range });
+        }
+        omega.iter().try_for_each(|&omega| in_range("omega", omega))
+    }
+}
+
+/// Whether `frequency` gives what its reading needs, and its options are in range.
+///
+/// # Errors
+/// [`StartError::Unsupported`] names the method of [`FrequencyIn`] that is missing; else as
+/// [`FrequencyIn::validate`].
+pub(crate) fn admit<S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+    frequency: &F,
+    system: &S,
+) -> Result<(), StartError> {
+    let space = system.space();
+    frequency.validate(space.dimension())?;
+    let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
+    match frequency.reading() {
+        Some(_) if F::PER_COORDINATE => unsupported(
+            "frequencies per coordinate",
+            "they cannot be read from the motion: FrequencyIn::reading must be None",
+        ),
+        None if !frequency.fixed(0).is_finite() => unsupported(
+            "a frequency that is not read from the motion",
+            "FrequencyIn::fixed does not give a finite number",
+        ),
+        Some(Reading::Variational) => {
+            let point = space.vector();
+            let [mut dq, mut dv, mut da] = [space.vector(), space.vector(), space.vector()];
+            match frequency.derivatives(&point, &point, &point, &mut dq, &mut dv, &mut da) {
+                Some(_) => Ok(()),
+                None => unsupported(
+                    "Reading::Variational",
+                    "FrequencyIn::derivatives is not implemented; take Reading::Averaged",
+                ),
+            }
+        }
+        None | Some(Reading::LeftFrozen | Reading::Averaged) => Ok(()),
+    }
+}
+
+fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
+    if (0.0..f64::INFINITY).contains(&value) {
+        Ok(())
+    } else {
+        Err(StartError::Parameter { name, value, range: "0 <= omega, finite" })
+    }
+}
+
+/// ω = |v × a|/|v|², the angular velocity of the osculating circle (Kosmas & Vlachos, eq. 19), in any number
+/// of dimensions as |a⊥|/|v|, where a⊥ = a − (v·a/v²)v is the acceleration across the path.
+///
+/// At both ends v is the mean velocity Δ/h; for [`Reading::LeftFrozen`] it is that of the motion. On Kepler
+/// orbits it changes fast at the pericentre; [`Radial`] is smoother there and gives order 4.
+///
+/// On a straight path ω = 0 has a kink, as |x| has at 0. With [`Reading::Variational`] its derivatives are left out there:
+/// the step is that of the neighbouring paths, but a run on dual numbers is no tangent map at such a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Curvature(
+    /// How it enters the step.
+    pub Reading,
+);
+
+impl Frequency for Curvature {
+    const OF_VELOCITY: bool = true;
+
+    fn reading(&self) -> Option<Reading> {
+        Some(self.0)
+    }
+}
+
+impl<T: Real> FrequencyIn<T> for Curvature {
+    #[inline]
+    fn at(&self, _q: &[T], v: &[T], a: &[T]) -> T {
+        area(v, a) / dot(v, v)
+    }
+
+    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
+        let omega = self.at(q, v, a);
+        let (vv, area) = (dot(v, v), area(v, a));
+        let ratio = dot(v, a) / vv;
+        // ∂ω/∂a = a⊥/(|v||a⊥|), ∂ω/∂v = −(v·a/v²)∂ω/∂a − ωv/v². On a straight path a⊥ has no direction.
+        let per_area = if area > T::lift(0.0) { T::lift(1.0) / area } else { T::lift(0.0) };
+        dq.fill(T::lift(0.0));
+        for i in 0..v.len() {
+            da[i] = per_area * (a[i] - ratio * v[i]);
+            dv[i] = -ratio * da[i] - omega / vv * v[i];
+        }
+        Some(omega)
+    }
+}
+
+/// |v||a⊥|, the area that v and a span.
+fn area<T: Real>(v: &[T], a: &[T]) -> T {
+    let (vv, va, aa) = (dot(v, v), dot(v, a), dot(a, a));
+    let difference = vv * aa - va * va;
+    // Where more than two digits would cancel, the path is nearly straight, and a⊥ is summed by itself.
+    let square = if difference > T::lift(1.0 / 64.0) * (vv * aa) {
+        difference
+    } else {
+        let ratio = va / vv;
+        v.iter().zip(a).fold(T::lift(0.0), |sum, (&v, &a)| {
+            let across = a - ratio * v;
+            sum + across * across
+        }) * vv
+    };
+    // √ has no derivative at zero.
+    if square == T::lift(0.0) { square } else { Scalar::sqrt(square) }
+}
+
+/// ω = √(|a|/|q|): the frequency of the oscillator q'' = −ω²q with the same acceleration at the same distance
+/// from the origin. On Kepler orbits it is r^(−3/2), and the averaged and the variational reading are of order
+/// 4 there with Simpson's rule or a better one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Radial(
+    /// How it enters the step.
+    pub Reading,
+);
+
+impl Frequency for Radial {
+    fn reading(&self) -> Option<Reading> {
+        Some(self.0)
+    }
+}
+
+impl<T: Real> FrequencyIn<T> for Radial {
+    #[inline]
+    fn at(&self, q: &[T], _v: &[T], a: &[T]) -> T {
+        // The reciprocal does not wait for the acceleration.
+        let ratio = dot(a, a) * (T::lift(1.0) / dot(q, q));
+        // √ has no derivative at zero.
+        if ratio == T::lift(0.0) { T::lift(0.0) } else { Scalar::sqrt(Scalar::sqrt(ratio)) }
+    }
+
+    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
+        let omega = self.at(q, v, a);
+        let half = T::lift(0.5) * omega;
+        // Without an acceleration, where ω = 0 has a kink, the derivative is left out.
+        let per_a = if omega == T::lift(0.0) { T::lift(0.0) } else { half / dot(a, a) };
+        let per_q = half / dot(q, q);
+        dv.fill(T::lift(0.0));
+        for i in 0..q.len() {
+            da[i] = per_a * a[i];
+            dq[i] = -per_q * q[i];
+        }
+        Some(omega)
+    }
+}
+
+fn dot<T: Real>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y)
+}
+
+/// ω and its gradient at one end of a step.
+#[derive(Debug)]
+pub(crate) struct Local<S: Lagrangian, T: Real> {
+    pub(crate) omega: T,
+    /// ∂ω/∂q, acceleration included.
+    pub(crate) dq: Vector<S, T>,
+    /// ∂ω/∂v.
+    pub(crate) dv: Vector<S, T>,
+    acceleration: Vector<S, T>,
+    da: Vector<S, T>,
+    l: [Vector<S, T>; 2],
+    reading: Option<Reading>,
+}
+
+impl<S: RegularLagrangian, T: Real> Local<S, T> {
+    pub(crate) fn new(system: &S, reading: Option<Reading>) -> Self {
+        let space = system.space();
+        Self {
+            omega: T::lift(0.0),
+            dq: space.vector(),
+            dv: space.vector(),
+            acceleration: space.vector(),
+            da: space.vector(),
+            l: [space.vector(), space.vector()],
+            reading,
+        }
+    }
+
+    /// ω at (`q`, `v`), where the force is `force`.
+    #[inline]
+    pub(crate) fn evaluate<F: FrequencyIn<T>>(
+        &mut self,
+        frequency: &F,
+        mass: &Mass<S, T>,
+        q: &[T],
+        v: &[T],
+        force: &[T],
+    ) -> Result<(), StepFailure> {
+        mass.solve(force, &mut self.acceleration);
+        self.omega = frequency.at(q, v, &self.acceleration);
+        defined(self.omega)
+    }
+
+    /// ω and its gradient at (`q`, `v`): da = M⁻¹∂²L/∂q∂q dq.
+    pub(crate) fn differentiate<F: FrequencyIn<T>>(
+        &mut self,
+        frequency: &F,
+        mass: &Mass<S, T>,
+        system: &S,
+        q: &[T],
+        v: &[T],
+        t: T,
+    ) -> Result<(), StepFailure> {
+        if self.reading != Some(Reading::Variational) {
+            return Ok(());
+        }
+        let Self { acceleration, dq, dv, da, l: [l_q, l_v], .. } = self;
+        system.gradient(q, v, t, l_q, l_v);
+        mass.solve(l_q, acceleration);
+        // Refused at the start if there are none.
+        let Some(omega) = frequency.derivatives(q, v, acceleration, dq, dv, da) else {
+            return Err(StepFailure::Frequency { omega: f64::NAN });
+        };
+        self.omega = omega;
+        mass.solve(da, acceleration);
+        let (zero, mut product) = (T::lift(0.0), Product { x: acceleration, sum: dq });
+        let weights = Weights { qq: T::lift(1.0), qv: zero, vq: zero, vv: zero };
+        system.linearize(q, v, t, weights, l_q, l_v, &mut product);
+        defined(self.omega)?;
+        norm::finite(&self.dq)
+    }
+}
+
+/// Whether a frequency, or its product with the step, is a finite number.
+///
+/// # Errors
+/// [`StepFailure::Frequency`].
+#[inline(always)]
+pub(crate) fn defined<T: Real>(omega: T) -> Result<(), StepFailure> {
+    if omega.is_finite() { Ok(()) } else { Err(StepFailure::Frequency { omega: norm::reported(omega) }) }
+}

@@ -1,0 +1,167 @@
+//! Matrices a Dα + b (Dα)ᵀ, ready to be solved with.
+//!
+//! Where the matrix couples each coordinate to one partner only, its inverse is one reciprocal per
+//! coordinate. Dα itself has that shape if the system is `MATCHING`; the antisymmetric combinations
+//! a = −b, which are multiples of Ω, have it already if the system is `CANONICAL`. Any other matrix is
+//! factored.
+
+use crate::error::StepFailure;
+use crate::scalar::norm;
+use crate::space::sink::{Places, Product as ProductSink};
+use crate::space::square::SquareMatrix;
+use crate::state::Statistics;
+use crate::{DegenerateLagrangian, Lagrangian, Real, Scalar, Space, Square, Vector};
+
+/// The coefficients of a combination a Dα + b (Dα)ᵀ.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Combination<T> {
+    pub(crate) a: T,
+    pub(crate) b: T,
+}
+
+impl<T: Real> Combination<T> {
+    fn is_matching<S: DegenerateLagrangian>(self) -> bool {
+        S::MATCHING || (S::CANONICAL && self.a == -self.b)
+    }
+}
+
+/// The inverse of a combination.
+#[derive(Debug)]
+pub(crate) enum Form<S: Lagrangian, T: Real> {
+    /// Entry j is one over the only entry of column j.
+    Reciprocals(Vector<S, T>),
+    /// The factors of the matrix.
+    Factors(Square<S, T>),
+}
+
+impl<S: Lagrangian, T: Real> Clone for Form<S, T> {
+    fn clone(&self) -> Self {
+        match self {
+            Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
+            Self::Factors(matrix) => Self::Factors(matrix.clone()),
+        }
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
+    /// Storage for the inverse of `combination`; its value comes from [`prepare`](Self::prepare).
+    pub(crate) fn new(system: &S, combination: Combination<T>) -> Self {
+        let space = system.space();
+        if combination.is_matching::<S>() {
+            Self::Reciprocals(space.vector())
+        } else {
+            let Combination { a, b } = combination;
+            Self::Factors(space.square(|visit| {
+                let rest: Vector<S, T> = space.vector();
+                let mut places = Places(|row: usize, column: usize, _| visit(row, column));
+                system.one_form_jacobian(&rest, T::lift(0.0), a, b, &mut places);
+            }))
+        }
+    }
+
+    /// Evaluates the combination at (`q`, `t`) and inverts it. `entries` is work space.
+    #[inline]
+    pub(crate) fn prepare(
+        &mut self,
+        system: &S,
+        q: &[T],
+        t: T,
+        combination: Combination<T>,
+        entries: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Combination { a, b } = combination;
+        match self {
+            Self::Reciprocals(reciprocals) => {
+                system.partner_entries(q, t, a, b, entries);
+                for j in 0..entries.len() {
+                    reciprocals[j] = norm::reciprocal(entries[system.partner(j)], j)?;
+                }
+                Ok(())
+            }
+            Self::Factors(matrix) => {
+                statistics.factorisations += 1;
+                system.one_form_jacobian(q, t, a, b, matrix.cleared());
+                matrix.factor()
+            }
+        }
+    }
+
+    /// Sets `x` to the solution of (a Dα + b (Dα)ᵀ) x = `rhs`.
+    #[inline(always)]
+    pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
+        match self {
+            Self::Reciprocals(reciprocals) => {
+                for (j, (x, &reciprocal)) in x.iter_mut().zip(reciprocals.iter()).enumerate() {
+                    *x = rhs[system.partner(j)] * reciprocal;
+                }
+            }
+            // Never built for such a system; saying so keeps elimination out of its steps.
+            Self::Factors(..) if S::MATCHING => {}
+            Self::Factors(matrix) => {
+                x.copy_from_slice(rhs);
+                matrix.solve(x);
+            }
+        }
+    }
+}
+
+/// A constant combination, ready to be multiplied with.
+#[derive(Debug)]
+pub(crate) enum Product<S: Lagrangian, T: Real> {
+    /// Entry i is the only entry of row i.
+    Entries(Vector<S, T>),
+    /// Evaluated again for each product.
+    Coefficients(Combination<T>),
+}
+
+impl<S: Lagrangian, T: Real> Clone for Product<S, T> {
+    fn clone(&self) -> Self {
+        match self {
+            Self::Entries(entries) => Self::Entries(entries.clone()),
+            Self::Coefficients(combination) => Self::Coefficients(*combination),
+        }
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> Product<S, T> {
+    /// The combination at (`q`, `t`).
+    pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
+        if combination.is_matching::<S>() {
+            let mut entries = system.space().vector();
+            system.partner_entries(q, t, combination.a, combination.b, &mut entries);
+            Self::Entries(entries)
+        } else {
+            Self::Coefficients(combination)
+        }
+    }
+
+    /// Whether the combination is zero, seen from its product with a vector without pattern.
+    pub(crate) fn vanishes(&self, system: &S) -> bool {
+        let [mut x, mut product]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = T::lift(1.0) + Scalar::sin(T::lift(i as f64));
+        }
+        self.apply(system, &x, &mut product);
+        product.iter().all(|&entry| entry == T::lift(0.0))
+    }
+
+    /// Sets `out` to (a Dα + b (Dα)ᵀ) x.
+    #[inline(always)]
+    pub(crate) fn apply(&self, system: &S, x: &[T], out: &mut [T]) {
+        match self {
+            Self::Entries(entries) => {
+                for (i, (out, &entry)) in out.iter_mut().zip(entries.iter()).enumerate() {
+                    *out = x[system.partner(i)] * entry;
+                }
+            }
+            Self::Coefficients(_) if S::MATCHING => {}
+            Self::Coefficients(Combination { a, b }) => {
+                out.fill(T::lift(0.0));
+                // Dα is the same at every point.
+                let mut sink = ProductSink { x, sum: out };
+                system.one_form_jacobian(x, T::lift(0.0), *a, *b, &mut sink);
+            }
+        }
+    }
+}

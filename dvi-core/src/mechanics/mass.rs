@@ -1,0 +1,90 @@
+//! The constant mass matrix of a separable system, ready to be solved with.
+//!
+//! L = ½ v·M v − V(q, t), p = M v. M is inverted once: by one reciprocal per coordinate if it is diagonal, by
+//! elimination otherwise.
+
+use crate::error::StepFailure;
+use crate::scalar::norm;
+use crate::space::square::{SquareMatrix, of_entries};
+use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, Vector, Weights};
+
+/// M and M⁻¹.
+#[derive(Debug)]
+pub(crate) struct Mass<S: Lagrangian, T: Real> {
+    /// The diagonal of M, and one over it; zeros if M is not diagonal.
+    masses: Vector<S, T>,
+    reciprocals: Vector<S, T>,
+    /// If M is not diagonal.
+    coupled: Option<Coupled<S, T>>,
+}
+
+/// A matrix and its factors.
+#[derive(Debug)]
+struct Coupled<S: Lagrangian, T: Real> {
+    matrix: Square<S, T>,
+    factors: Square<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> Mass<S, T> {
+    /// Of a separable `system`; M does not depend on the point (`q`, `t`) at which it is evaluated.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`].
+    pub(crate) fn new(system: &S, q: &[T], t: T) -> Result<Self, StepFailure> {
+        let space = system.space();
+        let [mut v, mut l_q, mut l_v]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
+        if S::DIAGONAL_MASS {
+            v.fill(T::lift(1.0));
+            system.gradient(q, &v, t, &mut l_q, &mut l_v);
+            let (masses, mut reciprocals) = (l_v, v);
+            for (column, (&mass, reciprocal)) in masses.iter().zip(reciprocals.iter_mut()).enumerate() {
+                *reciprocal = norm::reciprocal(mass, column)?;
+            }
+            return Ok(Self { masses, reciprocals, coupled: None });
+        }
+        let zero = T::lift(0.0);
+        let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
+        let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
+        system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, matrix.cleared());
+        let mut factors = matrix.clone();
+        factors.factor()?;
+        let [masses, reciprocals] = [space.vector(), space.vector()];
+        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
+    }
+
+    /// 1/m of each coordinate, if M is diagonal.
+    #[inline(always)]
+    pub(crate) fn reciprocals(&self) -> Option<&[T]> {
+        S::DIAGONAL_MASS.then_some(&*self.reciprocals)
+    }
+
+    /// Sets `v` to M⁻¹`p`.
+    #[inline(always)]
+    pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {
+        // What is known when compiled keeps elimination out of the steps with a diagonal matrix.
+        match &self.coupled {
+            Some(Coupled { factors, .. }) if !S::DIAGONAL_MASS => {
+                v.copy_from_slice(p);
+                factors.solve(v);
+            }
+            _ => {
+                for ((v, &p), &reciprocal) in v.iter_mut().zip(p).zip(self.reciprocals.iter()) {
+                    *v = p * reciprocal;
+                }
+            }
+        }
+    }
+
+    /// Adds `factor` M`x` to `p`.
+    #[inline(always)]
+    pub(crate) fn multiply_add(&self, factor: T, x: &[T], p: &mut [T]) {
+        match &self.coupled {
+            Some(Coupled { matrix, .. }) if !S::DIAGONAL_MASS => matrix.multiply_add(factor, x, p),
+            _ => {
+                for ((p, &x), &mass) in p.iter_mut().zip(x).zip(self.masses.iter()) {
+                    *p += factor * mass * x;
+                }
+            }
+        }
+    }
+}

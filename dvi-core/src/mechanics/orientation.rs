@@ -1,0 +1,280 @@
+//! Whether Ω and the mass matrix keep their orientation from step to step.
+//!
+//! Where Ω or ∂²L/∂v∂v is singular, the motion is not determined, and no step may pass: on the other side there is
+//! another system. A step that jumps over such a place finds regular matrices at both ends, but another number of
+//! negative eigenvalues of the mass matrix, or another sign of the Pfaffian of Ω. Two passages within one step are not
+//! seen, nor eigenvalues of a mass matrix that change their signs in opposite directions, nor two pivots of Ω that vanish
+//! together, unless Ω couples the coordinates in pairs, whose entries are compared one by one.
+//!
+//! The Pfaffian comes from skew elimination, A = P L T Lᵀ Pᵀ (Wimmer 2012, ACM TOMS 38, algorithm 923).
+
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
+use crate::error::StepFailure;
+use crate::scalar::norm::reported;
+use crate::space::inertia::{Inertia, inertia};
+use crate::space::sink::Places;
+use crate::state::memory::{Memory, lasting};
+#[cfg(feature = "alloc")]
+use crate::state::memory::{Reader, Record};
+use crate::{
+    DegenerateLagrangian, Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights,
+};
+
+/// Ω at the end of the last step; nothing if it is the same everywhere.
+#[derive(Debug)]
+pub(crate) enum FormOrientation<S: Lagrangian, T: Real> {
+    Constant,
+    /// The entry of each row, and storage for the next.
+    Pairs([Vector<S, T>; 2]),
+    /// The sign of the Pfaffian times the smallest pivot, and storage.
+    Pfaffian(T, Matrix<S, T>),
+}
+
+impl<S: DegenerateLagrangian, T: Real> FormOrientation<S, T> {
+    /// At (`q`, `t`).
+    pub(crate) fn new(system: &S, q: &[T], t: T) -> Self {
+        let space = system.space();
+        if S::LINEAR {
+            return Self::Constant;
+        }
+        if S::CANONICAL {
+            let mut entries = space.vector();
+            system.partner_entries(q, t, T::lift(-1.0), T::lift(1.0), &mut entries);
+            return Self::Pairs([entries, space.vector()]);
+        }
+        let mut matrix = space.matrix();
+        let pfaffian = Self::pfaffian(system, q, t, &mut matrix);
+        Self::Pfaffian(pfaffian, matrix)
+    }
+
+    /// Compares Ω at (`q`, `t`), the end of a step, with the last, and keeps it.
+    ///
+    /// # Errors
+    /// [`StepFailure::Orientation`]; the last is kept then.
+    #[inline]
+    pub(crate) fn check(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
+        let after = self.compare(system, q, t)?;
+        match self {
+            Self::Constant => {}
+            Self::Pairs([entries, next]) => core::mem::swap(entries, next),
+            Self::Pfaffian(before, _) => *before = after,
+        }
+        Ok(())
+    }
+
+    /// Compares Ω at (`q`, `t`), within a step, with the last; returns the signed pivot where it is kept.
+    ///
+    /// # Errors
+    /// [`StepFailure::Orientation`].
+    #[inline]
+    pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<T, StepFailure> {
+        match self {
+            Self::Constant => Ok(T::lift(0.0)),
+            Self::Pairs([entries, next]) => {
+                system.partner_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
+                for (&before, &after) in entries.iter().zip(next.iter()) {
+                    compare(before, after)?;
+                }
+                Ok(T::lift(0.0))
+            }
+            Self::Pfaffian(before, matrix) => {
+                let after = Self::pfaffian(system, q, t, matrix);
+                compare(*before, after)?;
+                Ok(after)
+            }
+        }
+    }
+
+    fn pfaffian(system: &S, q: &[T], t: T, matrix: &mut Matrix<S, T>) -> T {
+        matrix.fill(T::lift(0.0));
+        system.one_form_jacobian(q, t, T::lift(-1.0), T::lift(1.0), matrix);
+        pfaffian_sign(matrix, system.space().dimension())
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for FormOrientation<S, T> {
+    fn restore(&mut self, from: &Self) {
+        match (self, from) {
+            (Self::Pairs([entries, _]), Self::Pairs([from, _])) => entries.copy_from_slice(from),
+            (Self::Pfaffian(sign, _), Self::Pfaffian(from, _)) => *sign = *from,
+            // Both are of one system.
+            _ => {}
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>) {
+        match self {
+            Self::Constant => {}
+            Self::Pairs([entries, _]) => record.numbers(entries),
+            Self::Pfaffian(sign, _) => record.numbers(&[*sign]),
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        match self {
+            Self::Constant => Ok(()),
+            Self::Pairs([entries, _]) => reader.numbers(entries),
+            Self::Pfaffian(sign, _) => reader.numbers(core::slice::from_mut(sign)),
+        }
+    }
+}
+
+/// The sign of the Pfaffian of a skew n×n matrix times its smallest pivot, zero if it is singular.
+fn pfaffian_sign<T: Real>(a: &mut [T], n: usize) -> T {
+    let (mut sign, mut smallest) = (T::lift(1.0), None);
+    for k in (0..n).step_by(2) {
+        let candidates = k + 1..n;
+        let best = |best: usize, i: usize| {
+            if Scalar::abs(a[i * n + k]) > Scalar::abs(a[best * n + k]) { i } else { best }
+        };
+        // Of a space of odd dimension the last row has no partner.
+        let Some(row) = candidates.reduce(best) else { return T::lift(0.0) };
+        if row != k + 1 {
+            for j in 0..n {
+                a.swap(row * n + j, (k + 1) * n + j);
+            }
+            for i in 0..n {
+                a.swap(i * n + row, i * n + k + 1);
+            }
+            sign = -sign;
+        }
+        let pivot = a[k * n + k + 1];
+        let size = Scalar::abs(pivot);
+        if pivot < T::lift(0.0) {
+            sign = -sign;
+        }
+        smallest = Some(smallest.map_or(size, |least: T| if least < size { least } else { size }));
+        for i in k + 2..n {
+            for j in k + 2..n {
+                let update = a[k * n + i] * a[j * n + k + 1] - a[k * n + j] * a[i * n + k + 1];
+                a[i * n + j] += update / pivot;
+            }
+        }
+    }
+    sign * smallest.unwrap_or(T::lift(1.0))
+}
+
+/// The mass matrix at the end of the last step, and storage.
+#[derive(Debug)]
+pub(crate) struct MassOrientation<S: Lagrangian, T: Real> {
+    inertia: Inertia<T>,
+    work: Work<S, T>,
+}
+
+#[derive(Debug)]
+struct Work<S: Lagrangian, T: Real> {
+    entries: Entries<S, T>,
+    l_q: Vector<S, T>,
+    l_v: Vector<S, T>,
+}
+
+/// The entries of a mass matrix.
+#[derive(Debug)]
+enum Entries<S: Lagrangian, T: Real> {
+    Diagonal(Vector<S, T>),
+    All(Matrix<S, T>),
+}
+
+impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
+    /// At (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`].
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StepFailure> {
+        let space = system.space();
+        let entries =
+            if S::DIAGONAL_MASS { Entries::Diagonal(space.vector()) } else { Entries::All(space.matrix()) };
+        let mut work = Work { entries, l_q: space.vector(), l_v: space.vector() };
+        Ok(Self { inertia: work.evaluate(system, q, v, t)?, work })
+    }
+
+    /// Compares the mass matrix at (`q`, `v`, `t`), the end of a step, with the last, and keeps it.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] and [`StepFailure::Orientation`]; the last is kept then.
+    pub(crate) fn check(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<(), StepFailure> {
+        let after = self.work.evaluate(system, q, v, t)?;
+        let before = core::mem::replace(&mut self.inertia, after);
+        if after.negative == before.negative {
+            return Ok(());
+        }
+        self.inertia = before;
+        // Those that crossed zero went from one side to the other.
+        let [from, to] = if after.negative > before.negative { [0, 1] } else { [1, 0] };
+        let [before, after] = [before.least[from], after.least[to]].map(reported);
+        Err(StepFailure::Orientation { matrix: "the mass matrix", before, after })
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for MassOrientation<S, T> {
+    lasting!(T; part inertia);
+}
+
+impl<S: RegularLagrangian, T: Real> Work<S, T> {
+    fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<Inertia<T>, StepFailure> {
+        let (zero, Self { entries, l_q, l_v }) = (T::lift(0.0), self);
+        let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
+        match entries {
+            Entries::Diagonal(diagonal) => {
+                diagonal.fill(zero);
+                let mut sink = Places(|row: usize, column: usize, entry: T| {
+                    if row == column {
+                        diagonal[row] += entry;
+                    }
+                });
+                system.linearize(q, v, t, weights, l_q, l_v, &mut sink);
+                Inertia::of_diagonal(diagonal)
+            }
+            Entries::All(matrix) => {
+                matrix.fill(zero);
+                system.linearize(q, v, t, weights, l_q, l_v, matrix);
+                // The gradients are not needed.
+                inertia(matrix, l_q)
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn compare<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
+    // A product would underflow; what is not a number has no sign. A matrix that was singular has none to lose.
+    let zero = T::lift(0.0);
+    let same = (before > zero && after > zero) || (before < zero && after < zero);
+    if same || before == zero {
+        return Ok(());
+    }
+    let [before, after] = [before, after].map(reported);
+    Err(StepFailure::Orientation { matrix: "Ω", before, after })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pfaffian_sign;
+
+    /// a f − b e + c d is the Pfaffian of the skew matrix with the upper rows (a b c), (d e), (f).
+    #[test]
+    fn the_sign_is_that_of_the_pfaffian() {
+        let mut seen = [0; 2];
+        for seed in 0..100_u32 {
+            let entry = |k: u32| f64::from((seed * 7 + k * 13 + seed * k * 5) % 19) - 9.0;
+            let [a, b, c, d, e, f] = [0, 1, 2, 3, 4, 5].map(entry);
+            let exact = a * f - b * e + c * d;
+            if exact == 0.0 {
+                continue;
+            }
+            #[rustfmt::skip]
+            let mut matrix = [
+                0.0,  a,   b,   c,
+                -a,  0.0,  d,   e,
+                -b,  -d,  0.0,  f,
+                -c,  -e,  -f,  0.0,
+            ];
+            assert_eq!(pfaffian_sign(&mut matrix, 4) > 0.0, exact > 0.0, "seed {seed}");
+            seen[usize::from(exact > 0.0)] += 1;
+        }
+        assert!(seen[0] > 10 && seen[1] > 10, "{seen:?}");
+        assert_eq!(pfaffian_sign(&mut [0.0, -2.0, 2.0, 0.0], 2), -2.0);
+        assert_eq!(pfaffian_sign(&mut [0.0], 1), 0.0);
+    }
+}

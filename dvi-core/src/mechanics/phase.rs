@@ -1,0 +1,264 @@
+//! Where a run on T*Q is, and what its next step is guessed from: all that a checkpoint needs besides the coordinates.
+
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::legendre::Legendre;
+use crate::mechanics::mass::Mass;
+use crate::mechanics::orientation::MassOrientation;
+use crate::scalar::norm;
+use crate::state::history::{History, is_similar};
+use crate::state::memory::{Memory, lasting};
+#[cfg(feature = "alloc")]
+use crate::state::memory::{Reader, Record};
+use crate::state::summation::{Carried, Summation};
+use crate::{Lagrangian, Real, RegularLagrangian, Space, Vector};
+
+/// The momentum and the force at the current point, and the last increments.
+#[derive(Debug)]
+pub(crate) struct PhasePoint<S: Lagrangian, T: Real> {
+    /// p = ∂L/∂v.
+    pub(crate) p: Vector<S, T>,
+    /// ∂L/∂q; it is kept if L is separable.
+    pub(crate) force: Vector<S, T>,
+    /// The mean velocities Δ/h of the last steps.
+    history: History<S, T>,
+    /// The length of the step before; zero before the first.
+    last_step: T,
+    /// What rounding has left out of q and of p.
+    carried: [Carried<S, T>; 2],
+}
+
+/// The end of a step: q1, p1 and, if L is separable, ∂L/∂q there.
+pub(crate) struct Arrival<'a, T> {
+    pub(crate) q: &'a [T],
+    pub(crate) p: &'a [T],
+    pub(crate) force: &'a [T],
+}
+
+impl<T: Real> Arrival<'_, T> {
+    #[inline(always)]
+    fn finite<S: RegularLagrangian>(&self) -> Result<(), StepFailure> {
+        norm::finite(self.q).and(norm::finite(self.p))?;
+        if S::SEPARABLE { norm::finite(self.force) } else { Ok(()) }
+    }
+}
+
+/// By how much a step changes q and p: Δ and (D₁ + D₂)L_d.
+#[derive(Clone, Copy)]
+pub(crate) struct Increments<'a, T> {
+    pub(crate) q: &'a [T],
+    pub(crate) p: &'a [T],
+}
+
+impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
+    /// At (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] if momentum or force is no number.
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T, summation: Summation) -> Result<Self, StartError> {
+        let space = system.space();
+        let [mut force, mut p, mut mean]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
+        system.gradient(q, v, t, &mut force, &mut p);
+        norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
+        mean.copy_from_slice(v);
+        let carried = [0, 1].map(|_| Carried::new(system, summation));
+        Ok(Self { p, force, history: History::new(system, Some(mean)), last_step: T::lift(0.0), carried })
+    }
+
+    /// Whether the last steps may be extrapolated to one of length `h`.
+    #[inline(always)]
+    pub(crate) fn extrapolates_to(&self, h: T) -> bool {
+        is_similar(h, self.last_step)
+    }
+
+    /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if they had about
+    /// this length; else that of a free motion with `momentum`, where the mass matrix is known.
+    #[inline(always)]
+    pub(crate) fn guess(&self, mass: Option<&Mass<S, T>>, momentum: &[T], h: T, increment: &mut [T]) {
+        match mass {
+            Some(mass) if !self.extrapolates_to(h) => mass.solve(momentum, increment),
+            _ => self.history.extrapolate(increment),
+        }
+        for delta in increment {
+            *delta *= h;
+        }
+    }
+
+    /// Sets `q1` to q0 + Δ.
+    pub(crate) fn reach(&self, q: &[T], increment: &[T], q1: &mut [T]) {
+        self.carried[0].add(q, increment, q1);
+    }
+
+    /// Sets `p1` to p0 and `impulse`.
+    pub(crate) fn kick(&self, impulse: &[T], p1: &mut [T]) {
+        self.carried[1].add(&self.p, impulse, p1);
+    }
+
+    /// Moves to the end of a step of length `h`.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotFinite`]; nothing has moved then.
+    pub(crate) fn advance(
+        &mut self,
+        q: &mut [T],
+        to: &Arrival<'_, T>,
+        by: Increments<'_, T>,
+        h: T,
+    ) -> Result<(), StepFailure> {
+        to.finite::<S>()?;
+        let [of_q, of_p] = &mut self.carried;
+        of_q.advance(q, by.q, to.q);
+        of_p.advance(&mut self.p, by.p, to.p);
+        if S::SEPARABLE {
+            self.force.copy_from_slice(to.force);
+        }
+        self.remember(by.q, h);
+        Ok(())
+    }
+
+    /// The same where sums are plain, so that the increment of p is not asked for.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance).
+    #[inline(always)]
+    pub(crate) fn arrive(
+        &mut self,
+        q: &mut [T],
+        to: &Arrival<'_, T>,
+        increment: &[T],
+        h: T,
+    ) -> Result<(), StepFailure> {
+        to.finite::<S>()?;
+        self.set(q, to);
+        self.remember(increment, h);
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn remember(&mut self, increment: &[T], h: T) {
+        if !self.extrapolates_to(h) {
+            self.history.clear();
+        }
+        self.last_step = h;
+        self.history.push_scaled(increment, T::lift(1.0) / h);
+    }
+
+    /// Sets coordinates, momentum and force where sums are plain.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>) {
+        q.copy_from_slice(to.q);
+        self.p.copy_from_slice(to.p);
+        if S::SEPARABLE {
+            self.force.copy_from_slice(to.force);
+        }
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for PhasePoint<S, T> {
+    lasting!(T; numbers p, numbers force, part history, number last_step, parts carried);
+}
+
+/// The mass matrix ∂²L/∂v∂v of a run.
+#[derive(Debug)]
+pub(crate) enum Inertial<S: Lagrangian, T: Real> {
+    /// L is separable.
+    Constant(Mass<S, T>),
+    /// It depends on the state; its orientation is watched.
+    Varying(MassOrientation<S, T>),
+}
+
+impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
+    /// At (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] where the matrix is singular.
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StartError> {
+        let new = if S::SEPARABLE {
+            Mass::new(system, q, t).map(Self::Constant)
+        } else {
+            MassOrientation::new(system, q, v, t).map(Self::Varying)
+        };
+        new.map_err(StartError::Starter)
+    }
+
+    /// The matrix, if it is the same everywhere.
+    #[inline(always)]
+    pub(crate) fn constant(&self) -> Option<&Mass<S, T>> {
+        match self {
+            Self::Constant(mass) => Some(mass),
+            Self::Varying(_) => None,
+        }
+    }
+
+    /// Whether the matrix has kept its orientation at (`q`, `t`), which was reached with Δ = `increment`; `velocity` is
+    /// storage.
+    ///
+    /// # Errors
+    /// As [`MassOrientation::check`].
+    #[inline(always)]
+    pub(crate) fn check(
+        &mut self,
+        system: &S,
+        [q, increment]: [&[T]; 2],
+        [t, h]: [T; 2],
+        velocity: &mut [T],
+    ) -> Result<(), StepFailure> {
+        let Self::Varying(orientation) = self else { return Ok(()) };
+        let per_h = T::lift(1.0) / h;
+        for (v, &delta) in velocity.iter_mut().zip(increment) {
+            *v = delta * per_h;
+        }
+        orientation.check(system, q, velocity, t)
+    }
+
+    /// Sets `v` to the velocity with ∂L/∂v = p at (`q`, `t`).
+    ///
+    /// # Errors
+    /// As [`Legendre::solve`].
+    pub(crate) fn velocity(
+        &self,
+        system: &S,
+        phase: &PhasePoint<S, T>,
+        q: &[T],
+        t: T,
+        v: &mut [T],
+    ) -> Result<(), StepFailure> {
+        match self {
+            Self::Constant(mass) => {
+                mass.solve(&phase.p, v);
+                Ok(())
+            }
+            Self::Varying(_) => {
+                phase.history.extrapolate(v);
+                let mut legendre = Legendre::new(system);
+                legendre.solve(system, q, &phase.p, t, v, S::QUADRATIC).or_else(|_| {
+                    // Extrapolated, it may be beyond what L is defined for.
+                    v.fill(T::lift(0.0));
+                    legendre.solve(system, q, &phase.p, t, v, S::QUADRATIC)
+                })
+            }
+        }
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for Inertial<S, T> {
+    fn restore(&mut self, from: &Self) {
+        if let (Self::Varying(orientation), Self::Varying(from)) = (self, from) {
+            orientation.restore(from);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>) {
+        if let Self::Varying(orientation) = self {
+            orientation.save(record);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        match self {
+            Self::Constant(_) => Ok(()),
+            Self::Varying(orientation) => orientation.load(reader),
+        }
+    }
+}

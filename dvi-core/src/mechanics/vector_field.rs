@@ -1,0 +1,92 @@
+//! The vector field q' = X(q, t) of a degenerate Lagrangian.
+//!
+//! The Euler–Lagrange equations of L = α(q, t)·v − H(q, t) are B v = ∇H + ∂α/∂t with
+//! Bᵢⱼ = ∂ᵢαⱼ − ∂ⱼαᵢ, that is B = (Dα)ᵀ − Dα (Rowley & Marsden 2002, section 3.2). B is inverted once if α
+//! is linear, by one reciprocal per coordinate if it has canonical shape, and by elimination otherwise.
+
+use crate::error::StepFailure;
+use crate::mechanics::form::{Combination, Form};
+use crate::state::Statistics;
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
+
+/// X = B⁻¹(∇H + ∂α/∂t) with the storage that its evaluation needs.
+#[derive(Debug)]
+pub struct VectorField<S: Lagrangian, T: Real> {
+    inverse: Form<S, T>,
+    gradient: Vector<S, T>,
+    entries: Vector<S, T>,
+}
+
+impl<S: Lagrangian, T: Real> Clone for VectorField<S, T> {
+    fn clone(&self) -> Self {
+        Self { inverse: self.inverse.clone(), gradient: self.gradient.clone(), entries: self.entries.clone() }
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> VectorField<S, T> {
+    /// The vector field of `system`, inverted at (`q`, `t`).
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] if Ω is singular at `q`.
+    pub fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StepFailure> {
+        let (space, omega) = (system.space(), Self::omega());
+        let mut entries = space.vector();
+        let mut inverse = Form::new(system, omega);
+        inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default())?;
+        Ok(Self { inverse, gradient: space.vector(), entries })
+    }
+
+    fn omega() -> Combination<T> {
+        Combination { a: T::lift(-1.0), b: T::lift(1.0) }
+    }
+
+    /// Sets `velocity` to X(`q`, `t`).
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] if Ω is singular at `q`.
+    #[inline]
+    pub fn evaluate(
+        &mut self,
+        system: &S,
+        q: &Vector<S, T>,
+        t: T,
+        velocity: &mut Vector<S, T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        system.flow_source(q, t, &mut self.gradient);
+        statistics.gradients += 1;
+        self.solve(system, q, t, velocity, statistics)
+    }
+
+    /// Sets `xi` to B⁻¹∇J, the vector field that declared momentum `index` generates.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] if Ω is singular at `q`.
+    pub fn generator(
+        &mut self,
+        system: &S,
+        index: usize,
+        q: &Vector<S, T>,
+        t: T,
+        xi: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        system.momentum_gradient(index, q, t, &mut self.gradient);
+        self.solve(system, q, t, xi, &mut Statistics::default())
+    }
+
+    #[inline(always)]
+    fn solve(
+        &mut self,
+        system: &S,
+        q: &[T],
+        t: T,
+        out: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        if !S::LINEAR {
+            self.inverse.prepare(system, q, t, Self::omega(), &mut self.entries, statistics)?;
+        }
+        self.inverse.solve(system, &self.gradient, out);
+        Ok(())
+    }
+}

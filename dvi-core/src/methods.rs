@@ -1,0 +1,236 @@
+//! The methods, and what one is to a run.
+//!
+//! For degenerate systems: [`Sigma`], and [`Gauss`] and [`RungeKutta`] on q' = X(q). For regular systems: [`Variational`],
+//! [`Galerkin`], [`Newmark`]. Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that
+//! has no method, as [`Symmetrised`] has none.
+
+mod composition;
+mod energy_limit;
+mod galerkin;
+mod gauss;
+mod general;
+mod newmark;
+mod runge_kutta;
+mod sigma_family;
+mod symmetrised;
+mod variational;
+mod walk;
+
+use crate::discrete::TwiceDifferentiable;
+use crate::error::{StartError, StepFailure};
+use crate::state::Statistics;
+use crate::state::memory::Memory;
+use crate::{Lagrangian, Real, Vector};
+
+pub use composition::{Composition, CompositionMemory};
+pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
+pub use galerkin::{Galerkin, GalerkinMemory};
+pub use gauss::{Gauss, GaussMemory};
+pub use general::{General, GeneralMemory};
+pub use newmark::{Newmark, NewmarkMemory};
+pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
+pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
+pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
+pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
+
+/// The geometric structure that every step of a method preserves, up to rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PreservedForm {
+    /// None.
+    Nothing,
+    /// Ω = −dα on Q, if α is affine.
+    OmegaIfAffine,
+    /// The discrete two-form ∂²L_d/∂q0∂q1 dq0 ∧ dq1 on Q×Q (Rowley & Marsden 2002, eq. 17).
+    Discrete,
+    /// dq ∧ dp on T*Q.
+    Canonical,
+    /// dq' ∧ dp on T*Q, where q' differs from q by a term of order h² that the method documents: its orbits
+    /// are those of a symplectic map in other coordinates.
+    Conjugate,
+}
+
+/// What is known of a method before it meets a system.
+pub trait Scheme {
+    /// The order of convergence on smooth systems whose Lagrangian does not depend on time. On others it is the
+    /// same, unless the documentation of the method says otherwise.
+    fn order(&self) -> usize;
+    /// Whether a step with −h undoes a step with h.
+    fn is_symmetric(&self) -> bool;
+    /// What is preserved.
+    fn preserved_form(&self) -> PreservedForm;
+}
+
+/// The times at which the steps of a run begin: start + k h, which does not accumulate rounding errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock<T> {
+    pub(crate) start: T,
+    pub(crate) h: T,
+    pub(crate) step: u64,
+}
+
+impl<T: Real> Clock<T> {
+    /// Of steps of length `h` from time `start`.
+    pub fn new(start: T, h: T) -> Self {
+        Self { start, h, step: 0 }
+    }
+
+    /// The clock after `steps` steps.
+    #[must_use]
+    #[inline(always)]
+    pub fn after(self, steps: u64) -> Self {
+        Self { step: self.step.wrapping_add(steps), ..self }
+    }
+
+    /// The present time.
+    #[inline(always)]
+    pub fn time(self) -> T {
+        // Signed integers convert in one instruction; no run takes 2⁶³ steps.
+        self.start + T::lift(self.step as i64 as f64) * self.h
+    }
+
+    /// The step h.
+    #[inline(always)]
+    pub fn step_size(self) -> T {
+        self.h
+    }
+}
+
+/// What runs of a method carry.
+///
+/// It is known for systems of either kind, so that a method meets the question whether it can step a system at one
+/// place only, where a run begins, and the user reads one error.
+pub trait Carries<S: Lagrangian, T: Real> {
+    /// What a run carries from step to step besides the coordinates: momenta, guesses, work space.
+    type Memory: Memory<T>;
+}
+
+/// A method that can step a system `S` in the arithmetic of `T`.
+pub trait Method<S: Lagrangian, T: Real>: Scheme + Carries<S, T> {
+    /// Prepares a run with step `h` from (`q`, `t`), with velocity `v` if the system is regular; for
+    /// degenerate systems `v` is empty. Everything that needs memory is allocated here.
+    ///
+    /// # Errors
+    /// [`StartError::Parameter`] if an option is out of range; [`StartError::Starter`] if the starting
+    /// values cannot be computed, or a matrix that is the same for all steps is singular.
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError>;
+
+    /// Prepares a run that goes on from a checkpoint, as [`begin`](Self::begin) does, for a memory that is
+    /// [loaded](Memory::load) next.
+    ///
+    /// # Errors
+    /// As [`begin`](Self::begin).
+    fn begin_again(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        v: &[T],
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError> {
+        self.begin(system, q, v, t, h)
+    }
+
+    /// Advances `q` from `t` to `t + h`, without allocation.
+    ///
+    /// # Errors
+    /// Any [`StepFailure`]; `q` and the dynamical part of `memory` are then as they were before.
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>;
+
+    /// Sets `v` to the velocity at the current point. There is nothing to do for degenerate systems.
+    ///
+    /// # Errors
+    /// [`StepFailure`] if the momenta of the run have no velocity: the mass matrix is singular there.
+    fn velocity(
+        &self,
+        _system: &S,
+        _memory: &Self::Memory,
+        _q: &Vector<S, T>,
+        _t: T,
+        _v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        Ok(())
+    }
+
+    /// Takes `count` steps from the present time of `clock`, or as many as succeed, and counts them in
+    /// `statistics.steps`. A method with something to gain from many steps at once does better than the
+    /// loop that stands here.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), from the first step that fails.
+    #[inline]
+    fn steps(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        one_by_one(self, system, memory, q, clock, count, statistics)
+    }
+}
+
+#[inline(always)]
+pub(crate) fn one_by_one<S: Lagrangian, T: Real, M: Method<S, T> + ?Sized>(
+    method: &M,
+    system: &S,
+    memory: &mut M::Memory,
+    q: &mut Vector<S, T>,
+    clock: Clock<T>,
+    count: u64,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    for taken in 0..count {
+        method.step(system, memory, q, clock.after(taken).time(), clock.step_size(), statistics)?;
+        statistics.steps += 1;
+    }
+    Ok(())
+}
+
+/// A method whose run is determined by two consecutive points.
+pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {
+    /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
+    ///
+    /// # Errors
+    /// As [`Method::begin`].
+    fn begin_between(
+        &self,
+        system: &S,
+        q0: &Vector<S, T>,
+        q1: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError>;
+}
+
+/// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
+/// may follow one another.
+pub trait VariableStep<S: Lagrangian, T: Real>: Method<S, T> {}
+
+/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`] around it, it
+/// is a method.
+///
+/// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
+/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no discrete Lagrangian that can be differentiated twice",
+    label = "its steps are not variational, or it reads a frequency from the motion",
+    note = "such methods are `Sigma`, `Variational` with a frequency that is given, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
+)]
+pub trait VariationalMethod<S: Lagrangian, T: Real>: Scheme {
+    /// What one interval contributes.
+    type DiscreteLagrangian: TwiceDifferentiable<S, T>;
+
+    /// The discrete Lagrangian on `system`, with the storage that it needs.
+    fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
+}

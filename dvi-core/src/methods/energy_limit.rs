@@ -1,0 +1,124 @@
+//! A run that ends when its energy has gone astray: |E(q, v, t) − E at the start| ≤ limit after every step.
+//!
+//! What this is for: a method that steps over a singularity finds finite numbers on the other side. Störmer–Verlet on a
+//! head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the energy says so.
+
+use crate::error::{StartError, StepFailure};
+use crate::methods::VariationalMethod;
+use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::scalar::norm::reported;
+use crate::state::Statistics;
+use crate::state::memory::{Memory, lasting};
+use crate::{Lagrangian, Real, Scalar, Space, Vector};
+
+/// A method whose steps fail where the energy has changed by more than a limit since the start of the run.
+///
+/// The step that goes beyond the limit fails with [`StepFailure::Energy`], and the run stays at the state before it.
+/// Meant for systems whose Lagrangian does not depend on time; of others it limits by how much the energy may change.
+/// Each step costs a copy of what the method carries and one evaluation of the energy, of a regular system one of the
+/// velocity too; on a Lagrangian that is not ½ v·M v − V(q, t), of a size known at run time only, that allocates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyLimit<M> {
+    /// The method.
+    pub method: M,
+    /// The largest |E − E(start)|, in the units of the energy.
+    pub limit: f64,
+}
+
+/// What a run with a limited energy carries: the memory of its method, where a step began, and the energy at the start.
+#[derive(Debug)]
+pub struct EnergyLimitMemory<I, V, T> {
+    inner: I,
+    checkpoint: I,
+    q: V,
+    v: V,
+    start: T,
+}
+
+impl<I, V, T> EnergyLimitMemory<I, V, T> {
+    /// The memory of the method.
+    pub fn inner(&self) -> &I {
+        &self.inner
+    }
+}
+
+impl<I: Memory<T>, V, T: Real> Memory<T> for EnergyLimitMemory<I, V, T> {
+    lasting!(T; part inner, number start);
+}
+
+impl<M: Scheme> Scheme for EnergyLimit<M> {
+    fn order(&self) -> usize {
+        self.method.order()
+    }
+    fn is_symmetric(&self) -> bool {
+        self.method.is_symmetric()
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        self.method.preserved_form()
+    }
+}
+
+impl<S: Lagrangian, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
+    type Memory = EnergyLimitMemory<M::Memory, Vector<S, T>, T>;
+}
+
+impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        if self.limit.is_nan() || self.limit <= 0.0 {
+            let (value, range) = (self.limit, "positive");
+            return Err(StartError::Parameter { name: "limit", value, range });
+        }
+        let begin = || self.method.begin(system, q, v, t, h);
+        let v_storage = system.space().vector();
+        let start = system.energy(q, v, t);
+        Ok(EnergyLimitMemory { inner: begin()?, checkpoint: begin()?, q: q.clone(), v: v_storage, start })
+    }
+
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let EnergyLimitMemory { inner, checkpoint, q: before, v, start } = memory;
+        before.copy_from_slice(q);
+        checkpoint.restore(inner);
+        self.method.step(system, inner, q, t, h, statistics)?;
+        let verdict = self.method.velocity(system, inner, q, t + h, v).and_then(|()| {
+            let now = system.energy(q, if S::REGULAR { v } else { &[] }, t + h);
+            // An energy that is not a number is within no limit.
+            let within = Scalar::abs(now - *start) <= T::lift(self.limit);
+            let [start, now] = [*start, now].map(reported);
+            if within { Ok(()) } else { Err(StepFailure::Energy { start, now, limit: self.limit }) }
+        });
+        if verdict.is_err() {
+            q.copy_from_slice(before);
+            inner.restore(checkpoint);
+        }
+        verdict
+    }
+
+    fn velocity(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        self.method.velocity(system, &memory.inner, q, t, v)
+    }
+}
+
+impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {}
+
+impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
+    type DiscreteLagrangian = M::DiscreteLagrangian;
+
+    fn discrete_lagrangian(&self, system: &S) -> M::DiscreteLagrangian {
+        self.method.discrete_lagrangian(system)
+    }
+}

@@ -1,0 +1,210 @@
+//! How the points and velocities of the nodes depend on the unknowns of a step, and how it varies them.
+//!
+//! The unknowns are x₁ … x_{s−2} = δ of the interior nodes and x_{s−1} = Δ = q1 − q0; with x₀ = q0,
+//!
+//! qʲ = Σₖ φⱼₖ xₖ      h q̇ʲ = Σₖ ψⱼₖ xₖ      φⱼ₀ = b + b̄   φⱼₖ = δⱼₖ   φⱼ,ₛ₋₁ = b̄      (ψ likewise)
+//!
+//! The equations of a step are the derivatives of L_d in the directions (φ̂ⱼᵣ, ψ̂ⱼᵣ): that of δʳ for each interior
+//! node, and that of q0, (b, B), for p0 + D₁L_d. Direction 0 moves both ends and gives (D₁ + D₂)L_d.
+
+use crate::discrete::basis::Bases;
+use crate::discrete::frequency;
+use crate::discrete::quadrature::{self, Quadrature, Rule};
+use crate::error::StepFailure;
+use crate::scalar::norm::reported;
+use crate::space::elimination;
+use crate::{Real, Scalar};
+
+/// sin u and what multiplies the new point count as zero below this.
+const RESONANCE: f64 = 1e-4;
+
+/// How many unknowns there are at most.
+const UNKNOWNS: usize = quadrature::NODES - 1;
+
+/// Entry (j, k): the derivative at node j of the Lagrange polynomial of node k.
+pub(super) fn differentiation<const NODES: usize>(rule: &Quadrature) -> [[f64; NODES]; NODES] {
+    let c = rule.nodes();
+    let others = |k: usize| (0..NODES).filter(move |&m| m != k);
+    let scale = |k: usize| others(k).fold(1.0, |product, m| product * (c[k] - c[m]));
+    core::array::from_fn(|j| {
+        core::array::from_fn(|k| {
+            if j == k {
+                others(k).fold(0.0, |sum, m| sum + 1.0 / (c[k] - c[m]))
+            } else {
+                scale(j) / (scale(k) * (c[j] - c[k]))
+            }
+        })
+    })
+}
+
+/// The coefficients for one frequency and step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coefficients<const NODES: usize, T> {
+    /// ωh
+    u: T,
+    pub(super) weights: [T; NODES],
+    /// φ
+    pub(super) point: [[T; NODES]; NODES],
+    /// ψ
+    pub(super) velocity: [[T; NODES]; NODES],
+    /// b and B of each node.
+    left: [[T; 2]; NODES],
+    /// Entry (r, k): Σⱼ wⱼ ψ̂ⱼᵣ ψⱼₖ, which M/h multiplies.
+    pub(super) kinetic: [[T; NODES]; NODES],
+    /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − u² φ̂ⱼᵣ φⱼₖ), r and k from 1.
+    pub(super) inverse: [[T; NODES]; NODES],
+}
+
+impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
+    /// For u = ωh, where `a` is the [`differentiation`] matrix of `rule`.
+    #[inline]
+    pub(super) fn new(rule: &Quadrature, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
+        let (zero, one, last) = (T::lift(0.0), T::lift(1.0), NODES - 1);
+        let none = [[zero; NODES]; NODES];
+        let mut new = Self {
+            u,
+            weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
+            point: none,
+            velocity: none,
+            left: [[zero; 2]; NODES],
+            kinetic: none,
+            inverse: none,
+        };
+        let nodes = Bases::new(u);
+        for (j, &c) in rule.nodes().iter().enumerate().take(NODES) {
+            let basis = nodes.basis(c, nodes.pairs(c));
+            new.left[j] = [basis.b, basis.d];
+            new.point[j][0] = basis.b + basis.b_bar;
+            new.velocity[j][0] = basis.d + basis.d_bar;
+            for k in 1..last {
+                new.point[j][k] = if j == k { one } else { zero };
+                new.velocity[j][k] = T::lift(a[j][k]);
+            }
+            new.point[j][last] = basis.b_bar;
+            new.velocity[j][last] = basis.d_bar;
+        }
+        for r in 0..NODES {
+            for k in 0..NODES {
+                new.kinetic[r][k] = new.sum(r, k, zero);
+            }
+        }
+        let (sinc, small) = (nodes.sinc(), T::lift(RESONANCE));
+        let kernel = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
+        let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
+        if !determined {
+            frequency::defined(u)?;
+            let u = reported(u);
+            return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
+        }
+        Ok(new)
+    }
+
+    /// Whether these are the coefficients for u = ωh.
+    #[inline(always)]
+    pub(super) fn is_for(&self, u: T) -> bool {
+        self.u == u
+    }
+
+    /// φ̂ and ψ̂ of direction `r` at node `j`.
+    #[inline(always)]
+    pub(super) fn direction(&self, j: usize, r: usize) -> [T; 2] {
+        if r == NODES - 1 { self.left[j] } else { [self.point[j][r], self.velocity[j][r]] }
+    }
+
+    /// Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ)
+    fn sum(&self, r: usize, k: usize, z: T) -> T {
+        (0..NODES).fold(T::lift(0.0), |sum, j| {
+            let [point, velocity] = self.direction(j, r);
+            sum + self.weights[j] * (velocity * self.velocity[j][k] - z * point * self.point[j][k])
+        })
+    }
+
+    /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the displacements
+    /// are eliminated: without them S/(sin u/u)²; `None` if there is no inverse.
+    fn invert(&mut self) -> Option<T> {
+        let (zero, n) = (T::lift(0.0), NODES - 1);
+        let (mut matrix, mut permutation) = ([zero; UNKNOWNS * UNKNOWNS], [0; UNKNOWNS]);
+        for r in 0..n {
+            for k in 0..n {
+                matrix[r * n + k] = self.sum(r + 1, k + 1, self.u * self.u);
+            }
+        }
+        let (matrix, permutation) = (&mut matrix[..n * n], &mut permutation[..n]);
+        elimination::factor(matrix, permutation).ok()?;
+        for k in 0..n {
+            let mut column = [zero; UNKNOWNS];
+            column[k] = T::lift(1.0);
+            elimination::solve(matrix, permutation, &mut column[..n]);
+            for r in 0..n {
+                self.inverse[r + 1][k + 1] = column[r];
+            }
+        }
+        // The Schur complement of the displacements is the reciprocal of the last entry of the inverse.
+        Some(-T::lift(1.0) / self.inverse[n][n])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Coefficients, differentiation};
+    use crate::discrete::quadrature::{Quadrature, Rule};
+    use crate::error::StepFailure;
+
+    fn check<const NODES: usize>() -> Result<(), crate::error::StartError> {
+        let rule = Quadrature::lobatto(NODES)?;
+        let (a, c, w) = (differentiation::<NODES>(&rule), rule.nodes(), rule.weights());
+        for (row, &at) in a.iter().zip(c) {
+            // Equation 28: exact on polynomials of degree NODES − 1, and on no others.
+            for n in 0..=NODES as i32 {
+                let sum: f64 = row.iter().zip(c).map(|(a, c)| a * c.powi(n)).sum();
+                let exact = if n == 0 { 0.0 } else { f64::from(n) * at.powi(n - 1) };
+                assert_eq!((sum - exact).abs() < 1e-13, n < NODES as i32, "c = {at}, degree {n}");
+            }
+        }
+        for j in 0..NODES {
+            for k in 0..NODES {
+                // Summation by parts: the rule is exact on products of a polynomial and a derivative.
+                let boundary = if j != k || (j > 0 && j < NODES - 1) { 0.0 } else { 2.0 * c[j] - 1.0 };
+                assert!((w[j] * a[j][k] + w[k] * a[k][j] - boundary).abs() < 1e-14, "({j}, {k})");
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn polynomials_are_differentiated() -> Result<(), crate::error::StartError> {
+        check::<3>()?;
+        check::<4>()?;
+        check::<5>()
+    }
+
+    #[test]
+    fn the_multiplier_of_the_new_point_is_that_of_the_exact_step() -> Result<(), crate::error::StartError> {
+        // ∂²L_d/∂q0∂q1 of the exact discrete Lagrangian of the oscillator is −u/sin u.
+        let rule = Quadrature::lobatto(5)?;
+        let a = differentiation::<5>(&rule);
+        for u in [0.1_f64, 0.5, 1.0, 1.5] {
+            let Ok(mut coefficients) = Coefficients::<5, f64>::new(&rule, &a, u) else {
+                panic!("u = {u} is not resonant")
+            };
+            let found = coefficients.invert().unwrap_or(f64::NAN);
+            assert!((found - u / u.sin()).abs() < 1e-5 * u.powi(8), "u = {u}: {found}");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn half_periods_are_resonant() -> Result<(), crate::error::StartError> {
+        let rule = Quadrature::lobatto(4)?;
+        let a = differentiation::<4>(&rule);
+        let failure = |u| Coefficients::<4, f64>::new(&rule, &a, u).err();
+        let half_turn = failure(core::f64::consts::PI);
+        assert!(matches!(half_turn, Some(StepFailure::Resonance { .. })), "{half_turn:?}");
+        let undefined = failure(f64::NAN);
+        assert!(
+            matches!(undefined, Some(StepFailure::Frequency { omega }) if omega.is_nan()),
+            "{undefined:?}"
+        );
+        Ok(())
+    }
+}

@@ -1,0 +1,280 @@
+//! The σ-family of two-step variational integrators for degenerate Lagrangians.
+//!
+//! L_d(q0, q1) = h L(q_σ, Δ/h) = α(q_σ)·Δ − h H(q_σ),   Δ = q1 − q0,   q_σ = q0 + σΔ at t + σh
+//! (Rowley & Marsden 2002, eqs. 9–10), stepped in position–momentum form p0 = −D₁L_d, p1 = D₂L_d, so that
+//! a step evaluates derivatives at one node and not at two. The state is (q, c) with the *defect*
+//! c = p − α(q): on the exact flow p = α(q), hence |c| is the amplitude of the parasitic mode in p.
+//! With G = (Dα)ᵀΔ − h∇H at q_σ, a step solves the first equation for Δ and evaluates the second:
+//!
+//! r(Δ) = c0 + α(q0) − α(q_σ) + (1−σ)G = 0        c1 = α(q_σ) + σG − α(q1)
+
+mod leapfrog;
+mod linear;
+mod memory;
+mod monitor;
+mod nonlinear;
+mod start;
+
+use crate::discrete::{Interval, OneNode};
+use crate::error::{StartError, StepFailure};
+use crate::methods::VariationalMethod;
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
+use crate::solve::{Ladder, Solver, Stopping};
+use crate::state::Statistics;
+use crate::state::summation::Summation;
+use crate::{DegenerateLagrangian, Lagrangian, Real, Vector};
+
+pub use memory::SigmaMemory;
+pub use monitor::ParasiticMode;
+pub use start::Start;
+
+/// The σ-family: L_d(q0, q1) = α(q_σ)·(q1 − q0) − h H(q_σ), q_σ = (1−σ)q0 + σq1.
+///
+/// Second order on nonlinear systems for every σ ∈ \[0, 1\]; symmetric for σ = ½; σ = (3 − √3)/6 is of
+/// fourth order on linear systems. Where α depends on time, be it by an added function of t alone, the order is one
+/// unless σ = ½. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden
+/// 2002, eq. 17) and, for symmetries that act by affine maps, the discrete momenta.
+///
+/// | α | σ = 0 | 0 < σ < 1 | σ = 1 |
+/// |---|---|---|---|
+/// | affine | explicit, one ∇H | implicit | explicit, one ∇H |
+/// | nonlinear | one linear solve | implicit | implicit: α(q1) = p0 |
+///
+/// # Limits
+/// A two-step map has twice the freedom of the flow. What becomes of the other half, the parasitic mode
+/// that alternates from step to step, decides whether a run can be used:
+/// - σ = ½, α affine, [`Start::Consistent`]: there is none, c = 0, and the scheme is the implicit
+///   midpoint rule. With another start its amplitude stays constant. On an identical pair of vortices at
+///   distance d the equation has solutions for h ≤ πd²/Γ only.
+/// - σ = 0, α affine: it grows like the distance of neighbouring trajectories, soon on chaotic data.
+/// - other σ, α affine: it grows exponentially on many orbits, at a rate of (1 − 2σ)² times one of the
+///   flow, whatever h.
+/// - σ ≠ ½, α affine with Dα not antisymmetric: c is multiplied by K'K⁻¹ in each step, whose eigenvalues
+///   then leave the unit circle (for α = −z dφ they are −σ/(1 − σ) and its inverse): not zero-stable. The
+///   symmetric gauge, ½(x dy − y dx) in place of x dy, has all of them at −1.
+/// - σ ≠ ½, α nonlinear: the scheme is not zero-stable; runs end within some hundred steps.
+///   σ = ½ grows at a rate that does not depend on h either.
+///
+/// The mode is measured while a run goes on ([`ParasiticMode`]; [`Integrator::parasitic_mode`](crate::run::Integrator)
+/// reads it), and a run in which it has taken over ends with
+/// [`StepFailure::ParasiticMode`](crate::error::StepFailure): see [`parasitic_limit`](Self::parasitic_limit).
+/// On a linear oscillation of frequency ω the scheme is
+/// stable for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a run takes
+/// [`Start::RungeKutta`] or two points.
+/// If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a singular matrix and cannot be stepped this way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sigma<T = f64> {
+    /// Where between q0 and q1 the Lagrangian is evaluated, in \[0, 1\].
+    pub sigma: T,
+    /// How the second starting value is found. Default: [`Start::Consistent`].
+    pub start: Start,
+    /// How implicit steps are solved. Default: [`Solver::Automatic`].
+    pub solver: Solver,
+    /// When an implicit step counts as solved. Default: to rounding errors.
+    pub stopping: Stopping,
+    /// How the increments of the steps are added up. [`Summation::Compensated`] is for affine α and 0 < σ < 1; what is
+    /// compensated are the coordinates. Default: [`Summation::Plain`].
+    pub summation: Summation,
+    /// The largest [relative size](ParasiticMode::relative) of the parasitic mode, above which a step fails with
+    /// [`StepFailure::ParasiticMode`](crate::error::StepFailure) and the run stays where it is. Default: ½. `None` lets
+    /// the run go on whatever it has become.
+    ///
+    /// The limit is tested before each step, except in two cases. If Dα is constant and antisymmetric and σ ≠ ½, the
+    /// mode is measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow; there a mode
+    /// that is large from the first steps on may become three times as large, if that is more than the limit. If α is
+    /// affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
+    ///
+    /// The limit is one of the mode and not of the energy, and has limits of its own:
+    /// - Where α is far from affine, or the motion passes near a saddle, the energy error of short steps may have grown tenfold
+    ///   before.
+    /// - The mode is compared with the motion of the coordinates together, and of each that moves at least a tenth as much
+    ///   as the largest. In coordinates that are small beside another that is not lost, it is seen late or not at all:
+    ///   choose units in which they are of one size.
+    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can, if α is not affine or Dα not
+    ///   antisymmetric, a path whose curvature changes several times within two or three steps: such a run may be stopped.
+    ///
+    /// [`EnergyLimit`](crate::methods::EnergyLimit) around the method limits the energy.
+    pub parasitic_limit: Option<f64>,
+}
+
+impl<T: Real> Sigma<T> {
+    /// The member `sigma` with default options. The range is checked when a run begins.
+    pub fn new(sigma: T) -> Self {
+        Self {
+            sigma,
+            start: Start::default(),
+            solver: Solver::default(),
+            stopping: Stopping::default(),
+            summation: Summation::default(),
+            parasitic_limit: Some(PARASITIC_LIMIT),
+        }
+    }
+
+    /// σ = ½: symmetric; the implicit midpoint rule if α is affine.
+    pub fn midpoint() -> Self {
+        Self::new(T::lift(0.5))
+    }
+
+    /// σ = 0: explicit if α is affine; the leapfrog scheme of Rowley & Marsden for point vortices.
+    pub fn leapfrog() -> Self {
+        Self::new(T::lift(0.0))
+    }
+
+    fn is_midpoint(&self) -> bool {
+        self.sigma == T::lift(0.5)
+    }
+
+    /// Whether no iteration is needed on an affine one-form.
+    fn is_end(&self) -> bool {
+        self.sigma == T::lift(0.0) || self.sigma == T::lift(1.0)
+    }
+
+    fn validate(&self, is_affine: bool) -> Result<(), StartError> {
+        let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
+        if !in_range {
+            let value = crate::scalar::norm::reported(self.sigma);
+            return Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" });
+        }
+        if self.summation == Summation::Compensated && (!is_affine || self.is_end()) {
+            let reason = "it is for affine one-forms and 0 < sigma < 1";
+            return Err(StartError::Unsupported { option: "Summation::Compensated", reason });
+        }
+        match self.parasitic_limit {
+            Some(value) if value.is_nan() || value <= 0.0 => {
+                Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" })
+            }
+            _ => self.stopping.validate(),
+        }
+    }
+}
+
+/// The default of [`Sigma::parasitic_limit`].
+const PARASITIC_LIMIT: f64 = 0.5;
+
+/// One step: where it starts, how long it is, and which member of the family takes it.
+#[derive(Debug)]
+struct Step<'a, S, T> {
+    system: &'a S,
+    method: &'a Sigma<T>,
+    t: T,
+    h: T,
+}
+
+impl<S, T: Real> Step<'_, S, T> {
+    /// The time at which the discrete Lagrangian is evaluated.
+    #[inline(always)]
+    fn node_time(&self) -> T {
+        self.t + self.method.sigma * self.h
+    }
+
+    #[inline(always)]
+    fn interval(&self) -> Interval<T> {
+        Interval { t: self.t, h: self.h }
+    }
+
+    /// A slow contraction is given up as soon as Newton would be cheaper; its advantage shrinks with the dimension.
+    #[inline(always)]
+    fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
+        ladder.budget(self.method.stopping.max_iterations, 12 + dimension)
+    }
+}
+
+impl<T: Real> Scheme for Sigma<T> {
+    fn order(&self) -> usize {
+        2
+    }
+    fn is_symmetric(&self) -> bool {
+        self.is_midpoint()
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        PreservedForm::Discrete
+    }
+}
+
+impl<S: Lagrangian, T: Real> Carries<S, T> for Sigma<T> {
+    type Memory = SigmaMemory<S, T>;
+}
+
+impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        self.validate(S::LINEAR)?;
+        if S::LINEAR && self.is_midpoint() && self.start == Start::Consistent {
+            return SigmaMemory::without_defect(system, self, q, t, h);
+        }
+        let q1 = self.start.second_point(system, q, t, h)?;
+        SigmaMemory::between(system, self, q, &q1, t, h)
+    }
+
+    /// Without a second point.
+    fn begin_again(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        _v: &[T],
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError> {
+        self.validate(S::LINEAR)?;
+        SigmaMemory::without_defect(system, self, q, t, h)
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, method: self, t, h };
+        if S::LINEAR {
+            linear::step(&step, memory, q, statistics)
+        } else {
+            nonlinear::step(&step, memory, q, statistics)
+        }
+    }
+
+    #[inline]
+    fn steps(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        if S::LINEAR && self.sigma == T::lift(0.0) {
+            let (taken, result) = leapfrog::steps(system, memory, q, clock, count);
+            statistics.steps += taken;
+            statistics.gradients += taken;
+            result
+        } else {
+            one_by_one(self, system, memory, q, clock, count, statistics)
+        }
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> VariationalMethod<S, T> for Sigma<T> {
+    type DiscreteLagrangian = OneNode<S, T>;
+
+    fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
+        OneNode::new(system, self.sigma)
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> TwoPoint<S, T> for Sigma<T> {
+    fn begin_between(
+        &self,
+        system: &S,
+        q0: &Vector<S, T>,
+        q1: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError> {
+        self.validate(S::LINEAR)?;
+        SigmaMemory::between(system, self, q0, q1, t, h)
+    }
+}

@@ -1,0 +1,318 @@
+//! Affine one-forms: α(q_σ) − α(q0) = σDαΔ with one constant matrix Dα, so that a step is
+//!
+//! KΔ = c0 − (1−σ)h∇H(q_σ)        K  = σDα − (1−σ)(Dα)ᵀ
+//! c1 = K'Δ − σh∇H(q_σ)           K' = σ(Dα)ᵀ − (1−σ)Dα
+//!
+//! At σ = 0 and σ = 1 no gradient of the unknown point occurs: explicit. At σ = ½, K' = −K and c1 = −c0;
+//! with c0 = 0 the scheme is the implicit midpoint rule.
+
+use super::leapfrog;
+use super::memory::Work;
+use super::{SigmaMemory, Step};
+use crate::discrete::{Ends, OneNode, solve_by_newton};
+use crate::error::StepFailure;
+use crate::mechanics::form::Form;
+use crate::methods::Clock;
+use crate::scalar::norm;
+use crate::solve::{Convergence, Guess, iterate};
+use crate::space::scratch;
+use crate::state::Statistics;
+use crate::state::history::History;
+use crate::state::summation::{Carried, Summation};
+use crate::{DegenerateLagrangian, Real, Square, Vector};
+
+#[inline(always)]
+pub(super) fn step<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    if step.method.sigma == T::lift(0.0) {
+        let (taken, result) = leapfrog::steps(step.system, memory, q, Clock::new(step.t, step.h), 1);
+        statistics.gradients += taken;
+        return result;
+    }
+    memory.monitor.look(q)?;
+    if step.method.sigma == T::lift(1.0) {
+        explicit_right(step, memory, q, statistics)?;
+    } else {
+        match step.method.summation {
+            Summation::Plain => implicit(step, memory, q, statistics)?,
+            Summation::Compensated => compensated(step, memory, q, statistics)?,
+        }
+    }
+    memory.monitor.steps += 1;
+    Ok(())
+}
+
+/// σ = 1: DαΔ = c0, c1 = (Dα)ᵀΔ − h∇H(q1).
+#[inline(never)]
+fn explicit_right<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let SigmaMemory { defect, inverse, product, l_d, work, .. } = memory;
+    scratch!(delta = step.system, work.increment);
+    scratch!(next = step.system, work.next);
+    scratch!(gradient = step.system, l_d.work.gradient);
+    inverse.solve(step.system, defect, delta);
+    add(q, delta, next);
+    step.system.hamiltonian_gradient(next, step.t + step.h, gradient);
+    statistics.gradients += 1;
+    norm::finite(next)?;
+    // A collision at the new point shows in the gradient.
+    norm::finite(gradient)?;
+    q.copy_from_slice(next);
+    if let Some(product) = product {
+        product.apply(step.system, delta, defect);
+    }
+    for (c, &g) in defect.iter_mut().zip(gradient.iter()) {
+        *c -= step.h * g;
+    }
+    Ok(())
+}
+
+#[inline(always)]
+pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
+    for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(increment) {
+        *sum = q + delta;
+    }
+}
+
+/// Adds the increment to `q` if the result is finite.
+#[inline(always)]
+fn advance<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    q: &mut Vector<S, T>,
+    increment: &[T],
+    carried: &mut Carried<S, T>,
+    storage: &mut Vector<S, T>,
+) -> Result<(), StepFailure> {
+    if step.method.summation == Summation::Compensated {
+        return carried.move_by(q, increment, storage);
+    }
+    scratch!(next = step.system, *storage);
+    add(q, increment, next);
+    norm::finite(next)?;
+    q.copy_from_slice(next);
+    Ok(())
+}
+
+/// Kept out of line, so that the explicit step does not set up a frame for it.
+#[inline(never)]
+fn implicit<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    solve(step, memory, q, statistics, |attempt, _, statistics| attempt.fixed_point(statistics))
+}
+
+/// The same with compensated sums.
+#[inline(never)]
+fn compensated<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    solve(step, memory, q, statistics, |attempt, carried, statistics| {
+        attempt.compensated_fixed_point(carried, statistics)
+    })
+}
+
+/// An implicit step with this fixed point, to which is passed what rounding has left out of the coordinates.
+#[inline(always)]
+fn solve<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+    statistics: &mut Statistics,
+    fixed_point: impl FnOnce(&mut Attempt<'_, S, T>, &Carried<S, T>, &mut Statistics) -> Result<(), StepFailure>,
+) -> Result<(), StepFailure> {
+    if !memory.defect_vanishes {
+        memory.shift_by_defect(step.system);
+    }
+    let SigmaMemory {
+        ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, carried, ..
+    } = memory;
+    let budget = step.budget(ladder, q.len());
+    let defect = (!*defect_vanishes).then_some(&*defect);
+    let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
+    let fixed_point = |attempt: &mut Attempt<'_, S, T>, statistics: &mut Statistics| {
+        fixed_point(attempt, carried, statistics)
+    };
+    ladder.solve(&mut attempt, statistics, fixed_point, Attempt::newton)?;
+    finish(step, memory, q)
+}
+
+/// A step as it is being solved: `work.increment` becomes s, and the gradient of the node ∇H(q_σ).
+struct Attempt<'a, S: DegenerateLagrangian, T: Real> {
+    step: &'a Step<'a, S, T>,
+    q: &'a Vector<S, T>,
+    /// c0, unless it is zero.
+    defect: Option<&'a Vector<S, T>>,
+    one_form: &'a mut Vector<S, T>,
+    history: &'a History<S, T>,
+    inverse: &'a Form<S, T>,
+    l_d: &'a mut OneNode<S, T>,
+    work: &'a mut Work<S, T>,
+    budget: usize,
+}
+
+impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
+    /// s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs).
+    #[inline(always)]
+    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
+        let (sigma, node_time) = (step.method.sigma, step.node_time());
+        let node = &mut l_d.work;
+        scratch!(increment = step.system, node.velocity);
+        scratch!(trial = step.system, work.trial);
+        scratch!(point = step.system, node.point);
+        scratch!(gradient = step.system, node.momentum);
+        history.extrapolate(increment);
+        let mut scale = norm::largest(q) + norm::largest(increment);
+        // Where the iteration would be without s.
+        let origin: &[T] = if defect.is_none() {
+            q
+        } else {
+            for ((next, &q), &shift) in work.next.iter_mut().zip(q.iter()).zip(work.shift.iter()) {
+                *next = q + sigma * shift;
+            }
+            scale += norm::largest(&work.shift);
+            &work.next
+        };
+        let convergence = Convergence::fixed_point(step.method.stopping, scale, q, *budget);
+        iterate(convergence, statistics, |statistics| {
+            for ((point, &origin), &s) in point.iter_mut().zip(origin.iter()).zip(increment.iter()) {
+                *point = origin + sigma * s;
+            }
+            step.system.hamiltonian_gradient(point, node_time, gradient);
+            statistics.gradients += 1;
+            inverse.solve(step.system, gradient, trial);
+            let correction = norm::distance(trial, increment);
+            increment.copy_from_slice(trial);
+            Ok(correction)
+        })?;
+        work.increment.copy_from_slice(increment);
+        node.gradient.copy_from_slice(gradient);
+        norm::finite(increment)
+    }
+
+    /// The same from what rounding has left out of q0 too, until nothing is left to gain.
+    fn compensated_fixed_point(
+        &mut self,
+        carried: &Carried<S, T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
+        let Work { increment, trial, shift, next: total, .. } = &mut **work;
+        if defect.is_none() {
+            shift.fill(T::lift(0.0));
+        }
+        history.extrapolate(increment);
+        let scale = norm::largest(q) + norm::largest(increment) + norm::largest(shift);
+        let convergence = Convergence::fixed_point(step.method.stopping.exhaustive(), scale, q, *budget);
+        iterate(convergence, statistics, |statistics| {
+            for ((total, &shift), &s) in total.iter_mut().zip(shift.iter()).zip(increment.iter()) {
+                *total = step.method.sigma * (shift + s);
+            }
+            carried.add(q, total, &mut l_d.work.point);
+            step.system.hamiltonian_gradient(&l_d.work.point, step.node_time(), &mut l_d.work.gradient);
+            statistics.gradients += 1;
+            inverse.solve(step.system, &l_d.work.gradient, trial);
+            let correction = norm::distance(trial, increment);
+            increment.copy_from_slice(trial);
+            Ok(correction)
+        })?;
+        norm::finite(increment)
+    }
+
+    /// Newton on Δ, of which s and ∇H(q_σ) are left as the fixed point does.
+    #[inline]
+    fn newton(
+        &mut self,
+        matrix: &mut Square<S, T>,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { step, q, defect, one_form, history, l_d, work, .. } = self;
+        match guess {
+            Guess::Extrapolated => history.extrapolate(&mut work.increment),
+            Guess::Zero => work.increment.fill(T::lift(0.0)),
+        }
+        step.system.one_form(q, step.t, one_form);
+        work.next.copy_from_slice(one_form);
+        if let Some(defect) = defect {
+            add_to(&mut work.next, defect);
+            add_to(&mut work.increment, &work.shift);
+        }
+        let Work { increment, next: p0, trial, .. } = &mut **work;
+        let (points, storage) = ([&***q, &**p0], (matrix, trial));
+        let stopping = step.method.stopping;
+        solve_by_newton(
+            *l_d,
+            step.system,
+            step.interval(),
+            points,
+            increment,
+            storage,
+            stopping,
+            statistics,
+        )?;
+        if !step.method.is_midpoint() {
+            l_d.place(step.interval(), Ends { q0: q, delta: &work.increment });
+            let node = &mut l_d.work;
+            step.system.hamiltonian_gradient(&node.point, step.node_time(), &mut node.gradient);
+            statistics.gradients += 1;
+        }
+        if defect.is_some() {
+            for (delta, &shift) in work.increment.iter_mut().zip(work.shift.iter()) {
+                *delta -= shift;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn add_to<T: Real>(sum: &mut [T], terms: &[T]) {
+    for (sum, &term) in sum.iter_mut().zip(terms) {
+        *sum += term;
+    }
+}
+
+/// Moves to q1 = q0 + K⁻¹c0 + s and updates the defect.
+#[inline(always)]
+fn finish<S: DegenerateLagrangian, T: Real>(
+    step: &Step<'_, S, T>,
+    memory: &mut SigmaMemory<S, T>,
+    q: &mut Vector<S, T>,
+) -> Result<(), StepFailure> {
+    let SigmaMemory { defect, history, product, l_d, work, carried, defect_vanishes, .. } = memory;
+    if *defect_vanishes {
+        advance(step, q, &work.increment, carried, &mut work.next)?;
+        history.push(&work.increment);
+        return Ok(());
+    }
+    for ((delta, &s), &shift) in work.trial.iter_mut().zip(work.increment.iter()).zip(work.shift.iter()) {
+        *delta = shift + s;
+    }
+    advance(step, q, &work.trial, carried, &mut work.next)?;
+    history.push(&work.increment);
+    match product {
+        None => defect.iter_mut().for_each(|c| *c = -*c),
+        Some(product) => {
+            product.apply(step.system, &work.trial, defect);
+            let right = step.method.sigma * step.h;
+            for (c, &g) in defect.iter_mut().zip(l_d.work.gradient.iter()) {
+                *c -= right * g;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,256 @@
+//! What a run of the σ-family carries from step to step.
+//!
+//! For affine α the increment splits as Δ = K⁻¹c0 + s, K = σDα − (1−σ)(Dα)ᵀ, where the first part
+//! alternates with the defect and s = −(1−σ)h K⁻¹∇H is smooth; the history extrapolates s. For
+//! nonlinear α it extrapolates Δ.
+
+use super::Sigma;
+use super::leapfrog::Ahead;
+use super::monitor::{Monitor, Pace, ParasiticMode};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode};
+use crate::error::StartError;
+use crate::mechanics::form::{Combination, Form, Product};
+use crate::mechanics::orientation::FormOrientation;
+use crate::solve::{Ladder, Solver};
+use crate::space::scratch;
+use crate::space::square::of_second_derivatives;
+use crate::state::Statistics;
+use crate::state::history::History;
+use crate::state::memory::{Memory, lasting};
+use crate::state::summation::Carried;
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Square, Vector};
+
+/// The defect of a run of the σ-family, its guesses and its work space.
+#[derive(Debug)]
+pub struct SigmaMemory<S: Lagrangian, T: Real> {
+    /// c = p − α(q) at the current point.
+    pub(super) defect: Vector<S, T>,
+    /// Whether c = 0 for all times, so that nothing needs to be done about it.
+    pub(super) defect_vanishes: bool,
+    /// α at the current point; kept if α is not affine.
+    pub(super) one_form: Vector<S, T>,
+    pub(super) history: History<S, T>,
+    /// The matrix of the fixed point: constant if α is affine, and else frozen for one step.
+    pub(super) inverse: Form<S, T>,
+    /// −1/((1−σ)h), the scale of `inverse` if α is affine and σ ≠ 1.
+    pub(super) scale: T,
+    /// K' = σ(Dα)ᵀ − (1−σ)Dα; kept if α is affine and c is not just reversed.
+    pub(super) product: Option<Product<S, T>>,
+    /// Kept if α is affine and σ = 0.
+    pub(super) ahead: Option<Ahead<S, T>>,
+    pub(super) l_d: OneNode<S, T>,
+    /// With the matrix of Newton's method. Explicit steps do not use it.
+    pub(super) ladder: Ladder<Square<S, T>>,
+    pub(super) monitor: Monitor<S, T>,
+    pub(super) orientation: FormOrientation<S, T>,
+    /// What rounding has left out of the coordinates, if α is affine and σ neither 0 nor 1.
+    pub(super) carried: Carried<S, T>,
+    pub(super) work: Work<S, T>,
+}
+
+/// Vectors that are written before they are read in each step.
+#[derive(Debug)]
+pub(super) struct Work<S: Lagrangian, T: Real> {
+    /// K⁻¹c0; p0 if α is not affine.
+    pub(super) shift: Vector<S, T>,
+    /// q0 + K⁻¹c0, which outlives the step, if α is affine and σ = 0.
+    pub(super) ahead: Vector<S, T>,
+    /// The smooth part of the increment.
+    pub(super) increment: Vector<S, T>,
+    pub(super) trial: Vector<S, T>,
+    /// (D₁ + D₂)L_d
+    pub(super) sum: Vector<S, T>,
+    pub(super) next: Vector<S, T>,
+}
+
+impl<S: Lagrangian, T: Real> Work<S, T> {
+    fn new(system: &S) -> Self {
+        let vector = || system.space().vector();
+        Self {
+            shift: vector(),
+            ahead: vector(),
+            increment: vector(),
+            trial: vector(),
+            sum: vector(),
+            next: vector(),
+        }
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for SigmaMemory<S, T> {
+    lasting!(
+        T;
+        numbers defect, flag defect_vanishes, numbers one_form, part history, part ladder, part monitor, part orientation,
+        part carried, part work,
+    );
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for Work<S, T> {
+    lasting!(T; numbers ahead);
+}
+
+impl<S: Lagrangian, T: Real> SigmaMemory<S, T> {
+    /// c = p − α(q) at the current point, one entry per coordinate.
+    pub fn defect(&self) -> &[T] {
+        &self.defect
+    }
+
+    /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is measured
+    /// before each step; if Dα is constant and antisymmetric, after 4 to 256 steps, the sooner the larger the mode and
+    /// the longer the steps; without a limit, or where α is affine and σ = ½, before every 256th step.
+    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
+        self.monitor.latest()
+    }
+
+    /// max |c|: the amplitude of the parasitic mode in p if σ = ½ and α is affine. Elsewhere c is of order h(1 − 2σ)
+    /// on an orbit without such a mode, and says little of it; take [`parasitic_mode`](Self::parasitic_mode).
+    pub fn parasitic_amplitude(&self) -> T {
+        crate::scalar::norm::largest(&self.defect)
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
+    /// For a run on the constraint p = α(q) that stays on it.
+    pub(super) fn without_defect(
+        system: &S,
+        method: &Sigma<T>,
+        q: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Self, StartError> {
+        let mut memory = Self::new(system, method, q, t, h)?;
+        memory.defect_vanishes = true;
+        Ok(memory)
+    }
+
+    /// For a run whose first step leads from `q0` to `q1`: p0 = −D₁L_d(q0, q1).
+    pub(super) fn between(
+        system: &S,
+        method: &Sigma<T>,
+        q0: &Vector<S, T>,
+        q1: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Self, StartError> {
+        let mut memory = Self::new(system, method, q0, t, h)?;
+        let (sigma, work) = (method.sigma, &mut memory.work);
+        for i in 0..q0.len() {
+            work.increment[i] = q1[i] - q0[i];
+        }
+        // c0 = p0 − α(q0) = −D₁L_d − α(q0).
+        let (mut unused, mut sum) = (Statistics::default(), system.space().vector());
+        let (interval, ends) = (Interval { t, h }, Ends { q0, delta: &work.increment });
+        system.one_form(q0, t, &mut memory.one_form);
+        memory.defect.copy_from_slice(&memory.one_form);
+        let derivatives =
+            memory.l_d.derivatives(system, interval, ends, &mut memory.defect, &mut sum, &mut unused);
+        derivatives.map_err(StartError::Starter)?;
+        memory.defect.iter_mut().for_each(|c| *c = -*c);
+        crate::scalar::norm::finite(&memory.defect).map_err(StartError::Starter)?;
+        if S::LINEAR && sigma != T::lift(1.0) {
+            memory.shift_by_defect(system);
+            let work = &mut memory.work;
+            for i in 0..q0.len() {
+                work.increment[i] -= work.shift[i];
+                work.ahead[i] = q0[i] + work.shift[i];
+            }
+        }
+        memory.history = History::new(system, Some(memory.work.increment.clone()));
+        Ok(memory)
+    }
+
+    fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
+        let (space, sigma) = (system.space(), method.sigma);
+        let left = T::lift(1.0) - sigma;
+        let explicit = if S::LINEAR { method.is_end() } else { sigma == T::lift(0.0) };
+        let combination = fixed_point_matrix::<S, T>(method, h);
+        let mut inverse = Form::new(system, combination);
+        let mut work = Work::new(system);
+        if S::LINEAR {
+            let mut unused = Statistics::default();
+            inverse
+                .prepare(system, q, t, combination, &mut work.trial, &mut unused)
+                .map_err(StartError::Starter)?;
+        }
+        let product = (S::LINEAR && !method.is_midpoint())
+            .then(|| Product::new(system, q, t, Combination { a: -left, b: sigma }));
+        let scale = fixed_point_scale(method, h);
+        let ahead = product
+            .as_ref()
+            .filter(|_| sigma == T::lift(0.0))
+            .map(|product| Ahead::new(system, product, &inverse, scale));
+        let solver = if explicit { Solver::FixedPoint } else { method.solver };
+        let mut one_form = space.vector();
+        system.one_form(q, t, &mut one_form);
+        let (limit, pace) = pace(system, method, q, t);
+        Ok(Self {
+            defect: space.vector(),
+            defect_vanishes: false,
+            one_form,
+            history: History::new(system, None),
+            inverse,
+            scale,
+            product,
+            ahead,
+            l_d: OneNode::new(system, sigma),
+            ladder: Ladder::new(solver, || of_second_derivatives(system)),
+            monitor: Monitor::new(system, limit, pace),
+            orientation: FormOrientation::new(system, q, t),
+            carried: Carried::new(system, method.summation),
+            work,
+        })
+    }
+
+    /// Sets `work.shift` to K⁻¹c0.
+    #[inline(always)]
+    pub(super) fn shift_by_defect(&mut self, system: &S) {
+        let Self { defect, inverse, scale, work, .. } = self;
+        scratch!(scaled = system, work.trial);
+        for (scaled, &c) in scaled.iter_mut().zip(defect.iter()) {
+            *scaled = c * *scale;
+        }
+        inverse.solve(system, scaled, &mut work.shift);
+    }
+}
+
+/// The limit of the parasitic mode, and when the mode is measured.
+fn pace<S: DegenerateLagrangian, T: Real>(
+    system: &S,
+    method: &Sigma<T>,
+    q: &[T],
+    t: T,
+) -> (Option<f64>, Pace) {
+    let one = T::lift(1.0);
+    match method.parasitic_limit {
+        // The mode is only reversed.
+        _ if S::LINEAR && method.is_midpoint() => (None, Pace::Seldom),
+        None => (None, Pace::Seldom),
+        // Where Dα is antisymmetric, K' = −K: c is reversed, and a gradient added to it.
+        limit if S::LINEAR && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) => {
+            (limit, Pace::WithTheFlow)
+        }
+        limit => (limit, Pace::EachStep),
+    }
+}
+
+/// Affine and σ ≠ 1: K times −1/((1−σ)h), whose inverse maps ∇H to s. Else K.
+/// Nonlinear and σ = 0: (Dα)ᵀ.
+pub(super) fn fixed_point_matrix<S: DegenerateLagrangian, T: Real>(
+    method: &Sigma<T>,
+    h: T,
+) -> Combination<T> {
+    let sigma = method.sigma;
+    let left = T::lift(1.0) - sigma;
+    if S::LINEAR && sigma != T::lift(1.0) {
+        let scale = fixed_point_scale(method, h);
+        Combination { a: sigma * scale, b: -left * scale }
+    } else if !S::LINEAR && sigma == T::lift(0.0) {
+        Combination { a: T::lift(0.0), b: T::lift(1.0) }
+    } else {
+        Combination { a: sigma, b: -left }
+    }
+}
+
+fn fixed_point_scale<T: Real>(method: &Sigma<T>, h: T) -> T {
+    T::lift(-1.0) / ((T::lift(1.0) - method.sigma) * h)
+}

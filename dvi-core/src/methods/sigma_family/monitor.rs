@@ -1,0 +1,305 @@
+//! The parasitic mode, measured: what of the second differences of a run alternates from step to step.
+//!
+//! D_k = q_{k−1} − 2q_k + q_{k+1}. On an alternating part (−1)ᵏa, D_{k−1} − 2D_k + D_{k+1} is 16a, and
+//! D_{k−1} + 2D_k + D_{k+1} is nothing; on a smooth motion the second is 4h²q̈. The mode is compared with a quarter of
+//! h²q̈, the size of what a step of second order neglects. Of a motion that turns by the angle θ in a step the ratio is
+//! tan²(θ/2). The solution of a stable step with σ ≠ ½ has θ < π/2, and the parasitic mode is its mirror image, π − θ
+//! (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
+
+use crate::error::StepFailure;
+use crate::methods::walk::BLOCK;
+use crate::scalar::norm::{larger, reported};
+use crate::state::memory::{Memory, lasting};
+use crate::{Lagrangian, Real, Scalar, Space, Vector};
+
+/// How many points are kept besides the present one.
+const KEPT: usize = 4;
+
+/// An alternating part below this many units of rounding of the coordinates is noise.
+const ROUNDING: f64 = 1024.0;
+
+/// An alternating part below this fraction of the latest increment does no harm, however straight the path.
+const HARMLESS: f64 = 1e-5;
+
+/// How much of the size of a coordinate's second differences is forgotten from one look to the next.
+const FORGOTTEN: f64 = 1.0 / 64.0;
+
+/// The same of all coordinates together: what is remembered is a bridge over points at which the path is straight.
+const FORGOTTEN_TOGETHER: f64 = 1.0 / 8.0;
+
+/// The second differences of a coordinate count as no smaller than this fraction of the largest of all.
+const FLOOR: f64 = 0.1;
+
+/// A mode that is large from the first steps on, as it is where steps are long, may become this many times as large.
+const GROWTH: f64 = 3.0;
+
+/// What it takes to end a run: this many looks in a row above the limit, or two of which the last is above it this many
+/// times.
+#[derive(Clone, Copy, Debug)]
+struct Evidence {
+    looks: u32,
+    sudden: f64,
+}
+
+/// Where a path is straight, a smooth motion may look as if it alternated, to one look.
+const GROWING: Evidence = Evidence { looks: 2, sudden: 4.0 };
+
+/// A path whose curvature changes within a step or two seems to alternate, all at once, to all looks that see the place, which
+/// are five to seven, and up to three times as large as it is curved.
+const AT_ONCE: Evidence = Evidence { looks: 8, sudden: 16.0 };
+
+/// A mode that is this many times as large as a step before has not grown.
+const JUMP: f64 = 5.0;
+
+/// How many looks show the mode as it is from the start.
+const FIRST_LOOKS: u32 = 2;
+
+/// By how many radians the motion turns while the mode may grow e-fold; from this follows when to look again.
+const RADIANS: f64 = 4.0;
+
+/// The parasitic mode at five consecutive points of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParasiticMode<T = f64> {
+    /// The largest entry of a = (q_{k−2} − 4q_{k−1} + 6q_k − 4q_{k+1} + q_{k+2})/16: of an alternating part (−1)ᵏa,
+    /// the largest entry of a; of a smooth motion, of (h⁴/16) q⁗. In units of the coordinates.
+    pub amplitude: T,
+    /// 4|a|/|s| in the Euclidean norm, where s is h²q̈ from second differences that do not see what alternates; or the
+    /// largest 4|aᵢ|/sᵢ, if that is larger, where sᵢ is at least a tenth of the largest of all coordinates. Both sizes are
+    /// the largest of the points that were looked at, of which each look forgets 1/8, and of a coordinate 1/64. Of a
+    /// smooth motion of frequency ω it is about (ωh/2)².
+    pub relative: T,
+    /// Whether the amplitude is more than rounding errors, 1024 ε max|q|, and more than 10⁻⁵ of the increment.
+    pub is_significant: bool,
+}
+
+/// When a run is examined.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Pace {
+    /// Before each step: the mode may grow by a factor from step to step.
+    EachStep,
+    /// Before the mode can have become too large, if it grows at a rate of the flow: after 4 to 256 steps.
+    WithTheFlow,
+    /// Before every 256th step: the mode does not grow, or nobody minds.
+    Seldom,
+}
+
+/// The points from which the mode is measured.
+#[derive(Debug)]
+pub(super) struct Monitor<S: Lagrangian, T: Real> {
+    /// The points before the present one; point k is at place k mod 4.
+    points: [Vector<S, T>; KEPT],
+    /// The size of the second differences of each coordinate, and the square of that of all.
+    sizes: Vector<S, T>,
+    together: T,
+    /// The completed steps.
+    pub(super) steps: u64,
+    pace: Pace,
+    /// The run is examined where the number of steps is a multiple of this power of two.
+    period: u64,
+    limit: Option<f64>,
+    /// Before which step it was examined last, zero if it was not, and what was measured.
+    examined: u64,
+    mode: ParasiticMode<T>,
+    /// How many looks in a row, the last among them, have seen it above the limit.
+    above: u32,
+    /// How many looks have passed, of those at each step, since the mode has become large at once.
+    since_jump: u32,
+    first: First,
+}
+
+/// The mode in the first looks of a run whose mode grows with the flow: the largest relative size and amplitude.
+#[derive(Clone, Copy, Debug, Default)]
+struct First {
+    looks: u32,
+    relative: f64,
+    amplitude: f64,
+}
+
+impl<S: Lagrangian, T: Real> Monitor<S, T> {
+    pub(super) fn new(system: &S, limit: Option<f64>, pace: Pace) -> Self {
+        let vector = || system.space().vector();
+        Self {
+            points: core::array::from_fn(|_| vector()),
+            sizes: vector(),
+            together: T::lift(0.0),
+            steps: 0,
+            pace,
+            period: match pace {
+                Pace::EachStep => 1,
+                Pace::WithTheFlow => KEPT as u64,
+                Pace::Seldom => BLOCK,
+            },
+            limit,
+            examined: 0,
+            mode: ParasiticMode { amplitude: T::lift(0.0), relative: T::lift(0.0), is_significant: false },
+            above: 0,
+            since_jump: u32::MAX,
+            first: First::default(),
+        }
+    }
+
+    pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
+        self.last().map(|(_, mode)| mode)
+    }
+
+    /// The last examination: before which step, and what it measured.
+    fn last(&self) -> Option<(u64, ParasiticMode<T>)> {
+        (self.examined > 0).then_some((self.examined, self.mode))
+    }
+
+    /// The number of steps from one examination to the next, a power of two.
+    #[inline(always)]
+    pub(super) fn period(&self) -> u64 {
+        self.period
+    }
+
+    /// Takes note of the point before the next step, if it is one of those that are looked at.
+    ///
+    /// # Errors
+    /// [`StepFailure::ParasiticMode`] if the run is lost.
+    #[inline(always)]
+    pub(super) fn look(&mut self, q: &[T]) -> Result<(), StepFailure> {
+        if (self.steps + KEPT as u64) & (self.period - 1) > KEPT as u64 {
+            Ok(())
+        } else {
+            self.look_closely(q)
+        }
+    }
+
+    #[inline(never)]
+    fn look_closely(&mut self, q: &[T]) -> Result<(), StepFailure> {
+        let verdict = if self.steps & (self.period - 1) == 0 { self.examine(self.steps, q) } else { Ok(()) };
+        self.note(self.steps, q);
+        verdict
+    }
+
+    /// Keeps point number `step`.
+    #[inline(always)]
+    pub(super) fn note(&mut self, step: u64, q: &[T]) {
+        self.points[(step % KEPT as u64) as usize].copy_from_slice(q);
+    }
+
+    /// Measures the mode at `q`, point number `step`, and the four before it.
+    ///
+    /// # Errors
+    /// [`StepFailure::ParasiticMode`] if the run is lost.
+    #[inline(never)]
+    pub(super) fn examine(&mut self, step: u64, q: &[T]) -> Result<(), StepFailure> {
+        if step < KEPT as u64 {
+            return Ok(());
+        }
+        let mode = match self.last() {
+            // A step that failed is tried again.
+            Some((last, mode)) if last == step => mode,
+            _ => self.measure(step, q),
+        };
+        let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
+        let Evidence { looks, sudden } = if self.since_jump < AT_ONCE.looks { AT_ONCE } else { GROWING };
+        match self.limit {
+            Some(limit) if self.above >= looks || (self.above > 1 && relative > sudden * limit) => {
+                Err(StepFailure::ParasiticMode { amplitude, relative, limit })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the mode is above the limit, and larger than where it came from.
+    fn is_above(&self, mode: &ParasiticMode<T>) -> bool {
+        let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
+        let First { looks, relative: first, amplitude: from } = self.first;
+        let has_grown = relative > GROWTH * first || amplitude > GROWTH * from;
+        mode.is_significant
+            && self.limit.is_some_and(|limit| relative > limit)
+            && (self.pace != Pace::WithTheFlow || (looks >= FIRST_LOOKS && has_grown))
+    }
+
+    fn measure(&mut self, step: u64, q: &[T]) -> ParasiticMode<T> {
+        let (zero, two) = (T::lift(0.0), T::lift(2.0));
+        let Self { points, sizes, together, .. } = self;
+        let point = |j: u64| &points[((step + j) % KEPT as u64) as usize];
+        let [a, b, c, d] = [point(0), point(1), point(2), point(3)];
+        let alternating = |i: usize, e: T| a[i] - T::lift(4.0) * (b[i] + d[i]) + T::lift(6.0) * c[i] + e;
+        let remembered = T::lift(1.0 - FORGOTTEN);
+        let (mut amplitude, mut size, mut increment, mut largest) = (zero, zero, zero, zero);
+        let (mut turned, mut moved, mut alternated) = (zero, zero, zero);
+        for (i, &e) in q.iter().enumerate() {
+            let smooth = (a[i] - two * c[i] + e) * T::lift(0.25);
+            turned += smooth * smooth;
+            let delta = e - d[i];
+            moved += delta * delta;
+            sizes[i] = larger(Scalar::abs(smooth), sizes[i] * remembered);
+            largest = larger(largest, sizes[i]);
+            let fourth = alternating(i, e);
+            alternated += fourth * fourth;
+            amplitude = larger(amplitude, Scalar::abs(fourth));
+            size = larger(size, Scalar::abs(e));
+            increment = larger(increment, Scalar::abs(delta));
+        }
+        let kept = T::lift(1.0 - FORGOTTEN_TOGETHER);
+        *together = larger(turned, *together * kept * kept);
+        let (floor, mut relative) =
+            (T::lift(FLOOR) * largest, larger(zero, Scalar::sqrt(alternated / *together)));
+        for (i, &e) in q.iter().enumerate() {
+            relative = larger(relative, Scalar::abs(alternating(i, e)) / larger(sizes[i], floor));
+        }
+        // What alternates is 16a here.
+        (amplitude, relative) = (amplitude * T::lift(1.0 / 16.0), relative * T::lift(0.25));
+        let noise = T::lift(ROUNDING) * T::default_epsilon() * size;
+        let is_significant = amplitude > noise && amplitude > T::lift(HARMLESS) * increment;
+        let mode = ParasiticMode { amplitude, relative, is_significant };
+        if self.pace == Pace::WithTheFlow {
+            self.keep_pace(step, &mode, reported(turned), reported(moved));
+        }
+        let has_jumped = self.last().is_some_and(|(_, last)| mode.relative > T::lift(JUMP) * last.relative);
+        let is_jump = self.pace == Pace::EachStep && has_jumped;
+        self.since_jump = if is_jump { 0 } else { self.since_jump.saturating_add(1) };
+        self.above = if self.is_above(&mode) { self.above + 1 } else { 0 };
+        (self.examined, self.mode) = (step, mode);
+        mode
+    }
+
+    /// Notes the mode of the first looks, and sets when to look again: before the mode can have reached the limit if it
+    /// grows with the turning of the path, `turned`/`moved` being the square of the angle of a step, or as it has grown
+    /// since the last look; and not much later than half as far again as the run has come.
+    fn keep_pace(&mut self, step: u64, mode: &ParasiticMode<T>, turned: f64, moved: f64) {
+        let size = |mode: &ParasiticMode<T>| if mode.is_significant { reported(mode.relative) } else { 0.0 };
+        let relative = size(mode);
+        let First { looks, relative: first, amplitude } = &mut self.first;
+        if *looks < FIRST_LOOKS {
+            *looks += 1;
+            *first = first.max(relative);
+            *amplitude = amplitude.max(reported(mode.amplitude));
+        }
+        let limit = self.limit.unwrap_or(super::PARASITIC_LIMIT).max(GROWTH * self.first.relative);
+        let room = Scalar::ln((limit / relative).clamp(1.0, f64::MAX));
+        let grown = self.last().map_or(0.0, |(_, last)| Scalar::ln((relative / size(&last)).max(1.0)));
+        let since = self.last().map_or(1, |(last, _)| step - last) as f64;
+        // (steps · angle)² ≤ (RADIANS room)², which is false of what is not a number.
+        let fits = |steps: u64| {
+            let (by_angle, steps_squared) = (RADIANS * room, (steps * steps) as f64);
+            steps_squared * turned <= by_angle * by_angle * moved
+                && (grown.is_infinite() || steps as f64 * grown <= room * since)
+                && steps * 4 <= step.max(2 * KEPT as u64)
+        };
+        self.period = KEPT as u64;
+        while self.period < BLOCK && fits(2 * self.period) {
+            self.period *= 2;
+        }
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for Monitor<S, T> {
+    lasting!(
+        T;
+        vectors points, numbers sizes, number together, count steps, count period, count examined, part mode, count above,
+        count since_jump, part first,
+    );
+}
+
+impl<T: Real> Memory<T> for ParasiticMode<T> {
+    lasting!(T; number amplitude, number relative, flag is_significant);
+}
+
+impl<T: Real> Memory<T> for First {
+    lasting!(T; count looks, bits relative, bits amplitude);
+}

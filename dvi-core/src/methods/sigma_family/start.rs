@@ -1,0 +1,52 @@
+//! Starting values: a two-step map needs a second point.
+//!
+//! Each start gives q1, and the run begins with p0 = −D₁L_d(q0, q1), so that its first step arrives
+//! there.
+
+use crate::error::StartError;
+use crate::methods::Gauss;
+use crate::methods::Method;
+use crate::methods::RungeKutta;
+use crate::state::Statistics;
+use crate::{DegenerateLagrangian, Real, Vector};
+
+/// How the second point of a run is found. A given second point goes to
+/// [`Integrator::from_two_points`](crate::run::Integrator::from_two_points).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Start {
+    /// One step of the implicit midpoint rule on q' = X(q). For σ = ½ and affine α this is p0 = α(q0).
+    #[default]
+    Consistent,
+    /// One step of a Runge–Kutta method on q' = X(q); Rowley & Marsden use [`RungeKutta::midpoint`].
+    RungeKutta(RungeKutta),
+}
+
+impl Start {
+    pub(super) fn second_point<S: DegenerateLagrangian, T: Real>(
+        self,
+        system: &S,
+        q: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<Vector<S, T>, StartError> {
+        match self {
+            Self::Consistent => one_step(&Gauss::<1>::new(), system, q, t, h),
+            Self::RungeKutta(method) => one_step(&method, system, q, t, h),
+        }
+    }
+}
+
+fn one_step<S: DegenerateLagrangian, T: Real, M: Method<S, T>>(
+    method: &M,
+    system: &S,
+    q: &Vector<S, T>,
+    t: T,
+    h: T,
+) -> Result<Vector<S, T>, StartError> {
+    let mut memory = method.begin(system, q, &[], t, h)?;
+    let mut q = q.clone();
+    method
+        .step(system, &mut memory, &mut q, t, h, &mut Statistics::default())
+        .map_err(StartError::Starter)?;
+    Ok(q)
+}

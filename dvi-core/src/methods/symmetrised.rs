@@ -1,0 +1,109 @@
+//! The symmetrised family: L_d(q0, q1) = ½ (L_d^α + L_d^{1−α}),   L_d^α = h L((1−α)q0 + αq1, Δ/h, t + αh)
+//!
+//! Its own adjoint, and so of second order, for every α (Marsden & West 2001, section 2.3.2 and theorem 2.4.1).
+
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, TwiceDifferentiable};
+use crate::error::StepFailure;
+use crate::methods::VariationalMethod;
+use crate::methods::{PreservedForm, Scheme};
+use crate::space::sink::{Scaled, Sink};
+use crate::state::Statistics;
+use crate::{Lagrangian, Real, Space, Vector};
+
+/// The symmetrised family for systems of either kind, as a method by [`General`](crate::methods::General): α = 0 is Störmer–Verlet
+/// where that exists, α = ½ the midpoint rule. On degenerate systems it is a two-step map with a parasitic mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Symmetrised<T = f64> {
+    /// α, in \[0, 1\].
+    pub alpha: T,
+}
+
+/// ½ (L_d^α + L_d^{1−α}), with the storage that it needs.
+#[derive(Debug)]
+pub struct SymmetrisedLagrangian<S: Lagrangian, T: Real = f64> {
+    nodes: [OneNode<S, T>; 2],
+    /// Twice D₁L_d and D₁L_d + D₂L_d.
+    twice: [Vector<S, T>; 2],
+}
+
+impl<T: Real> Scheme for Symmetrised<T> {
+    fn order(&self) -> usize {
+        2
+    }
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        PreservedForm::Discrete
+    }
+}
+
+impl<S: Lagrangian, T: Real> VariationalMethod<S, T> for Symmetrised<T> {
+    type DiscreteLagrangian = SymmetrisedLagrangian<S, T>;
+
+    fn discrete_lagrangian(&self, system: &S) -> SymmetrisedLagrangian<S, T> {
+        let nodes = [self.alpha, T::lift(1.0) - self.alpha].map(|node| OneNode::new(system, node));
+        SymmetrisedLagrangian { nodes, twice: [system.space().vector(), system.space().vector()] }
+    }
+}
+
+impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<S, T> {
+    fn derivatives(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sum: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { nodes, twice: [first, both] } = self;
+        first.fill(T::lift(0.0));
+        both.fill(T::lift(0.0));
+        for node in nodes {
+            node.derivatives(system, interval, ends, first, both, statistics)?;
+        }
+        for i in 0..d1.len() {
+            d1[i] += T::lift(0.5) * first[i];
+            sum[i] += T::lift(0.5) * both[i];
+        }
+        Ok(())
+    }
+
+    fn linearize<K: Sink<T>>(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sink: &mut K,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { nodes, twice: [first, _] } = self;
+        first.fill(T::lift(0.0));
+        let mut half = Scaled { sink, factor: |_, _| T::lift(0.5) };
+        for node in nodes {
+            node.linearize(system, interval, ends, first, &mut half, statistics)?;
+        }
+        for (d1, &first) in d1.iter_mut().zip(first.iter()) {
+            *d1 += T::lift(0.5) * first;
+        }
+        Ok(())
+    }
+}
+
+impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for SymmetrisedLagrangian<S, T> {
+    fn hessian<K: Sink<T>>(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        sinks: [&mut K; 3],
+    ) -> Result<(), StepFailure> {
+        let [mut d11, mut d12, mut d22] = sinks.map(|sink| Scaled { sink, factor: |_, _| T::lift(0.5) });
+        for node in &mut self.nodes {
+            node.hessian(system, interval, ends, [&mut d11, &mut d12, &mut d22])?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,342 @@
+//! Variational integrators of the quadrature family, for regular Lagrangians.
+//!
+//! L_d(q0, q1) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh),   qʲ = bⱼ q0 + b̄ⱼ q1,   q̇ʲ = (Bⱼ q0 + B̄ⱼ q1)/h
+//!
+//! with the nodes and weights of a [`Quadrature`] and an interpolation that is linear, or fitted to a
+//! [`Frequency`] (Marsden & West 2001, section 2.3; Kosmas & Vlachos, eqs. 9, 11 and 15). A step solves
+//! p0 = −D₁L_d(q0, q1) for q1 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
+
+mod coefficients;
+mod general;
+mod lagrangian;
+mod memory;
+mod separable;
+mod verlet;
+
+use crate::discrete::Interval;
+use crate::discrete::frequency::{self, Frequency, FrequencyIn, GivenFrequency, Reading, Unfitted};
+use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::phase::Inertial;
+use crate::methods::VariationalMethod;
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::solve::{Guess, Solver, Stopping};
+use crate::state::Statistics;
+use crate::state::summation::Summation;
+use crate::{Lagrangian, Real, RegularLagrangian, Square, Vector};
+
+pub use lagrangian::QuadratureLagrangian;
+use memory::Parts;
+pub use memory::VariationalMemory;
+
+/// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fitting {
+    /// The positions: q_{k+1} = 2 cos(ωh) q_k − q_{k−1}. The momentum is s·v with a factor s near one
+    /// (midpoint at ωh = 1: 1.188), so that a run from given velocities has a wrong amplitude for ever.
+    #[default]
+    Phase,
+    /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u).
+    /// Not available with [`PerCoordinate`](crate::discrete::PerCoordinate) frequencies, which would need weights per
+    /// coordinate.
+    PhaseAndMomentum,
+}
+
+/// The quadrature family: L_d = h Σⱼ wⱼ L(qʲ, q̇ʲ), q and q̇ interpolated between q0 and q1.
+///
+/// | rule | step if L = ½ v·M v − V(q, t) | order |
+/// |---|---|---|
+/// | [`trapezoid`](Self::trapezoid), unfitted: Störmer–Verlet | explicit: one ∂L/∂q, no iteration, no factorisation | 2 |
+/// | [`sigma`](Self::sigma) with σ = 0 or 1: symplectic Euler | explicit | 1 |
+/// | the same two, fitted to a frequency that is given or left-frozen | explicit | 2 and 1 |
+/// | others with Σ w c = ½, such as symmetric rules | implicit in q1 | 2 |
+/// | others | implicit in q1 | 1 |
+///
+/// The order is two for every rule that is exact for linear functions, however many nodes it has, because the
+/// interpolation between two points is; [`Galerkin`](crate::methods::Galerkin) has more. Other Lagrangians take the implicit step. Starts
+/// from p0 = ∂L/∂v(q0, v0). Preserves the momentum maps of symmetries that act linearly and leave the
+/// frequency as it is, and dq ∧ dp unless the frequency is read from the motion without being differentiated
+/// ([`Reading`]).
+///
+/// On the oscillator of the fitted frequency each step is exact, whatever the rule, where sin u ≠ 0 and
+/// S ≠ 0, u = ωh; near a zero of either it ends with [`StepFailure::Resonance`]. It is not translation
+/// invariant: constants are not among the functions that it interpolates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variational<F = Unfitted, R = Quadrature> {
+    /// Nodes and weights.
+    pub rule: R,
+    /// What the interpolation is fitted to.
+    pub frequency: F,
+    /// Whether momenta are fitted too. Default: [`Fitting::Phase`].
+    pub fitting: Fitting,
+    /// How implicit steps are solved. [`Solver::FixedPoint`] is for L = ½ v·M v − V(q, t) only.
+    pub solver: Solver,
+    /// When an implicit step counts as solved. Default: to rounding errors.
+    pub stopping: Stopping,
+    /// How the increments of the steps are added up; with frequencies per coordinate plainly. Default:
+    /// [`Summation::Plain`].
+    pub summation: Summation,
+}
+
+impl<R> Variational<Unfitted, R> {
+    /// Any rule, with linear interpolation.
+    pub fn new(rule: R) -> Self {
+        Self {
+            rule,
+            frequency: Unfitted,
+            fitting: Fitting::default(),
+            solver: Solver::default(),
+            stopping: Stopping::default(),
+            summation: Summation::default(),
+        }
+    }
+}
+
+impl Variational<Unfitted, Midpoint> {
+    /// L_d = h L((q0 + q1)/2, Δ/h): the implicit midpoint rule.
+    pub fn midpoint() -> Self {
+        Self::new(Midpoint)
+    }
+}
+
+impl Variational<Unfitted, Trapezoid> {
+    /// L_d = (h/2)[L(q0, Δ/h) + L(q1, Δ/h)]: Störmer–Verlet, in the form kick–drift–kick, if L is separable.
+    pub fn trapezoid() -> Self {
+        Self::new(Trapezoid)
+    }
+}
+
+impl Variational<Unfitted, Quadrature> {
+    /// L_d = h L((1 − σ)q0 + σq1, Δ/h).
+    pub fn sigma(sigma: f64) -> Self {
+        Self::new(Quadrature::sigma(sigma))
+    }
+}
+
+impl Variational<Unfitted, Simpson> {
+    /// Nodes 0, ½, 1 with weights 1/6, 2/3, 1/6.
+    pub fn simpson() -> Self {
+        Self::new(Simpson)
+    }
+}
+
+impl<F, R> Variational<F, R> {
+    /// The same rule with interpolation fitted to a frequency.
+    pub fn phase_fitted<G>(self, frequency: G) -> Variational<G, R> {
+        let Self { rule, fitting, solver, stopping, summation, .. } = self;
+        Variational { rule, frequency, fitting, solver, stopping, summation }
+    }
+}
+
+/// One step: where it starts, how long it is, and which member of the family takes it.
+#[derive(Debug)]
+struct Step<'a, S, F, R, T> {
+    system: &'a S,
+    method: &'a Variational<F, R>,
+    t: T,
+    h: T,
+}
+
+impl<S: RegularLagrangian, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
+    /// The time of a node.
+    #[inline(always)]
+    fn node_time(&self, c: f64) -> T {
+        self.t + T::lift(c) * self.h
+    }
+
+    #[inline(always)]
+    fn interval(&self) -> Interval<T> {
+        Interval { t: self.t, h: self.h }
+    }
+}
+
+/// A step, and what it changes.
+struct Attempt<'a, S: Lagrangian, F, R, T: Real> {
+    step: Step<'a, S, F, R, T>,
+    parts: Parts<'a, S, T>,
+    /// Of the fixed point.
+    budget: usize,
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
+    #[inline(always)]
+    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        if self.step.method.needs_forces_only::<S>() && self.step.method.summation == Summation::Plain {
+            separable::step(&self.step, &mut self.parts, self.budget, statistics)
+        } else {
+            general::by_fixed_point(&self.step, &mut self.parts, statistics)
+        }
+    }
+
+    #[inline(always)]
+    fn newton(
+        &mut self,
+        matrix: &mut Square<S, T>,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        general::by_newton(&self.step, &mut self.parts, matrix, guess, statistics)
+    }
+}
+
+impl<F: Frequency, R: Rule> Variational<F, R> {
+    /// Whether the step is Störmer–Verlet, for separable systems.
+    #[inline(always)]
+    fn is_verlet(&self) -> bool {
+        F::UNFITTED && self.rule.nodes() == Trapezoid.nodes() && self.rule.weights() == Trapezoid.weights()
+    }
+
+    /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
+    #[inline(always)]
+    fn is_explicit(&self) -> bool {
+        !self.rule.has_interior_nodes() && !self.reads_both_ends()
+    }
+
+    /// Whether forces are all that a step needs: L is separable, and the interpolation does not mix with M.
+    #[inline(always)]
+    fn needs_forces_only<S: RegularLagrangian>(&self) -> bool {
+        let mixes = F::PER_COORDINATE && !S::DIAGONAL_MASS;
+        S::SEPARABLE && !mixes && self.frequency.reading() != Some(Reading::Variational)
+    }
+
+    #[inline(always)]
+    fn reads_both_ends(&self) -> bool {
+        matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
+    }
+
+    fn validate<S: RegularLagrangian, T: Real>(&self, system: &S) -> Result<(), StartError>
+    where
+        F: FrequencyIn<T>,
+    {
+        Quadrature::new(self.rule.nodes(), self.rule.weights())?;
+        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
+        if F::PER_COORDINATE && self.fitting == Fitting::PhaseAndMomentum {
+            return unsupported("Fitting::PhaseAndMomentum", "frequencies per coordinate fit the phase only");
+        }
+        if F::PER_COORDINATE && self.summation == Summation::Compensated {
+            return unsupported("Summation::Compensated", "frequencies per coordinate have plain sums");
+        }
+        if !S::SEPARABLE && self.frequency.reading().is_some() {
+            return unsupported(
+                "a frequency read from the motion",
+                "it needs L = ½ v·M v − V(q, t) with a constant matrix M",
+            );
+        }
+        if F::PER_COORDINATE && !S::DIAGONAL_MASS && self.solver == Solver::FixedPoint {
+            return unsupported(
+                "Solver::FixedPoint",
+                "frequencies per coordinate need a diagonal mass matrix for it",
+            );
+        }
+        if !S::SEPARABLE && self.solver == Solver::FixedPoint {
+            return unsupported(
+                "Solver::FixedPoint",
+                "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton",
+            );
+        }
+        frequency::admit(&self.frequency, system)?;
+        self.stopping.validate()
+    }
+}
+
+impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
+    fn order(&self) -> usize {
+        if self.rule.is_exact_for_linear() { 2 } else { 1 }
+    }
+    fn is_symmetric(&self) -> bool {
+        self.rule.is_symmetric() && self.frequency.reading() != Some(Reading::LeftFrozen)
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        match self.frequency.reading() {
+            None | Some(Reading::Variational) => PreservedForm::Canonical,
+            Some(Reading::LeftFrozen | Reading::Averaged) => PreservedForm::Nothing,
+        }
+    }
+}
+
+impl<S: Lagrangian, F, R, T: Real> Carries<S, T> for Variational<F, R> {
+    type Memory = VariationalMemory<S, T>;
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        self.validate::<S, T>(system)?;
+        VariationalMemory::new(system, self, q, v, t, h)
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, method: self, t, h };
+        let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial) {
+            if self.summation == Summation::Compensated {
+                statistics.gradients += 1;
+                return verlet::compensated(&step, mass, phase, work, q);
+            }
+            let (taken, result) = verlet::steps(system, mass, phase, work, q, Clock::new(t, h), 1);
+            statistics.gradients += taken;
+            return result;
+        }
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
+        let parts = Parts { interpolation, ends, phase, inertial, work, q };
+        let mut attempt = Attempt { step, parts, budget };
+        ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
+    }
+
+    fn velocity(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        memory.inertial.velocity(system, &memory.phase, q, t, v)
+    }
+
+    #[inline]
+    fn steps(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let VariationalMemory { phase, inertial, work, .. } = &mut *memory;
+        let is_plain = self.summation == Summation::Plain;
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && is_plain, &*inertial) {
+            let (taken, result) = verlet::steps(system, mass, phase, work, q, clock, count);
+            statistics.gradients += taken;
+            statistics.steps += taken;
+            result
+        } else {
+            one_by_one(self, system, memory, q, clock, count, statistics)
+        }
+    }
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}
+
+impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
+where
+    S: RegularLagrangian,
+    F: FrequencyIn<T> + GivenFrequency + Clone,
+    R: Rule + Clone,
+    T: Real,
+{
+    type DiscreteLagrangian = QuadratureLagrangian<S, F, R, T>;
+
+    fn discrete_lagrangian(&self, system: &S) -> QuadratureLagrangian<S, F, R, T> {
+        QuadratureLagrangian::new(system, self.clone())
+    }
+}

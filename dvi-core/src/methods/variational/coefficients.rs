@@ -1,0 +1,379 @@
+//! What the interpolation between q0 and q1 makes of a quadrature rule.
+//!
+//! With the coefficients bⱼ, b̄ⱼ, Bⱼ, B̄ⱼ of the nodes, the kinetic part of D₁L_d is M(A q0 − K q1)/h and that of
+//! D₂L_d is M(C q1 − K q0)/h, A = Σ w B², C = Σ w B̄², K = −Σ w B B̄. On the oscillator of frequency ω,
+//! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
+
+use super::lagrangian::place;
+use super::{Fitting, Step};
+use crate::discrete::basis::{self, Bases, Basis};
+use crate::discrete::frequency::{self, FrequencyIn};
+use crate::discrete::quadrature::{NODES, Rule};
+use crate::discrete::{Ends, NodeWork};
+use crate::error::StepFailure;
+use crate::scalar::norm::reported;
+use crate::space::sink::{Scaled, Sink};
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+
+/// sin u and S count as zero below this.
+const RESONANCE: f64 = 1e-4;
+
+/// The coefficients of all nodes of a step, which may differ from coordinate to coordinate.
+pub(super) trait Coefficients<T> {
+    /// The weight of a node.
+    fn weight(&self, node: usize) -> T;
+    /// b, b̄, B and B̄ of a node.
+    fn basis(&self, node: usize, coordinate: usize) -> Basis<T>;
+    /// The sums of the kinetic part.
+    fn sums(&self, coordinate: usize) -> Sums<T>;
+}
+
+/// Coefficients that follow a frequency.
+pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
+    /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure>;
+
+    /// Makes these the coefficients of `step` for one frequency `omega`.
+    ///
+    /// # Errors
+    /// [`StepFailure::Resonance`], also if ωh is π or more.
+    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure>;
+
+    /// Adds what a node, at which `work` stands, contributes to the second derivative of L_d by these two ends; sets ∂L/∂q
+    /// and ∂L/∂v in `work`.
+    fn add_second<K: Sink<T>>(
+        &mut self,
+        node: usize,
+        ends: [End; 2],
+        system: &S,
+        at: [T; 2],
+        work: &mut NodeWork<S, T>,
+        sink: &mut K,
+    );
+
+    /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
+    fn slope<F: FrequencyIn<T>, R: Rule>(
+        &self,
+        step: &Step<'_, S, F, R, T>,
+        work: &mut NodeWork<S, T>,
+        ends: Ends<'_, T>,
+        twice_omega: T,
+    ) -> T;
+}
+
+/// The ends of an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    Left,
+    Right,
+}
+
+impl End {
+    /// b and B, or b̄ and B̄.
+    fn of<V>(self, [left, right]: [V; 2]) -> V {
+        match self {
+            Self::Left => left,
+            Self::Right => right,
+        }
+    }
+}
+
+/// Sums over the nodes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sums<T> {
+    /// K = −Σ w B B̄
+    pub(super) mixed: T,
+    /// A − K = Σ w B(B + B̄)
+    pub(super) left: T,
+    /// C − K = Σ w B̄(B + B̄)
+    pub(super) right: T,
+    /// (sin u/u)²/S, one over the stiffness K + z Σ w b b̄
+    pub(super) compliance: T,
+}
+
+/// One frequency for all coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Uniform<T> {
+    u: T,
+    weights: [T; NODES],
+    bases: [Basis<T>; NODES],
+    sums: Sums<T>,
+}
+
+impl<T: Real> Uniform<T> {
+    /// For u = 0, linear interpolation.
+    #[inline(always)]
+    pub(super) fn linear(rule: &impl Rule) -> Self {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let nodes = Bases::new(zero);
+        let mut weights = [zero; NODES];
+        let mut bases = [nodes.basis(0.0, nodes.pairs(0.0)); NODES];
+        for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
+            (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
+        }
+        Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, compliance: one } }
+    }
+
+    /// Makes these the coefficients for u = ωh.
+    #[inline(always)]
+    fn fit(&mut self, rule: &impl Rule, fitting: Fitting, u: T) -> Result<(), StepFailure> {
+        let (zero, nodes) = (T::lift(0.0), Bases::new(u));
+        // The sums times σ².
+        let (mut mixed, mut left, mut right, mut inner) = (zero, zero, zero, zero);
+        let entries = self.bases.iter_mut().zip(rule.nodes()).zip(rule.weights());
+        for ((basis, &c), &w) in entries {
+            let pairs = nodes.pairs(c);
+            *basis = nodes.basis(c, pairs);
+            let [l, r] = pairs;
+            let (weight, difference) = (T::lift(w), l.cosine - r.cosine);
+            let (at_left, at_right) = (weight * l.cosine, weight * r.cosine);
+            mixed += at_left * r.cosine;
+            left += at_left * difference;
+            right -= at_right * difference;
+            inner += T::lift(w * c * (1.0 - c)) * (l.sinc * r.sinc);
+        }
+        let sinc = nodes.sinc();
+        let kernel = mixed + u * u * inner;
+        let small = T::lift(RESONANCE);
+        let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
+        if !determined {
+            // Not the coefficients of any step.
+            self.u = T::lift(f64::NAN);
+            frequency::defined(u)?;
+            let u = reported(u);
+            return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
+        }
+        let mut factor = nodes.reciprocal() * nodes.reciprocal();
+        if fitting == Fitting::PhaseAndMomentum {
+            let fitted = sinc / kernel;
+            factor *= fitted;
+            for (weight, &w) in self.weights.iter_mut().zip(rule.weights()) {
+                *weight = T::lift(w) * fitted;
+            }
+        }
+        let compliance = T::lift(1.0) / (kernel * factor);
+        let [mixed, left, right] = [mixed, left, right].map(|sum| sum * factor);
+        (self.u, self.sums) = (u, Sums { mixed, left, right, compliance });
+        Ok(())
+    }
+}
+
+impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
+    #[inline(always)]
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
+        let u = step.method.frequency.fixed(0) * step.h;
+        if self.u == u { Ok(()) } else { self.fit(&step.method.rule, step.method.fitting, u) }
+    }
+
+    #[inline(always)]
+    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
+        let u = omega * step.h;
+        self.fit(&step.method.rule, step.method.fitting, u)?;
+        // A step over half a turn or more of a motion sees nothing of it.
+        if Scalar::abs(u) < T::lift(core::f64::consts::PI) {
+            return Ok(());
+        }
+        self.u = T::lift(f64::NAN);
+        let (u, sine) = (reported(u), reported(Scalar::sin(u)));
+        Err(StepFailure::Resonance {
+            u,
+            sine,
+            kernel: sine * sine / (u * u * reported(self.sums.compliance)),
+        })
+    }
+
+    #[inline]
+    fn add_second<K: Sink<T>>(
+        &mut self,
+        node: usize,
+        ends: [End; 2],
+        system: &S,
+        [t, h]: [T; 2],
+        NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
+        sink: &mut K,
+    ) {
+        let (w, Basis { b, b_bar, d, d_bar }) = (self.weights[node], self.bases[node]);
+        let [[r, r_dot], [c, c_dot]] = ends.map(|end| end.of([[b, d], [b_bar, d_bar]]));
+        let weights =
+            Weights { qq: w * h * r * c, qv: w * r * c_dot, vq: w * r_dot * c, vv: w * r_dot * c_dot / h };
+        system.linearize(point, velocity, t, weights, gradient, momentum, sink);
+    }
+
+    fn slope<F: FrequencyIn<T>, R: Rule>(
+        &self,
+        step: &Step<'_, S, F, R, T>,
+        work: &mut NodeWork<S, T>,
+        ends: Ends<'_, T>,
+        twice_omega: T,
+    ) -> T {
+        let (z, rule) = (self.u * self.u, &step.method.rule);
+        let slopes = basis::table_slope(rule, z);
+        let fitted = step.method.fitting == Fitting::PhaseAndMomentum;
+        let factor_slope = if fitted { basis::weight_factor_slope(rule, z) } else { T::lift(0.0) };
+        let per_h = T::lift(1.0) / step.h;
+        let mut by_z = T::lift(0.0);
+        for (node, &c) in rule.nodes().iter().enumerate() {
+            place(self, node, step.h, ends, work);
+            let NodeWork { point, velocity, gradient, momentum } = &mut *work;
+            let (t, Ends { q0, delta }) = (step.node_time(c), ends);
+            step.system.gradient(point, velocity, t, gradient, momentum);
+            let Basis { b, b_bar, d, d_bar } = slopes[node];
+            let mut along = T::lift(0.0);
+            for i in 0..q0.len() {
+                let point_slope = (b + b_bar) * q0[i] + b_bar * delta[i];
+                let velocity_slope = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
+                along += gradient[i] * point_slope + momentum[i] * velocity_slope;
+            }
+            by_z += self.weights[node] * along;
+            if fitted {
+                let value = step.system.lagrangian(point, velocity, t);
+                by_z += T::lift(rule.weights()[node]) * factor_slope * value;
+            }
+        }
+        // z = ω²h², and ℓ = h Σ w L.
+        step.h * by_z * twice_omega * step.h * step.h
+    }
+}
+
+impl<T: Real> Coefficients<T> for Uniform<T> {
+    #[inline(always)]
+    fn weight(&self, node: usize) -> T {
+        self.weights[node]
+    }
+    #[inline(always)]
+    fn basis(&self, node: usize, _coordinate: usize) -> Basis<T> {
+        self.bases[node]
+    }
+    #[inline(always)]
+    fn sums(&self, _coordinate: usize) -> Sums<T> {
+        self.sums
+    }
+}
+
+/// A frequency for each coordinate.
+#[derive(Debug)]
+pub(super) struct Each<S: Lagrangian, T: Real> {
+    /// The step for which these are; zero if there is none.
+    h: T,
+    weights: [T; NODES],
+    b: [Vector<S, T>; NODES],
+    b_bar: [Vector<S, T>; NODES],
+    d: [Vector<S, T>; NODES],
+    d_bar: [Vector<S, T>; NODES],
+    mixed: Vector<S, T>,
+    left: Vector<S, T>,
+    right: Vector<S, T>,
+    compliance: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> Each<S, T> {
+    pub(super) fn new(system: &S) -> Self {
+        let space = system.space();
+        let vectors = || core::array::from_fn(|_| space.vector());
+        Self {
+            h: T::lift(0.0),
+            weights: [T::lift(0.0); NODES],
+            b: vectors(),
+            b_bar: vectors(),
+            d: vectors(),
+            d_bar: vectors(),
+            mixed: space.vector(),
+            left: space.vector(),
+            right: space.vector(),
+            compliance: space.vector(),
+        }
+    }
+}
+
+impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
+    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
+        if self.h == step.h {
+            return Ok(());
+        }
+        // Should a coordinate be resonant, those before it have their new coefficients: no step may use them.
+        self.h = T::lift(0.0);
+        for i in 0..self.mixed.len() {
+            let u = step.method.frequency.fixed(i) * step.h;
+            let mut uniform = Uniform::linear(&step.method.rule);
+            uniform.fit(&step.method.rule, step.method.fitting, u)?;
+            let Uniform { weights, bases, sums, .. } = uniform;
+            // The same for all coordinates, as only the phase is fitted.
+            self.weights = weights;
+            for (node, basis) in bases.iter().enumerate() {
+                self.b[node][i] = basis.b;
+                self.b_bar[node][i] = basis.b_bar;
+                self.d[node][i] = basis.d;
+                self.d_bar[node][i] = basis.d_bar;
+            }
+            self.mixed[i] = sums.mixed;
+            self.left[i] = sums.left;
+            self.right[i] = sums.right;
+            self.compliance[i] = sums.compliance;
+        }
+        self.h = step.h;
+        Ok(())
+    }
+
+    /// One frequency for all has been refused.
+    fn set<F, R: Rule>(&mut self, _step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
+        Err(StepFailure::Frequency { omega: reported(omega) })
+    }
+
+    /// Block by block.
+    fn add_second<K: Sink<T>>(
+        &mut self,
+        node: usize,
+        ends: [End; 2],
+        system: &S,
+        [t, h]: [T; 2],
+        work: &mut NodeWork<S, T>,
+        sink: &mut K,
+    ) {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let Self { weights, b, b_bar, d, d_bar, .. } = self;
+        let NodeWork { point, velocity, gradient, momentum } = work;
+        let [[r, r_dot], [c, c_dot]] =
+            ends.map(|end| end.of([[&b[node], &d[node]], [&b_bar[node], &d_bar[node]]]));
+        let blocks = [
+            (Weights { qq: one, ..none }, r, c, h),
+            (Weights { qv: one, ..none }, r, c_dot, one),
+            (Weights { vq: one, ..none }, r_dot, c, one),
+            (Weights { vv: one, ..none }, r_dot, c_dot, one / h),
+        ];
+        for (kind, row, column, factor) in blocks {
+            let factor = |i: usize, j: usize| weights[node] * factor * row[i] * column[j];
+            let sink = &mut Scaled { sink: &mut *sink, factor };
+            system.linearize(point, velocity, t, kind, gradient, momentum, sink);
+        }
+    }
+
+    /// Not a number: frequencies that are read have been refused.
+    fn slope<F: FrequencyIn<T>, R: Rule>(
+        &self,
+        _step: &Step<'_, S, F, R, T>,
+        _work: &mut NodeWork<S, T>,
+        _ends: Ends<'_, T>,
+        _twice_omega: T,
+    ) -> T {
+        T::lift(f64::NAN)
+    }
+}
+
+impl<S: RegularLagrangian, T: Real> Coefficients<T> for Each<S, T> {
+    fn weight(&self, node: usize) -> T {
+        self.weights[node]
+    }
+    fn basis(&self, node: usize, i: usize) -> Basis<T> {
+        Basis {
+            b: self.b[node][i],
+            b_bar: self.b_bar[node][i],
+            d: self.d[node][i],
+            d_bar: self.d_bar[node][i],
+        }
+    }
+    fn sums(&self, i: usize) -> Sums<T> {
+        let (left, right) = (self.left[i], self.right[i]);
+        Sums { mixed: self.mixed[i], left, right, compliance: self.compliance[i] }
+    }
+}

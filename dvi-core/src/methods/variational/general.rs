@@ -1,0 +1,126 @@
+//! Any L: Newton's method, or where L is separable and only the frequency asks for derivatives, a fixed point with the
+//! matrix of the fitted oscillator, −(h/κ)M⁻¹ in place of (D₁D₂L_d)⁻¹.
+
+use super::Step;
+use super::coefficients::{Adjustable, Coefficients};
+use super::lagrangian::Interpolated;
+use super::memory::{Interpolation, Parts, Work};
+use crate::discrete::frequency::{FrequencyIn, Local};
+use crate::discrete::quadrature::Rule;
+use crate::discrete::{DiscreteLagrangian, Ends, solve_by_newton};
+use crate::error::StepFailure;
+use crate::mechanics::mass::Mass;
+use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
+use crate::scalar::norm;
+use crate::solve::{Convergence, Guess, iterate};
+use crate::state::Statistics;
+use crate::state::summation::Summation;
+use crate::{Real, RegularLagrangian, Scalar, Square};
+
+/// A step by Newton's method from a guess.
+#[inline(never)]
+pub(super) fn by_newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    parts: &mut Parts<'_, S, T>,
+    matrix: &mut Square<S, T>,
+    guess: Guess,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let Parts { interpolation, ends, phase, inertial, work, q } = parts;
+    let mass = inertial.constant();
+    match guess {
+        Guess::Extrapolated => phase.guess(mass, &phase.p, step.h, &mut work.increment),
+        Guess::Zero => work.increment.fill(T::lift(0.0)),
+    }
+    match interpolation {
+        Interpolation::Uniform(uniform) => {
+            newton(step, uniform, ends, mass, phase, work, q, matrix, statistics)
+        }
+        Interpolation::Each(each) => newton(step, each, ends, mass, phase, work, q, matrix, statistics),
+    }?;
+    finish(step, parts, statistics)
+}
+
+/// A step by the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + D₁L_d), for separable L.
+#[inline(never)]
+pub(super) fn by_fixed_point<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    parts: &mut Parts<'_, S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let Parts { interpolation, ends, phase, inertial, work, q } = parts;
+    // For other L, and with frequencies per coordinate, it has been refused.
+    let (Some(mass), Interpolation::Uniform(coefficients)) = (inertial.constant(), interpolation) else {
+        return Err(StepFailure::Singular { column: 0, pivot: f64::NAN });
+    };
+    phase.guess(Some(mass), &phase.p, step.h, &mut work.increment);
+    let Work { node, next, increment, trial, sum } = &mut **work;
+    let (method, p, force) = (step.method, &phase.p, &phase.force);
+    let mut l_d = Interpolated { method, coefficients, ends, mass: Some(mass), p, force, node, next };
+    let scale = norm::largest(q) + norm::largest(increment);
+    let stopping = match step.method.summation {
+        Summation::Plain => step.method.stopping,
+        Summation::Compensated => step.method.stopping.exhaustive(),
+    };
+    let convergence = Convergence::fixed_point(stopping, scale, q, stopping.max_iterations);
+    iterate(convergence, statistics, |statistics| {
+        trial.copy_from_slice(p);
+        let ends = Ends { q0: q, delta: increment };
+        l_d.derivatives(step.system, step.interval(), ends, trial, sum, statistics)?;
+        let compliance = Coefficients::<T>::sums(l_d.coefficients, 0).compliance;
+        mass.solve(trial, &mut l_d.node.velocity);
+        let mut correction = T::lift(0.0);
+        for (delta, &velocity) in increment.iter_mut().zip(l_d.node.velocity.iter()) {
+            let change = step.h * compliance * velocity;
+            *delta += change;
+            correction = norm::larger(correction, Scalar::abs(change));
+        }
+        Ok(correction)
+    })?;
+    norm::finite(increment)?;
+    sum.fill(T::lift(0.0));
+    l_d.derivatives(step.system, step.interval(), Ends { q0: q, delta: increment }, trial, sum, statistics)?;
+    finish(step, parts, statistics)
+}
+
+/// Sets `work.increment` to Δ and `work.sum` to (D₁ + D₂)L_d.
+#[allow(clippy::too_many_arguments)]
+fn newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    coefficients: &mut C,
+    ends: &mut [Local<S, T>; 2],
+    mass: Option<&Mass<S, T>>,
+    phase: &PhasePoint<S, T>,
+    work: &mut Work<S, T>,
+    q: &[T],
+    matrix: &mut Square<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let Work { node, next, increment, trial, sum } = work;
+    let (method, p, force) = (step.method, &*phase.p, &*phase.force);
+    let l_d = &mut Interpolated { method, coefficients, ends, mass, p, force, node, next };
+    let (interval, stopping) = (step.interval(), step.method.stopping);
+    solve_by_newton(l_d, step.system, interval, [q, p], increment, (matrix, trial), stopping, statistics)?;
+    sum.fill(T::lift(0.0));
+    l_d.derivatives(step.system, interval, Ends { q0: q, delta: increment }, trial, sum, statistics)
+}
+
+/// Moves to q1 = q0 + Δ and p1 = p0 + (D₁ + D₂)L_d.
+fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    Parts { phase, inertial, work, q, .. }: &mut Parts<'_, S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let Work { node, next, increment, trial, sum } = &mut **work;
+    phase.reach(q, increment, next);
+    phase.kick(sum, &mut node.momentum);
+    norm::finite(next).and(norm::finite(&node.momentum))?;
+    let end = step.node_time(1.0);
+    if S::SEPARABLE {
+        step.system.force(next, &[], end, trial);
+        statistics.gradients += 1;
+    }
+    inertial.check(step.system, [next, increment], [end, step.h], &mut node.velocity)?;
+    let by = Increments { q: increment, p: sum };
+    phase.advance(q, &Arrival { q: next, p: &node.momentum, force: trial }, by, step.h)
+}

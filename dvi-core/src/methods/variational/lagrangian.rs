@@ -1,0 +1,284 @@
+//! The discrete Lagrangian of a rule and an interpolation, for any L and any frequency.
+//!
+//! D₁L_d = Σ w (h b ∂L/∂q + B ∂L/∂v)      D₂L_d = Σ w (h b̄ ∂L/∂q + B̄ ∂L/∂v)
+//! D₁D₂L_d = Σ w (h b b̄ L_qq + b B̄ L_qv + B b̄ L_vq + B B̄ L_vv/h), and D₁D₁L_d, D₂D₂L_d with b, B or b̄, B̄ twice
+//!
+//! With a variational frequency, L_d = ℓ(q0, q1, ω(q0, q1)) and D₁L_d = ∂ℓ/∂q0 + ∂ℓ/∂ω ∂ω/∂q0: the first derivatives are
+//! exact, and D₁D₂L_d is that of ω held constant.
+
+use super::coefficients::{Adjustable, Coefficients, End};
+use super::memory::Interpolation;
+use super::{Step, Variational};
+use crate::discrete::basis::Basis;
+use crate::discrete::frequency::{Frequency, FrequencyIn, Local, Reading};
+use crate::discrete::quadrature::Rule;
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, TwiceDifferentiable};
+use crate::error::StepFailure;
+use crate::mechanics::mass::Mass;
+use crate::space::sink::Sink;
+use crate::state::Statistics;
+use crate::{Lagrangian, Real, RegularLagrangian, Vector};
+
+/// Rule and interpolation, where the step begins, and storage.
+pub(super) struct Interpolated<'a, S: RegularLagrangian, F, R, C, T: Real> {
+    pub(super) method: &'a Variational<F, R>,
+    pub(super) coefficients: &'a mut C,
+    /// The frequencies at both ends.
+    pub(super) ends: &'a mut [Local<S, T>; 2],
+    /// If L is separable, as it is wherever a frequency is read.
+    pub(super) mass: Option<&'a Mass<S, T>>,
+    pub(super) p: &'a [T],
+    pub(super) force: &'a [T],
+    pub(super) node: &'a mut NodeWork<S, T>,
+    pub(super) next: &'a mut Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
+    Interpolated<'_, S, F, R, C, T>
+{
+    /// The coefficients for the frequency at these ends.
+    fn read_frequency(&mut self, step: &Step<'_, S, F, R, T>, at: Ends<'_, T>) -> Result<(), StepFailure> {
+        let Some(reading) = self.method.frequency.reading() else { return self.coefficients.fix(step) };
+        // Where L is not separable, a frequency that is read has been refused.
+        let Some(mass) = self.mass else { return Err(StepFailure::Frequency { omega: f64::NAN }) };
+        let (frequency, per_h) = (&self.method.frequency, T::lift(1.0) / step.h);
+        let NodeWork { velocity, gradient, .. } = &mut *self.node;
+        let ([start, end], next) = (&mut *self.ends, &mut *self.next);
+        for i in 0..at.q0.len() {
+            next[i] = at.q0[i] + at.delta[i];
+            velocity[i] = at.delta[i] * per_h;
+        }
+        let (t0, t1) = (step.t, step.node_time(1.0));
+        match reading {
+            Reading::LeftFrozen => {
+                mass.solve(self.p, velocity);
+                start.evaluate(frequency, mass, at.q0, velocity, self.force)?;
+                return self.coefficients.set(step, start.omega);
+            }
+            Reading::Averaged => {
+                start.evaluate(frequency, mass, at.q0, velocity, self.force)?;
+                step.system.force(next, &[], t1, gradient);
+                end.evaluate(frequency, mass, next, velocity, gradient)?;
+            }
+            Reading::Variational => {
+                start.differentiate(frequency, mass, step.system, at.q0, velocity, t0)?;
+                end.differentiate(frequency, mass, step.system, next, velocity, t1)?;
+            }
+        }
+        self.coefficients.set(step, T::lift(0.5) * (start.omega + end.omega))
+    }
+
+    /// Adds ∂ℓ/∂ω ∂ω/∂q0 to `d1`, and with it ∂ℓ/∂ω ∂ω/∂q1 to `sum`, if the frequency is variational.
+    fn vary_frequency(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+        at: Ends<'_, T>,
+        d1: &mut [T],
+        sum: Option<&mut [T]>,
+    ) {
+        if self.method.frequency.reading() != Some(Reading::Variational) {
+            return;
+        }
+        let [start, end] = &*self.ends;
+        let half = T::lift(0.5) * self.coefficients.slope(step, self.node, at, start.omega + end.omega);
+        for (i, d1) in d1.iter_mut().enumerate() {
+            let by_velocity = (start.dv[i] + end.dv[i]) / step.h;
+            *d1 += half * (start.dq[i] - by_velocity);
+        }
+        if let Some(sum) = sum {
+            for (i, sum) in sum.iter_mut().enumerate() {
+                *sum += half * (start.dq[i] + end.dq[i]);
+            }
+        }
+    }
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real> DiscreteLagrangian<S, T>
+    for Interpolated<'_, S, F, R, C, T>
+{
+    fn derivatives(
+        &mut self,
+        system: &S,
+        Interval { t, h }: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sum: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, method: self.method, t, h };
+        self.read_frequency(&step, ends)?;
+        add_derivatives(&step, self.coefficients, ends, self.node, [d1, sum], statistics);
+        self.vary_frequency(&step, ends, d1, Some(sum));
+        Ok(())
+    }
+
+    fn linearize<K: Sink<T>>(
+        &mut self,
+        system: &S,
+        Interval { t, h }: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sink: &mut K,
+        _statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, method: self.method, t, h };
+        self.read_frequency(&step, ends)?;
+        add_linearized(&step, self.coefficients, ends, self.node, d1, sink);
+        self.vary_frequency(&step, ends, d1, None);
+        Ok(())
+    }
+}
+
+/// The discrete Lagrangian of a rule and of an interpolation that is linear or fitted to a frequency that is given, with
+/// the storage that it needs.
+#[derive(Debug)]
+pub struct QuadratureLagrangian<S: Lagrangian, F, R, T: Real = f64> {
+    method: Variational<F, R>,
+    interpolation: Interpolation<S, T>,
+    node: NodeWork<S, T>,
+}
+
+/// `with_coefficients!(self, system, interval, |step, coefficients| …)`: with those of the step.
+macro_rules! with_coefficients {
+    ($self:ident, $system:ident, $interval:ident, |$step:ident, $coefficients:ident| $body:expr) => {{
+        let $step = Step { system: $system, method: &$self.method, t: $interval.t, h: $interval.h };
+        $self.interpolation.fix(&$step)?;
+        match &mut $self.interpolation {
+            Interpolation::Uniform($coefficients) => $body,
+            Interpolation::Each($coefficients) => $body,
+        }
+        Ok(())
+    }};
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
+    pub(super) fn new(system: &S, method: Variational<F, R>) -> Self {
+        let interpolation = Interpolation::new(system, &method);
+        Self { method, interpolation, node: NodeWork::new(system) }
+    }
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
+    for QuadratureLagrangian<S, F, R, T>
+{
+    fn derivatives(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sum: &mut [T],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        with_coefficients!(self, system, interval, |step, coefficients| {
+            add_derivatives(&step, coefficients, ends, &mut self.node, [d1, sum], statistics);
+        })
+    }
+
+    fn linearize<K: Sink<T>>(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        d1: &mut [T],
+        sink: &mut K,
+        _statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        with_coefficients!(self, system, interval, |step, coefficients| {
+            add_linearized(&step, coefficients, ends, &mut self.node, d1, sink);
+        })
+    }
+}
+
+impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
+    for QuadratureLagrangian<S, F, R, T>
+{
+    fn hessian<K: Sink<T>>(
+        &mut self,
+        system: &S,
+        interval: Interval<T>,
+        ends: Ends<'_, T>,
+        [d11, d12, d22]: [&mut K; 3],
+    ) -> Result<(), StepFailure> {
+        with_coefficients!(self, system, interval, |step, coefficients| {
+            for (node, &c) in self.method.rule.nodes().iter().enumerate() {
+                place(coefficients, node, step.h, ends, &mut self.node);
+                let at = [step.node_time(c), step.h];
+                coefficients.add_second(node, [End::Left, End::Left], system, at, &mut self.node, d11);
+                coefficients.add_second(node, [End::Left, End::Right], system, at, &mut self.node, d12);
+                coefficients.add_second(node, [End::Right, End::Right], system, at, &mut self.node, d22);
+            }
+        })
+    }
+}
+
+/// Adds D₁ℓ and (D₁ + D₂)ℓ.
+fn add_derivatives<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    coefficients: &C,
+    ends: Ends<'_, T>,
+    work: &mut NodeWork<S, T>,
+    [d1, sum]: [&mut [T]; 2],
+    statistics: &mut Statistics,
+) {
+    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
+        place(coefficients, node, step.h, ends, work);
+        let NodeWork { point, velocity, gradient, momentum } = &mut *work;
+        step.system.gradient(point, velocity, step.node_time(c), gradient, momentum);
+        statistics.gradients += 1;
+        let weight = coefficients.weight(node);
+        for (i, sum) in sum.iter_mut().enumerate() {
+            let Basis { b, b_bar, d, d_bar } = coefficients.basis(node, i);
+            *sum += weight * (step.h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
+        }
+        add_first(coefficients, node, step.h, work, d1);
+    }
+}
+
+/// Adds D₁ℓ and D₁D₂ℓ.
+fn add_linearized<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real, K: Sink<T>>(
+    step: &Step<'_, S, F, R, T>,
+    coefficients: &mut C,
+    ends: Ends<'_, T>,
+    work: &mut NodeWork<S, T>,
+    d1: &mut [T],
+    sink: &mut K,
+) {
+    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
+        place(coefficients, node, step.h, ends, work);
+        let at = [step.node_time(c), step.h];
+        coefficients.add_second(node, [End::Left, End::Right], step.system, at, work, sink);
+        add_first(coefficients, node, step.h, work, d1);
+    }
+}
+
+/// Adds the part of D₁ℓ that a node has, from the derivatives of L there.
+fn add_first<S: RegularLagrangian, C: Coefficients<T>, T: Real>(
+    coefficients: &C,
+    node: usize,
+    h: T,
+    NodeWork { gradient, momentum, .. }: &NodeWork<S, T>,
+    d1: &mut [T],
+) {
+    let weight = coefficients.weight(node);
+    for (i, d1) in d1.iter_mut().enumerate() {
+        let Basis { b, d, .. } = coefficients.basis(node, i);
+        *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
+    }
+}
+
+/// Sets `point` to qʲ and `velocity` to q̇ʲ.
+pub(super) fn place<S: RegularLagrangian, C: Coefficients<T>, T: Real>(
+    coefficients: &C,
+    node: usize,
+    h: T,
+    Ends { q0, delta }: Ends<'_, T>,
+    NodeWork { point, velocity, .. }: &mut NodeWork<S, T>,
+) {
+    let per_h = T::lift(1.0) / h;
+    for i in 0..q0.len() {
+        let Basis { b, b_bar, d, d_bar } = coefficients.basis(node, i);
+        point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
+        velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
+    }
+}

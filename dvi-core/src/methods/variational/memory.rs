@@ -1,0 +1,132 @@
+//! What a run of the quadrature family carries from step to step.
+
+use super::coefficients::{Adjustable, Each, Uniform};
+use super::{Step, Variational};
+use crate::discrete::NodeWork;
+use crate::discrete::frequency::{Frequency, FrequencyIn, Local};
+use crate::discrete::quadrature::Rule;
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::phase::{Inertial, PhasePoint};
+use crate::solve::{Ladder, Solver};
+use crate::space::square::of_second_derivatives;
+use crate::state::memory::{Memory, lasting};
+use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, Vector};
+
+/// The phase point of a run of the quadrature family, its interpolation and its work space.
+#[derive(Debug)]
+pub struct VariationalMemory<S: Lagrangian, T: Real> {
+    pub(super) interpolation: Interpolation<S, T>,
+    /// The frequencies at both ends of the step.
+    pub(super) ends: [Local<S, T>; 2],
+    pub(super) phase: PhasePoint<S, T>,
+    pub(super) inertial: Inertial<S, T>,
+    /// With the matrix of Newton's method; explicit steps do not use it.
+    pub(super) ladder: Ladder<Square<S, T>>,
+    pub(super) work: Work<S, T>,
+}
+
+/// What a step changes, the coordinates among it.
+pub(super) struct Parts<'a, S: Lagrangian, T: Real> {
+    pub(super) interpolation: &'a mut Interpolation<S, T>,
+    pub(super) ends: &'a mut [Local<S, T>; 2],
+    pub(super) phase: &'a mut PhasePoint<S, T>,
+    pub(super) inertial: &'a mut Inertial<S, T>,
+    pub(super) work: &'a mut Work<S, T>,
+    pub(super) q: &'a mut Vector<S, T>,
+}
+
+/// The latest coefficients of the interpolation.
+#[derive(Debug)]
+pub(super) enum Interpolation<S: Lagrangian, T: Real> {
+    Uniform(Uniform<T>),
+    Each(Each<S, T>),
+}
+
+/// Vectors that are written before they are read in each step.
+#[derive(Debug)]
+pub(super) struct Work<S: Lagrangian, T: Real> {
+    pub(super) node: NodeWork<S, T>,
+    pub(super) increment: Vector<S, T>,
+    pub(super) next: Vector<S, T>,
+    /// The residual, then the correction, or a force.
+    pub(super) trial: Vector<S, T>,
+    /// (D₁ + D₂)L_d
+    pub(super) sum: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
+    /// p = ∂L/∂v at the current point, one entry per coordinate.
+    pub fn p(&self) -> &[T] {
+        &self.phase.p
+    }
+
+    pub(super) fn new<F: FrequencyIn<T>, R: Rule>(
+        system: &S,
+        method: &Variational<F, R>,
+        q: &Vector<S, T>,
+        v: &[T],
+        t: T,
+        h: T,
+    ) -> Result<Self, StartError> {
+        let explicit = method.is_explicit();
+        let solver = match (method.needs_forces_only::<S>(), method.solver) {
+            (true, _) if explicit => Solver::FixedPoint,
+            (true, solver) => solver,
+            // Any L has no fixed point.
+            (false, Solver::Automatic | Solver::Newton) => Solver::Newton,
+            (false, Solver::FixedPoint) => Solver::FixedPoint,
+        };
+        let reading = method.frequency.reading();
+        let mut interpolation = Interpolation::new(system, method);
+        if reading.is_none() {
+            interpolation.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
+        }
+        Ok(Self {
+            interpolation,
+            ends: [Local::new(system, reading), Local::new(system, reading)],
+            phase: PhasePoint::new(system, q, v, t, method.summation)?,
+            inertial: Inertial::new(system, q, v, t)?,
+            ladder: Ladder::new(solver, || of_second_derivatives(system)),
+            work: Work::new(system),
+        })
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for VariationalMemory<S, T> {
+    lasting!(T; part phase, part inertial, part ladder);
+}
+
+impl<S: Lagrangian, T: Real> Work<S, T> {
+    #[inline(always)]
+    pub(super) fn new(system: &S) -> Self {
+        let vector = || system.space().vector();
+        Self {
+            node: NodeWork::new(system),
+            increment: vector(),
+            next: vector(),
+            trial: vector(),
+            sum: vector(),
+        }
+    }
+}
+
+impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
+    pub(super) fn new<F: Frequency, R: Rule>(system: &S, method: &Variational<F, R>) -> Self {
+        if F::PER_COORDINATE {
+            Self::Each(Each::new(system))
+        } else {
+            Self::Uniform(Uniform::linear(&method.rule))
+        }
+    }
+
+    /// See [`Adjustable::fix`].
+    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+    ) -> Result<(), StepFailure> {
+        match self {
+            Self::Each(each) => each.fix(step),
+            Self::Uniform(uniform) => uniform.fix(step),
+        }
+    }
+}

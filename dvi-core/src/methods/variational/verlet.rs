@@ -1,0 +1,135 @@
+//! The trapezoidal rule with linear interpolation on L = ½ v·M v − V(q, t): Störmer–Verlet, in the form
+//! kick–drift–kick. One ∂L/∂q a step, no iteration, no factorisation.
+//!
+//! p½ = p0 + (h/2) F(q0, t)    q1 = q0 + h M⁻¹p½    p1 = p½ + (h/2) F(q1, t + h)
+//!
+//! Source: Hairer, Lubich & Wanner 2003, "Geometric numerical integration illustrated by the Störmer–Verlet
+//! method".
+
+use super::Step;
+use super::memory::Work;
+use crate::discrete::frequency::Frequency;
+use crate::discrete::quadrature::Rule;
+use crate::error::StepFailure;
+use crate::mechanics::mass::Mass;
+use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
+use crate::methods::Clock;
+use crate::methods::walk::{Walk, walk};
+use crate::scalar::norm;
+use crate::space::scratch;
+use crate::{Real, RegularLagrangian, Vector};
+
+/// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
+/// good point.
+#[inline(always)]
+pub(super) fn steps<S: RegularLagrangian, T: Real>(
+    system: &S,
+    mass: &Mass<S, T>,
+    phase: &mut PhasePoint<S, T>,
+    work: &mut Work<S, T>,
+    q: &mut Vector<S, T>,
+    clock: Clock<T>,
+    count: u64,
+) -> (u64, Result<(), StepFailure>) {
+    scratch!(q1 = system, work.node.point);
+    scratch!(p1 = system, work.node.momentum);
+    scratch!(f1 = system, work.trial);
+    scratch!(v = system, work.node.velocity);
+    q1.copy_from_slice(q);
+    p1.copy_from_slice(&phase.p);
+    f1.copy_from_slice(&phase.force);
+    let half = T::lift(0.5) * clock.step_size();
+    walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v }, 0, count)
+}
+
+/// One step with compensated sums, forces being evaluated at these.
+#[inline(never)]
+pub(super) fn compensated<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
+    step: &Step<'_, S, F, R, T>,
+    mass: &Mass<S, T>,
+    phase: &mut PhasePoint<S, T>,
+    Work { node, increment, next, trial: force, sum }: &mut Work<S, T>,
+    q: &mut Vector<S, T>,
+) -> Result<(), StepFailure> {
+    let half = T::lift(0.5) * step.h;
+    for (impulse, &f) in sum.iter_mut().zip(phase.force.iter()) {
+        *impulse = half * f;
+    }
+    phase.kick(sum, &mut node.momentum);
+    mass.solve(&node.momentum, increment);
+    for delta in increment.iter_mut() {
+        *delta *= step.h;
+    }
+    phase.reach(q, increment, next);
+    step.system.force(next, &[], step.node_time(1.0), force);
+    for (impulse, &f) in sum.iter_mut().zip(force.iter()) {
+        *impulse += half * f;
+    }
+    phase.kick(sum, &mut node.momentum);
+    let by = Increments { q: increment, p: sum };
+    phase.advance(q, &Arrival { q: next, p: &node.momentum, force }, by, step.h)
+}
+
+/// The present point, momentum and force, and where they are kept.
+struct Kicks<'a, S: RegularLagrangian, T: Real> {
+    system: &'a S,
+    mass: &'a Mass<S, T>,
+    clock: Clock<T>,
+    half: T,
+    q: &'a mut Vector<S, T>,
+    phase: &'a mut PhasePoint<S, T>,
+    q1: &'a mut [T],
+    p1: &'a mut [T],
+    f1: &'a mut [T],
+    v: &'a mut [T],
+}
+
+impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
+    #[inline(always)]
+    fn step(&mut self, number: u64) {
+        let Self { half, q1, p1, f1, v, .. } = self;
+        if let Some(reciprocals) = self.mass.reciprocals() {
+            // In one pass over memory.
+            for (((p, &f), q), &reciprocal) in
+                p1.iter_mut().zip(f1.iter()).zip(q1.iter_mut()).zip(reciprocals)
+            {
+                *p += *half * f;
+                *q += self.clock.step_size() * (*p * reciprocal);
+            }
+        } else {
+            for (p, &f) in p1.iter_mut().zip(f1.iter()) {
+                *p += *half * f;
+            }
+            self.mass.solve(p1, v);
+            for (q, &v) in q1.iter_mut().zip(v.iter()) {
+                *q += self.clock.step_size() * v;
+            }
+        }
+        self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
+        for (p, &f) in p1.iter_mut().zip(f1.iter()) {
+            *p += *half * f;
+        }
+    }
+
+    #[inline(always)]
+    fn examine(&mut self, _steps: u64) -> Result<(), StepFailure> {
+        scratch!(examined = self.system, *self.v);
+        examined.copy_from_slice(self.q1);
+        norm::finite(examined)?;
+        // A collision shows in the force, which is in the momentum.
+        examined.copy_from_slice(self.p1);
+        norm::finite(examined)
+    }
+
+    #[inline(always)]
+    fn keep(&mut self) {
+        self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 });
+    }
+
+    #[inline(always)]
+    fn go_back(&mut self) {
+        self.q1.copy_from_slice(self.q);
+        self.p1.copy_from_slice(&self.phase.p);
+        self.f1.copy_from_slice(&self.phase.force);
+    }
+}

@@ -1,0 +1,212 @@
+//! A run: a system, a method, a step, and where they have got to.
+
+use core::fmt;
+
+use crate::error::{StartError, StepError, StepFailure};
+use crate::mechanics::VectorField;
+use crate::methods::{Carries, Clock, Method, TwoPoint};
+use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
+#[cfg(feature = "alloc")]
+use crate::run::Checkpoint;
+use crate::run::{Run, Stepper};
+use crate::scalar::norm::reported;
+use crate::system::start::{evaluate, flatten, velocities};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
+
+/// A run of a method on a system with a fixed step.
+///
+/// As an iterator it yields the state after each step, for ever, or up to the first failure; after that
+/// it yields `None`, and [`state`](Run::state) is the last good one. [`advance`](Run::advance) takes a
+/// step without building a state. What can be asked of a run are the methods of the trait [`Run`].
+pub struct Integrator<'a, S: Lagrangian, M: Carries<S, T>, T: Real = f64> {
+    stepper: Stepper<'a, S, M, T>,
+    /// At the start of the run.
+    clock: Clock<T>,
+}
+
+impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
+    /// A run from `start` at time 0 with step `h`, which may be negative.
+    ///
+    /// # Errors
+    /// [`StartError`] if a parameter array of the system or an array of the state has the wrong length,
+    /// `h` is zero or not finite, a coordinate is not finite, an option of the method is out of range,
+    /// the energy or a first derivative of L is not finite at the start ([`StartError::Undefined`]), or the
+    /// starting values cannot be computed.
+    pub fn new(system: &'a S, method: M, h: T, start: S::State<T>) -> Result<Self, StartError> {
+        Self::new_at(system, method, T::lift(0.0), h, start)
+    }
+
+    /// A run from `start` at time `t`; else as [`new`](Self::new).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
+    pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
+        validate(system, t, h)?;
+        let [q, v] = flatten(system, &start)?;
+        evaluate(system, &q, &v, t)?;
+        let memory = method.begin(system, &q, &v[..velocities(system)], t, h)?;
+        Ok(Self::assemble(system, method, memory, q, t, h))
+    }
+
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
+    /// [step](Checkpoint::with_step_size) or other parameters, from the same momenta.
+    ///
+    /// # Errors
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it is one of another system or method.
+    #[cfg(feature = "alloc")]
+    pub fn resume(system: &'a S, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
+        let (t, h) = (checkpoint.time, checkpoint.step_size);
+        validate(system, t, h)?;
+        let [q, v] = checkpoint.point(system)?;
+        let mut memory = method.begin_again(system, &q, &v[..velocities(system)], t, h)?;
+        let mut clock = Clock::new(t, h);
+        checkpoint.load::<S, M>(&mut memory, |reader| {
+            clock = Clock::load(checkpoint, reader)?;
+            Ok(())
+        })?;
+        let mut run = Self::assemble(system, method, memory, q, t, h);
+        run.clock = clock;
+        run.stepper.statistics = checkpoint.statistics;
+        Ok(run)
+    }
+
+    fn assemble(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>, t: T, h: T) -> Self {
+        Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h) }
+    }
+}
+
+impl<S: Lagrangian, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T> {
+    type System = S;
+    type Method = M;
+    type Scalar = T;
+
+    fn stepper(&self) -> &Stepper<'_, S, M, T> {
+        &self.stepper
+    }
+
+    /// As so many calls of [`advance`](Run::advance), but faster where a method can keep its state in registers.
+    #[inline]
+    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
+        let clock = self.clock.after(self.stepper.statistics.steps);
+        self.stepper.steps(clock, count).map_err(|failure| self.error(failure))
+    }
+
+    #[cfg(feature = "alloc")]
+    fn checkpoint(&self) -> Checkpoint<T> {
+        Checkpoint::of(&self.stepper, [self.time(), self.step_size()], |record| self.clock.save(record))
+    }
+
+    /// t₀ + steps · h, which does not accumulate rounding errors.
+    #[inline]
+    fn time(&self) -> T {
+        self.clock.after(self.stepper.statistics.steps).time()
+    }
+
+    #[inline]
+    fn step_size(&self) -> T {
+        self.clock.step_size()
+    }
+}
+
+impl<S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
+    #[cold]
+    fn error(&mut self, failure: StepFailure) -> StepError {
+        self.stepper.error(self.time(), failure)
+    }
+}
+
+impl<'a, S: Lagrangian, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
+    /// A run of a two-step method that starts at `first`, time 0, and whose first step leads to `second`.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn from_two_points(
+        system: &'a S,
+        method: M,
+        h: T,
+        first: S::State<T>,
+        second: S::State<T>,
+    ) -> Result<Self, StartError> {
+        let t = T::lift(0.0);
+        validate(system, t, h)?;
+        let ([q0, _], [q1, _]) = (flatten(system, &first)?, flatten(system, &second)?);
+        let rest = system.space().vector();
+        evaluate(system, &q0, &rest, t)?;
+        evaluate(system, &q1, &rest, t + h)?;
+        let memory = method.begin_between(system, &q0, &q1, t, h)?;
+        Ok(Self::assemble(system, method, memory, q0, t, h))
+    }
+}
+
+impl<S: DegenerateLagrangian, T: Real> Integrator<'_, S, Sigma<T>, T> {
+    /// The discrete momentum J_d = J(q) + c·ξ(q), ξ = B⁻¹∇J, of declared momentum `index`.
+    ///
+    /// By the discrete Noether theorem D₂L_d·ξ − f is conserved, where f is defined by
+    /// L_ξ α = df (Marsden & West 2001, section 1.3.3). As D₂L_d = p = α + c and df = d(α·ξ − J), this is
+    /// J_d up to a constant. Exact if ξ is affine in q and f affine, or quadratic with σ = ½.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] if Ω is singular at the current point. `Ok(None)` if there is no such
+    /// momentum.
+    pub fn discrete_momentum(&self, index: usize) -> Result<Option<T>, StepFailure> {
+        let Some(momentum) = self.momentum(index) else { return Ok(None) };
+        let mut field = VectorField::new(self.stepper.system, &self.stepper.q, self.time())?;
+        let mut xi = self.stepper.system.space().vector();
+        field.generator(self.stepper.system, index, &self.stepper.q, self.time(), &mut xi)?;
+        let along = self.stepper.memory.defect().iter().zip(xi.iter());
+        Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
+    }
+
+    /// The parasitic mode as it was measured last: see [`SigmaMemory::parasitic_mode`].
+    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
+        self.stepper.memory.parasitic_mode()
+    }
+
+    /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere it is of
+    /// order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be trusted; take
+    /// [`parasitic_mode`](Self::parasitic_mode).
+    pub fn parasitic_amplitude(&self) -> T {
+        SigmaMemory::parasitic_amplitude(&self.stepper.memory)
+    }
+}
+
+impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, T> {
+    type Item = Result<S::State<T>, StepError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        self.nth(0)
+    }
+
+    /// Skips `n` states without building them and yields the next. Unlike elsewhere, a failure on the way is
+    /// not skipped but yielded.
+    #[inline]
+    fn nth(&mut self, n: usize) -> Option<Self::Item> {
+        if self.stepper.failed {
+            return None;
+        }
+        Some(self.take_steps(n as u64 + 1).and_then(|()| self.stepper.try_state(self.time())))
+    }
+}
+
+impl<S: Lagrangian, M: Method<S, T>, T: Real> core::iter::FusedIterator for Integrator<'_, S, M, T> {}
+
+impl<S: Lagrangian, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integrator<'_, S, M, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Integrator")
+            .field("system", &S::REPORT.system)
+            .field("method", &self.stepper.method)
+            .field("time", &self.time())
+            .field("step_size", &self.step_size())
+            .field("state", &self.state())
+            .field("statistics", &self.stepper.statistics)
+            .finish_non_exhaustive()
+    }
+}
+
+fn validate<S: Lagrangian, T: Real>(system: &S, t: T, h: T) -> Result<(), StartError> {
+    if !h.is_finite() || h == T::lift(0.0) {
+        return Err(StartError::Step { h: reported(h) });
+    }
+    crate::system::start::validate(system, t)
+}

@@ -1,0 +1,52 @@
+//! What decides how long the steps of a run are.
+//!
+//! A method keeps its good long-time behaviour under variable steps if the whole map, step control included, is
+//! symmetric or comes from a transformed system; choosing each step by the error of the one before destroys it
+//! (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind, [`Osculating`] of the
+//! other.
+
+mod controlled;
+mod integrator;
+mod osculating;
+mod reversible;
+
+use core::fmt::Debug;
+
+use crate::error::{StartError, StepFailure};
+use crate::methods::VariableStep;
+use crate::state::memory::Memory;
+use crate::{Lagrangian, Real};
+
+pub use controlled::ControlledRun;
+pub use integrator::ControlledIntegrator;
+pub use osculating::{CentreSpeed, Osculating, OsculatingMemory};
+pub use reversible::{Density, Power, Reversible, ReversibleMemory};
+
+/// A rule for the length of each step of a run on `S`.
+///
+/// The control takes the steps itself, so that it sees the run before and after each, and may take one back.
+pub trait StepControl<S: Lagrangian, T: Real>: Debug {
+    /// Whether steps may be taken back, so that the run has to keep what it takes.
+    const REJECTS: bool = false;
+    /// What is carried from step to step.
+    type Memory: Memory<T>;
+
+    /// Prepares a run from (`q`, `t`) with velocity `v`, which is empty for degenerate systems. Returns the
+    /// length of the first step too. Everything that needs memory is allocated here.
+    ///
+    /// # Errors
+    /// [`StartError::Parameter`] if an option is out of range, [`StartError::Unsupported`] if the control needs
+    /// what the system does not have, [`StartError::Starter`] if its formulas fail at the start.
+    fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError>;
+
+    /// Takes `run` one step on from time `t`, without allocation, and returns the length of the step.
+    ///
+    /// # Errors
+    /// Any [`StepFailure`]; `run` and `memory` are then as they were before.
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut ControlledRun<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure>;
+}

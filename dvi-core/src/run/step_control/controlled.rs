@@ -1,0 +1,93 @@
+//! A run in the hands of its step control.
+
+use crate::state::memory::Memory;
+use core::fmt;
+
+use crate::error::{StartError, StepFailure};
+use crate::methods::{Carries, VariableStep};
+use crate::run::Stepper;
+use crate::scalar::norm::reported;
+use crate::{Lagrangian, Real, Vector};
+
+/// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the control
+/// [rejects](super::StepControl::REJECTS) steps, back.
+pub struct ControlledRun<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
+    pub(super) stepper: Stepper<'a, S, M, T>,
+    /// What can be gone back to.
+    checkpoint: Option<(M::Memory, Vector<S, T>)>,
+}
+
+impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, T> {
+    pub(super) fn new(
+        system: &'a S,
+        method: M,
+        q: Vector<S, T>,
+        rejects: bool,
+        begin: impl Fn(&M, &Vector<S, T>) -> Result<M::Memory, StartError>,
+    ) -> Result<Self, StartError> {
+        let memory = begin(&method, &q)?;
+        let checkpoint = rejects.then(|| begin(&method, &q)).transpose()?.map(|memory| (memory, q.clone()));
+        Ok(Self { stepper: Stepper::new(system, method, memory, q), checkpoint })
+    }
+
+    /// The system.
+    pub fn system(&self) -> &'a S {
+        self.stepper.system
+    }
+
+    /// The current coordinates, flat, in the order of declaration.
+    pub fn q(&self) -> &[T] {
+        &self.stepper.q
+    }
+
+    /// Sets `v` to the velocity at the current point, which is reached at time `t`; degenerate systems have
+    /// none, and `v` stays as it is.
+    ///
+    /// # Errors
+    /// As [`Method::velocity`](crate::methods::Method::velocity).
+    #[inline]
+    pub fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
+        self.stepper.velocity(t, v)
+    }
+
+    /// Takes a step from time `t` to `t + h`, without allocation.
+    ///
+    /// # Errors
+    /// [`StepFailure::StepLength`] if `h` is not finite or `t + h` is `t`; else as
+    /// [`Method::step`](crate::methods::Method::step). Nothing has moved then.
+    #[inline]
+    pub fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
+        if !h.is_finite() || t + h == t {
+            return Err(StepFailure::StepLength { h: reported(h) });
+        }
+        let Stepper { system, method, memory, q, statistics, .. } = &mut self.stepper;
+        method.step(system, memory, q, t, h, statistics)
+    }
+
+    /// Keeps the present point, to [go back](Self::go_back) to it. Nothing happens if the control does not
+    /// reject steps.
+    pub fn keep(&mut self) {
+        if let Some((memory, q)) = &mut self.checkpoint {
+            memory.restore(&self.stepper.memory);
+            q.copy_from_slice(&self.stepper.q);
+        }
+    }
+
+    /// Goes back to the point that was kept, without allocation.
+    pub fn go_back(&mut self) {
+        if let Some((memory, q)) = &self.checkpoint {
+            self.stepper.memory.restore(memory);
+            self.stepper.q.copy_from_slice(q);
+        }
+    }
+}
+
+impl<S: Lagrangian, M: VariableStep<S, T> + fmt::Debug, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ControlledRun")
+            .field("system", &S::REPORT.system)
+            .field("method", &self.stepper.method)
+            .field("q", &self.stepper.q)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,269 @@
+//! A run with steps of different lengths.
+
+use core::fmt;
+
+use super::{ControlledRun, Reversible, StepControl, reversible};
+use crate::error::{StartError, StepError};
+use crate::methods::{Carries, VariableStep};
+#[cfg(feature = "alloc")]
+use crate::run::Checkpoint;
+use crate::run::{Run, Stepper};
+use crate::state::memory::{Memory, lasting};
+use crate::system::start::{evaluate, flatten, validate, velocities};
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
+
+/// A run of a method on a system with steps chosen by a [`StepControl`].
+///
+/// Like [`Integrator`](crate::run::Integrator) it is a [`Run`], and an iterator that yields the state after each step, up
+/// to the first failure; [`state`](Run::state) is always the last good one. The velocity is taken along, so that
+/// a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
+pub struct ControlledIntegrator<'a, S: Lagrangian, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64> {
+    controlled: ControlledRun<'a, S, M, T>,
+    control: C,
+    control_memory: C::Memory,
+    clock: VariableClock<T>,
+    /// The length of the latest step, or of the first if there is none.
+    h: T,
+}
+
+impl<'a, S: Lagrangian, M, C, T: Real> ControlledIntegrator<'a, S, M, C, T>
+where
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
+{
+    /// A run from `start` at time 0.
+    ///
+    /// # Errors
+    /// [`StartError`] if an array has the wrong length, a coordinate is not finite, an option of the method or
+    /// of the control is out of range, or their starting values cannot be computed.
+    pub fn new(system: &'a S, method: M, control: C, start: S::State<T>) -> Result<Self, StartError> {
+        Self::new_at(system, method, control, T::lift(0.0), start)
+    }
+
+    /// A run from `start` at time `t`; else as [`new`](Self::new).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
+    pub fn new_at(
+        system: &'a S,
+        method: M,
+        control: C,
+        t: T,
+        start: S::State<T>,
+    ) -> Result<Self, StartError> {
+        validate(system, t)?;
+        let [q, v] = flatten(system, &start)?;
+        evaluate(system, &q, &v, t)?;
+        let v = &v[..velocities(system)];
+        let (control_memory, h) = control.begin(system, &q, v, t)?;
+        let begin = |method: &M, q: &Vector<S, T>| method.begin(system, q, v, t, h);
+        let controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
+        Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
+    }
+
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped.
+    ///
+    /// # Errors
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it is one of another system, method or control.
+    #[cfg(feature = "alloc")]
+    pub fn resume(
+        system: &'a S,
+        method: M,
+        control: C,
+        checkpoint: &Checkpoint<T>,
+    ) -> Result<Self, StartError> {
+        let (t, mut h) = (checkpoint.time, checkpoint.step_size);
+        validate(system, t)?;
+        let [q, v] = checkpoint.point(system)?;
+        let v = &v[..velocities(system)];
+        let (mut control_memory, _) = control.begin(system, &q, v, t)?;
+        let begin = |method: &M, q: &Vector<S, T>| method.begin_again(system, q, v, t, h);
+        let mut controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
+        let mut clock = VariableClock::new(t);
+        checkpoint.load::<S, M>(&mut controlled.stepper.memory, |reader| {
+            control_memory.load(reader)?;
+            clock.load(reader)?;
+            reader.numbers(core::slice::from_mut(&mut h))
+        })?;
+        controlled.stepper.statistics = checkpoint.statistics;
+        Ok(Self { controlled, control, control_memory, clock, h })
+    }
+
+    /// The step control.
+    pub fn control(&self) -> &C {
+        &self.control
+    }
+
+    /// What the step control carries from step to step.
+    pub fn control_memory(&self) -> &C::Memory {
+        &self.control_memory
+    }
+
+    #[inline]
+    fn step(&mut self) -> Result<(), StepError> {
+        let t = self.clock.time();
+        match self.control.step(&mut self.control_memory, &mut self.controlled, t) {
+            Ok(h) => {
+                self.h = h;
+                self.clock.advance(h);
+                self.controlled.stepper.statistics.steps += 1;
+                Ok(())
+            }
+            Err(failure) => Err(self.controlled.stepper.error(t, failure)),
+        }
+    }
+}
+
+impl<S: Lagrangian, M, C, T: Real> Run for ControlledIntegrator<'_, S, M, C, T>
+where
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
+{
+    type System = S;
+    type Method = M;
+    type Scalar = T;
+
+    fn stepper(&self) -> &Stepper<'_, S, M, T> {
+        &self.controlled.stepper
+    }
+
+    #[inline]
+    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
+        (0..count).try_for_each(|_| self.step())
+    }
+
+    #[cfg(feature = "alloc")]
+    fn checkpoint(&self) -> Checkpoint<T> {
+        Checkpoint::of(&self.controlled.stepper, [self.time(), self.h], |record| {
+            self.control_memory.save(record);
+            self.clock.save(record);
+            record.numbers(&[self.h]);
+        })
+    }
+
+    /// The sum of all steps, compensated, so that its error does not grow with their number.
+    #[inline]
+    fn time(&self) -> T {
+        self.clock.time()
+    }
+
+    #[inline]
+    fn step_size(&self) -> T {
+        self.h
+    }
+}
+
+impl<S: RegularLagrangian, M, D, T: Real> ControlledIntegrator<'_, S, M, Reversible<D>, T>
+where
+    M: VariableStep<S, T>,
+    D: reversible::Density<T>,
+{
+    /// ρ at the current point, as the control has carried it along: a run from here with
+    /// [`Reversible::start`] at this value goes on with the same steps, and with the velocity reversed it
+    /// comes back by the same steps. Not a number where the momenta have no velocity.
+    pub fn density(&self) -> T {
+        let mut v = crate::Space::vector(self.controlled.stepper.system.space());
+        match self.controlled.stepper.velocity(self.time(), &mut v) {
+            Ok(()) => self.control.density_at(&self.control_memory, &self.controlled.stepper.q, &v),
+            Err(_) => T::lift(f64::NAN),
+        }
+    }
+}
+
+impl<S: Lagrangian, M, C, T: Real> Iterator for ControlledIntegrator<'_, S, M, C, T>
+where
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
+{
+    type Item = Result<S::State<T>, StepError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        self.nth(0)
+    }
+
+    /// Skips `n` states without building them and yields the next. Unlike elsewhere, a failure on the way is
+    /// not skipped but yielded.
+    #[inline]
+    fn nth(&mut self, n: usize) -> Option<Self::Item> {
+        if self.controlled.stepper.failed {
+            return None;
+        }
+        Some(
+            self.take_steps(n as u64 + 1).and_then(|()| self.controlled.stepper.try_state(self.clock.time())),
+        )
+    }
+}
+
+impl<S: Lagrangian, M, C, T: Real> core::iter::FusedIterator for ControlledIntegrator<'_, S, M, C, T>
+where
+    M: VariableStep<S, T>,
+    C: StepControl<S, T>,
+{
+}
+
+impl<S: Lagrangian, M, C, T: Real> fmt::Debug for ControlledIntegrator<'_, S, M, C, T>
+where
+    M: VariableStep<S, T> + fmt::Debug,
+    C: StepControl<S, T>,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ControlledIntegrator")
+            .field("system", &S::REPORT.system)
+            .field("method", &self.controlled.stepper.method)
+            .field("control", &self.control)
+            .field("time", &self.time())
+            .field("step_size", &self.step_size())
+            .field("state", &self.state())
+            .field("statistics", &self.statistics())
+            .finish_non_exhaustive()
+    }
+}
+
+/// The sum of steps of different lengths, and what rounding has left out of it (Neumaier 1974).
+#[derive(Clone, Copy, Debug)]
+struct VariableClock<T> {
+    sum: T,
+    rest: T,
+}
+
+impl<T: Real> Memory<T> for VariableClock<T> {
+    lasting!(T; number sum, number rest);
+}
+
+impl<T: Real> VariableClock<T> {
+    fn new(start: T) -> Self {
+        Self { sum: start, rest: T::lift(0.0) }
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, h: T) {
+        let sum = self.sum + h;
+        self.rest +=
+            if Scalar::abs(self.sum) >= Scalar::abs(h) { (self.sum - sum) + h } else { (h - sum) + self.sum };
+        self.sum = sum;
+    }
+
+    #[inline(always)]
+    fn time(&self) -> T {
+        self.sum + self.rest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::VariableClock;
+
+    #[test]
+    fn the_clock_adds_as_if_in_twice_the_precision() {
+        let mut clock = VariableClock::new(1e9);
+        // Sums of integers and of multiples of 2⁻³⁰ are exact in integers.
+        let mut exact: i128 = 1_000_000_000 << 30;
+        for k in 0..1_000_000_i64 {
+            let h = (k * k) % 1013 - 100;
+            clock.advance(h as f64 / f64::from(1 << 30));
+            exact += i128::from(h);
+        }
+        assert_eq!(clock.time(), exact as f64 / f64::from(1 << 30));
+    }
+}

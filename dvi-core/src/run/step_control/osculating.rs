@@ -1,0 +1,228 @@
+//! The step control of Kosmas & Vlachos, by the osculating circles at both ends of a step.
+//!
+//! e = | |R(q1) − R(q0)| − v_o d |,    R = 1/k = |v|³/c,    c² = |v × a|² = v²a² − (v·a)²        (their eq. 23)
+//!
+//! with the speed v_o = |dR/ds| of the centre of the circle per unit of arc length (their eq. 22), at q0, exactly:
+//! Ṙ = |v|(3 v·a/c − v²ċ/c²),    c ċ = v²(a·j) − (v·a)(v·j),    a = M⁻¹∂L/∂q,    j = ȧ,    v_o = |Ṙ|/|v|.
+//!
+//! As printed, d = h: lengths and times are mixed, and e is of first order in h. The distance that the centre
+//! moves is v_o |v| h; with d = |v| h, e is the remainder of a Taylor series, of second order. Neither bounds the
+//! error of a step: on a circle e = 0 whatever the method does.
+
+use super::{ControlledRun, StepControl};
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::mass::Mass;
+use crate::methods::VariableStep;
+use crate::scalar::norm::larger;
+use crate::space::sink::Product;
+use crate::state::memory::{Memory, lasting};
+use crate::{Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+
+/// How far the centre of the osculating circle moves in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CentreSpeed {
+    /// v_o |v| h: v_o is per unit of arc length.
+    #[default]
+    PerArcLength,
+    /// v_o h, as printed.
+    AsPrinted,
+}
+
+impl CentreSpeed {
+    /// The power of h that e is proportional to.
+    fn order(self) -> f64 {
+        match self {
+            Self::PerArcLength => 2.0,
+            Self::AsPrinted => 1.0,
+        }
+    }
+}
+
+/// Steps for which | |1/k₁ − 1/k₂| − v_o d | is at most a tolerance (Kosmas & Vlachos, eq. 23).
+///
+/// A step that is too long, or fails, is undone and tried again; h ← h·0.9 (tolerance/e)^(1/p), between h/5 and
+/// 5h, with p the order of e in h. For L = ½ v·M v − V(q) with a constant matrix M, and for the curvature of the
+/// path in the Euclidean metric of the coordinates; a V that depends on time explicitly does so in a, but not in
+/// j. Not available on straight paths, which have no osculating circle.
+///
+/// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method. With the
+/// distance along the path it may also lock in to a periodic motion, and then they do not: the gallery shows both.
+/// [`Reversible`](super::Reversible) is better and cheaper.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Osculating {
+    /// The largest e to accept, a length.
+    pub tolerance: f64,
+    /// The length of the first step that is tried; negative to run back in time.
+    pub first_step: f64,
+    /// Which d is meant. Default: the distance along the path.
+    pub centre: CentreSpeed,
+}
+
+impl Osculating {
+    /// With d = |v| h.
+    pub fn new(tolerance: f64, first_step: f64) -> Self {
+        Self { tolerance, first_step, centre: CentreSpeed::default() }
+    }
+}
+
+/// The radius of the osculating circle, its rate of change Ṙ, and the speed |v|.
+#[derive(Clone, Copy, Debug)]
+struct Circle<T> {
+    radius: T,
+    rate: T,
+    speed: T,
+}
+
+/// What [`Osculating`] carries from step to step.
+#[derive(Debug)]
+pub struct OsculatingMemory<S: RegularLagrangian, T: Real> {
+    /// The length of the next step.
+    h: T,
+    circle: Circle<T>,
+    mass: Mass<S, T>,
+    v: Vector<S, T>,
+    work: Work<S, T>,
+}
+
+#[derive(Debug)]
+struct Work<S: RegularLagrangian, T: Real> {
+    acceleration: Vector<S, T>,
+    jerk: Vector<S, T>,
+    l_q: Vector<S, T>,
+    l_v: Vector<S, T>,
+    /// ∂²L/∂q∂q v
+    force_rate: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> Memory<T> for OsculatingMemory<S, T> {
+    lasting!(T; number h, part circle);
+}
+
+impl<T: Real> Memory<T> for Circle<T> {
+    lasting!(T; number radius, number rate, number speed);
+}
+
+impl<S: RegularLagrangian, T: Real> Work<S, T> {
+    /// The osculating circle at (`q`, `v`), by one evaluation of the second derivatives.
+    fn circle(&mut self, system: &S, mass: &Mass<S, T>, q: &[T], v: &[T], t: T) -> Circle<T> {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let Self { acceleration, jerk, l_q, l_v, force_rate } = self;
+        force_rate.fill(zero);
+        let mut product = Product { x: v, sum: force_rate };
+        system.linearize(q, v, t, Weights { qq: one, qv: zero, vq: zero, vv: zero }, l_q, l_v, &mut product);
+        mass.solve(l_q, acceleration);
+        mass.solve(force_rate, jerk);
+        let dot = |x: &[T], y: &[T]| x.iter().zip(y).fold(zero, |sum, (&x, &y)| sum + x * y);
+        let (vv, va, aa) = (dot(v, v), dot(v, acceleration), dot(acceleration, acceleration));
+        let (vj, aj) = (dot(v, jerk), dot(acceleration, jerk));
+        let square = vv * aa - va * va;
+        let (speed, c) = (Scalar::sqrt(vv), Scalar::sqrt(square));
+        let rate = speed * (T::lift(3.0) * va - vv * (vv * aj - va * vj) / square) / c;
+        Circle { radius: vv * speed / c, rate, speed }
+    }
+}
+
+impl Osculating {
+    /// e of a step of length `h` between two circles.
+    fn estimate<T: Real>(&self, h: T, start: Circle<T>, end: Circle<T>) -> T {
+        let distance = match self.centre {
+            CentreSpeed::PerArcLength => Scalar::abs(start.rate * h),
+            CentreSpeed::AsPrinted => Scalar::abs(start.rate / start.speed * h),
+        };
+        Scalar::abs(Scalar::abs(end.radius - start.radius) - distance)
+    }
+
+    /// What h is multiplied with after a step with estimate `e`.
+    fn factor<T: Real>(&self, e: T) -> T {
+        let ratio = Scalar::powf(T::lift(self.tolerance) / e, T::lift(1.0 / self.centre.order()));
+        let (wanted, most) = (T::lift(0.9) * ratio, T::lift(5.0));
+        // Also where the estimate is not a number, the step becomes smaller.
+        if wanted > most { most } else { larger(T::lift(0.2), wanted) }
+    }
+}
+
+impl<S: RegularLagrangian, T: Real> StepControl<S, T> for Osculating {
+    const REJECTS: bool = true;
+    type Memory = OsculatingMemory<S, T>;
+
+    fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
+        let tolerable = self.tolerance > 0.0 && self.tolerance.is_finite();
+        if !tolerable {
+            let (value, range) = (self.tolerance, "positive and finite");
+            return Err(StartError::Parameter { name: "tolerance", value, range });
+        }
+        if !self.first_step.is_finite() || self.first_step == 0.0 {
+            return Err(StartError::Step { h: self.first_step });
+        }
+        if !S::SEPARABLE {
+            let reason = "it needs L = ½ v·M v − V(q) with a constant matrix M";
+            return Err(StartError::Unsupported { option: "Osculating", reason });
+        }
+        let space = system.space();
+        let vector = || space.vector();
+        let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
+        let mut work = Work {
+            acceleration: vector(),
+            jerk: vector(),
+            l_q: vector(),
+            l_v: vector(),
+            force_rate: space.vector(),
+        };
+        let circle = work.circle(system, &mass, q, v, t);
+        if !(circle.radius + circle.rate).is_finite() {
+            let reason = "the start has no osculating circle: it is at rest, or its path is straight";
+            return Err(StartError::Unsupported { option: "Osculating", reason });
+        }
+        let h = T::lift(self.first_step);
+        let memory = OsculatingMemory { h, circle, mass, v: vector(), work };
+        Ok((memory, h))
+    }
+
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut ControlledRun<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure> {
+        run.keep();
+        let (mut h, mut failed) = (memory.h, None);
+        loop {
+            match attempt(memory, run, t, h) {
+                Ok(circle) => {
+                    let e = self.estimate(h, memory.circle, circle);
+                    let factor = self.factor(e);
+                    if e <= T::lift(self.tolerance) {
+                        memory.circle = circle;
+                        memory.h = h * factor;
+                        return Ok(h);
+                    }
+                    run.go_back();
+                    h *= factor;
+                }
+                // The failure of a longer step tells more than that the steps became too short.
+                Err(failure @ StepFailure::StepLength { .. }) => return Err(failed.unwrap_or(failure)),
+                Err(failure) => {
+                    failed = Some(failure);
+                    h *= T::lift(0.2);
+                }
+            }
+        }
+    }
+}
+
+/// Takes a step of length `h` and returns the circle at its end; goes back if there is none.
+fn attempt<S: RegularLagrangian, M: VariableStep<S, T>, T: Real>(
+    memory: &mut OsculatingMemory<S, T>,
+    run: &mut ControlledRun<'_, S, M, T>,
+    t: T,
+    h: T,
+) -> Result<Circle<T>, StepFailure> {
+    run.step(t, h)?;
+    let OsculatingMemory { mass, work, v, .. } = memory;
+    if let Err(failure) = run.velocity(t + h, v) {
+        run.go_back();
+        return Err(failure);
+    }
+    run.stepper.statistics.linearizations += 1;
+    Ok(work.circle(run.system(), mass, run.q(), v, t + h))
+}

@@ -1,0 +1,158 @@
+//! The explicit reversible step control of Hairer & Söderlind.
+//!
+//! Steps of density ρ(q) in time, dt = ε/ρ, make (ln ρ)' = G(q, v) = ∇ρ(q)·v/ρ(q). ρ is carried along by
+//! ρ_{k+1/2} = ρ_{k−1/2} + ε G(q_k, v_k),    h_{k+1/2} = ε/ρ_{k+1/2},    ρ_{1/2} = ρ(q_0) + ½ ε G(q_0, v_0)
+//! rather than evaluated: each step is known before it is taken, and the map of (q, v, ρ) remains reversible if
+//! that of the method with constant steps is.
+//!
+//! Source: Hairer & Söderlind 2005, "Explicit, time reversible, adaptive step size control", SIAM J. Sci.
+//! Comput. 26, 1838–1851.
+
+use core::fmt::Debug;
+
+use super::{ControlledRun, StepControl};
+use crate::error::{StartError, StepFailure};
+use crate::methods::VariableStep;
+use crate::scalar::norm::reported;
+use crate::state::memory::{Memory, lasting};
+use crate::{Real, RegularLagrangian, Space, Vector};
+
+/// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position alone:
+/// then G is odd in v, and the control reversible.
+pub trait Density<T>: Debug {
+    /// ρ(q).
+    fn value(&self, q: &[T]) -> T;
+    /// G(q, v) = ∇ρ(q)·v/ρ(q), the logarithmic derivative of ρ along the motion.
+    fn growth(&self, q: &[T], v: &[T]) -> T;
+}
+
+/// ρ = |q|^(−κ), for motions around the origin: G = −κ q·v/|q|².
+///
+/// κ = 3/2 takes steps in proportion to the time of free fall: on Kepler's problem all orbits of the same shape
+/// then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power {
+    /// κ.
+    pub exponent: f64,
+}
+
+impl<T: Real> Density<T> for Power {
+    fn value(&self, q: &[T]) -> T {
+        let square = q.iter().fold(T::lift(0.0), |sum, &x| sum + x * x);
+        crate::Scalar::powf(square, T::lift(-0.5 * self.exponent))
+    }
+
+    #[inline]
+    fn growth(&self, q: &[T], v: &[T]) -> T {
+        let (mut along, mut square) = (T::lift(0.0), T::lift(0.0));
+        for (&x, &v) in q.iter().zip(v) {
+            along += x * v;
+            square += x * x;
+        }
+        T::lift(-self.exponent) * along / square
+    }
+}
+
+/// Steps h = ε/ρ with a density that is carried along symmetrically.
+///
+/// With a symmetric method the whole is reversible, so that energy errors do not drift on reversible orbits; it
+/// is not symplectic. For regular systems. The velocity at the start of a step is all it needs beside the
+/// position: for L = ½ v·M v − V(q, t), no evaluation of L.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reversible<D = Power> {
+    /// ε ≠ 0, in units of ρ times time; negative to run back in time.
+    pub epsilon: f64,
+    /// ρ.
+    pub density: D,
+    /// ρ at the start of the run, to go on from another run
+    /// ([`ControlledIntegrator::density`](super::ControlledIntegrator::density)). Default: that of the start.
+    pub start: Option<f64>,
+}
+
+impl<D> Reversible<D> {
+    /// Steps ε/ρ.
+    pub fn new(epsilon: f64, density: D) -> Self {
+        Self { epsilon, density, start: None }
+    }
+
+    /// ρ at the point (`q`, `v`) that the control has reached.
+    pub(super) fn density_at<S: RegularLagrangian, T: Real>(
+        &self,
+        memory: &ReversibleMemory<S, T>,
+        q: &[T],
+        v: &[T],
+    ) -> T
+    where
+        D: Density<T>,
+    {
+        memory.density + T::lift(0.5 * self.epsilon) * self.density.growth(q, v)
+    }
+}
+
+impl Reversible {
+    /// Steps ε |q|^κ.
+    pub fn power(epsilon: f64, exponent: f64) -> Self {
+        Self::new(epsilon, Power { exponent })
+    }
+}
+
+/// What [`Reversible`] carries from step to step.
+#[derive(Debug)]
+pub struct ReversibleMemory<S: RegularLagrangian, T: Real> {
+    /// ρ_{k−1/2}; for k = 0, as if there had been a step before.
+    density: T,
+    v: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian, T: Real> Memory<T> for ReversibleMemory<S, T> {
+    lasting!(T; number density);
+}
+
+impl<S: RegularLagrangian, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
+    type Memory = ReversibleMemory<S, T>;
+
+    fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
+        let parameter = |name, value, range| Err(StartError::Parameter { name, value, range });
+        if !self.epsilon.is_finite() || self.epsilon == 0.0 {
+            return parameter("epsilon", self.epsilon, "finite and different from zero");
+        }
+        if let Some(start) = self.start
+            && !is_density(start)
+        {
+            return parameter("start", start, "positive and finite");
+        }
+        let density = self.start.map_or_else(|| self.density.value(q), T::lift);
+        let half = T::lift(0.5 * self.epsilon) * self.density.growth(q, v);
+        let first = density + half;
+        for density in [density, first] {
+            if !is_density(density) {
+                return Err(StartError::Starter(StepFailure::Density { density: reported(density) }));
+            }
+        }
+        let memory = ReversibleMemory { density: density - half, v: system.space().vector() };
+        Ok((memory, T::lift(self.epsilon) / first))
+    }
+
+    #[inline]
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut ControlledRun<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure> {
+        run.velocity(t, &mut memory.v)?;
+        let epsilon = T::lift(self.epsilon);
+        let density = memory.density + epsilon * self.density.growth(run.q(), &memory.v);
+        if !is_density(density) {
+            return Err(StepFailure::Density { density: reported(density) });
+        }
+        let h = epsilon / density;
+        run.step(t, h)?;
+        memory.density = density;
+        Ok(h)
+    }
+}
+
+fn is_density<T: Real>(density: T) -> bool {
+    density > T::lift(0.0) && density.is_finite()
+}

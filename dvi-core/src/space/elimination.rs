@@ -1,0 +1,236 @@
+//! Gaussian elimination with partial pivoting, in place on a row-major slice: [`factor`] keeps PA = LU
+//! for many right-hand sides, [`eliminate`] serves one and is faster.
+//!
+//! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were
+//! subtracted to form its column: |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. The test does not change when the
+//! matrix is multiplied by a constant, unless pivots become so small that their reciprocals overflow.
+//! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
+
+use crate::error::StepFailure;
+use crate::scalar::norm::{larger, singular};
+use crate::{Real, Scalar};
+
+/// What a pivot is compared with at least: n ε times this still has a finite reciprocal.
+pub(crate) const LEAST: f64 = 1e-290;
+
+/// Overwrites the n×n `matrix` with L (unit diagonal, not stored) and U, and `permutation` with the row
+/// that was exchanged with row k at stage k. n is the length of `permutation`.
+///
+/// # Errors
+/// [`StepFailure::Singular`] with the column and the largest candidate for its pivot.
+#[inline]
+pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Result<(), StepFailure> {
+    let n = permutation.len();
+    let rounding = T::default_epsilon() * T::lift(n as f64);
+    for k in 0..n {
+        let (row, pivot) = pivot_row(matrix, n, k);
+        let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
+        // A pivot that is not a number is no use either.
+        let usable = pivot > rounding * above;
+        if !usable {
+            return Err(singular(pivot, k));
+        }
+        permutation[k] = row;
+        let (upper, lower) = matrix.split_at_mut((k + 1) * n);
+        let upper = &mut upper[k * n..];
+        if row > k {
+            upper.swap_with_slice(&mut lower[(row - k - 1) * n..(row - k) * n]);
+        }
+        let reciprocal = T::lift(1.0) / upper[k];
+        for line in lower.chunks_exact_mut(n) {
+            let factor = line[k] * reciprocal;
+            line[k] = factor;
+            for (a, &u) in line[k + 1..].iter_mut().zip(&upper[k + 1..]) {
+                *a -= factor * u;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The row at or below `k` with the largest entry in column `k`, and the size of that entry.
+#[inline]
+fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
+    let mut best = (k, Scalar::abs(matrix[k * n + k]));
+    for row in k + 1..n {
+        let size = Scalar::abs(matrix[row * n + k]);
+        if size > best.1 {
+            best = (row, size);
+        }
+    }
+    best
+}
+
+/// Overwrites `x` with the solution of A y = x, A as left behind by [`factor`].
+#[inline]
+pub(crate) fn solve<T: Real>(matrix: &[T], permutation: &[usize], x: &mut [T]) {
+    let n = permutation.len();
+    for k in 0..n {
+        x.swap(k, permutation[k]);
+    }
+    for i in 1..n {
+        let sum = matrix[i * n..i * n + i].iter().zip(&x[..i]).fold(x[i], |s, (&l, &x)| s - l * x);
+        x[i] = sum;
+    }
+    for i in (0..n).rev() {
+        let line = &matrix[i * n..(i + 1) * n];
+        let sum = line[i + 1..].iter().zip(&x[i + 1..]).fold(x[i], |s, (&u, &x)| s - u * x);
+        x[i] = sum / line[i];
+    }
+}
+
+/// The length of a row below which its end is not worth a loop of its own.
+const SHORT: usize = 8;
+
+/// Overwrites `x` with the solution of A y = x, and the row-major A with nothing of use.
+///
+/// As no multipliers are kept, a row operation may run over columns that are already done: over all of
+/// them in short rows, which are then straight vector code of known length, and elsewhere over those that
+/// fill up the first four.
+///
+/// # Errors
+/// As [`factor`].
+#[inline(always)]
+pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
+    let n = x.len();
+    let rounding = T::default_epsilon() * T::lift(n as f64);
+    for k in 0..n {
+        let (row, pivot) = pivot_row(matrix, n, k);
+        let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
+        let usable = pivot > rounding * above;
+        if !usable {
+            return Err(singular(pivot, k));
+        }
+        let begin = if n <= SHORT { 0 } else { (k + 1) & !3 };
+        let (upper, lower) = matrix.split_at_mut((k + 1) * n);
+        let upper = &mut upper[k * n..];
+        if row > k {
+            upper.swap_with_slice(&mut lower[(row - k - 1) * n..(row - k) * n]);
+            x.swap(k, row);
+        }
+        let reciprocal = T::lift(1.0) / upper[k];
+        // The diagonal keeps 1/u for the substitution.
+        let (head, x_tail) = x.split_at_mut(k + 1);
+        let x_k = head[k];
+        for (line, x) in lower.chunks_exact_mut(n).zip(x_tail) {
+            let factor = line[k] * reciprocal;
+            *x -= factor * x_k;
+            let (wide, rest) = line[begin..].as_chunks_mut::<4>();
+            let (upper_wide, upper_rest) = upper[begin..].as_chunks::<4>();
+            for (a, u) in wide.iter_mut().zip(upper_wide) {
+                *a = [0, 1, 2, 3].map(|j| a[j] - factor * u[j]);
+            }
+            for (a, &u) in rest.iter_mut().zip(upper_rest) {
+                *a -= factor * u;
+            }
+        }
+        upper[k] = reciprocal;
+    }
+    for k in (0..n).rev() {
+        let value = x[k] * matrix[k * n + k];
+        x[k] = value;
+        for i in 0..k {
+            x[i] -= matrix[i * n + k] * value;
+        }
+    }
+    Ok(())
+}
+
+/// Adds A x to `out`, for a row-major A that has not been factored.
+#[inline]
+pub(crate) fn multiply_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
+    let n = x.len();
+    for (out, line) in out.iter_mut().zip(matrix.chunks_exact(n)) {
+        *out = line.iter().zip(x).fold(*out, |sum, (&a, &x)| sum + a * x);
+    }
+}
+
+/// Adds Aᵀ x to `out`.
+#[inline]
+pub(crate) fn multiply_transposed_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
+    let n = x.len();
+    for (line, &x) in matrix.chunks_exact(n).zip(x) {
+        for (out, &a) in out.iter_mut().zip(line) {
+            *out += a * x;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{eliminate, factor, multiply_add, multiply_transposed_add, solve};
+    use crate::error::StepFailure;
+    use nalgebra::{DMatrix, DVector};
+
+    /// Entries in (−1, 1) from a linear congruential generator.
+    fn entries(count: usize, seed: u64) -> alloc::vec::Vec<f64> {
+        let mut state = seed;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        (0..count).map(|_| next()).collect()
+    }
+
+    #[test]
+    fn solutions_agree_with_nalgebra() {
+        for n in 1..=12 {
+            for seed in 0..20 {
+                let matrix = entries(n * n, seed);
+                let rhs = entries(n, seed + 1000);
+                let reference = DMatrix::from_row_slice(n, n, &matrix);
+                let expected = reference.clone().lu().solve(&DVector::from_column_slice(&rhs));
+                let Some(expected) = expected else { panic!("nalgebra found no solution") };
+                let condition = reference.clone().svd(false, false);
+                let condition = condition.singular_values.max() / condition.singular_values.min();
+                let (mut factors, mut permutation, mut x) = (matrix.clone(), alloc::vec![0; n], rhs.clone());
+                assert_eq!(factor(&mut factors, &mut permutation), Ok(()));
+                solve(&factors, &permutation, &mut x);
+                let (mut consumed, mut y) = (matrix, rhs);
+                assert_eq!(eliminate(&mut consumed, &mut y), Ok(()));
+                for found in [x, y] {
+                    let error = (DVector::from_column_slice(&found) - &expected).amax() / expected.amax();
+                    assert!(error < 1e-15 * n as f64 * condition, "n = {n}, seed {seed}: {error:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn products_agree_with_nalgebra() {
+        let (matrix, x) = (entries(25, 3), entries(5, 4));
+        let (a, v) = (DMatrix::from_row_slice(5, 5, &matrix), DVector::from_column_slice(&x));
+        let (mut direct, mut transposed) = ([0.5; 5], [0.25; 5]);
+        multiply_add(&matrix, &x, &mut direct);
+        multiply_transposed_add(&matrix, &x, &mut transposed);
+        assert!((DVector::from_column_slice(&direct) - (&a * &v).add_scalar(0.5)).amax() < 1e-15);
+        assert!((DVector::from_column_slice(&transposed) - (a.tr_mul(&v)).add_scalar(0.25)).amax() < 1e-15);
+    }
+
+    #[test]
+    fn a_zero_on_the_diagonal_is_exchanged() {
+        let (mut matrix, mut permutation, mut x) = ([0.0, 2.0, 4.0, 1.0], [0; 2], [6.0, 7.0]);
+        assert_eq!(factor(&mut matrix, &mut permutation), Ok(()));
+        solve(&matrix, &permutation, &mut x);
+        assert_eq!(x, [1.0, 3.0]);
+    }
+
+    #[test]
+    fn singular_matrices_are_found_at_every_scale() {
+        for scale in [1e-200, 1.0, 1e200] {
+            let mut rank_two = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0].map(|a: f64| a * scale / 3.0);
+            let by_elimination = eliminate(&mut rank_two.clone(), &mut [1.0; 3]);
+            let result = factor(&mut rank_two, &mut [0; 3]);
+            assert_eq!(result, by_elimination);
+            assert!(matches!(result, Err(StepFailure::Singular { column: 2, .. })), "{scale:e}: {result:?}");
+            let mut regular = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0].map(|a: f64| a * scale / 3.0);
+            assert_eq!(factor(&mut regular, &mut [0; 3]), Ok(()), "{scale:e}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_finite_is_singular_and_not_an_answer() {
+        let mut matrix = [f64::NAN, 1.0, 1.0, 1.0];
+        assert!(matches!(factor(&mut matrix, &mut [0; 2]), Err(StepFailure::Singular { .. })));
+    }
+}

@@ -1,0 +1,126 @@
+//! Square matrices that a sink fills and that are then solved with, in the storage that their pattern needs.
+//!
+//! With a dimension fixed at compile time they are dense and on the stack. With one that is known at run time only, they
+//! are banded where the entries, in the best order that is found, lie close enough to the diagonal: chains, lattices and
+//! rings, whose coordinates may stand in several blocks. Time and storage are then linear in the number of coordinates.
+
+#[cfg(feature = "alloc")]
+mod banded;
+#[cfg(feature = "alloc")]
+mod ordering;
+#[cfg(feature = "alloc")]
+mod run_time;
+
+use core::fmt::Debug;
+
+use crate::error::StepFailure;
+use crate::space::elimination;
+use crate::space::sink::{Places, Sink};
+use crate::space::{FixedMatrix, FixedVector};
+use crate::{Lagrangian, Real, Scalar, Space, Square, Vector, Weights};
+
+#[cfg(feature = "alloc")]
+pub use run_time::RunTimeSquare;
+
+/// A square matrix A that is filled entry by entry and then solved with. Its storage is chosen when it is made.
+pub trait SquareMatrix<T: Real>: Clone + Debug {
+    /// What takes the entries.
+    type Entries: Sink<T>;
+
+    /// The entries, all of them set to zero.
+    fn cleared(&mut self) -> &mut Self::Entries;
+
+    /// Overwrites `x` with the solution of A y = x, and A with nothing of use.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] with the column that has no pivot, and the largest candidate for it.
+    fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure>;
+
+    /// Replaces A by its factors.
+    ///
+    /// # Errors
+    /// As [`eliminate`](Self::eliminate).
+    fn factor(&mut self) -> Result<(), StepFailure>;
+
+    /// Overwrites `x` with the solution of A y = x, for an A that has been factored.
+    fn solve(&self, x: &mut [T]);
+
+    /// Adds `factor` A x to `sum`, for an A that has not been factored.
+    fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]);
+}
+
+/// A matrix for Newton's method, with room for all second derivatives of L, which do not depend on the point.
+pub(crate) fn of_second_derivatives<S: Lagrangian, T: Real>(system: &S) -> Square<S, T> {
+    let (zero, one) = (T::lift(0.0), T::lift(1.0));
+    let rest: Vector<S, T> = system.space().vector();
+    let all = Weights { qq: one, qv: one, vq: one, vv: one };
+    of_entries(system, [&rest, &rest], zero, all, |_| true)
+}
+
+/// A matrix with room for those second derivatives at (q, v, t) that count.
+pub(crate) fn of_entries<S: Lagrangian, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    t: T,
+    weights: Weights<T>,
+    counts: impl Fn(T) -> bool,
+) -> Square<S, T> {
+    let space = system.space();
+    space.square(|visit| {
+        let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [space.vector(), space.vector()];
+        let mut places = Places(|row: usize, column: usize, entry: T| {
+            if counts(entry) {
+                visit(row, column);
+            }
+        });
+        system.linearize(q, v, t, weights, &mut l_q, &mut l_v, &mut places);
+    })
+}
+
+/// The square matrix of a [`Fixed`](crate::Fixed) space: dense.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedSquare<T, const BLOCKS: usize, const N: usize> {
+    matrix: FixedMatrix<T, BLOCKS, N>,
+    permutation: FixedVector<usize, BLOCKS, N>,
+}
+
+impl<T: Scalar, const BLOCKS: usize, const N: usize> FixedSquare<T, BLOCKS, N> {
+    #[inline(always)]
+    pub(crate) fn new(space: crate::Fixed<BLOCKS, N>) -> Self {
+        Self { matrix: space.matrix(), permutation: space.permutation() }
+    }
+}
+
+impl<T: Real, const BLOCKS: usize, const N: usize> SquareMatrix<T> for FixedSquare<T, BLOCKS, N> {
+    type Entries = FixedMatrix<T, BLOCKS, N>;
+
+    #[inline(always)]
+    fn cleared(&mut self) -> &mut Self::Entries {
+        self.matrix.fill(T::lift(0.0));
+        &mut self.matrix
+    }
+    #[inline(always)]
+    fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
+        elimination::eliminate(&mut self.matrix, x)
+    }
+    #[inline]
+    fn factor(&mut self) -> Result<(), StepFailure> {
+        elimination::factor(&mut self.matrix, &mut self.permutation)
+    }
+    #[inline]
+    fn solve(&self, x: &mut [T]) {
+        elimination::solve(&self.matrix, &self.permutation, x);
+    }
+    #[inline]
+    fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
+        multiply_add(&self.matrix, factor, x, sum);
+    }
+}
+
+/// Adds `factor` A x to `sum`, for a row-major A.
+fn multiply_add<T: Real>(matrix: &[T], factor: T, x: &[T], sum: &mut [T]) {
+    for (sum, row) in sum.iter_mut().zip(matrix.chunks_exact(x.len())) {
+        let product = row.iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x);
+        *sum += factor * product;
+    }
+}

@@ -1,0 +1,255 @@
+//! Gaussian elimination with partial pivoting within a band, in place.
+//!
+//! With entries at most b from the diagonal, U has them at most 2b to its right, and a row of storage is the 3b + 1 entries
+//! from b left of the diagonal to 2b right of it. The multipliers of a column are those of its stage, and the rows that
+//! were exchanged later are not exchanged in them. When a pivot counts as zero is said in
+//! [`elimination`](crate::space::elimination). Source: Golub & Van Loan, *Matrix Computations* (2013), section 4.3.3.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::ordering::Order;
+use crate::error::StepFailure;
+use crate::scalar::norm::{larger, singular};
+use crate::space::elimination::LEAST;
+use crate::{Real, Scalar};
+
+/// A banded matrix, in an order of its own.
+#[derive(Clone, Debug)]
+pub struct Banded<T> {
+    /// The place of each coordinate, and the coordinate of each place.
+    place: Vec<u32>,
+    coordinate: Vec<u32>,
+    /// With which later entry each is exchanged, one after the other, to bring a vector into this order.
+    exchanges: Vec<u32>,
+    bandwidth: usize,
+    /// Row by row.
+    entries: Vec<T>,
+    /// The row that was exchanged with row k at stage k.
+    pivots: Vec<u32>,
+}
+
+impl<T: Scalar> Banded<T> {
+    pub(super) fn new(Order { place, bandwidth }: Order) -> Self {
+        let n = place.len();
+        let mut coordinate = vec![0; n];
+        for (i, &at) in place.iter().enumerate() {
+            coordinate[at as usize] = i as u32;
+        }
+        // What stands where while the exchanges are made.
+        let (mut holds, mut at): (Vec<u32>, Vec<u32>) = ((0..n as u32).collect(), (0..n as u32).collect());
+        let exchange = |(k, &i): (usize, &u32)| {
+            let from = at[i as usize];
+            at[holds[k] as usize] = from;
+            holds.swap(k, from as usize);
+            from
+        };
+        let exchanges = coordinate.iter().enumerate().map(exchange).collect();
+        let entries = vec![T::lift(0.0); n * (3 * bandwidth + 1)];
+        Self { place, coordinate, exchanges, bandwidth, entries, pivots: vec![0; n] }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.entries.fill(T::lift(0.0));
+    }
+
+    /// The width of a row of storage.
+    fn width(&self) -> usize {
+        3 * self.bandwidth + 1
+    }
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, row: usize, column: usize, entry: T) {
+        let (row, column) = (self.place[row] as usize, self.place[column] as usize);
+        let at = row * self.width() + self.bandwidth + column - row;
+        self.entries[at] += entry;
+    }
+
+    /// The places of the entries of a row of A.
+    fn columns(&self, row: usize) -> core::ops::Range<usize> {
+        row.saturating_sub(self.bandwidth)..(row + self.bandwidth + 1).min(self.place.len())
+    }
+
+    pub(super) fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
+        for (row, &i) in self.coordinate.iter().enumerate() {
+            let line = &self.entries[row * self.width()..];
+            let terms = self
+                .columns(row)
+                .map(|column| line[self.bandwidth + column - row] * x[self.coordinate[column] as usize]);
+            sum[i as usize] += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
+        }
+    }
+}
+
+impl<T: Real> Banded<T> {
+    pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
+        let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
+        let rounding = T::default_epsilon() * T::lift(n as f64);
+        let entries = &mut self.entries;
+        let at = |row: usize, column: usize| row * width + b + column - row;
+        for k in 0..n {
+            let below = k + 1..(k + b + 1).min(n);
+            let (mut row, mut pivot) = (k, Scalar::abs(entries[at(k, k)]));
+            for i in below.clone() {
+                let size = Scalar::abs(entries[at(i, k)]);
+                if size > pivot {
+                    (row, pivot) = (i, size);
+                }
+            }
+            let above = (k.saturating_sub(2 * b)..k)
+                .fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(entries[at(i, k)])));
+            // A pivot that is not a number is no use either.
+            let usable = pivot > rounding * above;
+            if !usable {
+                return Err(singular(pivot, self.coordinate[k] as usize));
+            }
+            self.pivots[k] = row as u32;
+            let columns = (k + 2 * b + 1).min(n) - k;
+            let (upper, lower) = entries.split_at_mut((k + 1) * width);
+            let upper = &mut upper[k * width + b..k * width + b + columns];
+            if row > k {
+                // Column k stands `row − k` further left there.
+                let begin = (row - k - 1) * width + b + k - row;
+                upper.swap_with_slice(&mut lower[begin..begin + columns]);
+            }
+            let reciprocal = T::lift(1.0) / upper[0];
+            for i in below {
+                let begin = (i - k - 1) * width + b + k - i;
+                let line = &mut lower[begin..begin + columns];
+                let factor = line[0] * reciprocal;
+                line[0] = factor;
+                for (a, &u) in line[1..].iter_mut().zip(&upper[1..]) {
+                    *a -= factor * u;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn solve(&self, x: &mut [T]) {
+        let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
+        for (k, &from) in self.exchanges.iter().enumerate() {
+            x.swap(k, from as usize);
+        }
+        for k in 0..n {
+            x.swap(k, self.pivots[k] as usize);
+            let value = x[k];
+            for i in k + 1..(k + b + 1).min(n) {
+                x[i] -= self.entries[i * width + b + k - i] * value;
+            }
+        }
+        for k in (0..n).rev() {
+            let columns = (k + 2 * b + 1).min(n) - k;
+            let line = &self.entries[k * width + b..k * width + b + columns];
+            let sum = line[1..].iter().zip(&x[k + 1..]).fold(x[k], |sum, (&u, &x)| sum - u * x);
+            x[k] = sum / line[0];
+        }
+        for (k, &from) in self.exchanges.iter().enumerate().rev() {
+            x.swap(k, from as usize);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec::Vec;
+
+    use nalgebra::{DMatrix, DVector};
+
+    use super::super::run_time::RunTimeSquare;
+    use crate::RunTime;
+    use crate::error::StepFailure;
+    use crate::space::sink::Sink;
+    use crate::space::square::SquareMatrix;
+
+    /// Numbers in (−1, 1) from a linear congruential generator.
+    fn numbers(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        }
+    }
+
+    /// A ring of n/2 sites with two coordinates each, of reach `reach`, declared block by block or shuffled.
+    fn places(n: usize, reach: usize, shuffled: bool) -> Vec<(usize, usize)> {
+        let sites = n / 2;
+        let number = |site: usize, block: usize| {
+            let declared = block * sites + site % sites;
+            // 37 is prime to the sizes below.
+            if shuffled { declared * 37 % n } else { declared }
+        };
+        let mut places = Vec::new();
+        for site in 0..sites {
+            for other in site..=site + reach {
+                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    places.push((number(site, a), number(other, b)));
+                    places.push((number(other, b), number(site, a)));
+                }
+            }
+        }
+        places
+    }
+
+    #[test]
+    fn solutions_agree_with_nalgebra() {
+        let mut next = numbers(7);
+        for (n, reach, shuffled) in
+            [(40, 1, false), (60, 1, true), (90, 2, true), (200, 3, false), (8, 0, true)]
+        {
+            let places = places(n, reach, shuffled);
+            let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, |visit| {
+                places.iter().for_each(|&(i, j)| visit(i, j));
+            });
+            assert!(matches!(matrix, RunTimeSquare::Banded(_)), "{n} {reach} {shuffled}");
+            let mut reference = DMatrix::zeros(n, n);
+            matrix.cleared();
+            for &(i, j) in &places {
+                // Small diagonals, so that rows are exchanged.
+                let entry = if i == j { 1e-3 * next() } else { next() };
+                matrix.add(i, j, entry);
+                reference[(i, j)] += entry;
+            }
+            let x: Vec<f64> = (0..n).map(|_| next()).collect();
+            let mut product = Vec::from_iter((0..n).map(|_| 0.5));
+            matrix.multiply_add(2.0, &x, &mut product);
+            let expected: DVector<f64> = &reference * DVector::from_column_slice(&x) * 2.0;
+            let difference = DVector::from_column_slice(&product) - expected.add_scalar(0.5);
+            assert!(difference.amax() < 1e-13);
+            let Some(expected) = reference.clone().lu().solve(&DVector::from_column_slice(&x)) else {
+                panic!("nalgebra found no solution")
+            };
+            let mut found = x.clone();
+            assert_eq!(matrix.eliminate(&mut found), Ok(()));
+            let condition = reference.singular_values().max() / reference.singular_values().min();
+            let error = (DVector::from_column_slice(&found) - &expected).amax() / expected.amax();
+            assert!(error < 1e-14 * condition, "{n} {reach} {shuffled}: {error:e} of {condition:e}");
+        }
+    }
+
+    #[test]
+    fn a_singular_matrix_names_a_coordinate_that_it_leaves_free() {
+        let n = 30;
+        let chain =
+            |visit: &mut dyn FnMut(usize, usize)| (1..n).for_each(|i| visit(i * 7 % n, (i - 1) * 7 % n));
+        let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, chain);
+        assert!(matches!(matrix, RunTimeSquare::Banded(_)));
+        matrix.cleared();
+        (0..n).filter(|&i| i != 12).for_each(|i| matrix.add(i, i, 2.0));
+        let failure = matrix.eliminate(&mut alloc::vec![1.0; n]);
+        assert_eq!(failure, Err(StepFailure::Singular { column: 12, pivot: 0.0 }));
+    }
+
+    #[test]
+    fn full_matrices_are_dense() {
+        for n in [4, 50, 300] {
+            let all = |visit: &mut dyn FnMut(usize, usize)| {
+                for i in 0..n {
+                    (0..n).for_each(|j| visit(i, j));
+                }
+            };
+            let matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, all);
+            assert!(matches!(matrix, RunTimeSquare::Dense(..)));
+        }
+    }
+}

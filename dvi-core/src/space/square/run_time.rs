@@ -1,0 +1,85 @@
+//! The square matrix of a space whose dimension is known at run time only: banded where that is worth it.
+
+use alloc::vec::Vec;
+
+use super::SquareMatrix;
+use super::banded::Banded;
+use super::ordering::Pattern;
+use crate::error::StepFailure;
+use crate::space::RunTimeMatrix;
+use crate::space::elimination;
+use crate::space::sink::Sink;
+use crate::{Real, RunTime, Scalar, Space};
+
+/// The square matrix of a [`RunTime`] space.
+#[derive(Clone, Debug)]
+pub enum RunTimeSquare<T> {
+    /// All entries, and the permutation of their rows.
+    #[doc(hidden)]
+    Dense(RunTimeMatrix<T>, Vec<usize>),
+    /// Those near the diagonal.
+    #[doc(hidden)]
+    Banded(Banded<T>),
+}
+
+impl<T: Scalar> RunTimeSquare<T> {
+    /// With room for the entries that `entries` visits.
+    pub(crate) fn new(space: RunTime, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
+        let mut pattern = Pattern::new(space.dimension);
+        entries(&mut |row, column| pattern.add(row, column));
+        match pattern.banded() {
+            Some(order) => Self::Banded(Banded::new(order)),
+            None => Self::Dense(space.matrix(), space.permutation()),
+        }
+    }
+}
+
+impl<T: Scalar> Sink<T> for RunTimeSquare<T> {
+    #[inline(always)]
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        match self {
+            Self::Dense(matrix, _) => matrix.add(row, column, entry),
+            Self::Banded(banded) => banded.add(row, column, entry),
+        }
+    }
+}
+
+impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
+    type Entries = Self;
+
+    fn cleared(&mut self) -> &mut Self {
+        match self {
+            Self::Dense(matrix, _) => matrix.fill(T::lift(0.0)),
+            Self::Banded(banded) => banded.clear(),
+        }
+        self
+    }
+    fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
+        match self {
+            Self::Dense(matrix, _) => elimination::eliminate(matrix, x),
+            Self::Banded(banded) => {
+                banded.factor()?;
+                banded.solve(x);
+                Ok(())
+            }
+        }
+    }
+    fn factor(&mut self) -> Result<(), StepFailure> {
+        match self {
+            Self::Dense(matrix, permutation) => elimination::factor(matrix, permutation),
+            Self::Banded(banded) => banded.factor(),
+        }
+    }
+    fn solve(&self, x: &mut [T]) {
+        match self {
+            Self::Dense(matrix, permutation) => elimination::solve(matrix, permutation, x),
+            Self::Banded(banded) => banded.solve(x),
+        }
+    }
+    fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
+        match self {
+            Self::Dense(matrix, _) => super::multiply_add(matrix, factor, x, sum),
+            Self::Banded(banded) => banded.multiply_add(factor, x, sum),
+        }
+    }
+}

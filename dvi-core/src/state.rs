@@ -1,0 +1,12 @@
+//! What a run carries from step to step, how it is added up, and what it has cost.
+
+pub(crate) mod history;
+pub(crate) mod memory;
+mod statistics;
+pub(crate) mod summation;
+
+pub use memory::Memory;
+#[cfg(feature = "alloc")]
+pub use memory::{Reader, Record};
+pub use statistics::Statistics;
+pub use summation::Summation;

@@ -1,0 +1,126 @@
+//! The increments of the last steps, extrapolated to guess the next.
+//!
+//! The guess is the value at the next step of the polynomial through the last m increments:
+//! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
+
+use crate::state::memory::{Memory, lasting};
+use crate::{Lagrangian, Real, Scalar, Space, Vector};
+
+/// How many increments are kept.
+///
+/// More terms guess better and amplify rounding errors more, by 2ᵐ. Iterations per step of the midpoint
+/// scheme on four vortices to a relative 1e-12: 6.0 with m = 3, 5.2 with 5, 4.4 with 7, 4.2 with 8.
+const DEPTH: usize = 7;
+
+/// Row m: the coefficients of the last m increments, the newest first.
+#[rustfmt::skip]
+const COEFFICIENTS: [[f64; DEPTH]; DEPTH + 1] = [
+    [0.0,   0.0,  0.0,   0.0,  0.0,   0.0, 0.0],
+    [1.0,   0.0,  0.0,   0.0,  0.0,   0.0, 0.0],
+    [2.0,  -1.0,  0.0,   0.0,  0.0,   0.0, 0.0],
+    [3.0,  -3.0,  1.0,   0.0,  0.0,   0.0, 0.0],
+    [4.0,  -6.0,  4.0,  -1.0,  0.0,   0.0, 0.0],
+    [5.0, -10.0, 10.0,  -5.0,  1.0,   0.0, 0.0],
+    [6.0, -15.0, 20.0, -15.0,  6.0,  -1.0, 0.0],
+    [7.0, -21.0, 35.0, -35.0, 21.0,  -7.0, 1.0],
+];
+
+/// A ring of the last increments.
+#[derive(Debug)]
+pub(crate) struct History<S: Lagrangian, T: Real> {
+    ring: [Vector<S, T>; DEPTH],
+    len: usize,
+    /// Where the next increment goes: the place of the oldest once the ring is full.
+    next: usize,
+    /// The first guess.
+    seed: Vector<S, T>,
+}
+
+impl<S: Lagrangian, T: Real> History<S, T> {
+    /// No increments yet; the first guess is `seed`, or zero.
+    pub(crate) fn new(system: &S, seed: Option<Vector<S, T>>) -> Self {
+        let vector = || system.space().vector();
+        Self { ring: core::array::from_fn(|_| vector()), len: 0, next: 0, seed: seed.unwrap_or_else(vector) }
+    }
+
+    /// Sets `guess` to the extrapolated increment.
+    #[inline(always)]
+    pub(crate) fn extrapolate(&self, guess: &mut [T]) {
+        // The full sum has a known length and makes straight code.
+        match self.len {
+            DEPTH => self.combine(DEPTH, guess),
+            0 => guess.copy_from_slice(&self.seed),
+            len => self.combine(len, guess),
+        }
+    }
+
+    #[inline(always)]
+    fn combine(&self, len: usize, guess: &mut [T]) {
+        guess.fill(T::lift(0.0));
+        let mut place = self.next;
+        for &coefficient in &COEFFICIENTS[len][..len] {
+            place = if place == 0 { DEPTH - 1 } else { place - 1 };
+            for (guess, &s) in guess.iter_mut().zip(self.ring[place].iter()) {
+                *guess += T::lift(coefficient) * s;
+            }
+        }
+    }
+
+    /// Forgets all increments, but not the seed.
+    pub(crate) fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    /// Remembers the increment of a completed step.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, increment: &[T]) {
+        self.ring[self.next].copy_from_slice(increment);
+        self.advance();
+    }
+
+    /// The same, times `factor`.
+    #[inline(always)]
+    pub(crate) fn push_scaled(&mut self, increment: &[T], factor: T) {
+        for (kept, &x) in self.ring[self.next].iter_mut().zip(increment) {
+            *kept = x * factor;
+        }
+        self.advance();
+    }
+
+    #[inline(always)]
+    fn advance(&mut self) {
+        self.next = if self.next + 1 < DEPTH { self.next + 1 } else { 0 };
+        if self.len < DEPTH {
+            self.len += 1;
+        }
+    }
+}
+
+impl<S: Lagrangian, T: Real> Memory<T> for History<S, T> {
+    lasting!(T; vectors ring, count len, count next, numbers seed);
+}
+
+/// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same
+/// sign, and neither is twice as long as the other.
+#[inline(always)]
+pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
+    let [size, last_size] = [h, last].map(Scalar::abs);
+    h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COEFFICIENTS, DEPTH};
+
+    #[test]
+    fn row_m_continues_polynomials_below_degree_m_and_no_others() {
+        for m in 1..=DEPTH {
+            for degree in 0..=m as i32 {
+                let value: f64 =
+                    (0..DEPTH).map(|i| COEFFICIENTS[m][i] * (-1.0 - i as f64).powi(degree)).sum();
+                let exact = if degree == 0 { 1.0 } else { 0.0 };
+                assert_eq!(value == exact, degree < m as i32, "row {m}, degree {degree}");
+            }
+        }
+    }
+}

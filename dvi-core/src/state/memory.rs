@@ -1,0 +1,171 @@
+//! What a run carries from step to step: copied when a step is taken back, and written down when a run is to go on another
+//! day.
+//!
+//! Each type that carries something lists it once, by [`lasting!`]; copying, saving and loading follow from the list.
+
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
+
+/// What a run of a method carries from step to step besides the coordinates. Of work space, which each step writes before
+/// it reads it, these functions take no notice.
+pub trait Memory<T> {
+    /// Takes over from `from` all that the next step can depend on, without allocation. Both belong to one method on one
+    /// system.
+    fn restore(&mut self, from: &Self);
+
+    /// Appends all that the next step can depend on.
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>);
+
+    /// Takes over what [`save`](Self::save) has appended.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] if the record does not have what belongs here.
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError>;
+}
+
+impl<T> Memory<T> for () {
+    fn restore(&mut self, _from: &Self) {}
+    #[cfg(feature = "alloc")]
+    fn save(&self, _record: &mut Record<T>) {}
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, _reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        Ok(())
+    }
+}
+
+/// Numbers and counts, in the order in which a run lists what it carries.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Record<T> {
+    numbers: Vec<T>,
+    counts: Vec<u64>,
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Copy> Record<T> {
+    pub(crate) fn new() -> Self {
+        Self { numbers: Vec::new(), counts: Vec::new() }
+    }
+
+    /// Appends numbers.
+    pub fn numbers(&mut self, numbers: &[T]) {
+        self.numbers.extend_from_slice(numbers);
+    }
+
+    /// Appends a count.
+    pub fn count(&mut self, count: u64) {
+        self.counts.push(count);
+    }
+
+    pub(crate) fn reader(&self) -> Reader<'_, T> {
+        Reader { numbers: &self.numbers, counts: &self.counts }
+    }
+}
+
+/// What has not been read yet of a [`Record`].
+#[cfg(feature = "alloc")]
+#[derive(Debug)]
+pub struct Reader<'a, T> {
+    numbers: &'a [T],
+    counts: &'a [u64],
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Copy> Reader<'_, T> {
+    /// Reads as many numbers as there are places.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] if there are fewer.
+    pub fn numbers(&mut self, places: &mut [T]) -> Result<(), CheckpointError> {
+        let (read, rest) = self.numbers.split_at_checked(places.len()).ok_or(CheckpointError::Short)?;
+        places.copy_from_slice(read);
+        self.numbers = rest;
+        Ok(())
+    }
+
+    /// Reads a count.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] if there is none.
+    pub fn count(&mut self) -> Result<u64, CheckpointError> {
+        let (&count, rest) = self.counts.split_first().ok_or(CheckpointError::Short)?;
+        self.counts = rest;
+        Ok(count)
+    }
+
+    /// Whether nothing is left.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] with how much is.
+    pub(crate) fn end(&self) -> Result<(), CheckpointError> {
+        match self.numbers.len() + self.counts.len() {
+            0 => Ok(()),
+            more => Err(CheckpointError::Long { more }),
+        }
+    }
+}
+
+/// `lasting!(T; kind field, …)`: the functions of [`Memory`] for a struct, from the list of what it carries. The kinds are
+///
+/// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`
+/// - `part`, something that has a list of its own; `parts`, an array or `Option` of such, `vectors`, an array of vectors
+macro_rules! lasting {
+    ($T:ty; $($kind:ident $field:ident),* $(,)?) => {
+        #[inline]
+        fn restore(&mut self, from: &Self) {
+            $($crate::state::memory::lasting!(@restore $T, $kind self.$field, from.$field);)*
+        }
+        #[cfg(feature = "alloc")]
+        fn save(&self, record: &mut $crate::state::memory::Record<$T>) {
+            $($crate::state::memory::lasting!(@save $kind self.$field, record);)*
+        }
+        #[cfg(feature = "alloc")]
+        fn load(
+            &mut self,
+            reader: &mut $crate::state::memory::Reader<'_, $T>,
+        ) -> Result<(), $crate::error::CheckpointError> {
+            $($crate::state::memory::lasting!(@load $kind self.$field, reader);)*
+            Ok(())
+        }
+    };
+    (@restore $T:ty, numbers $to:expr, $from:expr) => { $to.copy_from_slice(&$from) };
+    (@restore $T:ty, part $to:expr, $from:expr) => {
+        $crate::state::memory::Memory::<$T>::restore(&mut $to, &$from)
+    };
+    (@restore $T:ty, parts $to:expr, $from:expr) => {
+        for (to, from) in $to.iter_mut().zip($from.iter()) {
+            $crate::state::memory::Memory::<$T>::restore(to, from);
+        }
+    };
+    (@restore $T:ty, vectors $to:expr, $from:expr) => {
+        for (to, from) in $to.iter_mut().zip($from.iter()) {
+            to.copy_from_slice(from);
+        }
+    };
+    (@restore $T:ty, $kind:ident $to:expr, $from:expr) => { $to = $from };
+
+    (@save numbers $from:expr, $record:ident) => { $record.numbers(&$from) };
+    (@save number $from:expr, $record:ident) => { $record.numbers(&[$from]) };
+    (@save count $from:expr, $record:ident) => { $record.count($from as u64) };
+    (@save flag $from:expr, $record:ident) => { $record.count(u64::from($from)) };
+    (@save bits $from:expr, $record:ident) => { $record.count($from.to_bits()) };
+    (@save part $from:expr, $record:ident) => { $from.save($record) };
+    (@save parts $from:expr, $record:ident) => { $from.iter().for_each(|part| part.save($record)) };
+    (@save vectors $from:expr, $record:ident) => { $from.iter().for_each(|vector| $record.numbers(vector)) };
+
+    (@load numbers $to:expr, $reader:ident) => { $reader.numbers(&mut $to)? };
+    (@load number $to:expr, $reader:ident) => { $reader.numbers(core::slice::from_mut(&mut $to))? };
+    (@load count $to:expr, $reader:ident) => { $to = $reader.count()? as _ };
+    (@load flag $to:expr, $reader:ident) => { $to = $reader.count()? != 0 };
+    (@load bits $to:expr, $reader:ident) => { $to = f64::from_bits($reader.count()?) };
+    (@load part $to:expr, $reader:ident) => { $to.load($reader)? };
+    (@load parts $to:expr, $reader:ident) => { for part in $to.iter_mut() { part.load($reader)?; } };
+    (@load vectors $to:expr, $reader:ident) => { for vector in $to.iter_mut() { $reader.numbers(vector)?; } };
+}
+pub(crate) use lasting;

@@ -1,0 +1,196 @@
+//! What the compiler knows of a system, as traits.
+//!
+//! [`Lagrangian`] carries any L(q, v, t): its value, its first derivatives, and one weighted sum of
+//! its second derivatives, which is all that a discrete Lagrangian of the quadrature family needs
+//! (its D1, D2, D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to
+//! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
+//! [`RegularLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the force,
+//! and the structure of that matrix.
+//!
+//! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
+//! order of the declared coordinates, unless a function says that one may be empty; the integrators of
+//! this crate pass no others.
+
+mod report;
+pub(crate) mod start;
+
+use core::fmt::Debug;
+
+use crate::error::{IndexError, LengthError};
+use crate::space::sink::Sink;
+use crate::{Scalar, Space};
+
+pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
+
+/// A point, velocity or covector of the space of `S`.
+pub type Vector<S, T> = <<S as Lagrangian>::Space as Space>::Vector<T>;
+/// A square matrix over the space of `S`.
+pub type Matrix<S, T> = <<S as Lagrangian>::Space as Space>::Matrix<T>;
+/// A square matrix over the space of `S` that is solved with.
+pub type Square<S, T> = <<S as Lagrangian>::Space as Space>::Square<T>;
+/// A row permutation over the space of `S`.
+pub type Permutation<S> = <<S as Lagrangian>::Space as Space>::Permutation;
+
+/// A state with named coordinates, as users see it: (q, v) for a regular system, q for a degenerate one.
+///
+/// `block_len` gives the size of each coordinate block, as [`Lagrangian::block_len`] does. States of
+/// degenerate systems have no velocities: they leave `v` alone, and it may be empty.
+pub trait State<T: Scalar>: Sized {
+    /// Writes the coordinates into `q` and the velocities into `v`, both in the order of declaration.
+    ///
+    /// # Errors
+    /// [`LengthError`] if an array of the state does not have the length that the system declares.
+    fn write(&self, block_len: impl Fn(usize) -> usize, q: &mut [T], v: &mut [T]) -> Result<(), LengthError>;
+    /// Reads the coordinates from `q` and the velocities from `v`, both in the order of declaration.
+    fn read(block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) -> Self;
+}
+
+/// The weights of the four blocks of the second derivative of L(q, v, t).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights<T> {
+    /// Weight of ∂²L/∂qⁱ∂qʲ.
+    pub qq: T,
+    /// Weight of ∂²L/∂qⁱ∂vʲ.
+    pub qv: T,
+    /// Weight of ∂²L/∂vⁱ∂qʲ.
+    pub vq: T,
+    /// Weight of ∂²L/∂vⁱ∂vʲ.
+    pub vv: T,
+}
+
+/// A mechanical system with Lagrangian L(q, v, t).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a system",
+    label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`"
+)]
+pub trait Lagrangian {
+    /// The shape of the configuration space.
+    type Space: Space;
+    /// The state with named coordinates.
+    type State<T: Scalar>: State<T> + Clone + Debug;
+    /// What the compiler saw: formulas, structure, operation counts, sparsity.
+    const REPORT: Report;
+    /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
+    const REGULAR: bool;
+
+    /// The configuration space of this system.
+    fn space(&self) -> Self::Space;
+    /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`.
+    fn block_len(&self, block: usize) -> usize;
+    /// Walks every index that the formulas use and checks it against the arrays that it goes to.
+    ///
+    /// # Errors
+    /// [`IndexError`] names the first array that is too short, and the index.
+    fn check(&self) -> Result<(), IndexError>;
+
+    /// L(q, v, t).
+    fn lagrangian<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
+    /// Sets `l_q` to ∂L/∂q and `l_v` to ∂L/∂v.
+    fn gradient<T: Scalar>(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
+    /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j),
+    /// w.qq ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ.
+    #[allow(clippy::too_many_arguments)]
+    fn linearize<T: Scalar, K: Sink<T>>(
+        &self,
+        q: &[T],
+        v: &[T],
+        t: T,
+        w: Weights<T>,
+        l_q: &mut [T],
+        l_v: &mut [T],
+        sink: &mut K,
+    );
+
+    /// The energy E = v·∂L/∂v − L. For degenerate systems this is H(q, t), and `v` may be empty.
+    fn energy<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
+    /// The value J(q, v, t) of declared momentum `index` (see [`Report::momenta`]). Momenta of degenerate
+    /// systems do not depend on v, which may be empty there.
+    fn momentum<T: Scalar>(&self, index: usize, q: &[T], v: &[T], t: T) -> T;
+}
+
+/// A system with L(q, v, t) = α(q, t)·v − H(q, t).
+///
+/// Dα is the matrix ∂αᵢ/∂qʲ. Its combinations a Dα + b (Dα)ᵀ are what a step solves with: Ω itself is
+/// a = −1, b = 1, the matrix of the explicit step a = 0, b = 1 (Rowley & Marsden 2002, eq. 17).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
+    label = "its Lagrangian is regular, or it has no attribute",
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin` or `Newmark`"
+)]
+pub trait DegenerateLagrangian: Lagrangian {
+    /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
+    const LINEAR: bool;
+    /// Whether Dα couples each coordinate to exactly one other, its partner, and to nothing else; then
+    /// a Dα + b (Dα)ᵀ is solved by one division per coordinate. True of blocks of coordinates that are coupled index by
+    /// index; of other couplings it may be false, and the general solve is taken.
+    const MATCHING: bool;
+    /// Whether Ω = (Dα)ᵀ − Dα couples each coordinate to exactly one other. Weaker than
+    /// [`MATCHING`](Self::MATCHING): diagonal entries of Dα cancel in Ω. True and false of the same couplings.
+    const CANONICAL: bool;
+
+    /// H(q, t).
+    fn hamiltonian<T: Scalar>(&self, q: &[T], t: T) -> T;
+    /// Sets `out` to ∇H(q, t).
+    fn hamiltonian_gradient<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    /// Sets `out` to ∇H(q, t) + ∂α/∂t: the right side of Ω q' = ∇H + ∂α/∂t, the equation of the flow.
+    fn flow_source<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    /// Sets `out` to the components of α(q, t).
+    fn one_form<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    /// Adds a Dα + b (Dα)ᵀ to `sink`.
+    fn one_form_jacobian<T: Scalar, K: Sink<T>>(&self, q: &[T], t: T, a: T, b: T, sink: &mut K);
+    /// Where [`CANONICAL`](Self::CANONICAL) holds: sets `out[i]` to the entry of a Dα + b (Dα)ᵀ in row i
+    /// and the column of i's partner. Elsewhere it leaves zeros.
+    fn partner_entries<T: Scalar>(&self, q: &[T], t: T, a: T, b: T, out: &mut [T]);
+    /// Where [`CANONICAL`](Self::CANONICAL) holds: the partner of coordinate `i`, of any index below the
+    /// dimension. Elsewhere `i` itself.
+    fn partner(&self, i: usize) -> usize;
+    /// Sets `out` to the gradient ∂J/∂q of declared momentum `index`.
+    fn momentum_gradient<T: Scalar>(&self, index: usize, q: &[T], t: T, out: &mut [T]);
+}
+
+/// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform
+/// (q, v) ↦ (q, p = ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
+    label = "its Lagrangian is degenerate, or it has no attribute",
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `RungeKutta` or `Gauss`"
+)]
+pub trait RegularLagrangian: Lagrangian {
+    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no
+    /// term is linear in v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
+    /// Störmer and Verlet (Marsden & West 2001, section 2.6).
+    const SEPARABLE: bool;
+    /// Whether M has entries on its diagonal only, so that it is solved by divisions.
+    const DIAGONAL_MASS: bool;
+    /// Whether L is a polynomial of degree at most two in v, so that p = ∂L/∂v is affine in v.
+    const QUADRATIC: bool;
+
+    /// Sets `out` to ∂L/∂q alone. Where [`SEPARABLE`](Self::SEPARABLE) holds, this is −∇V(q, t): `v` is
+    /// not read, and may be empty.
+    fn force<T: Scalar>(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
+}
+
+/// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
+/// [`SEPARABLE`](RegularLagrangian::SEPARABLE) holds.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M",
+    label = "its report says what the mass matrix depends on",
+    note = "`Variational` and `Galerkin` step any regular system"
+)]
+pub trait Separable: RegularLagrangian {}
+
+/// A system whose L is a polynomial of degree at most two in v. The attribute implements it where
+/// [`QUADRATIC`](RegularLagrangian::QUADRATIC) holds.
+#[diagnostic::on_unimplemented(
+    message = "the Lagrangian of `{Self}` is not quadratic in the velocities",
+    label = "p = ∂L/∂v is not affine in v"
+)]
+pub trait QuadraticInVelocity: RegularLagrangian {}
+
+/// A system whose α is affine in q with constant coefficients. The attribute implements it where
+/// [`LINEAR`](DegenerateLagrangian::LINEAR) holds.
+#[diagnostic::on_unimplemented(
+    message = "the one-form of `{Self}` is not affine in the coordinates",
+    label = "Dα is not one constant matrix"
+)]
+pub trait AffineOneForm: DegenerateLagrangian {}
