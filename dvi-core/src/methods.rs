@@ -231,6 +231,13 @@ pub trait VariationalMethod<S: Lagrangian, T: Real>: Scheme {
     /// What one interval contributes.
     type DiscreteLagrangian: TwiceDifferentiable<S, T>;
 
+    /// Checks the options of the method.
+    ///
+    /// # Errors
+    /// [`StartError::Parameter`] names the option that is out of range, [`StartError::Unsupported`] what does not go with
+    /// the system.
+    fn admit(&self, system: &S) -> Result<(), StartError>;
+
     /// The discrete Lagrangian on `system`, with the storage that it needs.
     fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
 }

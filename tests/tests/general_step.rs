@@ -130,3 +130,31 @@ fn the_symmetrised_family_is_the_rule_of_its_two_nodes() -> Outcome {
     }
     Ok(())
 }
+
+/// L = ẋ²/2 + kẏ²/2 − (x² + y²)/2.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = dot(x).powi(2) / 2.0 + k * dot(y).powi(2) / 2.0 - (x * x + y * y) / 2.0,
+)]
+struct TwoSprings {
+    k: f64,
+}
+
+#[test]
+fn what_no_step_can_take_is_refused_at_the_start() {
+    let start = TwoSpringsState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
+    for alpha in [-1.0, 2.0, f64::NAN] {
+        let refused =
+            Integrator::new(&TwoSprings { k: 1.0 }, General::new(Symmetrised { alpha }), 0.1, start).err();
+        assert!(matches!(refused, Some(StartError::Parameter { name: "alpha", .. })), "{refused:?}");
+        let (vortices, start) = quasi_periodic();
+        let refused = Integrator::new(&vortices, General::new(Sigma::new(alpha)), 0.1, start).err();
+        assert!(matches!(refused, Some(StartError::Parameter { name: "sigma", .. })), "{refused:?}");
+    }
+    let singular =
+        Integrator::new(&TwoSprings { k: 0.0 }, General::new(Symmetrised { alpha: 0.3 }), 0.1, start).err();
+    assert!(
+        matches!(singular, Some(StartError::Starter(StepFailure::Singular { column: 1, .. }))),
+        "{singular:?}"
+    );
+}

@@ -101,7 +101,8 @@ impl<T: Real> FrequencyIn<T> for Unfitted {
     }
 }
 
-/// One frequency for all coordinates and all times. Symplectic, and exact on oscillators of that frequency.
+/// One frequency for all coordinates and all times. Symplectic, and with steps of one length exact on oscillators of that
+/// frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant(
     /// ω ≥ 0.
@@ -120,7 +121,7 @@ impl<T: Real> FrequencyIn<T> for Constant {
 }
 
 /// One frequency for each coordinate, for all times, in the order of declaration: an array, a `Vec` or a
-/// slice. Symplectic, and exact on uncoupled oscillators. It is the interpolation of the coordinates that is
+/// slice. Symplectic, and with steps of one length exact on uncoupled oscillators. It is the interpolation of the coordinates that is
 /// fitted: with mass matrices that couple them it is still consistent, but exact on nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PerCoordinate<A>(

@@ -118,6 +118,10 @@ impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Energ
 impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;
 
+    fn admit(&self, system: &S) -> Result<(), StartError> {
+        self.method.admit(system)
+    }
+
     fn discrete_lagrangian(&self, system: &S) -> M::DiscreteLagrangian {
         self.method.discrete_lagrangian(system)
     }

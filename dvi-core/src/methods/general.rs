@@ -17,8 +17,10 @@ use crate::{Lagrangian, Real, Space, Square, Vector};
 /// The general step of the discrete Lagrangian of `scheme`, by Newton's method, on degenerate and on regular systems
 /// (Marsden & West 2001, eqs. 1.5.2 and 1.5.3). Runs start from p = ∂L/∂v, which is α(q) for a degenerate system.
 ///
-/// The methods of this crate have faster steps of the same equations, guards and starts of their own. This one is for
-/// discrete Lagrangians that have no method yet, and what the others are tested against.
+/// The methods of this crate have faster steps of the same equations, and guards and starts of their own. This one is for
+/// discrete Lagrangians that have no method yet, and what the others are tested against. It has no guards: a parasitic mode
+/// is not limited, and a step across a place where Ω or the mass matrix changes its sign passes if it has a solution.
+/// [`EnergyLimit`](crate::methods::EnergyLimit) around it ends a run whose energy tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct General<M> {
     /// What has a discrete Lagrangian.
@@ -87,12 +89,17 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for Gener
 
 impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for General<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
-        self.stopping.validate()?;
+        self.admit(system)?;
         let space = system.space();
         let [mut p, mut seed, mut l_q]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
         seed[..v.len()].copy_from_slice(v);
         evaluate(system, q, &seed, t)?;
         system.gradient(q, &seed, t, &mut l_q, &mut p);
+        if S::REGULAR {
+            // A singular mass matrix is found before the first step.
+            let mut same = seed.clone();
+            Legendre::new(system).solve(system, q, &p, t, &mut same, false).map_err(StartError::Starter)?;
+        }
         Ok(GeneralMemory {
             p,
             history: History::new(system, Some(seed)),
@@ -159,6 +166,11 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T> for 
 
 impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for General<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;
+
+    fn admit(&self, system: &S) -> Result<(), StartError> {
+        self.stopping.validate()?;
+        self.scheme.admit(system)
+    }
 
     fn discrete_lagrangian(&self, system: &S) -> M::DiscreteLagrangian {
         self.scheme.discrete_lagrangian(system)

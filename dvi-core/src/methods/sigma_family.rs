@@ -260,6 +260,10 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
 impl<S: DegenerateLagrangian, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
+    fn admit(&self, _system: &S) -> Result<(), StartError> {
+        self.validate(S::LINEAR)
+    }
+
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
         OneNode::new(system, self.sigma)
     }

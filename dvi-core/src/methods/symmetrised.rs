@@ -3,9 +3,10 @@
 //! Its own adjoint, and so of second order, for every α (Marsden & West 2001, section 2.3.2 and theorem 2.4.1).
 
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, TwiceDifferentiable};
-use crate::error::StepFailure;
+use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
 use crate::methods::{PreservedForm, Scheme};
+use crate::scalar::norm;
 use crate::space::sink::{Scaled, Sink};
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, Vector};
@@ -40,6 +41,16 @@ impl<T: Real> Scheme for Symmetrised<T> {
 
 impl<S: Lagrangian, T: Real> VariationalMethod<S, T> for Symmetrised<T> {
     type DiscreteLagrangian = SymmetrisedLagrangian<S, T>;
+
+    fn admit(&self, _system: &S) -> Result<(), StartError> {
+        let in_range = self.alpha >= T::lift(0.0) && self.alpha <= T::lift(1.0);
+        let value = norm::reported(self.alpha);
+        if in_range {
+            Ok(())
+        } else {
+            Err(StartError::Parameter { name: "alpha", value, range: "0 <= alpha <= 1" })
+        }
+    }
 
     fn discrete_lagrangian(&self, system: &S) -> SymmetrisedLagrangian<S, T> {
         let nodes = [self.alpha, T::lift(1.0) - self.alpha].map(|node| OneNode::new(system, node));

@@ -58,9 +58,10 @@ pub enum Fitting {
 /// frequency as it is, and dq ∧ dp unless the frequency is read from the motion without being differentiated
 /// ([`Reading`]).
 ///
-/// On the oscillator of the fitted frequency each step is exact, whatever the rule, where sin u ≠ 0 and
-/// S ≠ 0, u = ωh; near a zero of either it ends with [`StepFailure::Resonance`]. It is not translation
-/// invariant: constants are not among the functions that it interpolates.
+/// On the oscillator of the fitted frequency steps of one length are exact, whatever the rule, where sin u ≠ 0 and
+/// S ≠ 0, u = ωh; near a zero of either a step ends with [`StepFailure::Resonance`]. Steps of different lengths are exact
+/// there with [`Fitting::PhaseAndMomentum`] only, because the momentum between them is off by a factor that depends on the
+/// length. The interpolation is not translation invariant: constants are not among the functions that it interpolates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variational<F = Unfitted, R = Quadrature> {
     /// Nodes and weights.
@@ -335,6 +336,10 @@ where
     T: Real,
 {
     type DiscreteLagrangian = QuadratureLagrangian<S, F, R, T>;
+
+    fn admit(&self, system: &S) -> Result<(), StartError> {
+        self.validate::<S, T>(system)
+    }
 
     fn discrete_lagrangian(&self, system: &S) -> QuadratureLagrangian<S, F, R, T> {
         QuadratureLagrangian::new(system, self.clone())

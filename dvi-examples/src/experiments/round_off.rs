@@ -185,7 +185,7 @@ fn pairs(series: &[Series]) -> impl Iterator<Item = [&Series; 2]> {
 fn claims(job: &Job<'_>, series: &[Series]) -> Vec<Claim> {
     let mut growth = Claim::new(
         BEYOND,
-        "with compensated sums the errors of energies grow with √n over 10⁸ steps, as independent ones do",
+        "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ steps, as independent ones do",
     );
     let mut gain =
         Claim::new(BEYOND, "with compensated sums they are at most a fifth of those of plain sums");

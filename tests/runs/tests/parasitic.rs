@@ -56,6 +56,17 @@ fn beside_a_fast_pair() -> (PointVortices<6>, PointVorticesState<6>) {
     (PointVortices { gamma: [1.0; 6] }, PointVorticesState { x: far(x, 50.0, 50.3), y: far(y, 0.0, 0.0) })
 }
 
+/// A straight path with one bend.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (x * d(y) - y * d(x)) / 2,
+    hamiltonian = -y + a * (-((x - 5) / w).powi(2)).exp() * y.cos(),
+)]
+struct Bend {
+    a: f64,
+    w: f64,
+}
+
 /// How far a run goes up to time `end`.
 struct Course {
     steps: u64,
@@ -325,4 +336,20 @@ fn a_path_with_kinks_goes_on() -> Outcome {
     }
     let bump = (Bump { e: 0.01, g: 0.02, w: 0.1, k: 0.1 }, BumpState { x: 1.0, y: -1.0 });
     bounded(&bump, Sigma::midpoint(), &[0.1], 100.0, 0.05)
+}
+
+/// What the bend leaves of the mode stays as it was, and the position is as good as that of the midpoint rule, which has no
+/// mode.
+#[test]
+fn a_mode_that_stays_as_it_was_on_a_straight_path_goes_on() -> Outcome {
+    let start = BendState { x: 0.0, y: 0.3 };
+    for (w, h) in [(1.0, 0.5), (1.0, 0.35), (0.3, 0.1)] {
+        for sigma in [0.0, fourth_order(), 0.25, 0.75] {
+            let bend = Bend { a: 0.1, w };
+            let run = Integrator::new(&bend, Sigma::new(sigma), h, start)?;
+            let course = course(run, 3000.0)?;
+            assert_eq!(course.error, None, "σ = {sigma}, h = {h}, w = {w}");
+        }
+    }
+    Ok(())
 }

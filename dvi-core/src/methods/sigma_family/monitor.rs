@@ -27,6 +27,9 @@ const FORGOTTEN: f64 = 1.0 / 64.0;
 /// The same of all coordinates together: what is remembered is a bridge over points at which the path is straight.
 const FORGOTTEN_TOGETHER: f64 = 1.0 / 8.0;
 
+/// A mode that has changed by no more than this part from one look to the next stays as it is.
+const STEADY: f64 = 0.01;
+
 /// The second differences of a coordinate count as no smaller than this fraction of the largest of all.
 const FLOOR: f64 = 0.1;
 
@@ -66,7 +69,8 @@ pub struct ParasiticMode<T = f64> {
     /// 4|a|/|s| in the Euclidean norm, where s is h²q̈ from second differences that do not see what alternates; or the
     /// largest 4|aᵢ|/sᵢ, if that is larger, where sᵢ is at least a tenth of the largest of all coordinates. Both sizes are
     /// the largest of the points that were looked at, of which each look forgets 1/8, and of a coordinate 1/64. Of a
-    /// smooth motion of frequency ω it is about (ωh/2)².
+    /// smooth motion of frequency ω it is about (ωh/2)². On a straight path it says nothing, and may be infinite or no
+    /// number.
     pub relative: T,
     /// Whether the amplitude is more than rounding errors, 1024 ε max|q|, and more than 10⁻⁵ of the increment.
     pub is_significant: bool,
@@ -215,28 +219,34 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
 
     fn measure(&mut self, step: u64, q: &[T]) -> ParasiticMode<T> {
         let (zero, two) = (T::lift(0.0), T::lift(2.0));
-        let Self { points, sizes, together, .. } = self;
+        let Self { points, sizes, together, mode, examined, pace, .. } = self;
         let point = |j: u64| &points[((step + j) % KEPT as u64) as usize];
         let [a, b, c, d] = [point(0), point(1), point(2), point(3)];
         let alternating = |i: usize, e: T| a[i] - T::lift(4.0) * (b[i] + d[i]) + T::lift(6.0) * c[i] + e;
-        let remembered = T::lift(1.0 - FORGOTTEN);
+        let smooth = |i: usize, e: T| (a[i] - two * c[i] + e) * T::lift(0.25);
         let (mut amplitude, mut size, mut increment, mut largest) = (zero, zero, zero, zero);
         let (mut turned, mut moved, mut alternated) = (zero, zero, zero);
         for (i, &e) in q.iter().enumerate() {
-            let smooth = (a[i] - two * c[i] + e) * T::lift(0.25);
-            turned += smooth * smooth;
+            let second = smooth(i, e);
+            turned += second * second;
             let delta = e - d[i];
             moved += delta * delta;
-            sizes[i] = larger(Scalar::abs(smooth), sizes[i] * remembered);
-            largest = larger(largest, sizes[i]);
             let fourth = alternating(i, e);
             alternated += fourth * fourth;
             amplitude = larger(amplitude, Scalar::abs(fourth));
             size = larger(size, Scalar::abs(e));
             increment = larger(increment, Scalar::abs(delta));
         }
-        let kept = T::lift(1.0 - FORGOTTEN_TOGETHER);
+        // Where the path has become straight, a mode that stays as it was does no more harm than before.
+        let change = Scalar::abs(T::lift(16.0) * mode.amplitude - amplitude);
+        let stays = *pace == Pace::WithTheFlow && *examined > 0 && change <= T::lift(STEADY) * amplitude;
+        let [kept, remembered] =
+            [FORGOTTEN_TOGETHER, FORGOTTEN].map(|part| T::lift(if stays { 1.0 } else { 1.0 - part }));
         *together = larger(turned, *together * kept * kept);
+        for (i, &e) in q.iter().enumerate() {
+            sizes[i] = larger(Scalar::abs(smooth(i, e)), sizes[i] * remembered);
+            largest = larger(largest, sizes[i]);
+        }
         let (floor, mut relative) =
             (T::lift(FLOOR) * largest, larger(zero, Scalar::sqrt(alternated / *together)));
         for (i, &e) in q.iter().enumerate() {
