@@ -24,7 +24,7 @@ use crate::{Lagrangian, Real, Vector};
 
 pub use composition::{Composition, CompositionMemory};
 pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
-pub use galerkin::{Galerkin, GalerkinMemory};
+pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use general::{General, GeneralMemory};
 pub use newmark::{Newmark, NewmarkMemory};
@@ -225,7 +225,7 @@ pub trait VariableStep<S: Lagrangian, T: Real>: Method<S, T> {}
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian that can be differentiated twice",
     label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "such methods are `Sigma`, `Variational` with a frequency that is given, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
+    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
 )]
 pub trait VariationalMethod<S: Lagrangian, T: Real>: Scheme {
     /// What one interval contributes.

@@ -107,6 +107,21 @@ fn steps_on_regular_systems_equal_the_general_step() -> Outcome {
     check(&driven, Variational::trapezoid(), &DrivenOscillatorState { x: 0.4, dot_x: 0.9 })
 }
 
+/// The displacements are solved for with q1 by the methods, and before it by their discrete Lagrangian.
+#[test]
+fn steps_with_interior_displacements_equal_the_general_step() -> Outcome {
+    let kepler = Kepler { mu: 1.0 };
+    let start = KeplerState { x: 0.8, y: 0.1, dot_x: -0.1, dot_y: 1.1 };
+    check(&kepler, Galerkin::<3>::new(), &start)?;
+    check(&kepler, Galerkin::<4>::new(), &start)?;
+    check(&kepler, Galerkin::<5>::new(), &start)?;
+    check(&kepler, Galerkin::<4>::new().phase_fitted(Constant(1.3)), &start)?;
+    let driven = DrivenOscillator { depth: 0.3, omega: 2.0 };
+    check(&driven, Galerkin::<4>::new(), &DrivenOscillatorState { x: 0.4, dot_x: 0.9 })?;
+    let pendulums = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
+    check(&pendulums, Galerkin::<3>::new(), &DoublePendulumState { a: 0.5, b: 0.2, dot_a: 0.4, dot_b: -0.7 })
+}
+
 /// ½ (L_d^α + L_d^{1−α}) is the quadrature rule with these two nodes.
 #[test]
 fn the_symmetrised_family_is_the_rule_of_its_two_nodes() -> Outcome {

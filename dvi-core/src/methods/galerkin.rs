@@ -11,6 +11,7 @@
 mod blocks;
 mod coefficients;
 mod general;
+mod lagrangian;
 mod memory;
 mod separable;
 
@@ -22,6 +23,7 @@ use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, RegularLagrangian, Vector};
 
+pub use lagrangian::GalerkinLagrangian;
 pub use memory::GalerkinMemory;
 
 /// The discrete Lagrangian of the Lobatto rule with `S` nodes and displacements at the interior ones; `S` is 3,

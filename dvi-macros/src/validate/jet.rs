@@ -140,6 +140,10 @@ impl Jet {
 
     /// The same derivatives around another value.
     pub(super) fn with_value(mut self, value: f64) -> Self {
+        // What is not known stays so.
+        if self.0.value[0].is_nan() {
+            return self;
+        }
         self.0.value[0] = value;
         self.0.size[0] = self.0.size[0].max(value.abs());
         self

@@ -1,6 +1,6 @@
 //! Elimination of a matrix of blocks, one block row for each unknown vector of a step.
 //!
-//! Rows and columns are counted from 1, like the unknowns. Each block is stored transposed, so that the columns
+//! The pivots are a part of the rows; what is left of the other rows and columns is their Schur complement. Each block is stored transposed, so that the columns
 //! that a solve works on lie together. Pivots are sought within the diagonal blocks, and blocks are never
 //! exchanged: up to terms of order h² the matrix is (K ⊗ M)/h, and the part of K that belongs to the displacements
 //! is the Gram matrix Σ w a a of derivatives of polynomials that vanish at both ends, positive definite; so the
@@ -9,9 +9,10 @@
 use crate::Real;
 use crate::error::StepFailure;
 use crate::space::elimination;
-use core::ops::DerefMut;
+use core::ops::{DerefMut, Range};
 
-/// Overwrites `x` with the solution of A y = x, and A with nothing of use.
+/// Overwrites the entries `pivots` of `x` with the solution of A y = x in these rows and columns, and A with nothing of use
+/// but the Schur complement of the later rows and columns.
 ///
 /// # Errors
 /// [`StepFailure::Singular`] with the column of the block that has no pivot.
@@ -19,13 +20,14 @@ pub(super) fn eliminate<const NODES: usize, T: Real, M, V>(
     rows: &mut [[M; NODES]; NODES],
     permutation: &mut [usize],
     x: &mut [V; NODES],
+    pivots: Range<usize>,
 ) -> Result<(), StepFailure>
 where
     M: DerefMut<Target = [T]>,
     V: DerefMut<Target = [T]>,
 {
     let n = permutation.len();
-    for k in 1..NODES {
+    for k in pivots.clone() {
         let (done, rest) = rows.split_at_mut(k + 1);
         let (left, right) = done[k].split_at_mut(k + 1);
         let pivot = &mut left[k];
@@ -48,9 +50,10 @@ where
             }
         }
     }
-    for k in (1..NODES).rev() {
+    let end = pivots.end;
+    for k in pivots.rev() {
         let (unknown, known) = x.split_at_mut(k + 1);
-        for (block, known) in rows[k][k + 1..].iter().zip(known.iter()) {
+        for (block, known) in rows[k][k + 1..end].iter().zip(known.iter()) {
             subtract_product(block, known, &mut unknown[k]);
         }
     }
@@ -102,7 +105,7 @@ mod tests {
             let mut x: [Vec<f64>; 4] = core::array::from_fn(|r| {
                 (0..n).map(|i| if r == 0 { 0.0 } else { rhs[(r - 1) * n + i] }).collect()
             });
-            assert_eq!(eliminate(&mut rows, &mut alloc::vec![0; n], &mut x), Ok(()));
+            assert_eq!(eliminate(&mut rows, &mut alloc::vec![0; n], &mut x, 1..4), Ok(()));
             let Some(expected) = dense.clone().lu().solve(&rhs) else { panic!("nalgebra found no solution") };
             let found = DVector::from_vec(x[1..].concat());
             assert!((found - &expected).amax() < 1e-13 * expected.amax(), "n = {n}");

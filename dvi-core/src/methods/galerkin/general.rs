@@ -40,7 +40,7 @@ pub(super) fn newton<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>
         linearize(step, path, storage, statistics);
         let Newton { blocks, permutation } = &mut *storage;
         let Work { unknowns, residuals, .. } = &mut path.work;
-        blocks::eliminate(blocks, permutation, residuals)?;
+        blocks::eliminate(blocks, permutation, residuals, 1..NODES)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
             for (x, &change) in unknown.iter_mut().zip(change.iter()) {

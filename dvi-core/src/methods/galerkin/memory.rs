@@ -75,7 +75,7 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
     ) -> Result<Self, StartError> {
         let Step { system, method, t, .. } = *step;
         let space = system.space();
-        let rule = Quadrature::lobatto(NODES)?;
+        let rule = Quadrature::lobatto_of::<NODES>();
         let a = differentiation(&rule);
         let solver = match method.solver {
             // Any L has no fixed point.

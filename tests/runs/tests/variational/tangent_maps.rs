@@ -78,13 +78,14 @@ fn tangent_matches_runs<R: Run<System = Kepler, Scalar = f64>>(
     begin: impl Fn(KeplerState) -> Result<R, StartError>,
 ) -> Outcome
 where
-    R::Method: dvi_core::methods::VariationalMethod<Kepler, f64>,
+    R::Method: dvi_core::methods::VariationalMethod<Kepler, f64> + Clone,
 {
     let system = Kepler { mu: 1.0 };
     let start = [0.8, 0.1, -0.1, 1.2];
     let state = |z: [f64; 4]| KeplerState { x: z[0], y: z[1], dot_x: z[2], dot_y: z[3] };
     let mut run = begin(state(start))?;
-    let mut map = TangentMap::new(&system, run.method());
+    let method = run.method().clone();
+    let mut map = TangentMap::new(&system, &method);
     let [t, q0] = [vec![run.time()], run.q().to_vec()];
     run.advance()?;
     let h = run.step_size();
@@ -94,7 +95,7 @@ where
         let end = |sign: f64| -> Result<[f64; 4], Box<dyn core::error::Error>> {
             let mut z = start;
             z[direction] += sign * epsilon;
-            let mut run = Integrator::new(&system, Variational::simpson(), h, state(z))?;
+            let mut run = Integrator::new(&system, method.clone(), h, state(z))?;
             run.advance()?;
             let end = run.state();
             Ok([end.x, end.y, end.dot_x, end.dot_y])
@@ -112,6 +113,8 @@ where
             assert!((found - expected).abs() < 1e-9, "({k}, {direction}): {found} {expected}");
         }
     }
+    let defect = map.symplectic_defect(&system);
+    assert!(defect < 1e-12, "{defect:e}");
     Ok(())
 }
 
@@ -119,6 +122,8 @@ where
 fn tangent_maps_agree_with_differences_of_steps() -> Outcome {
     let method = Variational::simpson();
     tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, method, 0.1, start))?;
+    tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, Galerkin::<3>::new(), 0.1, start))?;
+    tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, Galerkin::<5>::new(), 0.1, start))?;
     let control = Reversible::power(0.1, 1.5);
     tangent_matches_runs(|start| ControlledIntegrator::new(&Kepler { mu: 1.0 }, method, control, start))
 }
