@@ -54,6 +54,25 @@ pub struct Ends<'a, T> {
     pub delta: &'a [T],
 }
 
+/// An interval of the motion of a system, with its two ends.
+#[derive(Debug)]
+pub struct Span<'a, S, T> {
+    /// The system.
+    pub system: &'a S,
+    /// The time.
+    pub interval: Interval<T>,
+    /// The coordinates.
+    pub ends: Ends<'a, T>,
+}
+
+impl<S, T: Copy> Clone for Span<'_, S, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S, T: Copy> Copy for Span<'_, S, T> {}
+
 /// What one interval contributes to the discrete equations of a system.
 ///
 /// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so that nothing
@@ -65,9 +84,7 @@ pub trait DiscreteLagrangian<S: Lagrangian, T: Real> {
     /// Those of an interpolation that is fitted to a frequency.
     fn derivatives(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        span: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
@@ -80,9 +97,7 @@ pub trait DiscreteLagrangian<S: Lagrangian, T: Real> {
     /// As [`derivatives`](Self::derivatives).
     fn linearize<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        span: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         statistics: &mut Statistics,
@@ -95,13 +110,7 @@ pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> 
     ///
     /// # Errors
     /// As [`derivatives`](DiscreteLagrangian::derivatives).
-    fn hessian<K: Sink<T>>(
-        &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
-        sinks: [&mut K; 3],
-    ) -> Result<(), StepFailure>;
+    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 3]) -> Result<(), StepFailure>;
 }
 
 /// Solves p0 + D₁L_d(q0, q0 + Δ) = 0 by Newton's method, from the `delta` that stands there.
@@ -125,7 +134,8 @@ pub(crate) fn solve_by_newton<S: Lagrangian, T: Real>(
     iterate(convergence, statistics, |statistics| {
         residual.copy_from_slice(p0);
         let entries = matrix.cleared();
-        l_d.linearize(system, interval, Ends { q0, delta }, residual, entries, statistics)?;
+        let span = Span { system, interval, ends: Ends { q0, delta } };
+        l_d.linearize(span, residual, entries, statistics)?;
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let finite = norm::finite(residual);

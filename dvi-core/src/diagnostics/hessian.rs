@@ -1,6 +1,6 @@
 //! The second derivatives of a discrete Lagrangian L_d(q0, q1).
 
-use crate::discrete::{Ends, Interval, TwiceDifferentiable};
+use crate::discrete::{Ends, Interval, Span, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::{Lagrangian, Matrix, Real, Space, Vector};
@@ -63,6 +63,6 @@ impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> DiscreteHessian<S, L,
             matrix.fill(T::lift(0.0));
         }
         let ends = Ends { q0: &self.start, delta: &self.delta };
-        self.discrete.hessian(system, interval, ends, [&mut self.d11, &mut self.d12, &mut self.d22])
+        self.discrete.hessian(Span { system, interval, ends }, [&mut self.d11, &mut self.d12, &mut self.d22])
     }
 }

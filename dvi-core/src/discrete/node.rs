@@ -5,7 +5,7 @@
 //!
 //! For L = α·v − H it is L_d = α(q_σ)·Δ − h H(q_σ) (Rowley & Marsden 2002, eqs. 9, 10 and 17).
 
-use super::{DiscreteLagrangian, Ends, Interval, TwiceDifferentiable};
+use super::{DiscreteLagrangian, Ends, Interval, Span, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::space::sink::Sink;
 use crate::state::Statistics;
@@ -69,9 +69,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
     #[inline(always)]
     fn derivatives(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
@@ -90,9 +88,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
     #[inline(always)]
     fn linearize<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         _statistics: &mut Statistics,
@@ -111,9 +107,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
 impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
     fn hessian<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         [d11, d12, d22]: [&mut K; 3],
     ) -> Result<(), StepFailure> {
         self.place(interval, ends);

@@ -1,6 +1,6 @@
 //! The step of any discrete Lagrangian: p0 = −D₁L_d(q0, q0 + Δ) by Newton's method, p1 = p0 + (D₁ + D₂)L_d.
 
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, solve_by_newton};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, Span, solve_by_newton};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::methods::VariationalMethod;
@@ -130,7 +130,7 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Genera
         sum.fill(T::lift(0.0));
         memory.residual.fill(T::lift(0.0));
         let ends = Ends { q0: q, delta: increment };
-        l_d.derivatives(system, interval, ends, &mut memory.residual, sum, statistics)?;
+        l_d.derivatives(Span { system, interval, ends }, &mut memory.residual, sum, statistics)?;
         for i in 0..q.len() {
             next[i] = q[i] + increment[i];
             sum[i] += p[i];

@@ -2,7 +2,7 @@
 //!
 //! Its own adjoint, and so of second order, for every α (Marsden & West 2001, section 2.3.2 and theorem 2.4.1).
 
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, OneNode, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
 use crate::methods::{PreservedForm, Scheme};
@@ -61,9 +61,7 @@ impl<S: Lagrangian, T: Real> VariationalMethod<S, T> for Symmetrised<T> {
 impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<S, T> {
     fn derivatives(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        span: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
@@ -72,7 +70,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<
         first.fill(T::lift(0.0));
         both.fill(T::lift(0.0));
         for node in nodes {
-            node.derivatives(system, interval, ends, first, both, statistics)?;
+            node.derivatives(span, first, both, statistics)?;
         }
         for i in 0..d1.len() {
             d1[i] += T::lift(0.5) * first[i];
@@ -83,9 +81,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<
 
     fn linearize<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        span: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         statistics: &mut Statistics,
@@ -94,7 +90,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<
         first.fill(T::lift(0.0));
         let mut half = Scaled { sink, factor: |_, _| T::lift(0.5) };
         for node in nodes {
-            node.linearize(system, interval, ends, first, &mut half, statistics)?;
+            node.linearize(span, first, &mut half, statistics)?;
         }
         for (d1, &first) in d1.iter_mut().zip(first.iter()) {
             *d1 += T::lift(0.5) * first;
@@ -104,16 +100,10 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<
 }
 
 impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for SymmetrisedLagrangian<S, T> {
-    fn hessian<K: Sink<T>>(
-        &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
-        sinks: [&mut K; 3],
-    ) -> Result<(), StepFailure> {
+    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 3]) -> Result<(), StepFailure> {
         let [mut d11, mut d12, mut d22] = sinks.map(|sink| Scaled { sink, factor: |_, _| T::lift(0.5) });
         for node in &mut self.nodes {
-            node.hessian(system, interval, ends, [&mut d11, &mut d12, &mut d22])?;
+            node.hessian(span, [&mut d11, &mut d12, &mut d22])?;
         }
         Ok(())
     }

@@ -13,9 +13,9 @@ mod memory;
 mod separable;
 mod verlet;
 
-use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, GivenFrequency, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
+use crate::discrete::{Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
 use crate::methods::VariationalMethod;
@@ -148,6 +148,11 @@ impl<S: RegularLagrangian, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> 
     #[inline(always)]
     fn interval(&self) -> Interval<T> {
         Interval { t: self.t, h: self.h }
+    }
+
+    #[inline(always)]
+    fn span<'b>(&'b self, ends: Ends<'b, T>) -> Span<'b, S, T> {
+        Span { system: self.system, interval: self.interval(), ends }
     }
 }
 

@@ -3,7 +3,7 @@
 mod kepler_by_hand;
 mod vortices_by_hand;
 
-use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule};
+use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
 use dvi_core::{Lagrangian, Space, Vector};
@@ -110,8 +110,9 @@ fn residual_and_matrix(steps: u64) -> f64 {
     for _ in 0..steps {
         residual.fill(0.0);
         matrix.fill(0.0);
-        let (interval, ends) = (Interval { t: 0.0, h: H }, Ends { q0: &z, delta: &delta });
-        let result = l_d.linearize(&system, interval, ends, &mut residual, &mut matrix, &mut statistics);
+        let ends = Ends { q0: &z, delta: &delta };
+        let span = Span { system: &system, interval: Interval { t: 0.0, h: H }, ends };
+        let result = l_d.linearize(span, &mut residual, &mut matrix, &mut statistics);
         if result.is_err() {
             return f64::NAN;
         }

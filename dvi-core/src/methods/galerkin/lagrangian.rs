@@ -11,7 +11,7 @@ use super::coefficients::{Coefficients, differentiation};
 use super::{Galerkin, blocks};
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
 use crate::discrete::quadrature::{Quadrature, Rule};
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
 use crate::scalar::norm;
@@ -208,9 +208,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Discr
 {
     fn derivatives(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
@@ -227,9 +225,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Discr
 
     fn linearize<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         statistics: &mut Statistics,
@@ -250,9 +246,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Twice
 {
     fn hessian<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         [d11, d12, d22]: [&mut K; 3],
     ) -> Result<(), StepFailure> {
         let n = ends.q0.len();

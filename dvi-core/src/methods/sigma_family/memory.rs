@@ -7,7 +7,7 @@
 use super::Sigma;
 use super::leapfrog::Ahead;
 use super::monitor::{Monitor, Pace, ParasiticMode};
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
 use crate::error::StartError;
 use crate::mechanics::form::{Combination, Form, Product};
 use crate::mechanics::orientation::FormOrientation;
@@ -139,11 +139,11 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         }
         // c0 = p0 − α(q0) = −D₁L_d − α(q0).
         let (mut unused, mut sum) = (Statistics::default(), system.space().vector());
-        let (interval, ends) = (Interval { t, h }, Ends { q0, delta: &work.increment });
+        let ends = Ends { q0, delta: &work.increment };
+        let span = Span { system, interval: Interval { t, h }, ends };
         system.one_form(q0, t, &mut memory.one_form);
         memory.defect.copy_from_slice(&memory.one_form);
-        let derivatives =
-            memory.l_d.derivatives(system, interval, ends, &mut memory.defect, &mut sum, &mut unused);
+        let derivatives = memory.l_d.derivatives(span, &mut memory.defect, &mut sum, &mut unused);
         derivatives.map_err(StartError::Starter)?;
         memory.defect.iter_mut().for_each(|c| *c = -*c);
         crate::scalar::norm::finite(&memory.defect).map_err(StartError::Starter)?;

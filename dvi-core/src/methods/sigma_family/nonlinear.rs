@@ -6,7 +6,7 @@
 
 use super::memory::{Work, fixed_point_matrix};
 use super::{SigmaMemory, Step};
-use crate::discrete::{DiscreteLagrangian, Ends, NodeWork, OneNode, solve_by_newton};
+use crate::discrete::{DiscreteLagrangian, Ends, NodeWork, OneNode, Span, solve_by_newton};
 use crate::error::StepFailure;
 use crate::mechanics::form::Form;
 use crate::scalar::norm;
@@ -109,7 +109,12 @@ impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
         iterate(convergence, statistics, |statistics| {
             residual.copy_from_slice(p0);
             let ends = Ends { q0: q, delta: increment };
-            l_d.derivatives(step.system, step.interval(), ends, residual, sum, statistics)?;
+            l_d.derivatives(
+                Span { system: step.system, interval: step.interval(), ends },
+                residual,
+                sum,
+                statistics,
+            )?;
             inverse.solve(step.system, residual, trial);
             for (delta, &correction) in increment.iter_mut().zip(trial.iter()) {
                 *delta += correction;

@@ -66,7 +66,7 @@ pub(super) fn by_fixed_point<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T
     iterate(convergence, statistics, |statistics| {
         trial.copy_from_slice(p);
         let ends = Ends { q0: q, delta: increment };
-        l_d.derivatives(step.system, step.interval(), ends, trial, sum, statistics)?;
+        l_d.derivatives(step.span(ends), trial, sum, statistics)?;
         let compliance = Coefficients::<T>::sums(l_d.coefficients, 0).compliance;
         mass.solve(trial, &mut l_d.node.velocity);
         let mut correction = T::lift(0.0);
@@ -79,7 +79,7 @@ pub(super) fn by_fixed_point<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T
     })?;
     norm::finite(increment)?;
     sum.fill(T::lift(0.0));
-    l_d.derivatives(step.system, step.interval(), Ends { q0: q, delta: increment }, trial, sum, statistics)?;
+    l_d.derivatives(step.span(Ends { q0: q, delta: increment }), trial, sum, statistics)?;
     finish(step, parts, statistics)
 }
 
@@ -102,7 +102,7 @@ fn newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>,
     let (interval, stopping) = (step.interval(), step.method.stopping);
     solve_by_newton(l_d, step.system, interval, [q, p], increment, (matrix, trial), stopping, statistics)?;
     sum.fill(T::lift(0.0));
-    l_d.derivatives(step.system, interval, Ends { q0: q, delta: increment }, trial, sum, statistics)
+    l_d.derivatives(step.span(Ends { q0: q, delta: increment }), trial, sum, statistics)
 }
 
 /// Moves to q1 = q0 + Δ and p1 = p0 + (D₁ + D₂)L_d.

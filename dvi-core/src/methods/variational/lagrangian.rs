@@ -12,7 +12,7 @@ use super::{Step, Variational};
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{Frequency, FrequencyIn, Local, Reading};
 use crate::discrete::quadrature::Rule;
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::space::sink::Sink;
@@ -98,9 +98,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
 {
     fn derivatives(
         &mut self,
-        system: &S,
-        Interval { t, h }: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval: Interval { t, h }, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
@@ -114,9 +112,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
 
     fn linearize<K: Sink<T>>(
         &mut self,
-        system: &S,
-        Interval { t, h }: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval: Interval { t, h }, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         _statistics: &mut Statistics,
@@ -163,9 +159,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangi
 {
     fn derivatives(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
@@ -177,9 +171,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangi
 
     fn linearize<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         _statistics: &mut Statistics,
@@ -195,9 +187,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentia
 {
     fn hessian<K: Sink<T>>(
         &mut self,
-        system: &S,
-        interval: Interval<T>,
-        ends: Ends<'_, T>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         [d11, d12, d22]: [&mut K; 3],
     ) -> Result<(), StepFailure> {
         with_coefficients!(self, system, interval, |step, coefficients| {
