@@ -104,6 +104,9 @@ pub enum CheckpointError {
         /// How many numbers and counts were not read.
         more: usize,
     },
+    /// It has counts that no run has.
+    #[error("the checkpoint is damaged: it has counts that no run has")]
+    Damaged,
     /// It has another number of coordinates.
     #[error("the checkpoint has {found} coordinates, but the system has {expected}")]
     Coordinates {

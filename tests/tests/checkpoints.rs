@@ -181,3 +181,45 @@ fn a_checkpoint_has_the_velocities_of_a_regular_system() -> Outcome {
     assert_eq!((checkpoint.q, checkpoint.v), (vec![0.5, 0.0], vec![0.0, 3.0_f64.sqrt()]));
     Ok(())
 }
+
+/// Counts that no run has are an error, or do no harm.
+fn check_damaged<S: Lagrangian, M: Method<S, f64> + Clone>(
+    system: &S,
+    method: M,
+    start: S::State<f64>,
+) -> Outcome {
+    let mut run = Integrator::new(system, method.clone(), 0.05, start)?;
+    run.take_steps(300)?;
+    let whole = serde_json::to_value(run.checkpoint())?;
+    let counts = whole["record"]["counts"].as_array().map_or(0, Vec::len);
+    let mut refused = 0;
+    for place in 0..counts {
+        for count in [3_u64, 1_000_000_007, u64::MAX] {
+            let mut damaged = whole.clone();
+            damaged["record"]["counts"][place] = count.into();
+            let checkpoint: Checkpoint = serde_json::from_value(damaged)?;
+            match Integrator::resume(system, method.clone(), &checkpoint) {
+                // That it ends is all that can be said.
+                Ok(mut run) => drop(run.take_steps(30)),
+                Err(_) => refused += 1,
+            }
+        }
+    }
+    assert!(refused > 0);
+    Ok(())
+}
+
+#[test]
+fn a_damaged_checkpoint_is_no_panic() -> Outcome {
+    let (pairs, start) = leapfrogging();
+    check_damaged(&pairs, Sigma::leapfrog(), start)?;
+    check_damaged(&pairs, Sigma::new(0.25), start)?;
+    check_damaged(&pairs, Sigma::midpoint(), start)?;
+    let planet = KeplerState { x: 0.7, y: 0.2, dot_x: 0.3, dot_y: 1.1 };
+    check_damaged(&KEPLER, Variational::simpson(), planet)?;
+    let mut checkpoint = Integrator::new(&KEPLER, Variational::simpson(), 0.05, planet)?.checkpoint();
+    checkpoint.q[1] = f64::NAN;
+    let refused = Integrator::resume(&KEPLER, Variational::simpson(), &checkpoint).err();
+    assert!(matches!(refused, Some(StartError::NotFinite { coordinate: 1, .. })), "{refused:?}");
+    Ok(())
+}

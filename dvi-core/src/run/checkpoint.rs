@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use crate::error::{CheckpointError, StartError};
 use crate::methods::{Carries, Clock, Method};
 use crate::run::Stepper;
+use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, Reader, Record};
 use crate::system::start::velocities;
@@ -57,6 +58,13 @@ impl<T: Real> Checkpoint<T> {
         let (expected, found) = (system.space().dimension(), self.q.len());
         if found != expected || self.v.len() != velocities(system) {
             return Err(CheckpointError::Coordinates { expected, found }.into());
+        }
+        if let Some(coordinate) = self.q.iter().chain(&self.v).position(|x| !x.is_finite()) {
+            let value = self.q.iter().chain(&self.v).nth(coordinate).copied().map_or(f64::NAN, reported);
+            return Err(StartError::NotFinite { coordinate, value });
+        }
+        if self.statistics.steps > u64::MAX / 2 {
+            return Err(CheckpointError::Damaged.into());
         }
         let (mut q, mut v): (Vector<S, T>, Vector<S, T>) = (system.space().vector(), system.space().vector());
         q.copy_from_slice(&self.q);

@@ -66,6 +66,10 @@ impl<S: Lagrangian, T: Real> History<S, T> {
         }
     }
 
+    fn is_sound(&self) -> bool {
+        self.len <= DEPTH && self.next < DEPTH
+    }
+
     /// Forgets all increments, but not the seed.
     pub(crate) fn clear(&mut self) {
         self.len = 0;
@@ -97,7 +101,7 @@ impl<S: Lagrangian, T: Real> History<S, T> {
 }
 
 impl<S: Lagrangian, T: Real> Memory<T> for History<S, T> {
-    lasting!(T; vectors ring, count len, count next, numbers seed);
+    lasting!(T; vectors ring, count len, count next, numbers seed; is_sound);
 }
 
 /// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same

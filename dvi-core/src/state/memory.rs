@@ -115,8 +115,10 @@ impl<T: Copy> Reader<'_, T> {
 ///
 /// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`
 /// - `part`, something that has a list of its own; `parts`, an array or `Option` of such, `vectors`, an array of vectors
+///
+/// After `; name` stands a function that says whether what has been loaded can be gone on with: a file may be damaged.
 macro_rules! lasting {
-    ($T:ty; $($kind:ident $field:ident),* $(,)?) => {
+    ($T:ty; $($kind:ident $field:ident),* $(,)? $(; $sound:ident)?) => {
         #[inline]
         fn restore(&mut self, from: &Self) {
             $($crate::state::memory::lasting!(@restore $T, $kind self.$field, from.$field);)*
@@ -131,6 +133,11 @@ macro_rules! lasting {
             reader: &mut $crate::state::memory::Reader<'_, $T>,
         ) -> Result<(), $crate::error::CheckpointError> {
             $($crate::state::memory::lasting!(@load $kind self.$field, reader);)*
+            $(
+                if !self.$sound() {
+                    return Err($crate::error::CheckpointError::Damaged);
+                }
+            )?
             Ok(())
         }
     };

@@ -142,6 +142,11 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         }
     }
 
+    fn is_sound(&self) -> bool {
+        let in_order = self.examined <= self.steps && self.steps < u64::MAX / 2;
+        in_order && self.period.is_power_of_two() && self.period <= BLOCK
+    }
+
     pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
         self.last().map(|(_, mode)| mode)
     }
@@ -302,7 +307,8 @@ impl<S: Lagrangian, T: Real> Memory<T> for Monitor<S, T> {
     lasting!(
         T;
         vectors points, numbers sizes, number together, count steps, count period, count examined, part mode, count above,
-        count since_jump, part first,
+        count since_jump, part first;
+        is_sound
     );
 }
 
