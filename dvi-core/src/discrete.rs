@@ -17,7 +17,7 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::Sink;
-use crate::space::square::SquareMatrix;
+use crate::space::square::{SquareMatrix, of_second_derivatives};
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Square, Vector};
 
@@ -78,6 +78,12 @@ impl<S, T: Copy> Copy for Span<'_, S, T> {}
 /// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so that nothing
 /// is allocated.
 pub trait DiscreteLagrangian<S: Lagrangian, T: Real> {
+    /// A matrix with room for D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here it has the entries of ∂²L in all blocks,
+    /// as a sum over nodes has whose points depend on the ends alone.
+    fn matrix(&self, system: &S, q: &[T], v: &[T], t: T) -> Square<S, T> {
+        of_second_derivatives(system, q, v, t)
+    }
+
     /// Adds D₁L_d to `d1` and D₁L_d + D₂L_d to `sum`, each one entry per coordinate.
     ///
     /// # Errors

@@ -104,9 +104,17 @@ pub enum CheckpointError {
         /// How many numbers and counts were not read.
         more: usize,
     },
-    /// It has counts that no run has.
-    #[error("the checkpoint is damaged: it has counts that no run has")]
+    /// It has numbers or counts that no run has.
+    #[error("the checkpoint is damaged: it has numbers or counts that no run has")]
     Damaged,
+    /// It has another number of velocities.
+    #[error("the checkpoint has {found} velocities, but the system has {expected}")]
+    Velocities {
+        /// The dimension of the system, or zero if it is degenerate.
+        expected: usize,
+        /// The velocities of the checkpoint.
+        found: usize,
+    },
     /// It has another number of coordinates.
     #[error("the checkpoint has {found} coordinates, but the system has {expected}")]
     Coordinates {
@@ -147,6 +155,14 @@ pub enum StepFailure {
         /// S = Σ w cos((1 − 2c)u), which multiplies the new point; with interior displacements, what multiplies
         /// it in place of S.
         kernel: f64,
+    },
+    /// A matrix has an entry where its pattern, which decided its storage when the run began, has none.
+    #[error("the matrix of the step has an entry ({row}, {column}) that its pattern does not have")]
+    Pattern {
+        /// The coordinate of its row, counted from 0.
+        row: usize,
+        /// That of its column.
+        column: usize,
     },
     /// The frequency of a phase-fitted interpolation is not a number, or infinite.
     #[error("phase fitting breaks down: the frequency is {omega}; it is not defined at this state")]

@@ -43,7 +43,8 @@ pub trait Space: Copy + Debug + PartialEq {
     fn vector<T: Scalar>(self) -> Self::Vector<T>;
     /// A matrix of zeros.
     fn matrix<T: Scalar>(self) -> Self::Matrix<T>;
-    /// A matrix of zeros with room for the entries in the rows and columns that `entries` visits.
+    /// A matrix of zeros with room for the entries in the rows and columns, below the dimension, that `entries` visits. Others
+    /// may not be added to; see [`SquareMatrix::cleared`].
     fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T>;
     /// A permutation, all zeros until it is written.
     fn permutation(self) -> Self::Permutation;

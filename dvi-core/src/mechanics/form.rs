@@ -44,17 +44,16 @@ impl<S: Lagrangian, T: Real> Clone for Form<S, T> {
 }
 
 impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
-    /// Storage for the inverse of `combination`; its value comes from [`prepare`](Self::prepare).
-    pub(crate) fn new(system: &S, combination: Combination<T>) -> Self {
+    /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from [`prepare`](Self::prepare).
+    pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
         let space = system.space();
         if combination.is_matching::<S>() {
             Self::Reciprocals(space.vector())
         } else {
             let Combination { a, b } = combination;
             Self::Factors(space.square(|visit| {
-                let rest: Vector<S, T> = space.vector();
                 let mut places = Places(|row: usize, column: usize, _| visit(row, column));
-                system.one_form_jacobian(&rest, T::lift(0.0), a, b, &mut places);
+                system.one_form_jacobian(q, t, a, b, &mut places);
             }))
         }
     }

@@ -24,10 +24,11 @@ pub(crate) struct Legendre<S: Lagrangian, T: Real> {
 const HALVINGS: usize = 60;
 
 impl<S: Lagrangian, T: Real> Legendre<S, T> {
-    pub(crate) fn new(system: &S) -> Self {
+    /// For points of which (`q`, `v`, `t`) is one.
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
         let space = system.space();
         Self {
-            matrix: of_second_derivatives(system),
+            matrix: of_second_derivatives(system, q, v, t),
             residual: space.vector(),
             correction: space.vector(),
             l_q: space.vector(),

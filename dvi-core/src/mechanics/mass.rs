@@ -5,6 +5,7 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
+use crate::space::sink::{Places, Sink};
 use crate::space::square::{SquareMatrix, of_entries};
 use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, Vector, Weights};
 
@@ -45,7 +46,14 @@ impl<S: RegularLagrangian, T: Real> Mass<S, T> {
         let zero = T::lift(0.0);
         let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
         let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
-        system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, matrix.cleared());
+        let entries = matrix.cleared();
+        // What is weighted by zero has no place in it.
+        let mut sink = Places(|row: usize, column: usize, entry: T| {
+            if entry != zero {
+                entries.add(row, column, entry);
+            }
+        });
+        system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
         let mut factors = matrix.clone();
         factors.factor()?;
         let [masses, reciprocals] = [space.vector(), space.vector()];

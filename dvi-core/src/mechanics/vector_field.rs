@@ -31,7 +31,7 @@ impl<S: DegenerateLagrangian, T: Real> VectorField<S, T> {
     pub fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StepFailure> {
         let (space, omega) = (system.space(), Self::omega());
         let mut entries = space.vector();
-        let mut inverse = Form::new(system, omega);
+        let mut inverse = Form::new(system, q, t, omega);
         inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default())?;
         Ok(Self { inverse, gradient: space.vector(), entries })
     }

@@ -7,7 +7,6 @@ use crate::methods::VariationalMethod;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::Stopping;
-use crate::space::square::of_second_derivatives;
 use crate::state::Statistics;
 use crate::state::history::{History, is_similar};
 use crate::state::memory::{Memory, lasting};
@@ -98,14 +97,17 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Genera
         if S::REGULAR {
             // A singular mass matrix is found before the first step.
             let mut same = seed.clone();
-            Legendre::new(system).solve(system, q, &p, t, &mut same, false).map_err(StartError::Starter)?;
+            let mut legendre = Legendre::new(system, q, &seed, t);
+            legendre.solve(system, q, &p, t, &mut same, false).map_err(StartError::Starter)?;
         }
+        let l_d = self.scheme.discrete_lagrangian(system);
+        let matrix = l_d.matrix(system, q, &seed, t);
         Ok(GeneralMemory {
             p,
             history: History::new(system, Some(seed)),
             last_step: T::lift(0.0),
-            l_d: self.scheme.discrete_lagrangian(system),
-            matrix: of_second_derivatives(system),
+            l_d,
+            matrix,
             residual: space.vector(),
             increment: space.vector(),
             sum: space.vector(),
@@ -158,7 +160,7 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Genera
             return Ok(());
         }
         memory.history.extrapolate(v);
-        Legendre::new(system).solve(system, q, &memory.p, t, v, false)
+        Legendre::new(system, q, v, t).solve(system, q, &memory.p, t, v, false)
     }
 }
 

@@ -222,7 +222,7 @@ impl<S: Separable, T: Real> Method<S, T> for Newmark<T> {
         Ok(NewmarkMemory {
             phase: PhasePoint::new(system, q, v, t, self.summation)?,
             mass: Mass::new(system, q, t).map_err(StartError::Starter)?,
-            ladder: Ladder::new(solver, || of_second_derivatives(system)),
+            ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t)),
             work: Work::new(system),
         })
     }

@@ -12,26 +12,25 @@ use crate::system::start::velocities;
 use crate::{Lagrangian, Real, Space, Vector};
 
 /// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) and
-/// [`ControlledIntegrator::resume`](crate::run::ControlledIntegrator::resume) go on, bit by bit as if the run had not stopped, on
-/// the same system and with the same method; with another step or other parameters they go on from the same momenta.
+/// [`ControlledIntegrator::resume`](crate::run::ControlledIntegrator::resume) go on, bit by bit as if the run had not stopped:
+/// on a system with the same parameters, and with the same method and options. That they are the same is not checked beyond
+/// the amount of what they carry.
 ///
 /// With the feature `serde` it can be written to a file. A text format must write numbers so that they can be read back
 /// without a rounding error.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint<T = f64> {
-    /// The coordinates, flat, in the order of declaration.
-    pub q: Vec<T>,
-    /// The velocities of a regular system; nothing for a degenerate one.
-    pub v: Vec<T>,
-    /// The time.
-    pub time: T,
-    /// The length of the step: the next one of a fixed step, the latest of a controlled one.
-    pub step_size: T,
-    /// What the run has cost.
-    pub statistics: Statistics,
+    q: Vec<T>,
+    v: Vec<T>,
+    time: T,
+    step_size: T,
+    statistics: Statistics,
     record: Record<T>,
 }
+
+/// No run has come so far.
+const BEYOND: u64 = u64::MAX / 2;
 
 impl<T: Real> Checkpoint<T> {
     /// Of a run whose clock and control are saved by `save`.
@@ -43,8 +42,34 @@ impl<T: Real> Checkpoint<T> {
         let mut record = Record::new();
         stepper.memory.save(&mut record);
         save(&mut record);
-        let v = stepper.with_velocity(time, |v| v.to_vec());
+        let v = stepper
+            .with_velocity(time, |v| if v.iter().all(|v| v.is_finite()) { v.to_vec() } else { Vec::new() });
         Self { q: stepper.q.to_vec(), v, time, step_size, statistics: stepper.statistics, record }
+    }
+
+    /// The coordinates, flat, in the order of declaration.
+    pub fn q(&self) -> &[T] {
+        &self.q
+    }
+
+    /// The velocities of a regular system; empty for a degenerate one, and where the momenta of the run have no velocity.
+    pub fn v(&self) -> &[T] {
+        &self.v
+    }
+
+    /// The time.
+    pub fn time(&self) -> T {
+        self.time
+    }
+
+    /// The length of the step: the next one of a fixed step, the latest of a controlled one.
+    pub fn step_size(&self) -> T {
+        self.step_size
+    }
+
+    /// What the run has cost.
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
     }
 
     /// A checkpoint from which a run with a fixed step goes on with steps of length `h`.
@@ -53,22 +78,29 @@ impl<T: Real> Checkpoint<T> {
         Self { step_size: h, ..self }
     }
 
-    /// The coordinates and velocities, for `system`.
+    /// The coordinates and velocities, for `system`, if all numbers and counts are those of a run.
     pub(crate) fn point<S: Lagrangian>(&self, system: &S) -> Result<[Vector<S, T>; 2], StartError> {
         let (expected, found) = (system.space().dimension(), self.q.len());
-        if found != expected || self.v.len() != velocities(system) {
+        if found != expected {
             return Err(CheckpointError::Coordinates { expected, found }.into());
         }
-        if let Some(coordinate) = self.q.iter().chain(&self.v).position(|x| !x.is_finite()) {
-            let value = self.q.iter().chain(&self.v).nth(coordinate).copied().map_or(f64::NAN, reported);
-            return Err(StartError::NotFinite { coordinate, value });
+        let (expected, found) = (velocities(system), self.v.len());
+        if found != 0 && found != expected {
+            return Err(CheckpointError::Velocities { expected, found }.into());
         }
-        if self.statistics.steps > u64::MAX / 2 {
+        for (coordinate, x) in self.q.iter().chain(&self.v).enumerate() {
+            if !x.is_finite() {
+                return Err(StartError::NotFinite { coordinate, value: reported(*x) });
+            }
+        }
+        let Statistics { steps, iterations, gradients, linearizations, factorisations } = self.statistics;
+        let counts = [steps, iterations, gradients, linearizations, factorisations];
+        if counts.iter().any(|&count| count > BEYOND) || !self.record.is_finite() {
             return Err(CheckpointError::Damaged.into());
         }
         let (mut q, mut v): (Vector<S, T>, Vector<S, T>) = (system.space().vector(), system.space().vector());
         q.copy_from_slice(&self.q);
-        v[..self.v.len()].copy_from_slice(&self.v);
+        v[..found].copy_from_slice(&self.v);
         Ok([q, v])
     }
 
@@ -100,8 +132,12 @@ impl<T: Real> Clock<T> {
         let mut numbers = [T::lift(0.0); 2];
         reader.numbers(&mut numbers)?;
         let ([start, h], step) = (numbers, reader.count()?);
+        let clock = Self { start, h, step };
+        if clock.after(checkpoint.statistics.steps).time() != checkpoint.time {
+            return Err(CheckpointError::Damaged);
+        }
         if h == checkpoint.step_size {
-            return Ok(Self { start, h, step });
+            return Ok(clock);
         }
         // No steps have been taken with this one.
         let step = 0_u64.wrapping_sub(checkpoint.statistics.steps);

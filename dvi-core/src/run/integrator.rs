@@ -49,13 +49,14 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
-    /// [step](Checkpoint::with_step_size) or other parameters, from the same momenta.
+    /// [step](Checkpoint::with_step_size) from the same momenta.
     ///
     /// # Errors
-    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it is one of another system or method.
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method carries on this
+    /// system, or numbers that no run has.
     #[cfg(feature = "alloc")]
     pub fn resume(system: &'a S, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
-        let (t, h) = (checkpoint.time, checkpoint.step_size);
+        let (t, h) = (checkpoint.time(), checkpoint.step_size());
         validate(system, t, h)?;
         let [q, v] = checkpoint.point(system)?;
         let mut memory = method.begin_again(system, &q, &v[..velocities(system)], t, h)?;
@@ -66,7 +67,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         })?;
         let mut run = Self::assemble(system, method, memory, q, t, h);
         run.clock = clock;
-        run.stepper.statistics = checkpoint.statistics;
+        run.stepper.statistics = checkpoint.statistics();
         Ok(run)
     }
 

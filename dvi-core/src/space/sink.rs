@@ -46,6 +46,8 @@ pub struct Product<'a, T> {
 }
 
 impl<T: Scalar> Sink<T> for Product<'_, T> {
+    /// # Panics
+    /// If one of the vectors ends before this row or column.
     #[inline(always)]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.sum[row] += entry * self.x[column];
@@ -62,6 +64,8 @@ pub struct TransposedProduct<'a, T> {
 }
 
 impl<T: Scalar> Sink<T> for TransposedProduct<'_, T> {
+    /// # Panics
+    /// If one of the vectors ends before this row or column.
     #[inline(always)]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.sum[column] += entry * self.x[row];

@@ -27,13 +27,15 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// What takes the entries.
     type Entries: Sink<T>;
 
-    /// The entries, all of them set to zero.
+    /// The entries, all of them set to zero. What is added to others than those that the matrix was made with is an error
+    /// when it is solved with.
     fn cleared(&mut self) -> &mut Self::Entries;
 
     /// Overwrites `x` with the solution of A y = x, and A with nothing of use.
     ///
     /// # Errors
-    /// [`StepFailure::Singular`] with the column that has no pivot, and the largest candidate for it.
+    /// [`StepFailure::Singular`] with the column that has no pivot, and the largest candidate for it;
+    /// [`StepFailure::Pattern`] with an entry that has no room.
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure>;
 
     /// Replaces A by its factors.
@@ -49,12 +51,22 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]);
 }
 
-/// A matrix for Newton's method, with room for all second derivatives of L, which do not depend on the point.
-pub(crate) fn of_second_derivatives<S: Lagrangian, T: Real>(system: &S) -> Square<S, T> {
-    let (zero, one) = (T::lift(0.0), T::lift(1.0));
-    let rest: Vector<S, T> = system.space().vector();
-    let all = Weights { qq: one, qv: one, vq: one, vv: one };
-    of_entries(system, [&rest, &rest], zero, all, |_| true)
+/// A matrix for Newton's method, with room for all second derivatives of L. Where they stand does not depend on the point,
+/// but the formulas are evaluated, and are defined at (q, v, t).
+pub(crate) fn of_second_derivatives<S: Lagrangian, T: Real>(
+    system: &S,
+    q: &[T],
+    v: &[T],
+    t: T,
+) -> Square<S, T> {
+    let one = T::lift(1.0);
+    of_entries(system, [q, v], t, Weights { qq: one, qv: one, vq: one, vv: one }, |_| true)
+}
+
+/// A matrix with room for all entries.
+pub(crate) fn full<S: Lagrangian, T: Real>(system: &S) -> Square<S, T> {
+    let n = system.space().dimension();
+    system.space().square(|visit| (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j))))
 }
 
 /// A matrix with room for those second derivatives at (q, v, t) that count.

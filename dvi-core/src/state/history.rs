@@ -66,6 +66,7 @@ impl<S: Lagrangian, T: Real> History<S, T> {
         }
     }
 
+    #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         self.len <= DEPTH && self.next < DEPTH
     }

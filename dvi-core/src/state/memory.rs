@@ -7,6 +7,8 @@
 use alloc::vec::Vec;
 
 #[cfg(feature = "alloc")]
+use crate::Real;
+#[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 
 /// What a run of a method carries from step to step besides the coordinates. Of work space, which each step writes before
@@ -66,6 +68,14 @@ impl<T: Copy> Record<T> {
     pub(crate) fn reader(&self) -> Reader<'_, T> {
         Reader { numbers: &self.numbers, counts: &self.counts }
     }
+
+    /// Whether all numbers are finite, as those of a run are.
+    pub(crate) fn is_finite(&self) -> bool
+    where
+        T: Real,
+    {
+        self.numbers.iter().all(|number| number.is_finite())
+    }
 }
 
 /// What has not been read yet of a [`Record`].
@@ -113,7 +123,8 @@ impl<T: Copy> Reader<'_, T> {
 
 /// `lasting!(T; kind field, …)`: the functions of [`Memory`] for a struct, from the list of what it carries. The kinds are
 ///
-/// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`
+/// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`; `size`, a `T` that is no
+///   part of the motion and may be no number
 /// - `part`, something that has a list of its own; `parts`, an array or `Option` of such, `vectors`, an array of vectors
 ///
 /// After `; name` stands a function that says whether what has been loaded can be gone on with: a file may be damaged.
@@ -162,14 +173,24 @@ macro_rules! lasting {
     (@save count $from:expr, $record:ident) => { $record.count($from as u64) };
     (@save flag $from:expr, $record:ident) => { $record.count(u64::from($from)) };
     (@save bits $from:expr, $record:ident) => { $record.count($from.to_bits()) };
+    (@save size $from:expr, $record:ident) => { $record.count($crate::scalar::norm::reported($from).to_bits()) };
     (@save part $from:expr, $record:ident) => { $from.save($record) };
     (@save parts $from:expr, $record:ident) => { $from.iter().for_each(|part| part.save($record)) };
     (@save vectors $from:expr, $record:ident) => { $from.iter().for_each(|vector| $record.numbers(vector)) };
 
     (@load numbers $to:expr, $reader:ident) => { $reader.numbers(&mut $to)? };
     (@load number $to:expr, $reader:ident) => { $reader.numbers(core::slice::from_mut(&mut $to))? };
-    (@load count $to:expr, $reader:ident) => { $to = $reader.count()? as _ };
-    (@load flag $to:expr, $reader:ident) => { $to = $reader.count()? != 0 };
+    (@load count $to:expr, $reader:ident) => {
+        $to = $reader.count()?.try_into().map_err(|_| $crate::error::CheckpointError::Damaged)?
+    };
+    (@load flag $to:expr, $reader:ident) => {
+        $to = match $reader.count()? {
+            0 => false,
+            1 => true,
+            _ => return Err($crate::error::CheckpointError::Damaged),
+        }
+    };
+    (@load size $to:expr, $reader:ident) => { $to = T::lift(f64::from_bits($reader.count()?)) };
     (@load bits $to:expr, $reader:ident) => { $to = f64::from_bits($reader.count()?) };
     (@load part $to:expr, $reader:ident) => { $to.load($reader)? };
     (@load parts $to:expr, $reader:ident) => { for part in $to.iter_mut() { part.load($reader)?; } };

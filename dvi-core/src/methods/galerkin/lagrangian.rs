@@ -17,8 +17,9 @@ use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::Sink;
+use crate::space::square::full;
 use crate::state::Statistics;
-use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Vector, Weights};
+use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Square, Vector, Weights};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.
 #[derive(Debug)]
@@ -206,6 +207,11 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>
 impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> DiscreteLagrangian<S, T>
     for GalerkinLagrangian<NODES, S, F, T>
 {
+    /// The displacements couple what the nodes do not.
+    fn matrix(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Square<S, T> {
+        full(system)
+    }
+
     fn derivatives(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,

@@ -164,7 +164,8 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
         let left = T::lift(1.0) - sigma;
         let explicit = if S::LINEAR { method.is_end() } else { sigma == T::lift(0.0) };
         let combination = fixed_point_matrix::<S, T>(method, h);
-        let mut inverse = Form::new(system, combination);
+        let mut inverse = Form::new(system, q, t, combination);
+        let rest: Vector<S, T> = space.vector();
         let mut work = Work::new(system);
         if S::LINEAR {
             let mut unused = Statistics::default();
@@ -193,7 +194,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
             product,
             ahead,
             l_d: OneNode::new(system, sigma),
-            ladder: Ladder::new(solver, || of_second_derivatives(system)),
+            ladder: Ladder::new(solver, || of_second_derivatives(system, q, &rest, t)),
             monitor: Monitor::new(system, limit, pace),
             orientation: FormOrientation::new(system, q, t),
             carried: Carried::new(system, method.summation),

@@ -142,6 +142,7 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         }
     }
 
+    #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         let in_order = self.examined <= self.steps && self.steps < u64::MAX / 2;
         in_order && self.period.is_power_of_two() && self.period <= BLOCK
@@ -268,7 +269,7 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
         let has_jumped = self.last().is_some_and(|(_, last)| mode.relative > T::lift(JUMP) * last.relative);
         let is_jump = self.pace == Pace::EachStep && has_jumped;
         self.since_jump = if is_jump { 0 } else { self.since_jump.saturating_add(1) };
-        self.above = if self.is_above(&mode) { self.above + 1 } else { 0 };
+        self.above = if self.is_above(&mode) { self.above.saturating_add(1) } else { 0 };
         (self.examined, self.mode) = (step, mode);
         mode
     }
@@ -306,14 +307,14 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
 impl<S: Lagrangian, T: Real> Memory<T> for Monitor<S, T> {
     lasting!(
         T;
-        vectors points, numbers sizes, number together, count steps, count period, count examined, part mode, count above,
+        vectors points, numbers sizes, size together, count steps, count period, count examined, part mode, count above,
         count since_jump, part first;
         is_sound
     );
 }
 
 impl<T: Real> Memory<T> for ParasiticMode<T> {
-    lasting!(T; number amplitude, number relative, flag is_significant);
+    lasting!(T; size amplitude, size relative, flag is_significant);
 }
 
 impl<T: Real> Memory<T> for First {

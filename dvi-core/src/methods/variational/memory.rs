@@ -86,7 +86,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
             ends: [Local::new(system, reading), Local::new(system, reading)],
             phase: PhasePoint::new(system, q, v, t, method.summation)?,
             inertial: Inertial::new(system, q, v, t)?,
-            ladder: Ladder::new(solver, || of_second_derivatives(system)),
+            ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t)),
             work: Work::new(system),
         })
     }

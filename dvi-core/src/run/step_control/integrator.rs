@@ -3,6 +3,8 @@
 use core::fmt;
 
 use super::{ControlledRun, Reversible, StepControl, reversible};
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
 use crate::error::{StartError, StepError};
 use crate::methods::{Carries, VariableStep};
 #[cfg(feature = "alloc")]
@@ -64,7 +66,8 @@ where
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped.
     ///
     /// # Errors
-    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it is one of another system, method or control.
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and control carry on
+    /// this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
     pub fn resume(
         system: &'a S,
@@ -72,7 +75,7 @@ where
         control: C,
         checkpoint: &Checkpoint<T>,
     ) -> Result<Self, StartError> {
-        let (t, mut h) = (checkpoint.time, checkpoint.step_size);
+        let (t, mut h) = (checkpoint.time(), checkpoint.step_size());
         validate(system, t)?;
         let [q, v] = checkpoint.point(system)?;
         let v = &v[..velocities(system)];
@@ -83,9 +86,11 @@ where
         checkpoint.load::<S, M>(&mut controlled.stepper.memory, |reader| {
             control_memory.load(reader)?;
             clock.load(reader)?;
-            reader.numbers(core::slice::from_mut(&mut h))
+            reader.numbers(core::slice::from_mut(&mut h))?;
+            let is_sound = clock.time() == t && h == checkpoint.step_size() && h != T::lift(0.0);
+            if is_sound { Ok(()) } else { Err(CheckpointError::Damaged) }
         })?;
-        controlled.stepper.statistics = checkpoint.statistics;
+        controlled.stepper.statistics = checkpoint.statistics();
         Ok(Self { controlled, control, control_memory, clock, h })
     }
 

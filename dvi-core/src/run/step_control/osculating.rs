@@ -94,8 +94,16 @@ struct Work<S: RegularLagrangian, T: Real> {
     force_rate: Vector<S, T>,
 }
 
+impl<S: RegularLagrangian, T: Real> OsculatingMemory<S, T> {
+    #[cfg(feature = "alloc")]
+    fn is_sound(&self) -> bool {
+        let zero = T::lift(0.0);
+        self.h != zero && self.circle.radius > zero && self.circle.speed > zero
+    }
+}
+
 impl<S: RegularLagrangian, T: Real> Memory<T> for OsculatingMemory<S, T> {
-    lasting!(T; number h, part circle);
+    lasting!(T; number h, part circle; is_sound);
 }
 
 impl<T: Real> Memory<T> for Circle<T> {

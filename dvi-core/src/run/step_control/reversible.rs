@@ -104,8 +104,15 @@ pub struct ReversibleMemory<S: RegularLagrangian, T: Real> {
     v: Vector<S, T>,
 }
 
+impl<S: RegularLagrangian, T: Real> ReversibleMemory<S, T> {
+    #[cfg(feature = "alloc")]
+    fn is_sound(&self) -> bool {
+        is_density(self.density)
+    }
+}
+
 impl<S: RegularLagrangian, T: Real> Memory<T> for ReversibleMemory<S, T> {
-    lasting!(T; number density);
+    lasting!(T; number density; is_sound);
 }
 
 impl<S: RegularLagrangian, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {

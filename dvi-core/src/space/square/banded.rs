@@ -16,7 +16,7 @@ use crate::{Real, Scalar};
 
 /// A banded matrix, in an order of its own.
 #[derive(Clone, Debug)]
-pub struct Banded<T> {
+pub(super) struct Banded<T> {
     /// The place of each coordinate, and the coordinate of each place.
     place: Vec<u32>,
     coordinate: Vec<u32>,
@@ -27,6 +27,8 @@ pub struct Banded<T> {
     entries: Vec<T>,
     /// The row that was exchanged with row k at stage k.
     pivots: Vec<u32>,
+    /// Row and column of an entry that was added outside of the band.
+    outside: Option<(usize, usize)>,
 }
 
 impl<T: Scalar> Banded<T> {
@@ -46,11 +48,12 @@ impl<T: Scalar> Banded<T> {
         };
         let exchanges = coordinate.iter().enumerate().map(exchange).collect();
         let entries = vec![T::lift(0.0); n * (3 * bandwidth + 1)];
-        Self { place, coordinate, exchanges, bandwidth, entries, pivots: vec![0; n] }
+        Self { place, coordinate, exchanges, bandwidth, entries, pivots: vec![0; n], outside: None }
     }
 
     pub(super) fn clear(&mut self) {
         self.entries.fill(T::lift(0.0));
+        self.outside = None;
     }
 
     /// The width of a row of storage.
@@ -60,8 +63,12 @@ impl<T: Scalar> Banded<T> {
 
     #[inline(always)]
     pub(super) fn add(&mut self, row: usize, column: usize, entry: T) {
-        let (row, column) = (self.place[row] as usize, self.place[column] as usize);
-        let at = row * self.width() + self.bandwidth + column - row;
+        let (i, j) = (self.place[row] as usize, self.place[column] as usize);
+        if i.abs_diff(j) > self.bandwidth {
+            self.outside = Some((row, column));
+            return;
+        }
+        let at = i * self.width() + self.bandwidth + j - i;
         self.entries[at] += entry;
     }
 
@@ -83,6 +90,9 @@ impl<T: Scalar> Banded<T> {
 
 impl<T: Real> Banded<T> {
     pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
+        if let Some((row, column)) = self.outside {
+            return Err(StepFailure::Pattern { row, column });
+        }
         let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
         let rounding = T::default_epsilon() * T::lift(n as f64);
         let entries = &mut self.entries;
@@ -201,7 +211,7 @@ mod tests {
             let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, |visit| {
                 places.iter().for_each(|&(i, j)| visit(i, j));
             });
-            assert!(matches!(matrix, RunTimeSquare::Banded(_)), "{n} {reach} {shuffled}");
+            assert!(matrix.is_banded(), "{n} {reach} {shuffled}");
             let mut reference = DMatrix::zeros(n, n);
             matrix.cleared();
             for &(i, j) in &places {
@@ -233,7 +243,7 @@ mod tests {
         let chain =
             |visit: &mut dyn FnMut(usize, usize)| (1..n).for_each(|i| visit(i * 7 % n, (i - 1) * 7 % n));
         let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, chain);
-        assert!(matches!(matrix, RunTimeSquare::Banded(_)));
+        assert!(matrix.is_banded());
         matrix.cleared();
         (0..n).filter(|&i| i != 12).for_each(|i| matrix.add(i, i, 2.0));
         let failure = matrix.eliminate(&mut alloc::vec![1.0; n]);
@@ -249,7 +259,21 @@ mod tests {
                 }
             };
             let matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, all);
-            assert!(matches!(matrix, RunTimeSquare::Dense(..)));
+            assert!(!matrix.is_banded());
         }
+    }
+
+    #[test]
+    fn an_entry_outside_of_the_pattern_is_an_error() {
+        let n = 30;
+        let diagonal = |visit: &mut dyn FnMut(usize, usize)| (0..n).for_each(|i| visit(i, i));
+        let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, diagonal);
+        (0..n).for_each(|i| matrix.add(i, i, 1.0));
+        matrix.add(3, 4, 1.0);
+        let failure = matrix.eliminate(&mut alloc::vec![1.0; n]);
+        assert_eq!(failure, Err(StepFailure::Pattern { row: 3, column: 4 }));
+        matrix.cleared();
+        (0..n).for_each(|i| matrix.add(i, i, 1.0));
+        assert_eq!(matrix.eliminate(&mut alloc::vec![1.0; n]), Ok(()));
     }
 }

@@ -37,16 +37,15 @@ impl Pattern {
         // The dimension fits.
         let (row, column) = (row as u32, column as u32);
         self.places.extend([(row, column), (column, row)]);
-        let most = FULL * self.dimension;
-        if self.places.len() >= 2 * most {
+        if self.places.len() >= 2 * FULL * self.dimension {
             self.tidy();
-            self.is_full = self.places.len() > most;
         }
     }
 
     fn tidy(&mut self) {
         self.places.sort_unstable();
         self.places.dedup();
+        self.is_full |= self.places.len() > FULL * self.dimension;
     }
 
     /// The order in which the matrix is banded, if that takes at most half of the storage of a full one.

@@ -13,12 +13,13 @@ use crate::{Real, RunTime, Scalar, Space};
 
 /// The square matrix of a [`RunTime`] space.
 #[derive(Clone, Debug)]
-pub enum RunTimeSquare<T> {
+pub struct RunTimeSquare<T>(Storage<T>);
+
+#[derive(Clone, Debug)]
+enum Storage<T> {
     /// All entries, and the permutation of their rows.
-    #[doc(hidden)]
     Dense(RunTimeMatrix<T>, Vec<usize>),
     /// Those near the diagonal.
-    #[doc(hidden)]
     Banded(Banded<T>),
 }
 
@@ -27,19 +28,24 @@ impl<T: Scalar> RunTimeSquare<T> {
     pub(crate) fn new(space: RunTime, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
         let mut pattern = Pattern::new(space.dimension);
         entries(&mut |row, column| pattern.add(row, column));
-        match pattern.banded() {
-            Some(order) => Self::Banded(Banded::new(order)),
-            None => Self::Dense(space.matrix(), space.permutation()),
-        }
+        Self(match pattern.banded() {
+            Some(order) => Storage::Banded(Banded::new(order)),
+            None => Storage::Dense(space.matrix(), space.permutation()),
+        })
+    }
+
+    #[cfg(test)]
+    pub(super) fn is_banded(&self) -> bool {
+        matches!(self.0, Storage::Banded(_))
     }
 }
 
 impl<T: Scalar> Sink<T> for RunTimeSquare<T> {
     #[inline(always)]
     fn add(&mut self, row: usize, column: usize, entry: T) {
-        match self {
-            Self::Dense(matrix, _) => matrix.add(row, column, entry),
-            Self::Banded(banded) => banded.add(row, column, entry),
+        match &mut self.0 {
+            Storage::Dense(matrix, _) => matrix.add(row, column, entry),
+            Storage::Banded(banded) => banded.add(row, column, entry),
         }
     }
 }
@@ -48,16 +54,16 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
     type Entries = Self;
 
     fn cleared(&mut self) -> &mut Self {
-        match self {
-            Self::Dense(matrix, _) => matrix.fill(T::lift(0.0)),
-            Self::Banded(banded) => banded.clear(),
+        match &mut self.0 {
+            Storage::Dense(matrix, _) => matrix.fill(T::lift(0.0)),
+            Storage::Banded(banded) => banded.clear(),
         }
         self
     }
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
-        match self {
-            Self::Dense(matrix, _) => elimination::eliminate(matrix, x),
-            Self::Banded(banded) => {
+        match &mut self.0 {
+            Storage::Dense(matrix, _) => elimination::eliminate(matrix, x),
+            Storage::Banded(banded) => {
                 banded.factor()?;
                 banded.solve(x);
                 Ok(())
@@ -65,21 +71,21 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
         }
     }
     fn factor(&mut self) -> Result<(), StepFailure> {
-        match self {
-            Self::Dense(matrix, permutation) => elimination::factor(matrix, permutation),
-            Self::Banded(banded) => banded.factor(),
+        match &mut self.0 {
+            Storage::Dense(matrix, permutation) => elimination::factor(matrix, permutation),
+            Storage::Banded(banded) => banded.factor(),
         }
     }
     fn solve(&self, x: &mut [T]) {
-        match self {
-            Self::Dense(matrix, permutation) => elimination::solve(matrix, permutation, x),
-            Self::Banded(banded) => banded.solve(x),
+        match &self.0 {
+            Storage::Dense(matrix, permutation) => elimination::solve(matrix, permutation, x),
+            Storage::Banded(banded) => banded.solve(x),
         }
     }
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        match self {
-            Self::Dense(matrix, _) => super::multiply_add(matrix, factor, x, sum),
-            Self::Banded(banded) => banded.multiply_add(factor, x, sum),
+        match &self.0 {
+            Storage::Dense(matrix, _) => super::multiply_add(matrix, factor, x, sum),
+            Storage::Banded(banded) => banded.multiply_add(factor, x, sum),
         }
     }
 }
