@@ -7,7 +7,7 @@ use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest, similar, text};
-use crate::symbolic::{Expr, Node, Relation, binary_by_name, unary_by_name, unary_names};
+use crate::symbolic::{Expr, Node, Relation, binary_by_name, binary_names, unary_by_name, unary_names};
 use crate::syntax::Kind;
 
 /// Methods that are arithmetic rather than functions of the table, with their number of arguments.
@@ -181,7 +181,7 @@ impl Lowering<'_> {
         }
         let own: Vec<String> =
             self.model.functions.iter().map(|function| function.name.to_string()).collect();
-        let mut known: Vec<&str> = unary_names().collect();
+        let mut known: Vec<&str> = unary_names().chain(binary_names()).collect();
         known.extend(ARITHMETIC.iter().map(|(name, _)| *name));
         known.extend(RESERVED);
         known.extend(own.iter().map(String::as_str));

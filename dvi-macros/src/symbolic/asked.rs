@@ -6,9 +6,9 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
+use super::functions::Property;
 use super::graph::{Expr, Fold, Graph, Id, Node, Relation};
 use super::index::Atom;
-use super::rules;
 
 impl Graph {
     /// `value` where `asked` is not zero, else zero.
@@ -16,7 +16,7 @@ impl Graph {
         if asked.is_zero() {
             return Expr::ZERO;
         }
-        let may_be_none = self.has_domain(value.node) || self.depends(value.node, rules::grows_fast);
+        let may_be_none = self.has_domain(value.node) || self.grows_fast(value.node);
         if asked.as_number().is_some() || value.is_zero() || !may_be_none {
             return value;
         }
@@ -71,7 +71,7 @@ impl Graph {
     /// Whether it may be no number somewhere.
     pub(super) fn has_domain(&self, id: Id) -> bool {
         self.depends(id, |node| match node {
-            Node::Unary(function, _) => !rules::is_smooth(*function),
+            Node::Unary(function, _) => !function.has(Property::Smooth),
             Node::Reciprocal(_) | Node::Binary(..) | Node::Call(..) => true,
             _ => false,
         })

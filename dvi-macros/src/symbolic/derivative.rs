@@ -8,7 +8,8 @@
 //! respect to a coordinate from outside is the sum of the derivatives, with respect to its own
 //! coordinates a scatter, weighted by ∂f/∂(the sum). [`Graph::hessian`] does this twice.
 
-use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Unary};
+use super::functions::Unary;
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node};
 use super::index::{Atom, Index, Loop, Range, Renaming};
 use crate::internal::internal;
 

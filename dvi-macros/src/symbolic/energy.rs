@@ -7,7 +7,8 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Unary, Weight};
+use super::functions::Unary;
+use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Weight};
 use super::index::Atom;
 
 impl Graph {

@@ -7,6 +7,7 @@
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 use std::hash::{Hash, Hasher};
 
+use super::functions::Unary;
 use super::index::{Atom, Free, Index, Range};
 use crate::internal::internal;
 
@@ -43,37 +44,6 @@ pub(crate) enum Weight {
     Vv,
     A,
     B,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) enum Unary {
-    Sqrt,
-    Cbrt,
-    Exp,
-    Exp2,
-    ExpM1,
-    Ln,
-    Ln1p,
-    Log2,
-    Log10,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Asinh,
-    Acosh,
-    Atanh,
-    Abs,
-    /// As in `f64`: 1 or −1, with the sign bit of a zero.
-    Signum,
-    /// |u|', which is 0 at 0; the compiler makes it, users do not write it.
-    Sign,
-    Erf,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -14,26 +14,10 @@
 //! | Rᵖ, p > 1; uᵖ, ½ < p < 1 | p·Rᵖ⁻¹·((R²)'/2)/R; p·uᵖ⁻¹ᐟ²·u'/√u |
 //! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
 
-use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
+use super::functions::{Property, Unary};
+use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation};
 use super::index::{Atom, Index, Range};
 use super::powers::{Part, Root, take};
-use super::rules;
-
-/// The odd functions with a finite slope at 0: |f(w)| ≤ C·|w| near it.
-const BOUNDED_BY_ARGUMENT: [Unary; 12] = [
-    Unary::Sin,
-    Unary::Tan,
-    Unary::Asin,
-    Unary::Atan,
-    Unary::Sinh,
-    Unary::Tanh,
-    Unary::Asinh,
-    Unary::Atanh,
-    Unary::Erf,
-    Unary::Abs,
-    Unary::ExpM1,
-    Unary::Ln1p,
-];
 
 impl Graph {
     /// The derivative of `part` with a factor of the others taken in.
@@ -126,7 +110,7 @@ impl Graph {
         match self.node(w) {
             Node::Sum(terms) => terms.iter().all(|term| self.is_below(term.node, root)),
             Node::Product(factors) => factors.iter().any(|(factor, _)| self.is_below(*factor, root)),
-            Node::Unary(function, of) if BOUNDED_BY_ARGUMENT.contains(function) => {
+            Node::Unary(function, of) if function.has(Property::BelowItsArgument) => {
                 self.is_below(of.node, root)
             }
             _ => false,
@@ -195,7 +179,7 @@ impl Graph {
             | Node::Sum(_)
             | Node::Product(_)
             | Node::Reduce { fold: Fold::Sum, .. } => false,
-            Node::Unary(function, _) => !rules::is_smooth(*function),
+            Node::Unary(function, _) => !function.has(Property::Smooth),
             Node::Reciprocal(_)
             | Node::Binary(..)
             | Node::Call(..)
@@ -315,9 +299,7 @@ impl Graph {
                 };
                 factors.iter().all(even)
             }
-            Node::Unary(function, _) => {
-                [Unary::Sqrt, Unary::Exp, Unary::Exp2, Unary::Cosh, Unary::Abs].contains(function)
-            }
+            Node::Unary(function, _) => function.has(Property::NeverNegative),
             Node::Binary(function, ..) => *function == Binary::Hypot,
             Node::Reduce { fold: Fold::Sum, body, .. } => {
                 body.scale > 0.0 && self.is_never_negative(body.node)

@@ -14,7 +14,8 @@
 //!
 //! What stands beside a root is in [`limits`](super::limits).
 
-use super::graph::{Binary, Expr, Graph, Id, Node, Unary};
+use super::functions::Unary;
+use super::graph::{Binary, Expr, Graph, Id, Node};
 use crate::internal::internal;
 
 /// Factors that belong together.

@@ -8,7 +8,8 @@
 //! no multiplication is fused with an addition. Each rule goes one way, and the right side never costs
 //! more than the left.
 
-use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation, Unary};
+use super::functions::Unary;
+use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation};
 use super::index::{Atom, Index, Range};
 use super::rules;
 use crate::internal::internal;
@@ -164,14 +165,14 @@ impl Graph {
     /// f(−x) = ±f(x) for odd and even f; a literal argument gives a literal.
     pub(crate) fn unary(&mut self, function: Unary, of: Expr) -> Expr {
         if let Some(value) = of.as_number() {
-            return Expr::number(rules::evaluate_unary(function, value));
+            return Expr::number(function.evaluate(value));
         }
         if function == Unary::Sqrt
             && let Some(root) = self.root_of_square(of)
         {
             return root;
         }
-        let sign = if of.scale < 0.0 { rules::parity(function) } else { None };
+        let sign = if of.scale < 0.0 { function.parity() } else { None };
         match sign {
             Some(sign) => {
                 let node = self.intern(Node::Unary(function, of.negated()));

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
+use crate::symbolic::rules::evaluate_binary;
 use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Id, Index, Loop, Node, Range, Relation, Weight};
 
 /// What the names of a formula stand for. Every array has the one size that there is.
@@ -149,7 +149,7 @@ impl<'a> Evaluation<'a> {
                 .map(|(factor, exponent)| self.node(*factor, at).powi(*exponent as i32))
                 .product(),
             Node::Reciprocal(of) => 1.0 / self.node(of, at),
-            Node::Unary(function, of) => evaluate_unary(function, self.expr(of, at)),
+            Node::Unary(function, of) => function.evaluate(self.expr(of, at)),
             Node::Binary(function, a, b) => evaluate_binary(function, self.expr(a, at), self.expr(b, at)),
             Node::Call(_, order, of) => own_function(order, self.expr(of, at)),
             Node::Choose { left, relation, right, then, otherwise } => {

@@ -1,14 +1,14 @@
 //! First and second derivatives of every function where formulas lose digits, overflow or divide by
 //! zero: against closed forms that do not.
 
-use crate::symbolic::rules::{UNARY, evaluate_unary};
+use crate::symbolic::functions::{self, UNARY};
 use crate::symbolic::{Binary, Coordinate, Expr, Graph, Id, Index, Node, Unary};
 
 use super::evaluate::{Evaluation, Point};
 
 /// A function, its first two derivatives by other formulas, and the points: where a derivative does not
 /// exist the closed form is not finite, and neither may be what is generated.
-type Row = (&'static str, fn(f64) -> f64, fn(f64) -> f64, &'static [f64]);
+type Extremes = (&'static str, fn(f64) -> f64, fn(f64) -> f64, &'static [f64]);
 
 const REAL: &[f64] = &[0.0, 1e-300, -1e-300, 1e-9, -1e-9, 0.3, 1.0, -1.0, 20.0, -20.0];
 const WIDE: &[f64] = &[0.0, 1e-300, 1e-9, -0.3, 1.0, -20.0, 700.0, -700.0, 1e300, -1e300];
@@ -29,7 +29,7 @@ const LN_2: f64 = core::f64::consts::LN_2;
 const LN_10: f64 = core::f64::consts::LN_10;
 
 #[rustfmt::skip]
-const ROWS: &[Row] = &[
+const ROWS: &[Extremes] = &[
     ("sqrt",   |x| 0.5 / x.sqrt(), |x| -0.25 / x.sqrt() / x, POSITIVE),
     ("cbrt",   |x| x.cbrt() / x / 3.0, |x| -2.0 / 9.0 * x.cbrt() / x / x, &[1e-90, -1e-9, 0.3, 1.0, -20.0, 1e90]),
     ("exp",    f64::exp, f64::exp, &[0.0, -20.0, 20.0, 700.0, -700.0, -1e300]),
@@ -110,14 +110,14 @@ fn agree(what: &str, found: f64, expected: f64) {
 #[test]
 fn every_function_is_as_accurate_as_its_closed_form() {
     assert_eq!(ROWS.len(), UNARY.len());
-    for (name, function, ..) in UNARY {
+    for functions::Row { name, function, .. } in UNARY {
         let (_, first, second, points) =
             ROWS.iter().find(|(known, ..)| known == name).expect("every function has a row");
         let mut plane = Plane::new();
         let f = plane.graph.unary(*function, plane.x.into());
         for x in *points {
             let [value, d, _, dd, ..] = plane.expanded(f, *x, 0.0);
-            assert!(value.is_nan() == evaluate_unary(*function, *x).is_nan());
+            assert!(value.is_nan() == function.evaluate(*x).is_nan());
             agree(&format!("{name}'({x:e})"), d, first(*x));
             agree(&format!("{name}''({x:e})"), dd, second(*x));
         }

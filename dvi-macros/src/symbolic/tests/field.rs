@@ -4,7 +4,6 @@ use core::f64::consts::{FRAC_2_SQRT_PI, LN_2, LN_10};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::symbolic::Unary;
-use crate::symbolic::rules::evaluate_unary;
 
 pub(super) trait Field:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
@@ -53,7 +52,7 @@ impl Field for f64 {
         value
     }
     fn unary(function: Unary, of: Self) -> Self {
-        evaluate_unary(function, of)
+        function.evaluate(of)
     }
     fn ordered(a: Self, b: Self) -> Option<bool> {
         (a != b).then_some(a < b)
@@ -127,7 +126,7 @@ impl Field for Bounded {
         Self { value, error: 0.0 }
     }
     fn unary(function: Unary, of: Self) -> Self {
-        let value = evaluate_unary(function, of.value);
+        let value = function.evaluate(of.value);
         let error = slope(function, of.value).abs() * of.error + value.abs();
         let jumps = matches!(function, Unary::Abs | Unary::Signum | Unary::Sign);
         if jumps && Self::ordered(of, Self::lift(0.0)).is_none() {

@@ -12,7 +12,7 @@ use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::program::{DegenerateFormulas, DegeneratePrograms, Place, Statement};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
-use crate::symbolic::rules::{evaluate_binary, evaluate_unary};
+use crate::symbolic::rules::evaluate_binary;
 use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Node, Range, Size};
 
 /// Entries of the outputs by name, each with what was added to it and the sizes of the parts.
@@ -93,7 +93,7 @@ impl Machine<'_> {
             Instruction::Multiply(a, b) => self.register(*a) * self.register(*b),
             Instruction::Divide(a, b) => self.register(*a) / self.register(*b),
             Instruction::Sum(terms) => terms.iter().map(|term| self.signed(*term)).sum(),
-            Instruction::Unary(function, of) => evaluate_unary(*function, self.signed(*of)),
+            Instruction::Unary(function, of) => function.evaluate(self.signed(*of)),
             Instruction::Binary(function, a, b) => {
                 evaluate_binary(*function, self.signed(*a), self.signed(*b))
             }
