@@ -38,7 +38,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("symbolic/derivative.rs", "let mut factor = self.multiply(outer.factor, partial);", "let mut factor = partial;"),
     mistake("symbolic/derivative.rs", "range.without(Index::open(depth))", "range.clone()"),
     mistake("symbolic/derivative.rs", "let range = outer.range.as_written();", "let range = outer.range.clone();"),
-    mistake("symbolic/rules.rs", "Unary::Cos    => self.unary(Unary::Sin, u).negated(),", "Unary::Cos    => self.unary(Unary::Sin, u),"),
+    mistake("symbolic/functions.rs", "graph.unary(Unary::Sin, u).negated();", "graph.unary(Unary::Sin, u);"),
     // An index takes the name of that of a sum inside.
     mistake("symbolic/graph.rs", "Node::Reduce { height, range, .. } => {\n                let rest", "Node::Reduce { height, range, .. } if *height > 9 => {\n                let rest"),
 ];
