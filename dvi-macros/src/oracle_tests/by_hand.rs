@@ -32,6 +32,9 @@ const HAMILTONIANS: &[&str] = &[
     "sum(-1..2, |k| x[k + 1])",
     "sum_pairs(-2..1, |i, j| x[i + 2] * y[j + 2])",
     "sum(0..N, |i| sum(i - 1..i + 2, |k| x[k % N] * y[i]))",
+    // Exponents that are zero for one index, and not beside it.
+    "product(0..2, |i| (2 + x[i]).powf(x[1] - x[i]))",
+    "sum(0..N, |i| (u * u + 1).powf(u * (i as f64)) + (2 + x[i]).powf(i as f64))",
     // A power that overflows before it divides.
     "u.powi(-600) + w",
     // A branch that is not taken has no value.

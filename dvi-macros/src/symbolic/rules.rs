@@ -97,10 +97,15 @@ impl Graph {
                 let less = self.subtract(b, Expr::ONE);
                 let power = self.binary(Binary::Powf, a, less);
                 let logarithm = self.unary(Unary::Ln, a);
-                // a⁰ does not change with a, not even where a⁻¹ is no number.
-                let slope = self.multiply(b, power);
-                let squared = self.power(b, 2);
-                [self.where_asked(squared, slope), self.multiply(f, logarithm)]
+                let mut slope = self.multiply(b, power);
+                let varies =
+                    |node: &Node| matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time);
+                if !self.depends(b.node, varies) {
+                    // a⁰ does not change with a, not even where a⁻¹ is no number.
+                    let squared = self.power(b, 2);
+                    slope = self.where_asked(squared, slope);
+                }
+                [slope, self.multiply(f, logarithm)]
             }
             Binary::OverRoot => {
                 let over = self.reciprocal(b);
