@@ -143,7 +143,7 @@ macro_rules! lasting {
             &mut self,
             reader: &mut $crate::state::memory::Reader<'_, $T>,
         ) -> Result<(), $crate::error::CheckpointError> {
-            $($crate::state::memory::lasting!(@load $kind self.$field, reader);)*
+            $($crate::state::memory::lasting!(@load $T, $kind self.$field, reader);)*
             $(
                 if !self.$sound() {
                     return Err($crate::error::CheckpointError::Damaged);
@@ -178,22 +178,22 @@ macro_rules! lasting {
     (@save parts $from:expr, $record:ident) => { $from.iter().for_each(|part| part.save($record)) };
     (@save vectors $from:expr, $record:ident) => { $from.iter().for_each(|vector| $record.numbers(vector)) };
 
-    (@load numbers $to:expr, $reader:ident) => { $reader.numbers(&mut $to)? };
-    (@load number $to:expr, $reader:ident) => { $reader.numbers(core::slice::from_mut(&mut $to))? };
-    (@load count $to:expr, $reader:ident) => {
+    (@load $T:ty, numbers $to:expr, $reader:ident) => { $reader.numbers(&mut $to)? };
+    (@load $T:ty, number $to:expr, $reader:ident) => { $reader.numbers(core::slice::from_mut(&mut $to))? };
+    (@load $T:ty, count $to:expr, $reader:ident) => {
         $to = $reader.count()?.try_into().map_err(|_| $crate::error::CheckpointError::Damaged)?
     };
-    (@load flag $to:expr, $reader:ident) => {
+    (@load $T:ty, flag $to:expr, $reader:ident) => {
         $to = match $reader.count()? {
             0 => false,
             1 => true,
             _ => return Err($crate::error::CheckpointError::Damaged),
         }
     };
-    (@load size $to:expr, $reader:ident) => { $to = T::lift(f64::from_bits($reader.count()?)) };
-    (@load bits $to:expr, $reader:ident) => { $to = f64::from_bits($reader.count()?) };
-    (@load part $to:expr, $reader:ident) => { $to.load($reader)? };
-    (@load parts $to:expr, $reader:ident) => { for part in $to.iter_mut() { part.load($reader)?; } };
-    (@load vectors $to:expr, $reader:ident) => { for vector in $to.iter_mut() { $reader.numbers(vector)?; } };
+    (@load $T:ty, size $to:expr, $reader:ident) => { $to = <$T>::lift(f64::from_bits($reader.count()?)) };
+    (@load $T:ty, bits $to:expr, $reader:ident) => { $to = f64::from_bits($reader.count()?) };
+    (@load $T:ty, part $to:expr, $reader:ident) => { $to.load($reader)? };
+    (@load $T:ty, parts $to:expr, $reader:ident) => { for part in $to.iter_mut() { part.load($reader)?; } };
+    (@load $T:ty, vectors $to:expr, $reader:ident) => { for vector in $to.iter_mut() { $reader.numbers(vector)?; } };
 }
 pub(crate) use lasting;

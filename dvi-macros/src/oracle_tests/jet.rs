@@ -188,10 +188,13 @@ impl Jet {
                 return far.then(|| if takes_self { self.clone() } else { other.clone() });
             }
             BinaryFunction::Powf => {
-                let (f, ln) = (a.powf(b), a.ln());
+                // Whole exponents that are constant here have negative bases too.
+                let is_whole = other.active.is_empty() && b.fract() == 0.0;
+                let (ln, distance) = if is_whole { (0.0, a.abs()) } else { (a.ln(), a) };
+                let f = a.powf(b);
                 let fa = b * a.powf(b - 1.0);
                 let fab = a.powf(b - 1.0) * (1.0 + b * ln);
-                (f, [fa, f * ln, b * (b - 1.0) * a.powf(b - 2.0), fab, f * ln * ln], a)
+                (f, [fa, f * ln, b * (b - 1.0) * a.powf(b - 2.0), fab, f * ln * ln], distance)
             }
         };
         if distance < 1e-2 || r2 > 1e6 {

@@ -3,6 +3,7 @@
 //! It knows the subset in which generated functions are written and nothing more: what it does not know
 //! ends the test with the text of the construct, because what is not run is not compared.
 
+mod arithmetic;
 mod code;
 mod functions;
 mod parse;

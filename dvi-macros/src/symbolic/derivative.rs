@@ -104,10 +104,11 @@ impl Graph {
                     return Expr::ZERO;
                 }
                 let partials = self.binary_derivatives(function, a, b, of.into());
-                let terms =
-                    [self.multiply(partials[0], tangents[0]), self.multiply(partials[1], tangents[1])];
-                let derivative = self.factored_sum(&terms);
-                self.unless_empty(&tangents, derivative)
+                let terms = [0, 1].map(|k| {
+                    let term = self.multiply(partials[k], tangents[k]);
+                    self.unless_empty(&[tangents[k]], term)
+                });
+                self.factored_sum(&terms)
             }
             Node::Choose { left, relation, right, then, otherwise } => {
                 let (then, otherwise) = (self.derivative(then, by), self.derivative(otherwise, by));

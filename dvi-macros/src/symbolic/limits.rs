@@ -217,8 +217,8 @@ impl Graph {
         Some(self.multiply(rest, quotient).scaled(p))
     }
 
-    /// The derivative of f(u, …), where u, or u' and its like, may be sums of no terms: f does not change then, whatever its
-    /// own derivatives are.
+    /// The derivative of f(u), where u or u' may be a sum of no terms or a branch that is zero: f does not change then, whatever
+    /// its own derivative is.
     pub(super) fn unless_empty(&mut self, sums: &[Expr], derivative: Expr) -> Expr {
         if derivative.is_zero() {
             return derivative;
@@ -232,7 +232,8 @@ impl Graph {
         self.choose(terms, Relation::HasMore, Expr::ZERO, derivative, Expr::ZERO)
     }
 
-    /// The number of terms in a sum over indices, in the sums inside of it, and in products with such sums.
+    /// The number of terms in a sum over indices, in the sums inside of it, and in products with such sums; a branch that is
+    /// written as zero has none.
     fn terms(&mut self, node: Id) -> Expr {
         match self.node(node).clone() {
             Node::Reduce { fold: Fold::Sum, height, range, body } => {
@@ -256,7 +257,10 @@ impl Graph {
                 self.product(&counts)
             }
             Node::Choose { left, relation, right, then, otherwise } => {
-                let [then, otherwise] = [then, otherwise].map(|branch| self.terms(branch.node));
+                let [then, otherwise] = [then, otherwise].map(|branch| match branch.is_zero() {
+                    true => Expr::ZERO,
+                    false => self.terms(branch.node),
+                });
                 self.choose(left, relation, right, then, otherwise)
             }
             _ => Expr::ONE,

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use super::arithmetic::{cast, integer_method, kind_of, operation};
 use super::code::{Code, Function, Operator, Pattern};
 use super::functions::Callee;
 use super::parse::Expansion;
@@ -26,7 +27,7 @@ pub(crate) struct Machine<'a> {
 }
 
 /// Why the next step is not the one below.
-enum Jump {
+pub(super) enum Jump {
     Continue,
     Return(Value),
     Panic(String),
@@ -34,7 +35,7 @@ enum Jump {
 
 type Step = Result<Value, Jump>;
 
-fn panicked(reason: impl Into<String>) -> Jump {
+pub(super) fn panicked(reason: impl Into<String>) -> Jump {
     Jump::Panic(reason.into())
 }
 
@@ -315,23 +316,6 @@ impl Machine<'_> {
     }
 }
 
-fn integer_method(name: &str, kind: Kind, value: i128, other: Option<i128>) -> Result<i128, Jump> {
-    let other = other.unwrap_or_else(|| panic!("`{name}` of an integer takes an argument"));
-    let (least, turn) = match kind {
-        Kind::Usize => (0, 1_i128 << 64),
-        _ => (i128::from(i64::MIN), 1_i128 << 64),
-    };
-    Ok(match name {
-        "wrapping_sub" => (value - other - least).rem_euclid(turn) + least,
-        "wrapping_add" => (value + other - least).rem_euclid(turn) + least,
-        "saturating_sub" => (value - other).max(least),
-        "max" => value.max(other),
-        "min" => value.min(other),
-        "rem_euclid" => value.checked_rem_euclid(other).ok_or_else(|| panicked("a remainder by zero"))?,
-        _ => panic!("the interpreter does not know the method `{name}` of an integer"),
-    })
-}
-
 fn bind(pattern: &Pattern, value: Value, slots: &mut [Value]) {
     match (pattern, value) {
         (Pattern::Slot(slot), value) => slots[*slot] = value,
@@ -340,69 +324,5 @@ fn bind(pattern: &Pattern, value: Value, slots: &mut [Value]) {
             patterns.iter().zip(values).for_each(|(pattern, value)| bind(pattern, value, slots));
         }
         (Pattern::Tuple(_), other) => panic!("{other:?} is no tuple"),
-    }
-}
-
-fn kind_of(value: &Value) -> Kind {
-    match value {
-        Value::Integer(_, kind) => *kind,
-        _ => Kind::Usize,
-    }
-}
-
-fn cast(value: &Value, kind: Kind) -> Value {
-    if kind == Kind::F64 {
-        return Value::Real(match value {
-            Value::Real(value) => *value,
-            other => other.integer() as f64,
-        });
-    }
-    let value = value.integer();
-    let turn = if kind == Kind::I32 { 1_i128 << 32 } else { 1_i128 << 64 };
-    let least = if kind == Kind::Usize { 0 } else { -turn / 2 };
-    Value::Integer((value - least).rem_euclid(turn) + least, kind)
-}
-
-fn operation(operator: Operator, left: Value, right: Value) -> Step {
-    use Operator::{Add, Divide, Multiply, Remainder, Subtract};
-    let value = match (left, right) {
-        (Value::Real(a), Value::Real(b)) => match operator {
-            Add => Value::Real(a + b),
-            Subtract => Value::Real(a - b),
-            Multiply => Value::Real(a * b),
-            Divide => Value::Real(a / b),
-            Remainder => panic!("the interpreter takes remainders of integers"),
-            relation => Value::Bool(related(relation, &a, &b)),
-        },
-        (left, right) => {
-            let kind = kind_of(&left).joined(kind_of(&right));
-            let (a, b) = (left.integer(), right.integer());
-            let value = match operator {
-                Add => a + b,
-                Subtract => a - b,
-                Multiply => a * b,
-                Divide | Remainder if b == 0 => return Err(panicked("a division by zero")),
-                Divide => a / b,
-                Remainder => a % b,
-                relation => return Ok(Value::Bool(related(relation, &a, &b))),
-            };
-            if !kind.holds(value) {
-                return Err(panicked(format!("{a} {operator:?} {b} overflows {kind:?}")));
-            }
-            Value::Integer(value, kind)
-        }
-    };
-    Ok(value)
-}
-
-fn related<V: PartialOrd>(relation: Operator, a: &V, b: &V) -> bool {
-    match relation {
-        Operator::Equal => a == b,
-        Operator::NotEqual => a != b,
-        Operator::Less => a < b,
-        Operator::LessOrEqual => a <= b,
-        Operator::Greater => a > b,
-        Operator::GreaterOrEqual => a >= b,
-        other => panic!("the interpreter does not compare by {other:?}"),
     }
 }

@@ -2,7 +2,7 @@
 //! zero: against closed forms that do not.
 
 use crate::symbolic::functions::{self, UNARY};
-use crate::symbolic::{Binary, Coordinate, Expr, Graph, Id, Index, Node, Unary};
+use crate::symbolic::{Binary, Coordinate, Expr, Graph, Id, Index, Node, Relation, Unary};
 
 use super::evaluate::{Evaluation, Point};
 
@@ -135,6 +135,21 @@ fn powers_at_zero() {
             agree(&format!("{x:e}^{power}"), value, x.powf(power));
             agree(&format!("{power}·{x:e}^({power} − 1)"), d, power * x.powf(power - 1.0));
             agree(&format!("({x:e}^{power})''"), dd, power * (power - 1.0) * x.powf(power - 2.0));
+        }
+    }
+}
+
+/// √u with u = x from 1 on and zero before, where the slope of the root itself is infinite.
+#[test]
+fn a_root_of_a_branch_that_is_zero() {
+    let mut plane = Plane::new();
+    let x = plane.x.into();
+    let u = plane.graph.choose(x, Relation::Less, Expr::ONE, Expr::ZERO, x);
+    let f = plane.graph.unary(Unary::Sqrt, u);
+    for (x, expected) in [(-3.0, [0.0; 3]), (0.5, [0.0; 3]), (4.0, [2.0, 0.25, -0.03125])] {
+        let [value, d, _, dd, ..] = plane.expanded(f, x, 0.0);
+        for (found, expected) in [value, d, dd].into_iter().zip(expected) {
+            agree(&format!("√u at x = {x}"), found, expected);
         }
     }
 }
