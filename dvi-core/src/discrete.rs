@@ -77,7 +77,7 @@ impl<S, T: Copy> Copy for Span<'_, S, T> {}
 ///
 /// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so that nothing
 /// is allocated.
-pub trait DiscreteLagrangian<S: Lagrangian, T: Real> {
+pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
     /// A matrix with room for D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here it has the entries of ∂²L in all blocks,
     /// as a sum over nodes has whose points depend on the ends alone.
     fn matrix(&self, system: &S, q: &[T], v: &[T], t: T) -> Square<S, T> {
@@ -111,7 +111,7 @@ pub trait DiscreteLagrangian<S: Lagrangian, T: Real> {
 }
 
 /// A discrete Lagrangian with all of its second derivatives, from which tangent maps and the preserved two-form come.
-pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> {
+pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, T> {
     /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, and D₂D₂L_d to sinks.
     ///
     /// # Errors
@@ -125,7 +125,7 @@ pub trait TwiceDifferentiable<S: Lagrangian, T: Real>: DiscreteLagrangian<S, T> 
 /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], or those of the discrete Lagrangian.
 #[inline]
 #[allow(clippy::too_many_arguments)]
-pub(crate) fn solve_by_newton<S: Lagrangian, T: Real>(
+pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
     l_d: &mut impl DiscreteLagrangian<S, T>,
     system: &S,
     interval: Interval<T>,

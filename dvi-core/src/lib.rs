@@ -93,11 +93,12 @@ pub mod system;
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError};
-pub use scalar::{Comparison, Number, Real, Scalar};
+pub use scalar::{Comparison, Number, Parameter, Real, Scalar, Varied};
 pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 #[cfg(feature = "alloc")]
 pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
     AffineOneForm, CoordinateBlock, DegenerateLagrangian, Entry, Formula, Lagrangian, Matrix, OperationCount,
-    Permutation, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, Vector, Weights,
+    Permutation, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, System, Vector,
+    Weights,
 };

@@ -20,7 +20,7 @@ use crate::discrete::TwiceDifferentiable;
 use crate::error::{StartError, StepFailure};
 use crate::state::Statistics;
 use crate::state::memory::Memory;
-use crate::{Lagrangian, Real, Vector};
+use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::{Composition, CompositionMemory};
 pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
@@ -100,13 +100,13 @@ impl<T: Real> Clock<T> {
 ///
 /// It is known for systems of either kind, so that a method meets the question whether it can step a system at one
 /// place only, where a run begins, and the user reads one error.
-pub trait Carries<S: Lagrangian, T: Real> {
+pub trait Carries<S: System, T: Real> {
     /// What a run carries from step to step besides the coordinates: momenta, guesses, work space.
     type Memory: Memory<T>;
 }
 
 /// A method that can step a system `S` in the arithmetic of `T`.
-pub trait Method<S: Lagrangian, T: Real>: Scheme + Carries<S, T> {
+pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     /// Prepares a run with step `h` from (`q`, `t`), with velocity `v` if the system is regular; for
     /// degenerate systems `v` is empty. Everything that needs memory is allocated here.
     ///
@@ -181,7 +181,7 @@ pub trait Method<S: Lagrangian, T: Real>: Scheme + Carries<S, T> {
 }
 
 #[inline(always)]
-pub(crate) fn one_by_one<S: Lagrangian, T: Real, M: Method<S, T> + ?Sized>(
+pub(crate) fn one_by_one<S: Lagrangian<T>, T: Real, M: Method<S, T> + ?Sized>(
     method: &M,
     system: &S,
     memory: &mut M::Memory,
@@ -198,7 +198,7 @@ pub(crate) fn one_by_one<S: Lagrangian, T: Real, M: Method<S, T> + ?Sized>(
 }
 
 /// A method whose run is determined by two consecutive points.
-pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {
+pub trait TwoPoint<S: Lagrangian<T>, T: Real>: Method<S, T> {
     /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
     ///
     /// # Errors
@@ -215,7 +215,7 @@ pub trait TwoPoint<S: Lagrangian, T: Real>: Method<S, T> {
 
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
 /// may follow one another.
-pub trait VariableStep<S: Lagrangian, T: Real>: Method<S, T> {}
+pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {}
 
 /// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`] around it, it
 /// is a method.
@@ -227,7 +227,7 @@ pub trait VariableStep<S: Lagrangian, T: Real>: Method<S, T> {}
     label = "its steps are not variational, or it reads a frequency from the motion",
     note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
 )]
-pub trait VariationalMethod<S: Lagrangian, T: Real>: Scheme {
+pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
     type DiscreteLagrangian: TwiceDifferentiable<S, T>;
 

@@ -15,6 +15,6 @@ pub use crate::run::{
 };
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::Summation;
-pub use crate::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
+pub use crate::{DegenerateLagrangian, Lagrangian, RegularLagrangian, System};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

@@ -4,6 +4,7 @@
 pub use alloc::vec::Vec;
 
 pub use crate::Number;
+pub use crate::system::stand_in::StandIn;
 
 #[cfg(feature = "alloc")]
 use crate::Scalar;

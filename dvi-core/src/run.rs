@@ -11,7 +11,7 @@ use crate::error::{StepError, StepFailure};
 use crate::methods::{Carries, Clock, Method};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Space, State, Vector};
+use crate::{Lagrangian, Real, Space, State, System, Vector};
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
@@ -26,7 +26,7 @@ pub use step_control::{
 /// take either.
 pub trait Run {
     /// The system that is stepped.
-    type System: Lagrangian;
+    type System: Lagrangian<Self::Scalar>;
     /// The method that takes the steps.
     type Method: Method<Self::System, Self::Scalar>;
     /// The numbers that it is done with.
@@ -59,7 +59,7 @@ pub trait Run {
 
     /// The current state. The velocities of a regular system are not a number where the mass matrix is
     /// singular and the momenta have no velocity; an iterator yields an error there.
-    fn state(&self) -> <Self::System as Lagrangian>::State<Self::Scalar> {
+    fn state(&self) -> <Self::System as System>::State<Self::Scalar> {
         let Stepper { system, q, .. } = self.stepper();
         self.stepper().with_velocity(self.time(), |v| State::read(|block| system.block_len(block), q, v))
     }
@@ -127,7 +127,7 @@ pub trait Run {
 
 /// A system, a method that steps it, and the point that they have reached. It does not know the time: the run that it
 /// is part of does.
-pub struct Stepper<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
+pub struct Stepper<'a, S: System, M: Carries<S, T>, T: Real> {
     pub(crate) system: &'a S,
     pub(crate) method: M,
     pub(crate) memory: M::Memory,
@@ -136,7 +136,7 @@ pub struct Stepper<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
     pub(crate) failed: bool,
 }
 
-impl<S: Lagrangian, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<'_, S, M, T> {
+impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<'_, S, M, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Stepper")
             .field("system", &S::REPORT.system)
@@ -147,7 +147,7 @@ impl<S: Lagrangian, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepp
     }
 }
 
-impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
+impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
     pub(crate) fn new(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
         Self { system, method, memory, q, statistics: Statistics::default(), failed: false }
     }

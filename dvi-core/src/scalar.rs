@@ -14,7 +14,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use nalgebra::RealField;
 
-pub use number::Number;
+pub use number::{Number, Parameter, Varied};
 
 /// How an `if` of a formula compares its two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

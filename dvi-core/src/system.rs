@@ -12,6 +12,7 @@
 //! this crate pass no others.
 
 mod report;
+pub(crate) mod stand_in;
 pub(crate) mod start;
 
 use core::fmt::Debug;
@@ -23,17 +24,17 @@ use crate::{Scalar, Space};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 
 /// A point, velocity or covector of the space of `S`.
-pub type Vector<S, T> = <<S as Lagrangian>::Space as Space>::Vector<T>;
+pub type Vector<S, T> = <<S as System>::Space as Space>::Vector<T>;
 /// A square matrix over the space of `S`.
-pub type Matrix<S, T> = <<S as Lagrangian>::Space as Space>::Matrix<T>;
+pub type Matrix<S, T> = <<S as System>::Space as Space>::Matrix<T>;
 /// A square matrix over the space of `S` that is solved with.
-pub type Square<S, T> = <<S as Lagrangian>::Space as Space>::Square<T>;
+pub type Square<S, T> = <<S as System>::Space as Space>::Square<T>;
 /// A row permutation over the space of `S`.
-pub type Permutation<S> = <<S as Lagrangian>::Space as Space>::Permutation;
+pub type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 
 /// A state with named coordinates, as users see it: (q, v) for a regular system, q for a degenerate one.
 ///
-/// `block_len` gives the size of each coordinate block, as [`Lagrangian::block_len`] does. States of
+/// `block_len` gives the size of each coordinate block, as [`System::block_len`] does. States of
 /// degenerate systems have no velocities: they leave `v` alone, and it may be empty.
 pub trait State<T: Scalar>: Sized {
     /// Writes the coordinates into `q` and the velocities into `v`, both in the order of declaration.
@@ -58,12 +59,12 @@ pub struct Weights<T> {
     pub vv: T,
 }
 
-/// A mechanical system with Lagrangian L(q, v, t).
+/// A mechanical system, whatever numbers it is computed in: its configuration space, its states, its report.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system",
     label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`"
 )]
-pub trait Lagrangian {
+pub trait System {
     /// The shape of the configuration space.
     type Space: Space;
     /// The state with named coordinates.
@@ -82,15 +83,26 @@ pub trait Lagrangian {
     /// # Errors
     /// [`IndexError`] names the first array that is too short, and the index.
     fn check(&self) -> Result<(), IndexError>;
+}
 
+/// The Lagrangian L(q, v, t) of a system, in numbers of type `T`.
+///
+/// A system whose parameters are Rust's numbers has it for every [`Scalar`]. One that is generic over the type of its
+/// parameters, `struct Kepler<P = f64> { mu: P }`, has it where that type is a [`Parameter`](crate::Parameter) of `T`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a system that can be computed in `{T}`",
+    label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`, or a parameter that is no number",
+    note = "parameters are numbers of Rust, or of type `Varied<{T}>`"
+)]
+pub trait Lagrangian<T: Scalar = f64>: System {
     /// L(q, v, t).
-    fn lagrangian<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
+    fn lagrangian(&self, q: &[T], v: &[T], t: T) -> T;
     /// Sets `l_q` to ∂L/∂q and `l_v` to ∂L/∂v.
-    fn gradient<T: Scalar>(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
+    fn gradient(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
     /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j),
     /// w.qq ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ.
     #[allow(clippy::too_many_arguments)]
-    fn linearize<T: Scalar, K: Sink<T>>(
+    fn linearize<K: Sink<T>>(
         &self,
         q: &[T],
         v: &[T],
@@ -102,10 +114,10 @@ pub trait Lagrangian {
     );
 
     /// The energy E = v·∂L/∂v − L. For degenerate systems this is H(q, t), and `v` may be empty.
-    fn energy<T: Scalar>(&self, q: &[T], v: &[T], t: T) -> T;
+    fn energy(&self, q: &[T], v: &[T], t: T) -> T;
     /// The value J(q, v, t) of declared momentum `index` (see [`Report::momenta`]). Momenta of degenerate
     /// systems do not depend on v, which may be empty there.
-    fn momentum<T: Scalar>(&self, index: usize, q: &[T], v: &[T], t: T) -> T;
+    fn momentum(&self, index: usize, q: &[T], v: &[T], t: T) -> T;
 }
 
 /// A system with L(q, v, t) = α(q, t)·v − H(q, t).
@@ -114,10 +126,10 @@ pub trait Lagrangian {
 /// a = −1, b = 1, the matrix of the explicit step a = 0, b = 1 (Rowley & Marsden 2002, eq. 17).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
-    label = "its Lagrangian is regular, or it has no attribute",
+    label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
     note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin` or `Newmark`"
 )]
-pub trait DegenerateLagrangian: Lagrangian {
+pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
     const LINEAR: bool;
     /// Whether Dα couples each coordinate to exactly one other, its partner, and to nothing else; then
@@ -129,33 +141,33 @@ pub trait DegenerateLagrangian: Lagrangian {
     const CANONICAL: bool;
 
     /// H(q, t).
-    fn hamiltonian<T: Scalar>(&self, q: &[T], t: T) -> T;
+    fn hamiltonian(&self, q: &[T], t: T) -> T;
     /// Sets `out` to ∇H(q, t).
-    fn hamiltonian_gradient<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    fn hamiltonian_gradient(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets `out` to ∇H(q, t) + ∂α/∂t: the right side of Ω q' = ∇H + ∂α/∂t, the equation of the flow.
-    fn flow_source<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    fn flow_source(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets `out` to the components of α(q, t).
-    fn one_form<T: Scalar>(&self, q: &[T], t: T, out: &mut [T]);
+    fn one_form(&self, q: &[T], t: T, out: &mut [T]);
     /// Adds a Dα + b (Dα)ᵀ to `sink`.
-    fn one_form_jacobian<T: Scalar, K: Sink<T>>(&self, q: &[T], t: T, a: T, b: T, sink: &mut K);
+    fn one_form_jacobian<K: Sink<T>>(&self, q: &[T], t: T, a: T, b: T, sink: &mut K);
     /// Where [`CANONICAL`](Self::CANONICAL) holds: sets `out[i]` to the entry of a Dα + b (Dα)ᵀ in row i
     /// and the column of i's partner. Elsewhere it leaves zeros.
-    fn partner_entries<T: Scalar>(&self, q: &[T], t: T, a: T, b: T, out: &mut [T]);
+    fn partner_entries(&self, q: &[T], t: T, a: T, b: T, out: &mut [T]);
     /// Where [`CANONICAL`](Self::CANONICAL) holds: the partner of coordinate `i`, of any index below the
     /// dimension. Elsewhere `i` itself.
     fn partner(&self, i: usize) -> usize;
     /// Sets `out` to the gradient ∂J/∂q of declared momentum `index`.
-    fn momentum_gradient<T: Scalar>(&self, index: usize, q: &[T], t: T, out: &mut [T]);
+    fn momentum_gradient(&self, index: usize, q: &[T], t: T, out: &mut [T]);
 }
 
 /// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform
 /// (q, v) ↦ (q, p = ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
-    label = "its Lagrangian is degenerate, or it has no attribute",
+    label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
     note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `RungeKutta` or `Gauss`"
 )]
-pub trait RegularLagrangian: Lagrangian {
+pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no
     /// term is linear in v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
     /// Störmer and Verlet (Marsden & West 2001, section 2.6).
@@ -167,7 +179,7 @@ pub trait RegularLagrangian: Lagrangian {
 
     /// Sets `out` to ∂L/∂q alone. Where [`SEPARABLE`](Self::SEPARABLE) holds, this is −∇V(q, t): `v` is
     /// not read, and may be empty.
-    fn force<T: Scalar>(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
+    fn force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
 }
 
 /// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
@@ -177,7 +189,7 @@ pub trait RegularLagrangian: Lagrangian {
     label = "its report says what the mass matrix depends on",
     note = "`Variational` and `Galerkin` step any regular system"
 )]
-pub trait Separable: RegularLagrangian {}
+pub trait Separable<T: Scalar = f64>: RegularLagrangian<T> {}
 
 /// A system whose L is a polynomial of degree at most two in v. The attribute implements it where
 /// [`QUADRATIC`](RegularLagrangian::QUADRATIC) holds.
@@ -185,7 +197,7 @@ pub trait Separable: RegularLagrangian {}
     message = "the Lagrangian of `{Self}` is not quadratic in the velocities",
     label = "p = ∂L/∂v is not affine in v"
 )]
-pub trait QuadraticInVelocity: RegularLagrangian {}
+pub trait QuadraticInVelocity<T: Scalar = f64>: RegularLagrangian<T> {}
 
 /// A system whose α is affine in q with constant coefficients. The attribute implements it where
 /// [`LINEAR`](DegenerateLagrangian::LINEAR) holds.
@@ -193,4 +205,4 @@ pub trait QuadraticInVelocity: RegularLagrangian {}
     message = "the one-form of `{Self}` is not affine in the coordinates",
     label = "Dα is not one constant matrix"
 )]
-pub trait AffineOneForm: DegenerateLagrangian {}
+pub trait AffineOneForm<T: Scalar = f64>: DegenerateLagrangian<T> {}

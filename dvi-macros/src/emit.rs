@@ -283,9 +283,14 @@ impl Function<'_> {
 
     fn parameter(&self, parameter: &Parameter) -> TokenStream {
         let krate = self.emitter.krate();
-        let place = &self.emitter.model.parameters[parameter.field as usize].tokens;
+        let name = &self.emitter.model.parameters[parameter.field as usize];
         let indices = parameter.indices.iter().map(|index| self.emitter.index(index));
-        quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place #([#indices])*)))
+        let place = &name.tokens;
+        let place = quote!(#place #([#indices])*);
+        match &name.generic {
+            Some(generic) => quote!(<#generic as #krate::Parameter<__T>>::value(#place)),
+            None => quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place))),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 //! Each generated function cuts its flat slices into one slice per coordinate block, and runs the
 //! body that [`Emitter`] writes:
 //! ```text
-//! fn hamiltonian_gradient<__T: Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+//! fn hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
 //!     let (__q0, __rest) = __q.split_at(N);
 //!     let (__q1, __rest) = __rest.split_at(N);
 //!     __vector.fill(__T::lift(-0.0));
@@ -14,6 +14,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
+use syn::{Generics, parse_quote};
 
 use crate::emit::{Emitter, local, output_block, own_function};
 use crate::program::{Output, Programs};
@@ -119,20 +120,17 @@ fn system(
 ) -> TokenStream {
     let (documentation, report) = (account.documentation(), account.report(emitter, programs));
     let state = state(emitter);
-    let lagrangian = lagrangian(emitter, programs, &state, &report, energy);
+    let configuration = configuration(emitter, programs, &state, &report);
+    let lagrangian = lagrangian(emitter, programs, energy);
     let (item, state) = (&emitter.model.item, &state.item);
     let functions = functions(emitter);
-    let allow = allow();
     quote! {
         #[doc = #documentation]
         #item
         #state
         const _: () = {
-            #[automatically_derived]
-            #allow
+            #configuration
             #lagrangian
-            #[automatically_derived]
-            #allow
             #special
             #functions
         };
@@ -175,33 +173,55 @@ fn functions(emitter: &Emitter<'_>) -> TokenStream {
     }
 }
 
-/// The implementation of `Lagrangian`.
-fn lagrangian(
+/// The generics of the system and the numbers `__T` that it is computed in: those that its parameters can be lifted to.
+fn over_numbers(emitter: &Emitter<'_>) -> Generics {
+    let (krate, model) = (emitter.krate(), emitter.model);
+    let mut generics = model.item.generics.clone();
+    generics.params.push(parse_quote!(__T: #krate::Scalar));
+    let mentioned = |field: usize| emitter.graph.mentions(|node| is_parameter(node, field));
+    let types = model.parameters.iter().enumerate().filter(|(field, _)| mentioned(*field));
+    for generic in types.filter_map(|(_, parameter)| parameter.generic.as_ref()) {
+        generics.make_where_clause().predicates.push(parse_quote!(#generic: #krate::Parameter<__T>));
+    }
+    generics
+}
+
+fn is_parameter(node: &Node, field: usize) -> bool {
+    matches!(node, Node::Parameter(parameter) if parameter.field as usize == field)
+}
+
+/// The implementation of a trait that a system has in all numbers `__T`.
+fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStream) -> TokenStream {
+    let (krate, name, allow) = (emitter.krate(), &emitter.model.item.ident, allow());
+    let generics = over_numbers(emitter);
+    let (impl_generics, _, where_clause) = generics.split_for_impl();
+    let (_, type_generics, _) = emitter.model.item.generics.split_for_impl();
+    quote! {
+        #[automatically_derived]
+        #allow
+        impl #impl_generics #krate::#implemented<__T> for #name #type_generics #where_clause { #items }
+    }
+}
+
+/// The implementation of `System`.
+fn configuration(
     emitter: &Emitter<'_>,
     programs: &Programs,
     state: &State,
     report: &TokenStream,
-    energy: &TokenStream,
 ) -> TokenStream {
     let krate = emitter.krate();
-    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
-    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    let (name, allow) = (&emitter.model.item.ident, allow());
+    let (impl_generics, type_generics, where_clause) = emitter.model.item.generics.split_for_impl();
     let State { space, space_value, type_in_trait, .. } = state;
     let lengths =
         (0..emitter.model.blocks.len()).map(|block| emitter.index(&emitter.model.block_size(block)));
     let blocks = 0..emitter.model.blocks.len();
     let (check, regular) = (check::check(emitter, programs), emitter.model.has_velocities());
-    let value = emitter.value(&programs.lagrangian);
-    let (read, body) = (emitter.read(&programs.gradient), emitter.body(&programs.gradient));
-    let (read_all, linearize) = (emitter.read(&programs.linearize), emitter.body(&programs.linearize));
-    let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
-    let offsets = emitter.offsets();
-    // A call costs as much as a few terms of a sum.
-    let always = (programs.linearize.code.len() <= SHORT).then(|| quote!((always)));
-    let indices = 0..programs.momenta.len();
-    let momenta = programs.momenta.iter().map(|value| emitter.value(value));
     quote! {
-        impl #impl_generics #krate::Lagrangian for #name #type_generics #where_clause {
+        #[automatically_derived]
+        #allow
+        impl #impl_generics #krate::System for #name #type_generics #where_clause {
             type Space = #space;
             type State<__T: #krate::Scalar> = #type_in_trait;
             const REPORT: #krate::Report = #report;
@@ -214,44 +234,49 @@ fn lagrangian(
                 match __block { #(#blocks => #lengths,)* _ => 0usize }
             }
             fn check(&self) -> ::core::result::Result<(), #krate::IndexError> { #check }
+        }
+    }
+}
+
+/// The implementation of `Lagrangian`.
+fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, energy: &TokenStream) -> TokenStream {
+    let krate = emitter.krate();
+    let value = emitter.value(&programs.lagrangian);
+    let (read, body) = (emitter.read(&programs.gradient), emitter.body(&programs.gradient));
+    let (read_all, linearize) = (emitter.read(&programs.linearize), emitter.body(&programs.linearize));
+    let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
+    let offsets = emitter.offsets();
+    // A call costs as much as a few terms of a sum.
+    let always = (programs.linearize.code.len() <= SHORT).then(|| quote!((always)));
+    let indices = 0..programs.momenta.len();
+    let momenta = programs.momenta.iter().map(|value| emitter.value(value));
+    let items = quote! {
             #[inline]
-            fn lagrangian<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #value }
+            fn lagrangian(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #value }
             #[inline]
-            fn gradient<__T: #krate::Scalar>(
+            fn gradient(
                 &self, __q: &[__T], __v: &[__T], __t: __T, __l_q: &mut [__T], __l_v: &mut [__T],
             ) {
                 #read #l_q #l_v #body
             }
             #[inline #always]
-            fn linearize<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
+            fn linearize<__K: #krate::Sink<__T>>(
                 &self, __q: &[__T], __v: &[__T], __t: __T, __w: #krate::Weights<__T>,
                 __l_q: &mut [__T], __l_v: &mut [__T], __sink: &mut __K,
             ) {
                 #read_all #l_q #l_v #offsets #linearize
             }
             #[inline]
-            fn energy<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
+            fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
             #[inline]
-            fn momentum<__T: #krate::Scalar>(&self, __index: usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
+            fn momentum(&self, __index: usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
                 match __index {
                     #(#indices => { #momenta })*
                     _ => <__T as #krate::Scalar>::lift(f64::NAN),
                 }
             }
-        }
-    }
-}
-
-/// The implementation of a trait without functions.
-fn marker(emitter: &Emitter<'_>, structure: &TokenStream) -> TokenStream {
-    let (krate, allow) = (emitter.krate(), allow());
-    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
-    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
-    quote! {
-        #[automatically_derived]
-        #allow
-        impl #impl_generics #krate::#structure for #name #type_generics #where_clause {}
-    }
+    };
+    in_numbers(emitter, &quote!(Lagrangian), &items)
 }
 
 /// Generated code answers to no style lint.

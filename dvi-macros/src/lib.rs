@@ -44,6 +44,7 @@ use proc_macro::TokenStream;
 /// | `lagrangian = …` | instead of these two: L, affine in the velocities `dot(x)` |
 /// | `momenta(name = …)` | conserved quantities to watch |
 /// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
+/// | `derive(Trait, …)` | what the state derives beside `Clone`, `Debug`, `PartialEq` and, without `Vec`s, `Copy`: `serde::Serialize` for instance |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
 /// Formulas are Rust expressions over the coordinates, the fields of the struct by name, `PI` and other
@@ -56,6 +57,9 @@ use proc_macro::TokenStream;
 /// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without
 /// the remainder, so `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient. A constant of the user's and a
 /// field of a field, whose types are not known, are taken for integers there.
+///
+/// The struct may be generic over the type of its parameters, `struct System<P = f64> { mu: P, charges: Vec<P> }`. It is then a
+/// system wherever that type is a number or, for derivatives with respect to a parameter, a `dvi_core::Varied` dual number.
 ///
 /// At the zeros of a root the rules of differentiation give 0/0. Where a limit exists, it is the derivative for powers of
 /// a sum of squares that is written out with positive literal coefficients or runs over a whole array of coordinates, and
@@ -76,7 +80,7 @@ use proc_macro::TokenStream;
 /// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
 /// `Vec`, and the size of the system is known at run time only.
 ///
-/// For a struct `System` the attribute implements `dvi_core::Lagrangian` and
+/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
 /// `dvi_core::DegenerateLagrangian`, defines `SystemState` with the coordinates as fields, and continues
 /// the documentation of the struct with its formulas.
 ///
@@ -97,11 +101,12 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// | `lagrangian = …` | L, with the velocities `dot(x)` |
 /// | `momenta(name = …)` | conserved quantities to watch; velocities may stand in them |
 /// | `functions(f = [f, df, d2f])` | functions of your own, as in [`macro@degenerate_lagrangian`] |
+/// | `derive(Trait, …)` | what the state derives beside the usual traits |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
 /// Formulas are those of [`macro@degenerate_lagrangian`], without restriction on the velocities.
 ///
-/// For a struct `System` the attribute implements `dvi_core::Lagrangian` and
+/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
 /// `dvi_core::RegularLagrangian`, defines `SystemState` with the coordinates `x` and then the velocities
 /// `dot_x` as fields, and continues the documentation of the struct with its formulas.
 ///

@@ -16,7 +16,7 @@ mod shape;
 mod sizes;
 
 pub(crate) use shape::Shape;
-use shape::{is_integer, shape};
+use shape::{generic, is_integer, shape};
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -45,6 +45,8 @@ pub(crate) struct ParameterName {
     pub(crate) shape: Shape,
     /// Whether its numbers are integers for certain.
     pub(crate) integer: bool,
+    /// The generic type of the struct that its numbers are of.
+    pub(crate) generic: Option<Ident>,
 }
 
 #[derive(Debug)]
@@ -57,6 +59,8 @@ pub(crate) struct Model {
     pub(crate) functions: Vec<Function>,
     /// The names of the momenta.
     pub(crate) momenta: Vec<String>,
+    /// What the state derives beside what every state does.
+    pub(crate) derives: Vec<Path>,
     pub(crate) crate_path: Path,
     /// Whether coordinates or their sizes are unknown, so that names and ranges cannot be checked.
     pub(crate) lost_coordinates: bool,
@@ -76,6 +80,7 @@ impl Model {
             parameters,
             functions: std::mem::take(&mut attribute.functions),
             momenta: attribute.momenta.iter().map(|momentum| momentum.name.to_string()).collect(),
+            derives: std::mem::take(&mut attribute.derives),
             crate_path,
             lost_coordinates: attribute.lost_coordinates,
             lost_functions: attribute.lost_functions,
@@ -150,6 +155,7 @@ impl Model {
                 tokens: quote!(#path),
                 shape: Shape::Unknown,
                 integer: false,
+                generic: None,
             });
             self.parameters.len() - 1
         });
@@ -214,6 +220,7 @@ fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
                     tokens: quote_spanned!(Span::call_site().located_at(name.span())=> self.#name),
                     shape: shape(&field.ty),
                     integer: is_integer(&field.ty),
+                    generic: generic(&field.ty, &item.generics),
                 })
             })
             .collect(),

@@ -55,6 +55,8 @@ pub(crate) struct Attribute {
     pub(crate) lagrangian: Option<Expr>,
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
+    /// What the state derives beside what every state does.
+    pub(crate) derives: Vec<Path>,
     pub(crate) crate_path: Option<Path>,
     /// Whether a coordinate was declared that could not be read.
     pub(crate) lost_coordinates: bool,
@@ -64,13 +66,14 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 7] = [
+const ARGUMENTS: [(&str, &str); 8] = [
     ("coordinates", "coordinates(x, y[n])"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
     ("lagrangian",  "lagrangian = …"),
     ("momenta",     "momenta(p = …)"),
     ("functions",   "functions(f = [f, df, d2f])"),
+    ("derive",      "derive(Trait, path::Trait)"),
     ("crate",       "crate = ::path"),
 ];
 
@@ -255,6 +258,7 @@ impl Attribute {
             ("functions", Value::List(tokens)) => {
                 self.functions = list(tokens, errors, &mut self.lost_functions);
             }
+            ("derive", Value::List(tokens)) => self.derives = list(tokens, errors, &mut false),
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),

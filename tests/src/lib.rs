@@ -37,7 +37,7 @@ pub mod oracle {
     use dvi_core::{Lagrangian, Real};
 
     /// L_d(q0, q1) = h L(q_σ, (q1 − q0)/h, t + σh).
-    pub fn discrete_lagrangian<S: Lagrangian, T: Real>(
+    pub fn discrete_lagrangian<S: Lagrangian<T>, T: Real>(
         system: &S,
         sigma: f64,
         t: f64,
@@ -54,7 +54,7 @@ pub mod oracle {
     /// L_d(q0, q1, δ) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh) on the Lobatto nodes, with interpolation by sin u and cos u and
     /// displacements of the interior nodes, node by node. The derivatives of the Lagrange polynomials are those of
     /// their factors.
-    pub fn displaced_lagrangian<S: Lagrangian, T: Real, const NODES: usize>(
+    pub fn displaced_lagrangian<S: Lagrangian<T>, T: Real, const NODES: usize>(
         system: &S,
         u: f64,
         [t, h]: [f64; 2],

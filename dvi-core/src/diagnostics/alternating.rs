@@ -4,20 +4,20 @@
 //! smooth orbit it leaves (h⁴/16) q⁗, and on cubics nothing.
 
 use crate::scalar::norm;
-use crate::{Lagrangian, Real, Space, Vector};
+use crate::{Lagrangian, Real, Space, System, Vector};
 
 const WINDOW: usize = 5;
 const WEIGHTS: [f64; WINDOW] = [1.0 / 16.0, -4.0 / 16.0, 6.0 / 16.0, -4.0 / 16.0, 1.0 / 16.0];
 
 /// A fourth-difference filter over five consecutive points of a run.
 #[derive(Debug)]
-pub struct AlternatingComponent<S: Lagrangian, T: Real = f64> {
+pub struct AlternatingComponent<S: System, T: Real = f64> {
     ring: [Vector<S, T>; WINDOW],
     filtered: Vector<S, T>,
     seen: usize,
 }
 
-impl<S: Lagrangian, T: Real> AlternatingComponent<S, T> {
+impl<S: Lagrangian<T>, T: Real> AlternatingComponent<S, T> {
     /// A filter for the points of `system` that has seen none.
     pub fn new(system: &S) -> Self {
         let vector = || system.space().vector();

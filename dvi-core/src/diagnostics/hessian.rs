@@ -3,14 +3,14 @@
 use crate::discrete::{Ends, Interval, Span, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
-use crate::{Lagrangian, Matrix, Real, Space, Vector};
+use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 
 /// D₁D₁L_d, D₁D₂L_d and D₂D₂L_d at a pair of points, row-major, of the discrete Lagrangian `L`.
 ///
 /// D₁D₂ with entries ∂²L_d/∂q0ⁱ∂q1ʲ is the matrix of the two-form D₁D₂ dq0 ∧ dq1 on Q×Q that each step
 /// preserves (Marsden & West 2001, section 1.3.2; Rowley & Marsden 2002, eq. 17).
 #[derive(Debug)]
-pub struct DiscreteHessian<S: Lagrangian, L, T: Real = f64> {
+pub struct DiscreteHessian<S: System, L, T: Real = f64> {
     /// D₁D₁L_d.
     pub d11: Matrix<S, T>,
     /// D₁D₂L_d: row i belongs to q0ⁱ, column j to q1ʲ.
@@ -22,7 +22,7 @@ pub struct DiscreteHessian<S: Lagrangian, L, T: Real = f64> {
     delta: Vector<S, T>,
 }
 
-impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> DiscreteHessian<S, L, T> {
+impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> DiscreteHessian<S, L, T> {
     /// Storage for the discrete Lagrangian of `method` on `system`, with zeros.
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
         let space = system.space();

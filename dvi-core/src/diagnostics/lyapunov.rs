@@ -10,14 +10,14 @@ use crate::methods::VariationalMethod;
 use crate::run::Run;
 use crate::scalar::norm::reported;
 use crate::space::sink::Product;
-use crate::{Lagrangian, Real, Scalar, Space, Vector, Weights};
+use crate::{Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// The growth of a perturbation along a run, accumulated step by step.
 ///
 /// Perturbations live in (q, p), so the exponent of a degenerate system is that of the two-step map, parasitic mode
 /// included.
 #[derive(Debug)]
-pub struct LyapunovExponent<S: Lagrangian, L, T: Real = f64> {
+pub struct LyapunovExponent<S: System, L, T: Real = f64> {
     map: TangentMap<S, L, T>,
     dq: Vector<S, T>,
     dp: Vector<S, T>,
@@ -26,7 +26,7 @@ pub struct LyapunovExponent<S: Lagrangian, L, T: Real = f64> {
     elapsed: T,
 }
 
-impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
+impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
     /// For the given run, from its current state; the first perturbation points nowhere in particular, and that of a
     /// degenerate system keeps p = α(q).
     pub fn new<R: Run<System = S, Scalar = T>>(run: &R) -> Self

@@ -10,7 +10,7 @@
 use crate::error::StepError;
 use crate::run::Run;
 use crate::scalar::norm::larger;
-use crate::{Lagrangian, Real, Scalar, Space, State, Vector};
+use crate::{Real, Scalar, Space, State, System, Vector};
 
 const WINDOW: usize = 8;
 /// The interval of the window in which crossings are looked for.
@@ -39,7 +39,7 @@ pub struct Crossing<S, T> {
 
 /// A [`Crossing`] of a run `R`.
 pub type CrossingOf<R> =
-    Crossing<<<R as Run>::System as Lagrangian>::State<<R as Run>::Scalar>, <R as Run>::Scalar>;
+    Crossing<<<R as Run>::System as System>::State<<R as Run>::Scalar>, <R as Run>::Scalar>;
 
 /// The crossings of a run with g(q) = 0, as an iterator that takes as many steps as it must.
 ///

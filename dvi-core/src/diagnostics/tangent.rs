@@ -10,18 +10,18 @@ use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add, multiply_transposed_add};
-use crate::{Lagrangian, Matrix, Permutation, Real, Space, Vector};
+use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.
 #[derive(Debug)]
-pub struct TangentMap<S: Lagrangian, L, T: Real = f64> {
+pub struct TangentMap<S: System, L, T: Real = f64> {
     hessian: DiscreteHessian<S, L, T>,
     factors: Matrix<S, T>,
     permutation: Permutation<S>,
     next: [Vector<S, T>; 2],
 }
 
-impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T> {
+impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T> {
     /// Storage for steps of `method` on `system`; the map is that of the step given to [`evaluate`](Self::evaluate).
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
         let space = system.space();

@@ -11,11 +11,11 @@ use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add, multiply_transposed_add};
-use crate::{Lagrangian, Matrix, Permutation, Real, Space, Vector};
+use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δq1) ↦ (δq1, δq2) of one step of the discrete Lagrangian `L`.
 #[derive(Debug)]
-pub struct TwoPointTangentMap<S: Lagrangian, L, T: Real = f64> {
+pub struct TwoPointTangentMap<S: System, L, T: Real = f64> {
     before: DiscreteHessian<S, L, T>,
     after: DiscreteHessian<S, L, T>,
     factors: Matrix<S, T>,
@@ -23,7 +23,7 @@ pub struct TwoPointTangentMap<S: Lagrangian, L, T: Real = f64> {
     next: Vector<S, T>,
 }
 
-impl<S: Lagrangian, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap<S, L, T> {
+impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap<S, L, T> {
     /// Storage for steps of `method` on `system`; the map is that of the points given to
     /// [`evaluate`](Self::evaluate).
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {

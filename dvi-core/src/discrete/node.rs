@@ -9,18 +9,18 @@ use super::{DiscreteLagrangian, Ends, Interval, Span, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::space::sink::Sink;
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Space, Vector, Weights};
+use crate::{Lagrangian, Real, Space, System, Vector, Weights};
 
 /// The discrete Lagrangian h L(q_σ, Δ/h) of any L, with the storage that it needs.
 #[derive(Debug)]
-pub struct OneNode<S: Lagrangian, T: Real = f64> {
+pub struct OneNode<S: System, T: Real = f64> {
     sigma: T,
     pub(crate) work: NodeWork<S, T>,
 }
 
 /// Where L is evaluated, and its derivatives there.
 #[derive(Debug)]
-pub(crate) struct NodeWork<S: Lagrangian, T: Real> {
+pub(crate) struct NodeWork<S: System, T: Real> {
     pub(crate) point: Vector<S, T>,
     pub(crate) velocity: Vector<S, T>,
     /// ∂L/∂q
@@ -29,7 +29,7 @@ pub(crate) struct NodeWork<S: Lagrangian, T: Real> {
     pub(crate) momentum: Vector<S, T>,
 }
 
-impl<S: Lagrangian, T: Real> NodeWork<S, T> {
+impl<S: Lagrangian<T>, T: Real> NodeWork<S, T> {
     #[inline(always)]
     pub(crate) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
@@ -37,7 +37,7 @@ impl<S: Lagrangian, T: Real> NodeWork<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> OneNode<S, T> {
+impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
     /// With the node at q0 + σΔ.
     pub fn new(system: &S, sigma: T) -> Self {
         Self { sigma, work: NodeWork::new(system) }
@@ -65,7 +65,7 @@ impl<S: Lagrangian, T: Real> OneNode<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
+impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
     #[inline(always)]
     fn derivatives(
         &mut self,
@@ -104,7 +104,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
+impl<S: Lagrangian<T>, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
     fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,

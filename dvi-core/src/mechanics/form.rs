@@ -10,7 +10,7 @@ use crate::scalar::norm;
 use crate::space::sink::{Places, Product as ProductSink};
 use crate::space::square::SquareMatrix;
 use crate::state::Statistics;
-use crate::{DegenerateLagrangian, Lagrangian, Real, Scalar, Space, Square, Vector};
+use crate::{DegenerateLagrangian, Real, Scalar, Space, Square, System, Vector};
 
 /// The coefficients of a combination a Dα + b (Dα)ᵀ.
 #[derive(Clone, Copy, Debug)]
@@ -20,21 +20,21 @@ pub(crate) struct Combination<T> {
 }
 
 impl<T: Real> Combination<T> {
-    fn is_matching<S: DegenerateLagrangian>(self) -> bool {
+    fn is_matching<S: DegenerateLagrangian<T>>(self) -> bool {
         S::MATCHING || (S::CANONICAL && self.a == -self.b)
     }
 }
 
 /// The inverse of a combination.
 #[derive(Debug)]
-pub(crate) enum Form<S: Lagrangian, T: Real> {
+pub(crate) enum Form<S: System, T: Real> {
     /// Entry j is one over the only entry of column j.
     Reciprocals(Vector<S, T>),
     /// The factors of the matrix.
     Factors(Square<S, T>),
 }
 
-impl<S: Lagrangian, T: Real> Clone for Form<S, T> {
+impl<S: System, T: Real> Clone for Form<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
@@ -43,7 +43,7 @@ impl<S: Lagrangian, T: Real> Clone for Form<S, T> {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Form<S, T> {
     /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from [`prepare`](Self::prepare).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
         let space = system.space();
@@ -107,14 +107,14 @@ impl<S: DegenerateLagrangian, T: Real> Form<S, T> {
 
 /// A constant combination, ready to be multiplied with.
 #[derive(Debug)]
-pub(crate) enum Product<S: Lagrangian, T: Real> {
+pub(crate) enum Product<S: System, T: Real> {
     /// Entry i is the only entry of row i.
     Entries(Vector<S, T>),
     /// Evaluated again for each product.
     Coefficients(Combination<T>),
 }
 
-impl<S: Lagrangian, T: Real> Clone for Product<S, T> {
+impl<S: System, T: Real> Clone for Product<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Entries(entries) => Self::Entries(entries.clone()),
@@ -123,7 +123,7 @@ impl<S: Lagrangian, T: Real> Clone for Product<S, T> {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> Product<S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
     /// The combination at (`q`, `t`).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
         if combination.is_matching::<S>() {

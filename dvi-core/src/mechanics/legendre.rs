@@ -8,11 +8,11 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::square::{SquareMatrix, of_second_derivatives};
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Space, Square, Vector, Weights};
+use crate::{Lagrangian, Real, Space, Square, System, Vector, Weights};
 
 /// Storage for the transform.
 #[derive(Debug)]
-pub(crate) struct Legendre<S: Lagrangian, T: Real> {
+pub(crate) struct Legendre<S: System, T: Real> {
     matrix: Square<S, T>,
     residual: Vector<S, T>,
     /// By how much the velocity has changed in the last iteration.
@@ -23,7 +23,7 @@ pub(crate) struct Legendre<S: Lagrangian, T: Real> {
 /// How often a correction that leads out of the domain of L is halved.
 const HALVINGS: usize = 60;
 
-impl<S: Lagrangian, T: Real> Legendre<S, T> {
+impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     /// For points of which (`q`, `v`, `t`) is one.
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
         let space = system.space();

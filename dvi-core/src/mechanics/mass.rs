@@ -7,11 +7,11 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::sink::{Places, Sink};
 use crate::space::square::{SquareMatrix, of_entries};
-use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, Vector, Weights};
+use crate::{Real, RegularLagrangian, Space, Square, System, Vector, Weights};
 
 /// M and M⁻¹.
 #[derive(Debug)]
-pub(crate) struct Mass<S: Lagrangian, T: Real> {
+pub(crate) struct Mass<S: System, T: Real> {
     /// The diagonal of M, and one over it; zeros if M is not diagonal.
     masses: Vector<S, T>,
     reciprocals: Vector<S, T>,
@@ -21,12 +21,12 @@ pub(crate) struct Mass<S: Lagrangian, T: Real> {
 
 /// A matrix and its factors.
 #[derive(Debug)]
-struct Coupled<S: Lagrangian, T: Real> {
+struct Coupled<S: System, T: Real> {
     matrix: Square<S, T>,
     factors: Square<S, T>,
 }
 
-impl<S: RegularLagrangian, T: Real> Mass<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Mass<S, T> {
     /// Of a separable `system`; M does not depend on the point (`q`, `t`) at which it is evaluated.
     ///
     /// # Errors

@@ -17,13 +17,11 @@ use crate::space::sink::Places;
 use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
-use crate::{
-    DegenerateLagrangian, Lagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, Vector, Weights,
-};
+use crate::{DegenerateLagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// Ω at the end of the last step; nothing if it is the same everywhere.
 #[derive(Debug)]
-pub(crate) enum FormOrientation<S: Lagrangian, T: Real> {
+pub(crate) enum FormOrientation<S: System, T: Real> {
     Constant,
     /// The entry of each row, and storage for the next.
     Pairs([Vector<S, T>; 2]),
@@ -31,7 +29,7 @@ pub(crate) enum FormOrientation<S: Lagrangian, T: Real> {
     Pfaffian(T, Matrix<S, T>),
 }
 
-impl<S: DegenerateLagrangian, T: Real> FormOrientation<S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     /// At (`q`, `t`).
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Self {
         let space = system.space();
@@ -93,7 +91,7 @@ impl<S: DegenerateLagrangian, T: Real> FormOrientation<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for FormOrientation<S, T> {
+impl<S: System, T: Real> Memory<T> for FormOrientation<S, T> {
     fn restore(&mut self, from: &Self) {
         match (self, from) {
             (Self::Pairs([entries, _]), Self::Pairs([from, _])) => entries.copy_from_slice(from),
@@ -157,13 +155,13 @@ fn pfaffian_sign<T: Real>(a: &mut [T], n: usize) -> T {
 
 /// The mass matrix at the end of the last step, and storage.
 #[derive(Debug)]
-pub(crate) struct MassOrientation<S: Lagrangian, T: Real> {
+pub(crate) struct MassOrientation<S: System, T: Real> {
     inertia: Inertia<T>,
     work: Work<S, T>,
 }
 
 #[derive(Debug)]
-struct Work<S: Lagrangian, T: Real> {
+struct Work<S: System, T: Real> {
     entries: Entries<S, T>,
     l_q: Vector<S, T>,
     l_v: Vector<S, T>,
@@ -171,12 +169,12 @@ struct Work<S: Lagrangian, T: Real> {
 
 /// The entries of a mass matrix.
 #[derive(Debug)]
-enum Entries<S: Lagrangian, T: Real> {
+enum Entries<S: System, T: Real> {
     Diagonal(Vector<S, T>),
     All(Matrix<S, T>),
 }
 
-impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> MassOrientation<S, T> {
     /// At (`q`, `v`, `t`).
     ///
     /// # Errors
@@ -207,11 +205,11 @@ impl<S: RegularLagrangian, T: Real> MassOrientation<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for MassOrientation<S, T> {
+impl<S: System, T: Real> Memory<T> for MassOrientation<S, T> {
     lasting!(T; part inertia);
 }
 
-impl<S: RegularLagrangian, T: Real> Work<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Work<S, T> {
     fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<Inertia<T>, StepFailure> {
         let (zero, Self { entries, l_q, l_v }) = (T::lift(0.0), self);
         let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };

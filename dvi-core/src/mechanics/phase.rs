@@ -12,11 +12,11 @@ use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
 use crate::state::summation::{Carried, Summation};
-use crate::{Lagrangian, Real, RegularLagrangian, Space, Vector};
+use crate::{Real, RegularLagrangian, Space, System, Vector};
 
 /// The momentum and the force at the current point, and the last increments.
 #[derive(Debug)]
-pub(crate) struct PhasePoint<S: Lagrangian, T: Real> {
+pub(crate) struct PhasePoint<S: System, T: Real> {
     /// p = ∂L/∂v.
     pub(crate) p: Vector<S, T>,
     /// ∂L/∂q; it is kept if L is separable.
@@ -38,7 +38,7 @@ pub(crate) struct Arrival<'a, T> {
 
 impl<T: Real> Arrival<'_, T> {
     #[inline(always)]
-    fn finite<S: RegularLagrangian>(&self) -> Result<(), StepFailure> {
+    fn finite<S: RegularLagrangian<T>>(&self) -> Result<(), StepFailure> {
         norm::finite(self.q).and(norm::finite(self.p))?;
         if S::SEPARABLE { norm::finite(self.force) } else { Ok(()) }
     }
@@ -51,7 +51,7 @@ pub(crate) struct Increments<'a, T> {
     pub(crate) p: &'a [T],
 }
 
-impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> PhasePoint<S, T> {
     /// At (`q`, `v`, `t`).
     ///
     /// # Errors
@@ -155,20 +155,20 @@ impl<S: RegularLagrangian, T: Real> PhasePoint<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for PhasePoint<S, T> {
+impl<S: System, T: Real> Memory<T> for PhasePoint<S, T> {
     lasting!(T; numbers p, numbers force, part history, number last_step, parts carried);
 }
 
 /// The mass matrix ∂²L/∂v∂v of a run.
 #[derive(Debug)]
-pub(crate) enum Inertial<S: Lagrangian, T: Real> {
+pub(crate) enum Inertial<S: System, T: Real> {
     /// L is separable.
     Constant(Mass<S, T>),
     /// It depends on the state; its orientation is watched.
     Varying(MassOrientation<S, T>),
 }
 
-impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Inertial<S, T> {
     /// At (`q`, `v`, `t`).
     ///
     /// # Errors
@@ -242,7 +242,7 @@ impl<S: RegularLagrangian, T: Real> Inertial<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for Inertial<S, T> {
+impl<S: System, T: Real> Memory<T> for Inertial<S, T> {
     fn restore(&mut self, from: &Self) {
         if let (Self::Varying(orientation), Self::Varying(from)) = (self, from) {
             orientation.restore(from);

@@ -7,23 +7,23 @@
 use crate::error::StepFailure;
 use crate::mechanics::form::{Combination, Form};
 use crate::state::Statistics;
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
+use crate::{DegenerateLagrangian, Real, Space, System, Vector};
 
 /// X = B⁻¹(∇H + ∂α/∂t) with the storage that its evaluation needs.
 #[derive(Debug)]
-pub struct VectorField<S: Lagrangian, T: Real> {
+pub struct VectorField<S: System, T: Real> {
     inverse: Form<S, T>,
     gradient: Vector<S, T>,
     entries: Vector<S, T>,
 }
 
-impl<S: Lagrangian, T: Real> Clone for VectorField<S, T> {
+impl<S: System, T: Real> Clone for VectorField<S, T> {
     fn clone(&self) -> Self {
         Self { inverse: self.inverse.clone(), gradient: self.gradient.clone(), entries: self.entries.clone() }
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> VectorField<S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     /// The vector field of `system`, inverted at (`q`, `t`).
     ///
     /// # Errors

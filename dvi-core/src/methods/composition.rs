@@ -11,7 +11,7 @@ use core::fmt::Debug;
 use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Vector};
+use crate::{Lagrangian, Real, System, Vector};
 
 /// The coefficients up to the middle one; the rest is their mirror image.
 #[derive(Debug, PartialEq)]
@@ -182,11 +182,11 @@ impl<M: Scheme> Scheme for Composition<M> {
     }
 }
 
-impl<S: Lagrangian, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
+impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
     type Memory = CompositionMemory<M::Memory, Vector<S, T>>;
 }
 
-impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
+impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let begin = || self.method.begin(system, q, v, t, h);
         Ok(CompositionMemory { inner: begin()?, checkpoint: begin()?, q: q.clone() })
@@ -230,7 +230,7 @@ impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition
     }
 }
 
-impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {}
+impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {}
 
 #[cfg(test)]
 mod tests {

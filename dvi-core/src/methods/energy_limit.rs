@@ -9,7 +9,7 @@ use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Real, Scalar, Space, Vector};
+use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// A method whose steps fail where the energy has changed by more than a limit since the start of the run.
 ///
@@ -58,11 +58,11 @@ impl<M: Scheme> Scheme for EnergyLimit<M> {
     }
 }
 
-impl<S: Lagrangian, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
+impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
     type Memory = EnergyLimitMemory<M::Memory, Vector<S, T>, T>;
 }
 
-impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
+impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         if self.limit.is_nan() || self.limit <= 0.0 {
             let (value, range) = (self.limit, "positive");
@@ -113,9 +113,9 @@ impl<S: Lagrangian, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
     }
 }
 
-impl<S: Lagrangian, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {}
+impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {}
 
-impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
+impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;
 
     fn admit(&self, system: &S) -> Result<(), StartError> {

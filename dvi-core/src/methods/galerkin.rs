@@ -21,7 +21,7 @@ use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Real, RegularLagrangian, Vector};
+use crate::{Real, RegularLagrangian, System, Vector};
 
 pub use lagrangian::GalerkinLagrangian;
 pub use memory::GalerkinMemory;
@@ -87,7 +87,7 @@ struct Step<'a, const NODES: usize, S, F, T> {
     h: T,
 }
 
-impl<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real> Step<'_, NODES, S, F, T> {
+impl<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real> Step<'_, NODES, S, F, T> {
     /// The time of a node.
     #[inline(always)]
     fn node_time(&self, c: f64) -> T {
@@ -96,7 +96,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real> Step<'_, N
 }
 
 impl<const NODES: usize, F: Frequency> Galerkin<NODES, F> {
-    fn validate<S: RegularLagrangian, T: Real>(&self, system: &S) -> Result<(), StartError>
+    fn validate<S: RegularLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
     where
         F: FrequencyIn<T>,
     {
@@ -135,11 +135,11 @@ impl<const S: usize, F: Frequency> Scheme for Galerkin<S, F> {
     }
 }
 
-impl<const NODES: usize, S: Lagrangian, F, T: Real> Carries<S, T> for Galerkin<NODES, F> {
+impl<const NODES: usize, S: System, F, T: Real> Carries<S, T> for Galerkin<NODES, F> {
     type Memory = GalerkinMemory<NODES, S, T>;
 }
 
-impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Method<S, T>
+impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Method<S, T>
     for Galerkin<NODES, F>
 {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
@@ -187,7 +187,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Metho
     }
 }
 
-impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> VariableStep<S, T>
+impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> VariableStep<S, T>
     for Galerkin<NODES, F>
 {
 }

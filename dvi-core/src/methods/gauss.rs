@@ -12,7 +12,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{DegenerateLagrangian, Lagrangian, Real, Scalar, Space, Vector};
+use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 3, of order 2`S`; `S` = 1 is the implicit midpoint rule.
 ///
@@ -93,7 +93,7 @@ impl<const S: usize> Tableau<S> {
 
 /// The stages of a Gauss step, and those of the step before.
 #[derive(Debug)]
-pub struct GaussMemory<const STAGES: usize, S: Lagrangian, T: Real> {
+pub struct GaussMemory<const STAGES: usize, S: System, T: Real> {
     field: VectorField<S, T>,
     tableau: Tableau<STAGES>,
     continuation: [[f64; STAGES]; STAGES],
@@ -105,7 +105,7 @@ pub struct GaussMemory<const STAGES: usize, S: Lagrangian, T: Real> {
     orientation: FormOrientation<S, T>,
 }
 
-impl<const STAGES: usize, S: Lagrangian, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
     lasting!(T; vectors completed, part orientation);
 }
 
@@ -121,11 +121,11 @@ impl<const S: usize> Scheme for Gauss<S> {
     }
 }
 
-impl<const STAGES: usize, S: Lagrangian, T: Real> Carries<S, T> for Gauss<STAGES> {
+impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for Gauss<STAGES> {
     type Memory = GaussMemory<STAGES, S, T>;
 }
 
-impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gauss<STAGES> {
+impl<const STAGES: usize, S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Gauss<STAGES> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
@@ -176,9 +176,9 @@ impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> Method<S, T> for Gau
     }
 }
 
-impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> VariableStep<S, T> for Gauss<STAGES> {}
+impl<const STAGES: usize, S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Gauss<STAGES> {}
 
-impl<const STAGES: usize, S: DegenerateLagrangian, T: Real> GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: DegenerateLagrangian<T>, T: Real> GaussMemory<STAGES, S, T> {
     /// Continues the polynomial through the completed stages into the next step.
     #[inline]
     fn guess(&mut self, q: &[T]) {

@@ -11,7 +11,7 @@ use crate::state::Statistics;
 use crate::state::history::{History, is_similar};
 use crate::state::memory::{Memory, lasting};
 use crate::system::start::evaluate;
-use crate::{Lagrangian, Real, Space, Square, Vector};
+use crate::{Lagrangian, Real, Space, Square, System, Vector};
 
 /// The general step of the discrete Lagrangian of `scheme`, by Newton's method, on degenerate and on regular systems
 /// (Marsden & West 2001, eqs. 1.5.2 and 1.5.3). Runs start from p = ∂L/∂v, which is α(q) for a degenerate system.
@@ -37,7 +37,7 @@ impl<M> General<M> {
 
 /// The momentum of a run, what its next step is guessed from, and work space.
 #[derive(Debug)]
-pub struct GeneralMemory<S: Lagrangian, L, T: Real> {
+pub struct GeneralMemory<S: System, L, T: Real> {
     p: Vector<S, T>,
     /// The mean velocities Δ/h of the last steps.
     history: History<S, T>,
@@ -50,7 +50,7 @@ pub struct GeneralMemory<S: Lagrangian, L, T: Real> {
     next: Vector<S, T>,
 }
 
-impl<S: Lagrangian, L, T: Real> GeneralMemory<S, L, T> {
+impl<S: Lagrangian<T>, L, T: Real> GeneralMemory<S, L, T> {
     /// The discrete momentum at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         &self.p
@@ -66,7 +66,7 @@ impl<S: Lagrangian, L, T: Real> GeneralMemory<S, L, T> {
     }
 }
 
-impl<S: Lagrangian, L, T: Real> Memory<T> for GeneralMemory<S, L, T> {
+impl<S: System, L, T: Real> Memory<T> for GeneralMemory<S, L, T> {
     lasting!(T; numbers p, part history, number last_step);
 }
 
@@ -82,11 +82,11 @@ impl<M: Scheme> Scheme for General<M> {
     }
 }
 
-impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for General<M> {
+impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for General<M> {
     type Memory = GeneralMemory<S, M::DiscreteLagrangian, T>;
 }
 
-impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for General<M> {
+impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for General<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.admit(system)?;
         let space = system.space();
@@ -164,9 +164,9 @@ impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Genera
     }
 }
 
-impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T> for General<M> {}
+impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T> for General<M> {}
 
-impl<S: Lagrangian, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for General<M> {
+impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for General<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;
 
     fn admit(&self, system: &S) -> Result<(), StartError> {

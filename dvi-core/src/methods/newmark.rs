@@ -18,7 +18,7 @@ use crate::space::square::{SquareMatrix, of_second_derivatives};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Separable, Space, Square, Vector, Weights};
+use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Separable, Space, Square, System, Vector, Weights};
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
 ///
@@ -55,7 +55,7 @@ impl<T> Newmark<T> {
 
 /// The phase point of a run of Newmark's method, and its work space.
 #[derive(Debug)]
-pub struct NewmarkMemory<S: Lagrangian, T: Real> {
+pub struct NewmarkMemory<S: System, T: Real> {
     phase: PhasePoint<S, T>,
     mass: Mass<S, T>,
     /// With the matrix of Newton's method; explicit steps do not use it.
@@ -65,7 +65,7 @@ pub struct NewmarkMemory<S: Lagrangian, T: Real> {
 
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
-struct Work<S: Lagrangian, T: Real> {
+struct Work<S: System, T: Real> {
     /// p½
     half: Vector<S, T>,
     increment: Vector<S, T>,
@@ -78,19 +78,19 @@ struct Work<S: Lagrangian, T: Real> {
     momentum: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian, T: Real> NewmarkMemory<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> NewmarkMemory<S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         &self.phase.p
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for NewmarkMemory<S, T> {
+impl<S: System, T: Real> Memory<T> for NewmarkMemory<S, T> {
     lasting!(T; part phase, part ladder);
 }
 
 /// A step as it is being solved: `work.increment` becomes Δ.
-struct Attempt<'a, S: Separable, T: Real> {
+struct Attempt<'a, S: Separable<T>, T: Real> {
     system: &'a S,
     beta: T,
     interval: Interval<T>,
@@ -102,7 +102,7 @@ struct Attempt<'a, S: Separable, T: Real> {
     work: &'a mut Work<S, T>,
 }
 
-impl<S: Separable, T: Real> Attempt<'_, S, T> {
+impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
     /// Δ ← h M⁻¹[p½ + βh(F1 − F0)].
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         self.guess();
@@ -207,11 +207,11 @@ impl<T: Real> Scheme for Newmark<T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Carries<S, T> for Newmark<T> {
+impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
     type Memory = NewmarkMemory<S, T>;
 }
 
-impl<S: Separable, T: Real> Method<S, T> for Newmark<T> {
+impl<S: Separable<T>, T: Real> Method<S, T> for Newmark<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
             let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
@@ -275,7 +275,7 @@ impl<S: Separable, T: Real> Method<S, T> for Newmark<T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Work<S, T> {
+impl<S: Lagrangian<T>, T: Real> Work<S, T> {
     fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {

@@ -9,7 +9,7 @@ use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
+use crate::{DegenerateLagrangian, Real, Space, System, Vector};
 
 const STAGES: usize = 4;
 
@@ -93,14 +93,14 @@ impl RungeKutta {
 
 /// The stages of a Runge–Kutta step.
 #[derive(Debug)]
-pub struct RungeKuttaMemory<S: Lagrangian, T: Real> {
+pub struct RungeKuttaMemory<S: System, T: Real> {
     field: VectorField<S, T>,
     slopes: [Vector<S, T>; STAGES],
     point: Vector<S, T>,
     orientation: FormOrientation<S, T>,
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
+impl<S: System, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
     lasting!(T; part orientation);
 }
 
@@ -116,11 +116,11 @@ impl Scheme for RungeKutta {
     }
 }
 
-impl<S: Lagrangian, T: Real> Carries<S, T> for RungeKutta {
+impl<S: System, T: Real> Carries<S, T> for RungeKutta {
     type Memory = RungeKuttaMemory<S, T>;
 }
 
-impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
+impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for RungeKutta {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         Ok(RungeKuttaMemory {
             field: VectorField::new(system, q, t).map_err(StartError::Starter)?,
@@ -157,7 +157,7 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for RungeKutta {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> VariableStep<S, T> for RungeKutta {}
+impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for RungeKutta {}
 
 /// Sets `out` to q + h Σ wⱼ kⱼ.
 #[inline(always)]

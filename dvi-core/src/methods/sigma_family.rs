@@ -22,7 +22,7 @@ use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, on
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{DegenerateLagrangian, Lagrangian, Real, Vector};
+use crate::{DegenerateLagrangian, Real, System, Vector};
 
 pub use memory::SigmaMemory;
 pub use monitor::ParasiticMode;
@@ -191,11 +191,11 @@ impl<T: Real> Scheme for Sigma<T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Carries<S, T> for Sigma<T> {
+impl<S: System, T: Real> Carries<S, T> for Sigma<T> {
     type Memory = SigmaMemory<S, T>;
 }
 
-impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(S::LINEAR)?;
         if S::LINEAR && self.is_midpoint() && self.start == Start::Consistent {
@@ -257,7 +257,7 @@ impl<S: DegenerateLagrangian, T: Real> Method<S, T> for Sigma<T> {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> VariationalMethod<S, T> for Sigma<T> {
+impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
@@ -269,7 +269,7 @@ impl<S: DegenerateLagrangian, T: Real> VariationalMethod<S, T> for Sigma<T> {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> TwoPoint<S, T> for Sigma<T> {
+impl<S: DegenerateLagrangian<T>, T: Real> TwoPoint<S, T> for Sigma<T> {
     fn begin_between(
         &self,
         system: &S,

@@ -9,7 +9,7 @@ use crate::methods::{PreservedForm, Scheme};
 use crate::scalar::norm;
 use crate::space::sink::{Scaled, Sink};
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Space, Vector};
+use crate::{Lagrangian, Real, Space, System, Vector};
 
 /// The symmetrised family for systems of either kind, as a method by [`General`](crate::methods::General): α = 0 is Störmer–Verlet
 /// where that exists, α = ½ the midpoint rule. On degenerate systems it is a two-step map with a parasitic mode.
@@ -21,7 +21,7 @@ pub struct Symmetrised<T = f64> {
 
 /// ½ (L_d^α + L_d^{1−α}), with the storage that it needs.
 #[derive(Debug)]
-pub struct SymmetrisedLagrangian<S: Lagrangian, T: Real = f64> {
+pub struct SymmetrisedLagrangian<S: System, T: Real = f64> {
     nodes: [OneNode<S, T>; 2],
     /// Twice D₁L_d and D₁L_d + D₂L_d.
     twice: [Vector<S, T>; 2],
@@ -39,7 +39,7 @@ impl<T: Real> Scheme for Symmetrised<T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> VariationalMethod<S, T> for Symmetrised<T> {
+impl<S: Lagrangian<T>, T: Real> VariationalMethod<S, T> for Symmetrised<T> {
     type DiscreteLagrangian = SymmetrisedLagrangian<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
@@ -58,7 +58,7 @@ impl<S: Lagrangian, T: Real> VariationalMethod<S, T> for Symmetrised<T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<S, T> {
+impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<S, T> {
     fn derivatives(
         &mut self,
         span: Span<'_, S, T>,
@@ -99,7 +99,7 @@ impl<S: Lagrangian, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<
     }
 }
 
-impl<S: Lagrangian, T: Real> TwiceDifferentiable<S, T> for SymmetrisedLagrangian<S, T> {
+impl<S: Lagrangian<T>, T: Real> TwiceDifferentiable<S, T> for SymmetrisedLagrangian<S, T> {
     fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 3]) -> Result<(), StepFailure> {
         let [mut d11, mut d12, mut d22] = sinks.map(|sink| Scaled { sink, factor: |_, _| T::lift(0.5) });
         for node in &mut self.nodes {

@@ -23,7 +23,7 @@ use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep
 use crate::solve::{Guess, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Real, RegularLagrangian, Square, Vector};
+use crate::{Real, RegularLagrangian, Square, System, Vector};
 
 pub use lagrangian::QuadratureLagrangian;
 use memory::Parts;
@@ -138,7 +138,7 @@ struct Step<'a, S, F, R, T> {
     h: T,
 }
 
-impl<S: RegularLagrangian, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
+impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
     /// The time of a node.
     #[inline(always)]
     fn node_time(&self, c: f64) -> T {
@@ -157,17 +157,17 @@ impl<S: RegularLagrangian, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> 
 }
 
 /// A step, and what it changes.
-struct Attempt<'a, S: Lagrangian, F, R, T: Real> {
+struct Attempt<'a, S: System, F, R, T: Real> {
     step: Step<'a, S, F, R, T>,
     parts: Parts<'a, S, T>,
     /// Of the fixed point.
     budget: usize,
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
     #[inline(always)]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        if self.step.method.needs_forces_only::<S>() && self.step.method.summation == Summation::Plain {
+        if self.step.method.needs_forces_only::<S, T>() && self.step.method.summation == Summation::Plain {
             separable::step(&self.step, &mut self.parts, self.budget, statistics)
         } else {
             general::by_fixed_point(&self.step, &mut self.parts, statistics)
@@ -200,7 +200,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
 
     /// Whether forces are all that a step needs: L is separable, and the interpolation does not mix with M.
     #[inline(always)]
-    fn needs_forces_only<S: RegularLagrangian>(&self) -> bool {
+    fn needs_forces_only<S: RegularLagrangian<T>, T: Real>(&self) -> bool {
         let mixes = F::PER_COORDINATE && !S::DIAGONAL_MASS;
         S::SEPARABLE && !mixes && self.frequency.reading() != Some(Reading::Variational)
     }
@@ -210,7 +210,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
     }
 
-    fn validate<S: RegularLagrangian, T: Real>(&self, system: &S) -> Result<(), StartError>
+    fn validate<S: RegularLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
     where
         F: FrequencyIn<T>,
     {
@@ -260,11 +260,11 @@ impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
     }
 }
 
-impl<S: Lagrangian, F, R, T: Real> Carries<S, T> for Variational<F, R> {
+impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
     type Memory = VariationalMemory<S, T>;
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate::<S, T>(system)?;
         VariationalMemory::new(system, self, q, v, t, h)
@@ -331,11 +331,11 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for
     }
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}
 
 impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
 where
-    S: RegularLagrangian,
+    S: RegularLagrangian<T>,
     F: FrequencyIn<T> + GivenFrequency + Clone,
     R: Rule + Clone,
     T: Real,

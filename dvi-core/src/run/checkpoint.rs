@@ -34,7 +34,7 @@ const BEYOND: u64 = u64::MAX / 2;
 
 impl<T: Real> Checkpoint<T> {
     /// Of a run whose clock and control are saved by `save`.
-    pub(crate) fn of<S: Lagrangian, M: Method<S, T>>(
+    pub(crate) fn of<S: Lagrangian<T>, M: Method<S, T>>(
         stepper: &Stepper<'_, S, M, T>,
         [time, step_size]: [T; 2],
         save: impl FnOnce(&mut Record<T>),
@@ -79,7 +79,7 @@ impl<T: Real> Checkpoint<T> {
     }
 
     /// The coordinates and velocities, for `system`, if all numbers and counts are those of a run.
-    pub(crate) fn point<S: Lagrangian>(&self, system: &S) -> Result<[Vector<S, T>; 2], StartError> {
+    pub(crate) fn point<S: Lagrangian<T>>(&self, system: &S) -> Result<[Vector<S, T>; 2], StartError> {
         let (expected, found) = (system.space().dimension(), self.q.len());
         if found != expected {
             return Err(CheckpointError::Coordinates { expected, found }.into());
@@ -105,7 +105,7 @@ impl<T: Real> Checkpoint<T> {
     }
 
     /// Loads what has been saved into `memory`, and the rest by `load`.
-    pub(crate) fn load<S: Lagrangian, M: Carries<S, T>>(
+    pub(crate) fn load<S: Lagrangian<T>, M: Carries<S, T>>(
         &self,
         memory: &mut M::Memory,
         load: impl FnOnce(&mut Reader<'_, T>) -> Result<(), CheckpointError>,

@@ -11,20 +11,20 @@ use crate::run::Checkpoint;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
 use crate::system::start::{evaluate, flatten, velocities};
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
 ///
 /// As an iterator it yields the state after each step, for ever, or up to the first failure; after that
 /// it yields `None`, and [`state`](Run::state) is the last good one. [`advance`](Run::advance) takes a
 /// step without building a state. What can be asked of a run are the methods of the trait [`Run`].
-pub struct Integrator<'a, S: Lagrangian, M: Carries<S, T>, T: Real = f64> {
+pub struct Integrator<'a, S: System, M: Carries<S, T>, T: Real = f64> {
     stepper: Stepper<'a, S, M, T>,
     /// At the start of the run.
     clock: Clock<T>,
 }
 
-impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
+impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// A run from `start` at time 0 with step `h`, which may be negative.
     ///
     /// # Errors
@@ -76,7 +76,7 @@ impl<'a, S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     }
 }
 
-impl<S: Lagrangian, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T> {
     type System = S;
     type Method = M;
     type Scalar = T;
@@ -109,14 +109,14 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T> {
     }
 }
 
-impl<S: Lagrangian, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
     #[cold]
     fn error(&mut self, failure: StepFailure) -> StepError {
         self.stepper.error(self.time(), failure)
     }
 }
 
-impl<'a, S: Lagrangian, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
+impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// A run of a two-step method that starts at `first`, time 0, and whose first step leads to `second`.
     ///
     /// # Errors
@@ -139,7 +139,7 @@ impl<'a, S: Lagrangian, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> Integrator<'_, S, Sigma<T>, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Integrator<'_, S, Sigma<T>, T> {
     /// The discrete momentum J_d = J(q) + c·ξ(q), ξ = B⁻¹∇J, of declared momentum `index`.
     ///
     /// By the discrete Noether theorem D₂L_d·ξ − f is conserved, where f is defined by
@@ -171,7 +171,7 @@ impl<S: DegenerateLagrangian, T: Real> Integrator<'_, S, Sigma<T>, T> {
     }
 }
 
-impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, T> {
     type Item = Result<S::State<T>, StepError>;
 
     #[inline]
@@ -190,9 +190,9 @@ impl<S: Lagrangian, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, 
     }
 }
 
-impl<S: Lagrangian, M: Method<S, T>, T: Real> core::iter::FusedIterator for Integrator<'_, S, M, T> {}
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> core::iter::FusedIterator for Integrator<'_, S, M, T> {}
 
-impl<S: Lagrangian, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integrator<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integrator<'_, S, M, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator")
             .field("system", &S::REPORT.system)
@@ -205,7 +205,7 @@ impl<S: Lagrangian, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integr
     }
 }
 
-fn validate<S: Lagrangian, T: Real>(system: &S, t: T, h: T) -> Result<(), StartError> {
+fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T, h: T) -> Result<(), StartError> {
     if !h.is_finite() || h == T::lift(0.0) {
         return Err(StartError::Step { h: reported(h) });
     }

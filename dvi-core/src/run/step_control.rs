@@ -25,7 +25,7 @@ pub use reversible::{Density, Power, Reversible, ReversibleMemory};
 /// A rule for the length of each step of a run on `S`.
 ///
 /// The control takes the steps itself, so that it sees the run before and after each, and may take one back.
-pub trait StepControl<S: Lagrangian, T: Real>: Debug {
+pub trait StepControl<S: Lagrangian<T>, T: Real>: Debug {
     /// Whether steps may be taken back, so that the run has to keep what it takes.
     const REJECTS: bool = false;
     /// What is carried from step to step.

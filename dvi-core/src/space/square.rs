@@ -54,7 +54,7 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
 
 /// A matrix for Newton's method, with room for all second derivatives of L. Where they stand does not depend on the point,
 /// but the formulas are evaluated, and are defined at (q, v, t).
-pub(crate) fn of_second_derivatives<S: Lagrangian, T: Real>(
+pub(crate) fn of_second_derivatives<S: Lagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
     v: &[T],
@@ -65,13 +65,13 @@ pub(crate) fn of_second_derivatives<S: Lagrangian, T: Real>(
 }
 
 /// A matrix with room for all entries.
-pub(crate) fn full<S: Lagrangian, T: Real>(system: &S) -> Square<S, T> {
+pub(crate) fn full<S: Lagrangian<T>, T: Real>(system: &S) -> Square<S, T> {
     let n = system.space().dimension();
     system.space().square(|visit| (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j))))
 }
 
 /// A matrix with room for those second derivatives at (q, v, t) that count.
-pub(crate) fn of_entries<S: Lagrangian, T: Real>(
+pub(crate) fn of_entries<S: Lagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,

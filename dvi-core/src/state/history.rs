@@ -4,7 +4,7 @@
 //! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
 
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Real, Scalar, Space, Vector};
+use crate::{Real, Scalar, Space, System, Vector};
 
 /// How many increments are kept.
 ///
@@ -27,7 +27,7 @@ const COEFFICIENTS: [[f64; DEPTH]; DEPTH + 1] = [
 
 /// A ring of the last increments.
 #[derive(Debug)]
-pub(crate) struct History<S: Lagrangian, T: Real> {
+pub(crate) struct History<S: System, T: Real> {
     ring: [Vector<S, T>; DEPTH],
     len: usize,
     /// Where the next increment goes: the place of the oldest once the ring is full.
@@ -36,7 +36,7 @@ pub(crate) struct History<S: Lagrangian, T: Real> {
     seed: Vector<S, T>,
 }
 
-impl<S: Lagrangian, T: Real> History<S, T> {
+impl<S: System, T: Real> History<S, T> {
     /// No increments yet; the first guess is `seed`, or zero.
     pub(crate) fn new(system: &S, seed: Option<Vector<S, T>>) -> Self {
         let vector = || system.space().vector();
@@ -101,7 +101,7 @@ impl<S: Lagrangian, T: Real> History<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for History<S, T> {
+impl<S: System, T: Real> Memory<T> for History<S, T> {
     lasting!(T; vectors ring, count len, count next, numbers seed; is_sound);
 }
 

@@ -7,7 +7,7 @@
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Real, Scalar, Space, Vector};
+use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// How the increments of the steps are added to coordinates and momenta.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,11 +25,11 @@ pub enum Summation {
 
 /// What rounding has left out of a vector that moves by increments; nothing where sums are plain.
 #[derive(Debug)]
-pub(crate) struct Carried<S: Lagrangian, T: Real> {
+pub(crate) struct Carried<S: System, T: Real> {
     rest: Option<Vector<S, T>>,
 }
 
-impl<S: Lagrangian, T: Real> Carried<S, T> {
+impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
     #[inline(always)]
     pub(crate) fn new(system: &S, summation: Summation) -> Self {
         let rest = match summation {
@@ -66,7 +66,7 @@ impl<S: Lagrangian, T: Real> Carried<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for Carried<S, T> {
+impl<S: System, T: Real> Memory<T> for Carried<S, T> {
     lasting!(T; vectors rest);
 }
 

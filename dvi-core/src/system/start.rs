@@ -2,10 +2,10 @@
 
 use crate::error::StartError;
 use crate::scalar::norm::reported;
-use crate::{Lagrangian, Real, Space, State, Vector};
+use crate::{Lagrangian, Real, Space, State, System, Vector};
 
 /// Whether a run can begin at time `t`, and the formulas of `system` stay within its arrays.
-pub(crate) fn validate<S: Lagrangian, T: Real>(system: &S, t: T) -> Result<(), StartError> {
+pub(crate) fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T) -> Result<(), StartError> {
     if !t.is_finite() {
         return Err(StartError::Parameter { name: "t", value: reported(t), range: "finite" });
     }
@@ -17,7 +17,12 @@ pub(crate) fn validate<S: Lagrangian, T: Real>(system: &S, t: T) -> Result<(), S
 /// # Errors
 /// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is −∇H for
 /// one, and the energy that is not.
-pub(crate) fn evaluate<S: Lagrangian, T: Real>(system: &S, q: &[T], v: &[T], t: T) -> Result<(), StartError> {
+pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    v: &[T],
+    t: T,
+) -> Result<(), StartError> {
     let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
     // Of a degenerate system v is zero here, and ∂L/∂q is −∇H.
     system.gradient(q, v, t, &mut l_q, &mut l_v);
@@ -41,12 +46,12 @@ pub(crate) fn evaluate<S: Lagrangian, T: Real>(system: &S, q: &[T], v: &[T], t: 
 }
 
 /// The number of velocities that a state carries.
-pub(crate) fn velocities<S: Lagrangian>(system: &S) -> usize {
+pub(crate) fn velocities<S: System>(system: &S) -> usize {
     if S::REGULAR { system.space().dimension() } else { 0 }
 }
 
 /// The coordinates and, if the system is regular, the velocities of a state.
-pub(crate) fn flatten<S: Lagrangian, T: Real>(
+pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
     system: &S,
     state: &S::State<T>,
 ) -> Result<[Vector<S, T>; 2], StartError> {

@@ -61,12 +61,11 @@ impl StandIn<'_> {
         let allow = implement::allow();
         let never = quote!({ ::core::unreachable!() });
         let regular = self.kind == Kind::Regular;
-        let special = if regular { self.regular(&never) } else { self.degenerate(&never) };
         quote! {
             const _: () = {
                 #[automatically_derived]
                 #allow
-                impl #impl_generics #krate::Lagrangian for #name #type_generics #where_clause {
+                impl #impl_generics #krate::System for #name #type_generics #where_clause {
                     type Space = #space;
                     type State<__T: #krate::Scalar> = #state;
                     const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[]);
@@ -74,62 +73,9 @@ impl StandIn<'_> {
                     fn space(&self) -> Self::Space #never
                     fn block_len(&self, _: usize) -> usize #never
                     fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
-                    fn lagrangian<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
-                    fn gradient<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T], _: &mut [__T]) #never
-                    fn linearize<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
-                        &self, _: &[__T], _: &[__T], _: __T, _: #krate::Weights<__T>, _: &mut [__T], _: &mut [__T], _: &mut __K,
-                    ) #never
-                    fn energy<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T) -> __T #never
-                    fn momentum<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: &[__T], _: __T) -> __T #never
                 }
-                #[automatically_derived]
-                #allow
-                #special
+                impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause {}
             };
-        }
-    }
-
-    fn degenerate(&self, never: &TokenStream) -> TokenStream {
-        let (Self { name, krate, .. }, allow) = (self, implement::allow());
-        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
-        quote! {
-            impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
-                const LINEAR: bool = false;
-                const MATCHING: bool = false;
-                const CANONICAL: bool = false;
-                fn hamiltonian<__T: #krate::Scalar>(&self, _: &[__T], _: __T) -> __T #never
-                fn hamiltonian_gradient<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                fn one_form<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                fn flow_source<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: &mut [__T]) #never
-                fn one_form_jacobian<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
-                    &self, _: &[__T], _: __T, _: __T, _: __T, _: &mut __K,
-                ) #never
-                fn partner_entries<__T: #krate::Scalar>(&self, _: &[__T], _: __T, _: __T, _: __T, _: &mut [__T]) #never
-                fn partner(&self, _: usize) -> usize #never
-                fn momentum_gradient<__T: #krate::Scalar>(&self, _: usize, _: &[__T], _: __T, _: &mut [__T]) #never
-            }
-            #[automatically_derived]
-            #allow
-            impl #impl_generics #krate::AffineOneForm for #name #type_generics #where_clause {}
-        }
-    }
-
-    fn regular(&self, never: &TokenStream) -> TokenStream {
-        let (Self { name, krate, .. }, allow) = (self, implement::allow());
-        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
-        quote! {
-            impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
-                const SEPARABLE: bool = false;
-                const DIAGONAL_MASS: bool = false;
-                const QUADRATIC: bool = false;
-                fn force<__T: #krate::Scalar>(&self, _: &[__T], _: &[__T], _: __T, _: &mut [__T]) #never
-            }
-            #[automatically_derived]
-            #allow
-            impl #impl_generics #krate::Separable for #name #type_generics #where_clause {}
-            #[automatically_derived]
-            #allow
-            impl #impl_generics #krate::QuadraticInVelocity for #name #type_generics #where_clause {}
         }
     }
 }

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::document::{Account, quantity};
-use super::marker;
+use super::in_numbers;
 use crate::emit::Emitter;
 use crate::program::{DegenerateFormulas, DegeneratePrograms};
 use crate::structure::OneForm;
@@ -20,7 +20,7 @@ pub(crate) fn degenerate(
 ) -> TokenStream {
     let implementation = implementation(emitter, programs, structure);
     let krate = emitter.krate();
-    let energy = quote!(<Self as #krate::DegenerateLagrangian>::hamiltonian(self, __q, __t));
+    let energy = quote!(<Self as #krate::DegenerateLagrangian<__T>>::hamiltonian(self, __q, __t));
     super::system(
         emitter,
         &programs.shared,
@@ -54,8 +54,6 @@ fn account(
 /// The implementation of `DegenerateLagrangian`.
 fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structure: &OneForm) -> TokenStream {
     let krate = emitter.krate();
-    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
-    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
     let OneForm { linear, matching, canonical, .. } = *structure;
     let hamiltonian = emitter.value(&programs.hamiltonian);
     let hamiltonian_gradient = emitter.vector(&programs.hamiltonian_gradient);
@@ -67,33 +65,32 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let partner = partner(emitter, structure);
     let indices = 0..programs.momentum_gradients.len();
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
-    let affine = linear.then(|| marker(emitter, &quote!(AffineOneForm)));
-    quote! {
-        impl #impl_generics #krate::DegenerateLagrangian for #name #type_generics #where_clause {
+    let affine = linear.then(|| in_numbers(emitter, &quote!(AffineOneForm), &TokenStream::new()));
+    let items = quote! {
             const LINEAR: bool = #linear;
             const MATCHING: bool = #matching;
             const CANONICAL: bool = #canonical;
 
             #[inline]
-            fn hamiltonian<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T) -> __T { #hamiltonian }
+            fn hamiltonian(&self, __q: &[__T], __t: __T) -> __T { #hamiltonian }
             #[inline(always)]
-            fn hamiltonian_gradient<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+            fn hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
                 #hamiltonian_gradient
             }
             #[inline]
-            fn one_form<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #one_form }
+            fn one_form(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #one_form }
             #[inline]
-            fn flow_source<__T: #krate::Scalar>(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+            fn flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
                 #flow_source
             }
             #[inline]
-            fn one_form_jacobian<__T: #krate::Scalar, __K: #krate::Sink<__T>>(
+            fn one_form_jacobian<__K: #krate::Sink<__T>>(
                 &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __sink: &mut __K,
             ) {
                 #read #offsets #jacobian
             }
             #[inline]
-            fn partner_entries<__T: #krate::Scalar>(
+            fn partner_entries(
                 &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __vector: &mut [__T],
             ) {
                 #partner_entries
@@ -101,7 +98,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             #[inline(always)]
             fn partner(&self, __i: usize) -> usize { #partner }
             #[inline]
-            fn momentum_gradient<__T: #krate::Scalar>(
+            fn momentum_gradient(
                 &self, __index: usize, __q: &[__T], __t: __T, __vector: &mut [__T],
             ) {
                 match __index {
@@ -109,9 +106,9 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
                     _ => __vector.fill(<__T as #krate::Scalar>::lift(f64::NAN)),
                 }
             }
-        }
-        #affine
-    }
+    };
+    let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian), &items);
+    quote!(#lagrangian #affine)
 }
 
 /// Block by block: `if i < end { return i − offset + partner's offset }`.

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::document::{Account, quantity};
-use super::marker;
+use super::in_numbers;
 use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
 use crate::structure::MassMatrix;
@@ -51,25 +51,19 @@ fn account(
 
 /// The implementation of `RegularLagrangian`.
 fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: &MassMatrix) -> TokenStream {
-    let krate = emitter.krate();
-    let (name, generics) = (&emitter.model.item.ident, &emitter.model.item.generics);
-    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
     let MassMatrix { separable, diagonal, quadratic, .. } = *structure;
     let force = emitter.vector(&programs.force);
     let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
-    let traits = traits.map(|structure| marker(emitter, &structure));
-    quote! {
-        impl #impl_generics #krate::RegularLagrangian for #name #type_generics #where_clause {
-            const SEPARABLE: bool = #separable;
-            const DIAGONAL_MASS: bool = #diagonal;
-            const QUADRATIC: bool = #quadratic;
+    let traits = traits.map(|structure| in_numbers(emitter, &structure, &TokenStream::new()));
+    let lagrangian = quote! {
+        const SEPARABLE: bool = #separable;
+        const DIAGONAL_MASS: bool = #diagonal;
+        const QUADRATIC: bool = #quadratic;
 
-            #[inline(always)]
-            fn force<__T: #krate::Scalar>(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) {
-                #force
-            }
-        }
-        #(#traits)*
-    }
+        #[inline(always)]
+        fn force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }
+    };
+    let lagrangian = in_numbers(emitter, &quote!(RegularLagrangian), &lagrangian);
+    quote!(#lagrangian #(#traits)*)
 }

@@ -59,6 +59,7 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let summary = format!("A state of [`{}`]: its {contents} by name.", model.item.ident);
     let copy =
         (0..model.blocks.len()).all(|block| on_stack(emitter, block)).then(|| quote!(::core::marker::Copy,));
+    let derives = &model.derives;
     let (write, read) = transfers(emitter, &fields);
     let values = (0..fields.len()).map(value_name);
     let allow = super::allow();
@@ -66,7 +67,7 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let item = quote! {
         #[doc = #summary]
         #[allow(non_snake_case, non_upper_case_globals)]
-        #[derive(#copy ::core::clone::Clone, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+        #[derive(#copy ::core::clone::Clone, ::core::fmt::Debug, ::core::cmp::PartialEq, #(#derives),*)]
         #visibility struct #name<#(#declarations,)* __T = f64> {
             #(#[doc = #docs] pub #fields: #types,)*
         }

@@ -1,6 +1,6 @@
 //! What the type of a field says of it, as far as it is written out.
 
-use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, Type};
+use syn::{Expr, ExprLit, GenericArgument, Generics, Ident, Lit, PathArguments, Type};
 
 /// What the type of a field says, as far as it is written out.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +45,30 @@ pub(super) fn shape(ty: &Type) -> Shape {
             }
         }
         _ => Shape::Unknown,
+    }
+}
+
+/// The generic type among `generics` that the numbers of a type are of: `P` for `[P; 3]`.
+pub(super) fn generic(ty: &Type, generics: &Generics) -> Option<Ident> {
+    match ty {
+        Type::Array(array) => generic(&array.elem, generics),
+        Type::Slice(slice) => generic(&slice.elem, generics),
+        Type::Reference(reference) => generic(&reference.elem, generics),
+        Type::Paren(inner) => generic(&inner.elem, generics),
+        Type::Group(inner) => generic(&inner.elem, generics),
+        Type::Path(path) => match path.path.get_ident() {
+            Some(name) => generics.type_params().any(|known| known.ident == *name).then(|| name.clone()),
+            None => match &path.path.segments.last()?.arguments {
+                PathArguments::AngleBracketed(list) => match list.args.first()? {
+                    GenericArgument::Type(entry) if matches!(shape(ty), Shape::Array(..)) => {
+                        generic(entry, generics)
+                    }
+                    _ => None,
+                },
+                _ => None,
+            },
+        },
+        _ => None,
     }
 }
 

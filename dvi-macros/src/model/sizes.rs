@@ -192,7 +192,13 @@ impl Model {
             return Some(known as u32);
         }
         let tokens = quote!(#tokens.#member);
-        self.parameters.push(ParameterName { text, tokens, shape: Shape::Unknown, integer: false });
+        self.parameters.push(ParameterName {
+            text,
+            tokens,
+            shape: Shape::Unknown,
+            integer: false,
+            generic: None,
+        });
         Some(self.parameters.len() as u32 - 1)
     }
 

@@ -257,6 +257,11 @@ impl Graph {
         id
     }
 
+    /// Whether any formula, or anything that was made of one, has such a node.
+    pub(crate) fn mentions(&self, property: impl FnMut(&Node) -> bool) -> bool {
+        self.nodes.iter().any(property)
+    }
+
     /// The nodes that the roots depend on, in id order.
     pub(crate) fn reachable(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
         let mut seen = vec![false; self.nodes.len()];

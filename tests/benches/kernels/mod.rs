@@ -6,7 +6,7 @@ mod vortices_by_hand;
 use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
-use dvi_core::{Lagrangian, Space, Vector};
+use dvi_core::{Space, Vector};
 use dvi_tests::configurations;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState};

@@ -10,7 +10,7 @@ mod field_is_of_any_type {
     }
     pub fn run() {
         let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { a: 1.0 }, Sigma::midpoint(), 0.1, state);
+        let _ = Integrator::new(&System { a: "1.0" }, Sigma::midpoint(), 0.1, state);
     }
 }
 

@@ -1,6 +1,6 @@
 //! `check()` names the first index that leaves an array.
 
-use dvi_core::{IndexError, Lagrangian, degenerate_lagrangian};
+use dvi_core::{IndexError, System, degenerate_lagrangian};
 use dvi_tests::zoo::language::Neighbours as Correlated;
 use dvi_tests::zoo::shapes::{Borrowing, Chain};
 

@@ -18,7 +18,7 @@ pub(crate) trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
 /// A system and its L, written a second time.
-pub(crate) trait Action: Lagrangian {
+pub(crate) trait Action: Lagrangian + Lagrangian<f32> + Lagrangian<HyperDual64> {
     fn action<D: Number>(&self, q: &[D], v: &[D], t: D) -> D;
 }
 
@@ -29,7 +29,7 @@ impl<S: ByHand> Action for S {
 }
 
 /// A degenerate system and its formulas, written a second time.
-pub(crate) trait ByHand: DegenerateLagrangian {
+pub(crate) trait ByHand: DegenerateLagrangian + Lagrangian<f32> + Lagrangian<HyperDual64> {
     fn alpha<D: Number>(&self, q: &[D], t: D) -> Vec<D>;
     fn energy<D: Number>(&self, q: &[D], t: D) -> D;
     fn integrals<D: Number>(&self, _q: &[D], _t: D) -> Vec<D> {

@@ -18,7 +18,7 @@ use crate::state::Statistics;
 use crate::{Real, RegularLagrangian, Vector, Weights};
 
 /// The unknowns.
-pub(super) fn newton<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+pub(super) fn newton<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     q: &[T],
@@ -54,7 +54,7 @@ pub(super) fn newton<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>
 }
 
 /// Sets `point` to qʲ and `velocity` to q̇ʲ of node `j`.
-fn place<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
+fn place<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real>(
     j: usize,
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
@@ -72,7 +72,7 @@ fn place<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
 }
 
 /// Sets `work.residuals` at the current unknowns.
-fn differentiate<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
+fn differentiate<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     statistics: &mut Statistics,
@@ -101,7 +101,7 @@ fn differentiate<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real
 }
 
 /// Sets the blocks of the Newton matrix at the current unknowns.
-fn linearize<const NODES: usize, S: RegularLagrangian, F: Frequency, T: Real>(
+fn linearize<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     newton: &mut Newton<NODES, S, T>,
@@ -158,7 +158,7 @@ fn add_transposed<T: Real, M: core::ops::Deref<Target = [T]>>(
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1 = p0 + (D₁ + D₂)L_d.
-pub(super) fn finish<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>(
+pub(super) fn finish<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     q: &mut Vector<S, T>,

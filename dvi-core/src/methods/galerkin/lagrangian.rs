@@ -19,11 +19,11 @@ use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::Sink;
 use crate::space::square::full;
 use crate::state::Statistics;
-use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Square, Vector, Weights};
+use crate::{Matrix, Permutation, Real, RegularLagrangian, Space, Square, System, Vector, Weights};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.
 #[derive(Debug)]
-pub struct GalerkinLagrangian<const NODES: usize, S: Lagrangian, F, T: Real = f64> {
+pub struct GalerkinLagrangian<const NODES: usize, S: System, F, T: Real = f64> {
     method: Galerkin<NODES, F>,
     rule: Quadrature,
     differentiation: [[f64; NODES]; NODES],
@@ -33,7 +33,7 @@ pub struct GalerkinLagrangian<const NODES: usize, S: Lagrangian, F, T: Real = f6
 /// The interior displacements, then two entries that are not used; derivatives along these, q0 and q1; and the blocks of
 /// second derivatives, transposed.
 #[derive(Debug)]
-struct Storage<const NODES: usize, S: Lagrangian, T: Real> {
+struct Storage<const NODES: usize, S: System, T: Real> {
     displacements: [Vector<S, T>; NODES],
     residuals: [Vector<S, T>; NODES],
     blocks: [[Matrix<S, T>; NODES]; NODES],
@@ -50,7 +50,7 @@ struct Path<'a, const NODES: usize, S, T> {
     coefficients: Coefficients<NODES, T>,
 }
 
-impl<const NODES: usize, S: RegularLagrangian, T: Real> Path<'_, NODES, S, T> {
+impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T> {
     /// How many displacements there are, and the numbers of the directions q0 and q1.
     const INTERIOR: usize = NODES - 2;
     const LEFT: usize = NODES - 2;
@@ -185,7 +185,7 @@ fn add_block<T: Real, K: Sink<T>>(transposed: &[T], n: usize, sink: &mut K) {
     }
 }
 
-impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>
+impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>
     GalerkinLagrangian<NODES, S, F, T>
 {
     fn settled<'a>(
@@ -204,7 +204,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real>
     }
 }
 
-impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> DiscreteLagrangian<S, T>
+impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> DiscreteLagrangian<S, T>
     for GalerkinLagrangian<NODES, S, F, T>
 {
     /// The displacements couple what the nodes do not.
@@ -247,7 +247,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Discr
     }
 }
 
-impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> TwiceDifferentiable<S, T>
+impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> TwiceDifferentiable<S, T>
     for GalerkinLagrangian<NODES, S, F, T>
 {
     fn hessian<K: Sink<T>>(
@@ -268,7 +268,7 @@ impl<const NODES: usize, S: RegularLagrangian, F: FrequencyIn<T>, T: Real> Twice
 
 impl<const NODES: usize, S, F, T> VariationalMethod<S, T> for Galerkin<NODES, F>
 where
-    S: RegularLagrangian,
+    S: RegularLagrangian<T>,
     F: FrequencyIn<T> + GivenFrequency + Clone,
     T: Real,
 {

@@ -11,18 +11,18 @@ use crate::solve::{Ladder, Solver};
 use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, Vector};
+use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector};
 
 /// The phase point of a run with interior displacements, its path between the points and its work space.
 #[derive(Debug)]
-pub struct GalerkinMemory<const NODES: usize, S: Lagrangian, T: Real> {
+pub struct GalerkinMemory<const NODES: usize, S: System, T: Real> {
     pub(super) ladder: Ladder<Newton<NODES, S, T>>,
     pub(super) path: Path<NODES, S, T>,
 }
 
 /// Where the run is, and how it goes on from there.
 #[derive(Debug)]
-pub(super) struct Path<const NODES: usize, S: Lagrangian, T: Real> {
+pub(super) struct Path<const NODES: usize, S: System, T: Real> {
     pub(super) rule: Quadrature,
     differentiation: [[f64; NODES]; NODES],
     pub(super) coefficients: Coefficients<NODES, T>,
@@ -37,7 +37,7 @@ pub(super) struct Path<const NODES: usize, S: Lagrangian, T: Real> {
 
 /// Storage for the Newton matrix.
 #[derive(Debug)]
-pub(super) struct Newton<const NODES: usize, S: Lagrangian, T: Real> {
+pub(super) struct Newton<const NODES: usize, S: System, T: Real> {
     /// The block of equation r and unknown k, transposed, in row r and column k, both from 1. Row 0 begins with
     /// ∂²L/∂q∂q, ∂²L/∂q∂v and ∂²L/∂v∂v of a node.
     pub(super) blocks: [[Matrix<S, T>; NODES]; NODES],
@@ -46,7 +46,7 @@ pub(super) struct Newton<const NODES: usize, S: Lagrangian, T: Real> {
 
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
-pub(super) struct Work<const NODES: usize, S: Lagrangian, T: Real> {
+pub(super) struct Work<const NODES: usize, S: System, T: Real> {
     /// q0, the displacements of the interior nodes, and Δ.
     pub(super) unknowns: [Vector<S, T>; NODES],
     /// (D₁ + D₂)L_d, ∂L_d/∂δ of the interior nodes, and p0 + D₁L_d; then the corrections of the unknowns.
@@ -62,7 +62,7 @@ pub(super) struct Work<const NODES: usize, S: Lagrangian, T: Real> {
     pub(super) next_force: Vector<S, T>,
 }
 
-impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S, T> {
+impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> GalerkinMemory<NODES, S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         &self.path.phase.p
@@ -104,15 +104,15 @@ impl<const NODES: usize, S: RegularLagrangian, T: Real> GalerkinMemory<NODES, S,
     }
 }
 
-impl<const NODES: usize, S: Lagrangian, T: Real> Memory<T> for GalerkinMemory<NODES, S, T> {
+impl<const NODES: usize, S: System, T: Real> Memory<T> for GalerkinMemory<NODES, S, T> {
     lasting!(T; part path, part ladder);
 }
 
-impl<const NODES: usize, S: Lagrangian, T: Real> Memory<T> for Path<NODES, S, T> {
+impl<const NODES: usize, S: System, T: Real> Memory<T> for Path<NODES, S, T> {
     lasting!(T; part phase, part inertial, parts displacements);
 }
 
-impl<const NODES: usize, S: RegularLagrangian, T: Real> Path<NODES, S, T> {
+impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<NODES, S, T> {
     /// Sets the unknowns to their guess: extrapolated from the steps before if they had about this length; else
     /// the path is straight, and its velocity is taken from the momentum if L is separable.
     #[inline(always)]
@@ -206,7 +206,7 @@ fn scale<T: Real>(x: &mut [T], factor: T) {
     }
 }
 
-impl<const NODES: usize, S: Lagrangian, T: Real> Work<NODES, S, T> {
+impl<const NODES: usize, S: Lagrangian<T>, T: Real> Work<NODES, S, T> {
     fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {

@@ -18,11 +18,11 @@ use crate::methods::Clock;
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
 use crate::space::scratch;
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Vector};
+use crate::{DegenerateLagrangian, Real, Space, System, Vector};
 
 /// How the point ahead, q1 + K⁻¹c1, follows from q0 and q1.
 #[derive(Debug)]
-pub(super) enum Ahead<S: Lagrangian, T: Real> {
+pub(super) enum Ahead<S: System, T: Real> {
     /// It is q0.
     Reversal,
     /// K⁻¹c1 is a multiple of Δ in each coordinate.
@@ -31,7 +31,7 @@ pub(super) enum Ahead<S: Lagrangian, T: Real> {
     General([Vector<S, T>; 2]),
 }
 
-impl<S: DegenerateLagrangian, T: Real> Ahead<S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Ahead<S, T> {
     /// For c1 = `product` Δ and K⁻¹c = `scale` `inverse` c.
     pub(super) fn new(system: &S, product: &Product<S, T>, inverse: &Form<S, T>, scale: T) -> Self {
         let [mut delta, mut c]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
@@ -50,7 +50,7 @@ impl<S: DegenerateLagrangian, T: Real> Ahead<S, T> {
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
 /// good point.
 #[inline(always)]
-pub(super) fn steps<S: DegenerateLagrangian, T: Real>(
+pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -87,7 +87,7 @@ pub(super) fn steps<S: DegenerateLagrangian, T: Real>(
 }
 
 /// What the steps work on.
-struct Run<'a, S: Lagrangian, T: Real> {
+struct Run<'a, S: System, T: Real> {
     system: &'a S,
     inverse: &'a Form<S, T>,
     product: &'a Product<S, T>,
@@ -100,7 +100,7 @@ struct Run<'a, S: Lagrangian, T: Real> {
     count: u64,
 }
 
-impl<S: DegenerateLagrangian, T: Real> Run<'_, S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Run<'_, S, T> {
     /// With the rule that sets the point ahead, its last argument, from q0 and q1.
     #[inline(always)]
     fn steps(self, look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
@@ -144,7 +144,7 @@ struct Points<'a, T> {
 }
 
 /// The last points, and where they are kept.
-struct Hops<'a, S: Lagrangian, T: Real, L> {
+struct Hops<'a, S: System, T: Real, L> {
     system: &'a S,
     inverse: &'a Form<S, T>,
     product: &'a Product<S, T>,
@@ -158,7 +158,7 @@ struct Hops<'a, S: Lagrangian, T: Real, L> {
     spare: &'a mut Vector<S, T>,
 }
 
-impl<S: DegenerateLagrangian, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for Hops<'_, S, T, L> {
+impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for Hops<'_, S, T, L> {
     #[inline(always)]
     fn step(&mut self, number: u64) {
         let Points { q0, q1, q2, ahead, gradient, s } = &mut self.points;

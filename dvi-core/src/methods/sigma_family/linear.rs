@@ -22,7 +22,7 @@ use crate::state::summation::{Carried, Summation};
 use crate::{DegenerateLagrangian, Real, Square, Vector};
 
 #[inline(always)]
-pub(super) fn step<S: DegenerateLagrangian, T: Real>(
+pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -48,7 +48,7 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
 
 /// σ = 1: DαΔ = c0, c1 = (Dα)ᵀΔ − h∇H(q1).
 #[inline(never)]
-fn explicit_right<S: DegenerateLagrangian, T: Real>(
+fn explicit_right<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -84,7 +84,7 @@ pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
 
 /// Adds the increment to `q` if the result is finite.
 #[inline(always)]
-fn advance<S: DegenerateLagrangian, T: Real>(
+fn advance<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     q: &mut Vector<S, T>,
     increment: &[T],
@@ -103,7 +103,7 @@ fn advance<S: DegenerateLagrangian, T: Real>(
 
 /// Kept out of line, so that the explicit step does not set up a frame for it.
 #[inline(never)]
-fn implicit<S: DegenerateLagrangian, T: Real>(
+fn implicit<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -114,7 +114,7 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
 
 /// The same with compensated sums.
 #[inline(never)]
-fn compensated<S: DegenerateLagrangian, T: Real>(
+fn compensated<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -127,7 +127,7 @@ fn compensated<S: DegenerateLagrangian, T: Real>(
 
 /// An implicit step with this fixed point, to which is passed what rounding has left out of the coordinates.
 #[inline(always)]
-fn solve<S: DegenerateLagrangian, T: Real>(
+fn solve<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -151,7 +151,7 @@ fn solve<S: DegenerateLagrangian, T: Real>(
 }
 
 /// A step as it is being solved: `work.increment` becomes s, and the gradient of the node ∇H(q_σ).
-struct Attempt<'a, S: DegenerateLagrangian, T: Real> {
+struct Attempt<'a, S: DegenerateLagrangian<T>, T: Real> {
     step: &'a Step<'a, S, T>,
     q: &'a Vector<S, T>,
     /// c0, unless it is zero.
@@ -164,7 +164,7 @@ struct Attempt<'a, S: DegenerateLagrangian, T: Real> {
     budget: usize,
 }
 
-impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     /// s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs).
     #[inline(always)]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
@@ -288,7 +288,7 @@ fn add_to<T: Real>(sum: &mut [T], terms: &[T]) {
 
 /// Moves to q1 = q0 + K⁻¹c0 + s and updates the defect.
 #[inline(always)]
-fn finish<S: DegenerateLagrangian, T: Real>(
+fn finish<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,

@@ -18,11 +18,11 @@ use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Carried;
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Square, Vector};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Square, System, Vector};
 
 /// The defect of a run of the σ-family, its guesses and its work space.
 #[derive(Debug)]
-pub struct SigmaMemory<S: Lagrangian, T: Real> {
+pub struct SigmaMemory<S: System, T: Real> {
     /// c = p − α(q) at the current point.
     pub(super) defect: Vector<S, T>,
     /// Whether c = 0 for all times, so that nothing needs to be done about it.
@@ -50,7 +50,7 @@ pub struct SigmaMemory<S: Lagrangian, T: Real> {
 
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
-pub(super) struct Work<S: Lagrangian, T: Real> {
+pub(super) struct Work<S: System, T: Real> {
     /// K⁻¹c0; p0 if α is not affine.
     pub(super) shift: Vector<S, T>,
     /// q0 + K⁻¹c0, which outlives the step, if α is affine and σ = 0.
@@ -63,7 +63,7 @@ pub(super) struct Work<S: Lagrangian, T: Real> {
     pub(super) next: Vector<S, T>,
 }
 
-impl<S: Lagrangian, T: Real> Work<S, T> {
+impl<S: Lagrangian<T>, T: Real> Work<S, T> {
     fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {
@@ -77,7 +77,7 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for SigmaMemory<S, T> {
+impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
     lasting!(
         T;
         numbers defect, flag defect_vanishes, numbers one_form, part history, part ladder, part monitor, part orientation,
@@ -85,11 +85,11 @@ impl<S: Lagrangian, T: Real> Memory<T> for SigmaMemory<S, T> {
     );
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for Work<S, T> {
+impl<S: System, T: Real> Memory<T> for Work<S, T> {
     lasting!(T; numbers ahead);
 }
 
-impl<S: Lagrangian, T: Real> SigmaMemory<S, T> {
+impl<S: Lagrangian<T>, T: Real> SigmaMemory<S, T> {
     /// c = p − α(q) at the current point, one entry per coordinate.
     pub fn defect(&self) -> &[T] {
         &self.defect
@@ -109,7 +109,7 @@ impl<S: Lagrangian, T: Real> SigmaMemory<S, T> {
     }
 }
 
-impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
     /// For a run on the constraint p = α(q) that stays on it.
     pub(super) fn without_defect(
         system: &S,
@@ -215,7 +215,7 @@ impl<S: DegenerateLagrangian, T: Real> SigmaMemory<S, T> {
 }
 
 /// The limit of the parasitic mode, and when the mode is measured.
-fn pace<S: DegenerateLagrangian, T: Real>(
+fn pace<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     method: &Sigma<T>,
     q: &[T],
@@ -236,7 +236,7 @@ fn pace<S: DegenerateLagrangian, T: Real>(
 
 /// Affine and σ ≠ 1: K times −1/((1−σ)h), whose inverse maps ∇H to s. Else K.
 /// Nonlinear and σ = 0: (Dα)ᵀ.
-pub(super) fn fixed_point_matrix<S: DegenerateLagrangian, T: Real>(
+pub(super) fn fixed_point_matrix<S: DegenerateLagrangian<T>, T: Real>(
     method: &Sigma<T>,
     h: T,
 ) -> Combination<T> {

@@ -10,7 +10,7 @@ use crate::error::StepFailure;
 use crate::methods::walk::BLOCK;
 use crate::scalar::norm::{larger, reported};
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Real, Scalar, Space, Vector};
+use crate::{Real, Scalar, Space, System, Vector};
 
 /// How many points are kept besides the present one.
 const KEPT: usize = 4;
@@ -89,7 +89,7 @@ pub(super) enum Pace {
 
 /// The points from which the mode is measured.
 #[derive(Debug)]
-pub(super) struct Monitor<S: Lagrangian, T: Real> {
+pub(super) struct Monitor<S: System, T: Real> {
     /// The points before the present one; point k is at place k mod 4.
     points: [Vector<S, T>; KEPT],
     /// The size of the second differences of each coordinate, and the square of that of all.
@@ -119,7 +119,7 @@ struct First {
     amplitude: f64,
 }
 
-impl<S: Lagrangian, T: Real> Monitor<S, T> {
+impl<S: System, T: Real> Monitor<S, T> {
     pub(super) fn new(system: &S, limit: Option<f64>, pace: Pace) -> Self {
         let vector = || system.space().vector();
         Self {
@@ -304,7 +304,7 @@ impl<S: Lagrangian, T: Real> Monitor<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for Monitor<S, T> {
+impl<S: System, T: Real> Memory<T> for Monitor<S, T> {
     lasting!(
         T;
         vectors points, numbers sizes, size together, count steps, count period, count examined, part mode, count above,

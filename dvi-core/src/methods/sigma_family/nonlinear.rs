@@ -16,7 +16,7 @@ use crate::state::history::History;
 use crate::{DegenerateLagrangian, Real, Square, Vector};
 
 #[inline]
-pub(super) fn step<S: DegenerateLagrangian, T: Real>(
+pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -34,7 +34,7 @@ pub(super) fn step<S: DegenerateLagrangian, T: Real>(
 
 /// 0 < σ ≤ 1.
 #[inline]
-fn implicit<S: DegenerateLagrangian, T: Real>(
+fn implicit<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -52,7 +52,7 @@ fn implicit<S: DegenerateLagrangian, T: Real>(
 
 /// σ = 0.
 #[inline]
-fn one_solve<S: DegenerateLagrangian, T: Real>(
+fn one_solve<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
@@ -84,7 +84,7 @@ fn one_solve<S: DegenerateLagrangian, T: Real>(
 }
 
 /// A step as it is being solved: `work.increment` becomes Δ; `work.shift` is p0.
-struct Attempt<'a, S: DegenerateLagrangian, T: Real> {
+struct Attempt<'a, S: DegenerateLagrangian<T>, T: Real> {
     step: &'a Step<'a, S, T>,
     q: &'a Vector<S, T>,
     history: &'a History<S, T>,
@@ -94,7 +94,7 @@ struct Attempt<'a, S: DegenerateLagrangian, T: Real> {
     budget: usize,
 }
 
-impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     /// Δ ← Δ + K⁻¹r(Δ), with K at the guess.
     #[inline]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
@@ -145,7 +145,7 @@ impl<S: DegenerateLagrangian, T: Real> Attempt<'_, S, T> {
 
 /// Moves to q1 = q0 + Δ and evaluates c1 = α(q_σ) + σh ∂L/∂q − α(q1).
 #[inline]
-fn finish<S: DegenerateLagrangian, T: Real>(
+fn finish<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,

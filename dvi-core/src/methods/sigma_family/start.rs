@@ -22,7 +22,7 @@ pub enum Start {
 }
 
 impl Start {
-    pub(super) fn second_point<S: DegenerateLagrangian, T: Real>(
+    pub(super) fn second_point<S: DegenerateLagrangian<T>, T: Real>(
         self,
         system: &S,
         q: &Vector<S, T>,
@@ -36,7 +36,7 @@ impl Start {
     }
 }
 
-fn one_step<S: DegenerateLagrangian, T: Real, M: Method<S, T>>(
+fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
     method: &M,
     system: &S,
     q: &Vector<S, T>,

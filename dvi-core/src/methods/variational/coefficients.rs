@@ -13,7 +13,7 @@ use crate::discrete::{Ends, NodeWork};
 use crate::error::StepFailure;
 use crate::scalar::norm::reported;
 use crate::space::sink::{Scaled, Sink};
-use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// sin u and S count as zero below this.
 const RESONANCE: f64 = 1e-4;
@@ -29,7 +29,7 @@ pub(super) trait Coefficients<T> {
 }
 
 /// Coefficients that follow a frequency.
-pub(super) trait Adjustable<S: RegularLagrangian, T: Real>: Coefficients<T> {
+pub(super) trait Adjustable<S: RegularLagrangian<T>, T: Real>: Coefficients<T> {
     /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure>;
 
@@ -158,7 +158,7 @@ impl<T: Real> Uniform<T> {
     }
 }
 
-impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Uniform<T> {
+impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
     #[inline(always)]
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
         let u = step.method.frequency.fixed(0) * step.h;
@@ -252,7 +252,7 @@ impl<T: Real> Coefficients<T> for Uniform<T> {
 
 /// A frequency for each coordinate.
 #[derive(Debug)]
-pub(super) struct Each<S: Lagrangian, T: Real> {
+pub(super) struct Each<S: System, T: Real> {
     /// The step for which these are; zero if there is none.
     h: T,
     weights: [T; NODES],
@@ -266,7 +266,7 @@ pub(super) struct Each<S: Lagrangian, T: Real> {
     compliance: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian, T: Real> Each<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Each<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
         let vectors = || core::array::from_fn(|_| space.vector());
@@ -285,7 +285,7 @@ impl<S: RegularLagrangian, T: Real> Each<S, T> {
     }
 }
 
-impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Each<S, T> {
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
         if self.h == step.h {
             return Ok(());
@@ -360,7 +360,7 @@ impl<S: RegularLagrangian, T: Real> Adjustable<S, T> for Each<S, T> {
     }
 }
 
-impl<S: RegularLagrangian, T: Real> Coefficients<T> for Each<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Coefficients<T> for Each<S, T> {
     fn weight(&self, node: usize) -> T {
         self.weights[node]
     }

@@ -19,7 +19,7 @@ use crate::{Real, RegularLagrangian, Scalar, Square};
 
 /// A step by Newton's method from a guess.
 #[inline(never)]
-pub(super) fn by_newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+pub(super) fn by_newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     parts: &mut Parts<'_, S, T>,
     matrix: &mut Square<S, T>,
@@ -43,7 +43,7 @@ pub(super) fn by_newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Rea
 
 /// A step by the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + D₁L_d), for separable L.
 #[inline(never)]
-pub(super) fn by_fixed_point<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+pub(super) fn by_fixed_point<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     parts: &mut Parts<'_, S, T>,
     statistics: &mut Statistics,
@@ -85,7 +85,7 @@ pub(super) fn by_fixed_point<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T
 
 /// Sets `work.increment` to Δ and `work.sum` to (D₁ + D₂)L_d.
 #[allow(clippy::too_many_arguments)]
-fn newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
     step: &Step<'_, S, F, R, T>,
     coefficients: &mut C,
     ends: &mut [Local<S, T>; 2],
@@ -106,7 +106,7 @@ fn newton<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>,
 }
 
 /// Moves to q1 = q0 + Δ and p1 = p0 + (D₁ + D₂)L_d.
-fn finish<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real>(
+fn finish<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     Parts { phase, inertial, work, q, .. }: &mut Parts<'_, S, T>,
     statistics: &mut Statistics,

@@ -17,10 +17,10 @@ use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::space::sink::Sink;
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, RegularLagrangian, Vector};
+use crate::{Real, RegularLagrangian, System, Vector};
 
 /// Rule and interpolation, where the step begins, and storage.
-pub(super) struct Interpolated<'a, S: RegularLagrangian, F, R, C, T: Real> {
+pub(super) struct Interpolated<'a, S: RegularLagrangian<T>, F, R, C, T: Real> {
     pub(super) method: &'a Variational<F, R>,
     pub(super) coefficients: &'a mut C,
     /// The frequencies at both ends.
@@ -33,7 +33,7 @@ pub(super) struct Interpolated<'a, S: RegularLagrangian, F, R, C, T: Real> {
     pub(super) next: &'a mut Vector<S, T>,
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
     Interpolated<'_, S, F, R, C, T>
 {
     /// The coefficients for the frequency at these ends.
@@ -93,8 +93,8 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
     }
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real> DiscreteLagrangian<S, T>
-    for Interpolated<'_, S, F, R, C, T>
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
+    DiscreteLagrangian<S, T> for Interpolated<'_, S, F, R, C, T>
 {
     fn derivatives(
         &mut self,
@@ -128,7 +128,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: R
 /// The discrete Lagrangian of a rule and of an interpolation that is linear or fitted to a frequency that is given, with
 /// the storage that it needs.
 #[derive(Debug)]
-pub struct QuadratureLagrangian<S: Lagrangian, F, R, T: Real = f64> {
+pub struct QuadratureLagrangian<S: System, F, R, T: Real = f64> {
     method: Variational<F, R>,
     interpolation: Interpolation<S, T>,
     node: NodeWork<S, T>,
@@ -147,14 +147,14 @@ macro_rules! with_coefficients {
     }};
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
     pub(super) fn new(system: &S, method: Variational<F, R>) -> Self {
         let interpolation = Interpolation::new(system, &method);
         Self { method, interpolation, node: NodeWork::new(system) }
     }
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
     for QuadratureLagrangian<S, F, R, T>
 {
     fn derivatives(
@@ -182,7 +182,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangi
     }
 }
 
-impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
     for QuadratureLagrangian<S, F, R, T>
 {
     fn hessian<K: Sink<T>>(
@@ -203,7 +203,7 @@ impl<S: RegularLagrangian, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentia
 }
 
 /// Adds D₁ℓ and (D₁ + D₂)ℓ.
-fn add_derivatives<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn add_derivatives<S: RegularLagrangian<T>, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
     step: &Step<'_, S, F, R, T>,
     coefficients: &C,
     ends: Ends<'_, T>,
@@ -226,7 +226,14 @@ fn add_derivatives<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S,
 }
 
 /// Adds D₁ℓ and D₁D₂ℓ.
-fn add_linearized<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real, K: Sink<T>>(
+fn add_linearized<
+    S: RegularLagrangian<T>,
+    F: Frequency,
+    R: Rule,
+    C: Adjustable<S, T>,
+    T: Real,
+    K: Sink<T>,
+>(
     step: &Step<'_, S, F, R, T>,
     coefficients: &mut C,
     ends: Ends<'_, T>,
@@ -243,7 +250,7 @@ fn add_linearized<S: RegularLagrangian, F: Frequency, R: Rule, C: Adjustable<S, 
 }
 
 /// Adds the part of D₁ℓ that a node has, from the derivatives of L there.
-fn add_first<S: RegularLagrangian, C: Coefficients<T>, T: Real>(
+fn add_first<S: RegularLagrangian<T>, C: Coefficients<T>, T: Real>(
     coefficients: &C,
     node: usize,
     h: T,
@@ -258,7 +265,7 @@ fn add_first<S: RegularLagrangian, C: Coefficients<T>, T: Real>(
 }
 
 /// Sets `point` to qʲ and `velocity` to q̇ʲ.
-pub(super) fn place<S: RegularLagrangian, C: Coefficients<T>, T: Real>(
+pub(super) fn place<S: RegularLagrangian<T>, C: Coefficients<T>, T: Real>(
     coefficients: &C,
     node: usize,
     h: T,

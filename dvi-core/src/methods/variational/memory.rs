@@ -10,11 +10,11 @@ use crate::mechanics::phase::{Inertial, PhasePoint};
 use crate::solve::{Ladder, Solver};
 use crate::space::square::of_second_derivatives;
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, Vector};
+use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, System, Vector};
 
 /// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
-pub struct VariationalMemory<S: Lagrangian, T: Real> {
+pub struct VariationalMemory<S: System, T: Real> {
     pub(super) interpolation: Interpolation<S, T>,
     /// The frequencies at both ends of the step.
     pub(super) ends: [Local<S, T>; 2],
@@ -26,7 +26,7 @@ pub struct VariationalMemory<S: Lagrangian, T: Real> {
 }
 
 /// What a step changes, the coordinates among it.
-pub(super) struct Parts<'a, S: Lagrangian, T: Real> {
+pub(super) struct Parts<'a, S: System, T: Real> {
     pub(super) interpolation: &'a mut Interpolation<S, T>,
     pub(super) ends: &'a mut [Local<S, T>; 2],
     pub(super) phase: &'a mut PhasePoint<S, T>,
@@ -37,14 +37,14 @@ pub(super) struct Parts<'a, S: Lagrangian, T: Real> {
 
 /// The latest coefficients of the interpolation.
 #[derive(Debug)]
-pub(super) enum Interpolation<S: Lagrangian, T: Real> {
+pub(super) enum Interpolation<S: System, T: Real> {
     Uniform(Uniform<T>),
     Each(Each<S, T>),
 }
 
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
-pub(super) struct Work<S: Lagrangian, T: Real> {
+pub(super) struct Work<S: System, T: Real> {
     pub(super) node: NodeWork<S, T>,
     pub(super) increment: Vector<S, T>,
     pub(super) next: Vector<S, T>,
@@ -54,7 +54,7 @@ pub(super) struct Work<S: Lagrangian, T: Real> {
     pub(super) sum: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> VariationalMemory<S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         &self.phase.p
@@ -69,7 +69,7 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
         h: T,
     ) -> Result<Self, StartError> {
         let explicit = method.is_explicit();
-        let solver = match (method.needs_forces_only::<S>(), method.solver) {
+        let solver = match (method.needs_forces_only::<S, T>(), method.solver) {
             (true, _) if explicit => Solver::FixedPoint,
             (true, solver) => solver,
             // Any L has no fixed point.
@@ -92,11 +92,11 @@ impl<S: RegularLagrangian, T: Real> VariationalMemory<S, T> {
     }
 }
 
-impl<S: Lagrangian, T: Real> Memory<T> for VariationalMemory<S, T> {
+impl<S: System, T: Real> Memory<T> for VariationalMemory<S, T> {
     lasting!(T; part phase, part inertial, part ladder);
 }
 
-impl<S: Lagrangian, T: Real> Work<S, T> {
+impl<S: Lagrangian<T>, T: Real> Work<S, T> {
     #[inline(always)]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
@@ -110,7 +110,7 @@ impl<S: Lagrangian, T: Real> Work<S, T> {
     }
 }
 
-impl<S: RegularLagrangian, T: Real> Interpolation<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Interpolation<S, T> {
     pub(super) fn new<F: Frequency, R: Rule>(system: &S, method: &Variational<F, R>) -> Self {
         if F::PER_COORDINATE {
             Self::Each(Each::new(system))

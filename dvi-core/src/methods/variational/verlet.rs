@@ -22,7 +22,7 @@ use crate::{Real, RegularLagrangian, Vector};
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
 /// good point.
 #[inline(always)]
-pub(super) fn steps<S: RegularLagrangian, T: Real>(
+pub(super) fn steps<S: RegularLagrangian<T>, T: Real>(
     system: &S,
     mass: &Mass<S, T>,
     phase: &mut PhasePoint<S, T>,
@@ -44,7 +44,7 @@ pub(super) fn steps<S: RegularLagrangian, T: Real>(
 
 /// One step with compensated sums, forces being evaluated at these.
 #[inline(never)]
-pub(super) fn compensated<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
+pub(super) fn compensated<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     mass: &Mass<S, T>,
     phase: &mut PhasePoint<S, T>,
@@ -71,7 +71,7 @@ pub(super) fn compensated<S: RegularLagrangian, F: Frequency, R: Rule, T: Real>(
 }
 
 /// The present point, momentum and force, and where they are kept.
-struct Kicks<'a, S: RegularLagrangian, T: Real> {
+struct Kicks<'a, S: RegularLagrangian<T>, T: Real> {
     system: &'a S,
     mass: &'a Mass<S, T>,
     clock: Clock<T>,
@@ -84,7 +84,7 @@ struct Kicks<'a, S: RegularLagrangian, T: Real> {
     v: &'a mut [T],
 }
 
-impl<S: RegularLagrangian, T: Real> Walk for Kicks<'_, S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
     #[inline(always)]
     fn step(&mut self, number: u64) {
         let Self { half, q1, p1, f1, v, .. } = self;

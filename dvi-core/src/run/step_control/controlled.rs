@@ -7,17 +7,17 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, VariableStep};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
-use crate::{Lagrangian, Real, Vector};
+use crate::{Lagrangian, Real, System, Vector};
 
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the control
 /// [rejects](super::StepControl::REJECTS) steps, back.
-pub struct ControlledRun<'a, S: Lagrangian, M: Carries<S, T>, T: Real> {
+pub struct ControlledRun<'a, S: System, M: Carries<S, T>, T: Real> {
     pub(super) stepper: Stepper<'a, S, M, T>,
     /// What can be gone back to.
     checkpoint: Option<(M::Memory, Vector<S, T>)>,
 }
 
-impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, T> {
+impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, T> {
     pub(super) fn new(
         system: &'a S,
         method: M,
@@ -82,7 +82,9 @@ impl<'a, S: Lagrangian, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, 
     }
 }
 
-impl<S: Lagrangian, M: VariableStep<S, T> + fmt::Debug, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: VariableStep<S, T> + fmt::Debug, T: Real> fmt::Debug
+    for ControlledRun<'_, S, M, T>
+{
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ControlledRun")
             .field("system", &S::REPORT.system)

@@ -19,7 +19,7 @@ use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
 /// Like [`Integrator`](crate::run::Integrator) it is a [`Run`], and an iterator that yields the state after each step, up
 /// to the first failure; [`state`](Run::state) is always the last good one. The velocity is taken along, so that
 /// a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-pub struct ControlledIntegrator<'a, S: Lagrangian, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64> {
+pub struct ControlledIntegrator<'a, S: Lagrangian<T>, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64> {
     controlled: ControlledRun<'a, S, M, T>,
     control: C,
     control_memory: C::Memory,
@@ -28,7 +28,7 @@ pub struct ControlledIntegrator<'a, S: Lagrangian, M: Carries<S, T>, C: StepCont
     h: T,
 }
 
-impl<'a, S: Lagrangian, M, C, T: Real> ControlledIntegrator<'a, S, M, C, T>
+impl<'a, S: Lagrangian<T>, M, C, T: Real> ControlledIntegrator<'a, S, M, C, T>
 where
     M: VariableStep<S, T>,
     C: StepControl<S, T>,
@@ -119,7 +119,7 @@ where
     }
 }
 
-impl<S: Lagrangian, M, C, T: Real> Run for ControlledIntegrator<'_, S, M, C, T>
+impl<S: Lagrangian<T>, M, C, T: Real> Run for ControlledIntegrator<'_, S, M, C, T>
 where
     M: VariableStep<S, T>,
     C: StepControl<S, T>,
@@ -158,7 +158,7 @@ where
     }
 }
 
-impl<S: RegularLagrangian, M, D, T: Real> ControlledIntegrator<'_, S, M, Reversible<D>, T>
+impl<S: RegularLagrangian<T>, M, D, T: Real> ControlledIntegrator<'_, S, M, Reversible<D>, T>
 where
     M: VariableStep<S, T>,
     D: reversible::Density<T>,
@@ -175,7 +175,7 @@ where
     }
 }
 
-impl<S: Lagrangian, M, C, T: Real> Iterator for ControlledIntegrator<'_, S, M, C, T>
+impl<S: Lagrangian<T>, M, C, T: Real> Iterator for ControlledIntegrator<'_, S, M, C, T>
 where
     M: VariableStep<S, T>,
     C: StepControl<S, T>,
@@ -200,14 +200,14 @@ where
     }
 }
 
-impl<S: Lagrangian, M, C, T: Real> core::iter::FusedIterator for ControlledIntegrator<'_, S, M, C, T>
+impl<S: Lagrangian<T>, M, C, T: Real> core::iter::FusedIterator for ControlledIntegrator<'_, S, M, C, T>
 where
     M: VariableStep<S, T>,
     C: StepControl<S, T>,
 {
 }
 
-impl<S: Lagrangian, M, C, T: Real> fmt::Debug for ControlledIntegrator<'_, S, M, C, T>
+impl<S: Lagrangian<T>, M, C, T: Real> fmt::Debug for ControlledIntegrator<'_, S, M, C, T>
 where
     M: VariableStep<S, T> + fmt::Debug,
     C: StepControl<S, T>,

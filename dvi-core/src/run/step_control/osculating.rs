@@ -75,7 +75,7 @@ struct Circle<T> {
 
 /// What [`Osculating`] carries from step to step.
 #[derive(Debug)]
-pub struct OsculatingMemory<S: RegularLagrangian, T: Real> {
+pub struct OsculatingMemory<S: RegularLagrangian<T>, T: Real> {
     /// The length of the next step.
     h: T,
     circle: Circle<T>,
@@ -85,7 +85,7 @@ pub struct OsculatingMemory<S: RegularLagrangian, T: Real> {
 }
 
 #[derive(Debug)]
-struct Work<S: RegularLagrangian, T: Real> {
+struct Work<S: RegularLagrangian<T>, T: Real> {
     acceleration: Vector<S, T>,
     jerk: Vector<S, T>,
     l_q: Vector<S, T>,
@@ -94,7 +94,7 @@ struct Work<S: RegularLagrangian, T: Real> {
     force_rate: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian, T: Real> OsculatingMemory<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> OsculatingMemory<S, T> {
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         let zero = T::lift(0.0);
@@ -102,7 +102,7 @@ impl<S: RegularLagrangian, T: Real> OsculatingMemory<S, T> {
     }
 }
 
-impl<S: RegularLagrangian, T: Real> Memory<T> for OsculatingMemory<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Memory<T> for OsculatingMemory<S, T> {
     lasting!(T; number h, part circle; is_sound);
 }
 
@@ -110,7 +110,7 @@ impl<T: Real> Memory<T> for Circle<T> {
     lasting!(T; number radius, number rate, number speed);
 }
 
-impl<S: RegularLagrangian, T: Real> Work<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Work<S, T> {
     /// The osculating circle at (`q`, `v`), by one evaluation of the second derivatives.
     fn circle(&mut self, system: &S, mass: &Mass<S, T>, q: &[T], v: &[T], t: T) -> Circle<T> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
@@ -149,7 +149,7 @@ impl Osculating {
     }
 }
 
-impl<S: RegularLagrangian, T: Real> StepControl<S, T> for Osculating {
+impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
     const REJECTS: bool = true;
     type Memory = OsculatingMemory<S, T>;
 
@@ -219,7 +219,7 @@ impl<S: RegularLagrangian, T: Real> StepControl<S, T> for Osculating {
 }
 
 /// Takes a step of length `h` and returns the circle at its end; goes back if there is none.
-fn attempt<S: RegularLagrangian, M: VariableStep<S, T>, T: Real>(
+fn attempt<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real>(
     memory: &mut OsculatingMemory<S, T>,
     run: &mut ControlledRun<'_, S, M, T>,
     t: T,

@@ -76,7 +76,7 @@ impl<D> Reversible<D> {
     }
 
     /// ρ at the point (`q`, `v`) that the control has reached.
-    pub(super) fn density_at<S: RegularLagrangian, T: Real>(
+    pub(super) fn density_at<S: RegularLagrangian<T>, T: Real>(
         &self,
         memory: &ReversibleMemory<S, T>,
         q: &[T],
@@ -98,24 +98,24 @@ impl Reversible {
 
 /// What [`Reversible`] carries from step to step.
 #[derive(Debug)]
-pub struct ReversibleMemory<S: RegularLagrangian, T: Real> {
+pub struct ReversibleMemory<S: RegularLagrangian<T>, T: Real> {
     /// ρ_{k−1/2}; for k = 0, as if there had been a step before.
     density: T,
     v: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian, T: Real> ReversibleMemory<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> ReversibleMemory<S, T> {
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         is_density(self.density)
     }
 }
 
-impl<S: RegularLagrangian, T: Real> Memory<T> for ReversibleMemory<S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Memory<T> for ReversibleMemory<S, T> {
     lasting!(T; number density; is_sound);
 }
 
-impl<S: RegularLagrangian, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
+impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
     type Memory = ReversibleMemory<S, T>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {

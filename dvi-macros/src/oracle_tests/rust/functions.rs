@@ -6,7 +6,7 @@ use super::code::Operator;
 
 #[derive(Clone, Debug)]
 pub(super) enum Callee {
-    /// `Scalar::lift` and `Number::number`
+    /// `Scalar::lift`, `Number::number` and `Parameter::value`
     Number,
     Unary(fn(f64) -> f64),
     Binary(fn(f64, f64) -> f64),
@@ -57,7 +57,9 @@ const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrang
 pub(super) fn callee(path: &[String]) -> Callee {
     let segments: Vec<&str> = path.iter().map(String::as_str).collect();
     match segments.as_slice() {
-        [.., "Scalar", "lift"] | [.., "__private", "Number", "number"] => Callee::Number,
+        [.., "Scalar", "lift"] | [.., "__private", "Number", "number"] | [.., "Parameter", "value"] => {
+            Callee::Number
+        }
         [.., "Scalar", "powi"] => Callee::Power,
         [.., "Scalar", "choose"] => Callee::Choose,
         [.., "Scalar", name] => scalar(name),

@@ -19,7 +19,7 @@ pub(crate) struct Expansion {
     pub(super) own: HashMap<String, String>,
 }
 
-const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
+const TRAITS: [&str; 4] = ["System", "Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
 
 fn unknown(what: &str, tokens: &impl ToTokens) -> ! {
     panic!("the interpreter does not know this {what}: {}", tokens.to_token_stream())

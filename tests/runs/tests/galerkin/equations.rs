@@ -15,7 +15,7 @@ use crate::systems::{
 
 /// The displacements of the interior nodes that make L_d(q0, q1) stationary, by Newton with differences of
 /// derivatives that dual numbers give.
-fn stationary<S: Lagrangian, const NODES: usize>(
+fn stationary<S: Lagrangian<Dual64>, const NODES: usize>(
     system: &S,
     u: f64,
     [t, h]: [f64; 2],
@@ -45,7 +45,7 @@ fn stationary<S: Lagrangian, const NODES: usize>(
 }
 
 /// The largest residual of p0 = −D₁L_d and p1 = D₂L_d, from the value of L alone.
-fn check_equations<S: RegularLagrangian, const NODES: usize>(
+fn check_equations<S: RegularLagrangian + Lagrangian<Dual64>, const NODES: usize>(
     (system, start): (S, S::State<f64>),
     omega: f64,
 ) -> Outcome {
@@ -78,7 +78,9 @@ fn check_equations<S: RegularLagrangian, const NODES: usize>(
     Ok(())
 }
 
-fn check_all_nodes<S: RegularLagrangian + Clone>((system, start): (S, S::State<f64>)) -> Outcome {
+fn check_all_nodes<S: RegularLagrangian + Lagrangian<Dual64> + Clone>(
+    (system, start): (S, S::State<f64>),
+) -> Outcome {
     for omega in [0.0, 1.3] {
         check_equations::<S, 3>((system.clone(), start.clone()), omega)?;
         check_equations::<S, 4>((system.clone(), start.clone()), omega)?;

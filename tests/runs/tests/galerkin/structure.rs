@@ -14,7 +14,7 @@ use crate::systems::{
 
 /// Entry by entry, (q, p) and its derivative in the direction of entry `direction` of (q, v), at the start and
 /// after some steps.
-fn tangents<S: RegularLagrangian, M: Method<S, Dual64> + Copy>(
+fn tangents<S: RegularLagrangian<Dual64>, M: Method<S, Dual64> + Copy>(
     system: &S,
     start: &S::State<f64>,
     method: M,
@@ -41,7 +41,7 @@ fn tangents<S: RegularLagrangian, M: Method<S, Dual64> + Copy>(
 }
 
 /// The largest change of dq ∧ dp, evaluated on the variations of the start.
-fn defect<S: RegularLagrangian, F: FrequencyIn<Dual64> + Copy, const NODES: usize>(
+fn defect<S: RegularLagrangian<Dual64>, F: FrequencyIn<Dual64> + Copy, const NODES: usize>(
     system: &S,
     start: &S::State<f64>,
     method: Galerkin<NODES, F>,
@@ -60,7 +60,7 @@ fn defect<S: RegularLagrangian, F: FrequencyIn<Dual64> + Copy, const NODES: usiz
     Ok(largest)
 }
 
-fn check_symplectic<S: RegularLagrangian>((system, start): (S, S::State<f64>)) -> Outcome {
+fn check_symplectic<S: RegularLagrangian<Dual64>>((system, start): (S, S::State<f64>)) -> Outcome {
     for solver in [Solver::Automatic, Solver::Newton] {
         let defects = [
             defect(&system, &start, Galerkin { solver, ..Galerkin::<3>::new() })?,

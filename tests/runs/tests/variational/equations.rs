@@ -14,7 +14,7 @@ use num_dual::Dual64;
 pub(super) type Omega<'a> = &'a [f64];
 
 /// h Σ w L with the basis of Kosmas & Vlachos, eq. 15, written out.
-pub(super) fn discrete_lagrangian<S: RegularLagrangian, T: Real>(
+pub(super) fn discrete_lagrangian<S: RegularLagrangian<T>, T: Real>(
     system: &S,
     rule: &impl Rule,
     omega: Omega<'_>,
@@ -48,7 +48,7 @@ fn dual(q: &[f64], direction: Option<usize>) -> Vec<Dual64> {
 }
 
 #[track_caller]
-fn check<S: RegularLagrangian, F: FrequencyIn<f64> + Copy, R: Rule>(
+fn check<S: RegularLagrangian + RegularLagrangian<Dual64>, F: FrequencyIn<f64> + Copy, R: Rule>(
     system: &S,
     method: Variational<F, R>,
     omega: Omega<'_>,

@@ -10,7 +10,7 @@ use num_dual::Dual64;
 pub(super) type Start = (Vec<f64>, Vec<f64>);
 
 /// (q, p) after `steps` steps from (q, v), with the derivative along one direction of (q, v).
-fn along<S: RegularLagrangian, M: Method<S, Dual64>>(
+fn along<S: RegularLagrangian<Dual64>, M: Method<S, Dual64>>(
     system: &S,
     method: M,
     h: f64,
@@ -35,7 +35,7 @@ fn along<S: RegularLagrangian, M: Method<S, Dual64>>(
 
 /// max |NᵀJN − N₀ᵀJN₀| over the derivatives N of (q, p) after `steps` steps and N₀ of (q, p) at the start,
 /// both with respect to (q, v) at the start: zero if the steps preserve dq ∧ dp.
-pub(super) fn symplectic_defect<S: RegularLagrangian, M: Method<S, Dual64> + Clone>(
+pub(super) fn symplectic_defect<S: RegularLagrangian<Dual64>, M: Method<S, Dual64> + Clone>(
     system: &S,
     method: &M,
     h: f64,

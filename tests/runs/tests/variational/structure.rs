@@ -20,7 +20,12 @@ fn rules() -> Result<Vec<Quadrature>, StartError> {
 
 /// Checks what `method` says of itself on one system.
 #[track_caller]
-fn check<S: RegularLagrangian, M>(system: &S, method: M, h: f64, start: &Start) -> Outcome
+fn check<S: RegularLagrangian + RegularLagrangian<Dual64>, M>(
+    system: &S,
+    method: M,
+    h: f64,
+    start: &Start,
+) -> Outcome
 where
     M: Method<S, f64> + Method<S, Dual64> + Clone + core::fmt::Debug,
 {

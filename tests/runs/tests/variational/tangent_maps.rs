@@ -13,7 +13,11 @@ use dvi_tests::zoo::regular::*;
 use num_dual::HyperDual64;
 
 #[track_caller]
-fn check<S: RegularLagrangian, F: FrequencyIn<f64> + GivenFrequency + Copy, R: Rule + Copy>(
+fn check<
+    S: RegularLagrangian + RegularLagrangian<HyperDual64>,
+    F: FrequencyIn<f64> + GivenFrequency + Copy,
+    R: Rule + Copy,
+>(
     system: &S,
     method: Variational<F, R>,
     omega: Omega<'_>,

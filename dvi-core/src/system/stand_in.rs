@@ -1,0 +1,70 @@
+//! What takes the place of a system with mistakes in it: it has every trait, so that the mistakes in its attribute are
+//! the only ones that the compiler reports. None of the functions is ever called, as such a program does not compile.
+
+use super::{
+    AffineOneForm, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, RegularLagrangian, Separable,
+    System, Weights,
+};
+use crate::{Scalar, Sink};
+
+/// A system with mistakes in it.
+pub trait StandIn: System {}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn, T: Scalar> Lagrangian<T> for S {
+    fn lagrangian(&self, _: &[T], _: &[T], t: T) -> T {
+        t
+    }
+    fn gradient(&self, _: &[T], _: &[T], _: T, _: &mut [T], _: &mut [T]) {}
+    fn linearize<K: Sink<T>>(
+        &self,
+        _: &[T],
+        _: &[T],
+        _: T,
+        _: Weights<T>,
+        _: &mut [T],
+        _: &mut [T],
+        _: &mut K,
+    ) {
+    }
+    fn energy(&self, _: &[T], _: &[T], t: T) -> T {
+        t
+    }
+    fn momentum(&self, _: usize, _: &[T], _: &[T], t: T) -> T {
+        t
+    }
+}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn, T: Scalar> DegenerateLagrangian<T> for S {
+    const LINEAR: bool = false;
+    const MATCHING: bool = false;
+    const CANONICAL: bool = false;
+    fn hamiltonian(&self, _: &[T], t: T) -> T {
+        t
+    }
+    fn hamiltonian_gradient(&self, _: &[T], _: T, _: &mut [T]) {}
+    fn flow_source(&self, _: &[T], _: T, _: &mut [T]) {}
+    fn one_form(&self, _: &[T], _: T, _: &mut [T]) {}
+    fn one_form_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: T, _: T, _: &mut K) {}
+    fn partner_entries(&self, _: &[T], _: T, _: T, _: T, _: &mut [T]) {}
+    fn partner(&self, i: usize) -> usize {
+        i
+    }
+    fn momentum_gradient(&self, _: usize, _: &[T], _: T, _: &mut [T]) {}
+}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn, T: Scalar> RegularLagrangian<T> for S {
+    const SEPARABLE: bool = false;
+    const DIAGONAL_MASS: bool = false;
+    const QUADRATIC: bool = false;
+    fn force(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn, T: Scalar> Separable<T> for S {}
+#[diagnostic::do_not_recommend]
+impl<S: StandIn, T: Scalar> QuadraticInVelocity<T> for S {}
+#[diagnostic::do_not_recommend]
+impl<S: StandIn, T: Scalar> AffineOneForm<T> for S {}

@@ -1,0 +1,166 @@
+//! Systems that are generic over the type of their parameters.
+
+use dvi_core::Varied;
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use num_dual::Dual64;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// Springs of stiffness k₀ and k₁, and one between their ends.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = mass * (dot(x).powi(2) + dot(y).powi(2)) / 2.0
+        - (k[0] * x * x + k[1] * y * y + coupling[0] * (x - y).powi(2)) / 2.0,
+    derive(serde::Serialize, serde::Deserialize)
+)]
+struct Springs<P = f64> {
+    mass: f64,
+    k: [P; 2],
+    coupling: Vec<P>,
+}
+
+/// α and H with a parameter each.
+#[degenerate_lagrangian(coordinates(x, y), one_form = a * x * d(y), hamiltonian = b / 2.0 * (x * x + y * y))]
+struct Oscillator<P> {
+    a: P,
+    b: P,
+}
+
+/// The circulations of vortices are the parameters of α and of H.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |i| gamma[i] * x[i] * d(y[i])),
+    hamiltonian = -sum_pairs(0..n, |i, j| gamma[i] * gamma[j] * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2)).ln())
+        / (4.0 * PI)
+)]
+struct Vortices<'a, P> {
+    n: usize,
+    gamma: &'a [P],
+}
+
+fn constant(value: f64) -> Varied<Dual64> {
+    Varied(Dual64::from_re(value))
+}
+
+fn varied(value: f64) -> Varied<Dual64> {
+    Varied(Dual64::from_re(value).derivative())
+}
+
+fn dual(value: f64) -> Dual64 {
+    Dual64::from_re(value)
+}
+
+/// Of Verlet's steps on an oscillator x(nh) = cos nθ with cos θ = 1 − kh²/2.
+#[test]
+fn a_step_is_differentiated_in_a_parameter() -> Outcome {
+    let (k, h, n) = (1.3, 0.1, 1000);
+    let system = Springs { mass: 1.0, k: [varied(k), constant(0.0)], coupling: vec![constant(0.0)] };
+    let start = SpringsState { x: dual(1.0), y: dual(0.0), dot_x: dual(0.0), dot_y: dual(0.0) };
+    let mut run = Integrator::new(&system, Variational::trapezoid(), dual(h), start)?;
+    run.take_steps(n)?;
+    let theta = (1.0 - k * h * h / 2.0).acos();
+    let slope = h * h / 2.0 / theta.sin();
+    let (sin, cos) = (n as f64 * theta).sin_cos();
+    assert!((run.q()[0].re - cos).abs() < 1e-11);
+    assert!((run.q()[0].eps + n as f64 * slope * sin).abs() < 1e-8 * (n as f64 * slope));
+    Ok(())
+}
+
+/// The midpoint rule turns the oscillator by 2 atan(bh/2a) a step.
+#[test]
+fn a_degenerate_step_is_differentiated_in_the_one_form_and_in_the_hamiltonian() -> Outcome {
+    let (a, b, h, n) = (0.7, 1.1, 0.1, 100);
+    let angle = 2.0 * n as f64 * f64::atan(b * h / (2.0 * a));
+    let slope = n as f64 * (h / a) / (1.0 + (b * h / (2.0 * a)).powi(2));
+    for (a, b, slope) in [(varied(a), constant(b), -slope * b / a), (constant(a), varied(b), slope)] {
+        let system = Oscillator { a, b };
+        let start = OscillatorState { x: dual(1.0), y: dual(0.0) };
+        let method = Gauss::<1>::new();
+        let mut run = Integrator::new(&system, method, dual(h), start)?;
+        run.take_steps(n)?;
+        assert!((run.q()[0].re - angle.cos()).abs() < 1e-12);
+        let error = run.q()[0].eps + slope * angle.sin();
+        assert!(error.abs() < 1e-11 * slope.abs(), "{error:e}");
+    }
+    Ok(())
+}
+
+/// Against differences of fourth order, for methods of all families and storage at run time.
+#[test]
+fn runs_are_differentiated_in_a_circulation() -> Outcome {
+    fn check<M>(method: M) -> Outcome
+    where
+        M: for<'a> Method<Vortices<'a, f64>, f64>
+            + for<'a> Method<Vortices<'a, Varied<Dual64>>, Dual64>
+            + Clone
+            + core::fmt::Debug,
+    {
+        let (x, y) = (vec![1.0, -0.5, 0.2], vec![0.0, 0.3, -0.9]);
+        let end = |first: f64| -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+            let system = Vortices { n: 3, gamma: &[first, 0.8, -0.4] };
+            let start = VorticesState { x: x.clone(), y: y.clone() };
+            let mut run = Integrator::new(&system, method.clone(), 0.02, start)?;
+            run.take_steps(50)?;
+            Ok(run.q().to_vec())
+        };
+        let dx = 1e-3;
+        let [a, b, c, d] = [end(1.0 - 2.0 * dx)?, end(1.0 - dx)?, end(1.0 + dx)?, end(1.0 + 2.0 * dx)?];
+        let gamma = [varied(1.0), constant(0.8), constant(-0.4)];
+        let system = Vortices { n: 3, gamma: &gamma };
+        let lifted = |values: &[f64]| values.iter().map(|&value| dual(value)).collect::<Vec<_>>();
+        let start = VorticesState { x: lifted(&x), y: lifted(&y) };
+        let mut run = Integrator::new(&system, method.clone(), dual(0.02), start)?;
+        run.take_steps(50)?;
+        let same = end(1.0)?;
+        for i in 0..same.len() {
+            let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * dx);
+            assert!((run.q()[i].re - same[i]).abs() < 1e-12, "{method:?}");
+            assert!((run.q()[i].eps - slope).abs() < 1e-9, "{method:?}: {} {slope}", run.q()[i].eps);
+        }
+        Ok(())
+    }
+    check(RungeKutta::classical())?;
+    check(Gauss::<3>::new())?;
+    Ok(())
+}
+
+/// A generic system in numbers of Rust is the same, bit by bit, as one with their type.
+#[test]
+fn numbers_as_generic_parameters_change_nothing() -> Outcome {
+    #[degenerate_lagrangian(coordinates(x, y), one_form = a * x * d(y), hamiltonian = b / 2.0 * (x * x + y * y))]
+    struct Plain {
+        a: f64,
+        b: f64,
+    }
+    let mut plain =
+        Integrator::new(&Plain { a: 2.0, b: 0.5 }, Sigma::midpoint(), 0.1, PlainState { x: 1.0, y: 0.2 })?;
+    let start = OscillatorState { x: 1.0, y: 0.2 };
+    let mut double = Integrator::new(&Oscillator { a: 2.0, b: 0.5 }, Sigma::midpoint(), 0.1, start)?;
+    let mut single = Integrator::new(&Oscillator { a: 2.0_f32, b: 0.5 }, Sigma::midpoint(), 0.1, start)?;
+    for _ in 0..1000 {
+        plain.advance()?;
+        double.advance()?;
+        single.advance()?;
+        assert_eq!(plain.q(), double.q());
+        assert_eq!(plain.q(), single.q());
+    }
+    Ok(())
+}
+
+#[test]
+fn a_generic_system_has_formulas_in_the_numbers_of_its_parameters() {
+    let system = Springs { mass: 2.0, k: [varied(3.0), constant(1.0)], coupling: vec![constant(0.5)] };
+    let [x, y, zero] = [dual(0.4), dual(-0.2), dual(0.0)];
+    let energy = system.energy(&[x, y], &[zero, zero], zero);
+    let expected = (3.0 * 0.16 + 0.04 + 0.5 * 0.36) / 2.0;
+    assert!((energy.re - expected).abs() < 1e-15 && (energy.eps - 0.08).abs() < 1e-15);
+}
+
+#[test]
+fn states_derive_what_they_are_asked_to() -> Outcome {
+    let state: SpringsState = SpringsState { x: 0.1, y: 2.0, dot_x: -1.0 / 3.0, dot_y: 0.0 };
+    let text = serde_json::to_string(&state)?;
+    assert_eq!(serde_json::from_str::<SpringsState>(&text)?, state);
+    Ok(())
+}
