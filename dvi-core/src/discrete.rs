@@ -111,6 +111,10 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
 }
 
 /// A discrete Lagrangian with all of its second derivatives, from which tangent maps and the preserved two-form come.
+#[diagnostic::on_unimplemented(
+    message = "the second derivatives of `{Self}` in one point are not known",
+    label = "has no tangent map"
+)]
 pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, T> {
     /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, and D₂D₂L_d to sinks.
     ///

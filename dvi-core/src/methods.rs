@@ -16,7 +16,7 @@ mod symmetrised;
 mod variational;
 mod walk;
 
-use crate::discrete::TwiceDifferentiable;
+use crate::discrete::DiscreteLagrangian;
 use crate::error::{StartError, StepFailure};
 use crate::state::Statistics;
 use crate::state::memory::Memory;
@@ -27,7 +27,7 @@ pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
 pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use general::{General, GeneralMemory};
-pub use newmark::{Newmark, NewmarkMemory};
+pub use newmark::{Newmark, NewmarkLagrangian, NewmarkMemory};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
 pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
@@ -221,15 +221,15 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {}
 /// is a method.
 ///
 /// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
-/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives.
+/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives, if it has them all.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no discrete Lagrangian that can be differentiated twice",
+    message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
+    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, `Newmark`, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
-    type DiscreteLagrangian: TwiceDifferentiable<S, T>;
+    type DiscreteLagrangian: DiscreteLagrangian<S, T>;
 
     /// Checks the options of the method.
     ///

@@ -5,7 +5,12 @@
 //! In q = x − βh² a(x) this is Störmer–Verlet with the acceleration a(x), which as a function of q is that of the
 //! potential Ṽ(q) = V(x) + ½βh² ∇V·M⁻¹∇V: dṼ = ∇V·(1 + βh² M⁻¹V″)dx = ∇V·dq. So the method is symplectic, for
 //! dq ∧ dp (Kane, Marsden, Ortiz & West 2000, section 3.2; Newmark 1959). Here it is written with momenta, as
-//! p½ = p0 + (h/2)F0,   x1 = x0 + h M⁻¹[p½ + βh(F1 − F0)],   p1 = p½ + (h/2)F1.
+//! p½ = p0 + (h/2)F0,   x1 = x0 + h M⁻¹[p½ + βh(F1 − F0)],   p1 = p½ + (h/2)F1,
+//!
+//! which is the general step of the discrete Lagrangian in x with both of its equations divided by η′ᵀ, so that no
+//! second derivatives are left in them.
+
+mod lagrangian;
 
 use crate::discrete::Interval;
 use crate::error::{StartError, StepFailure};
@@ -19,6 +24,8 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Separable, Space, Square, System, Vector, Weights};
+
+pub use lagrangian::NewmarkLagrangian;
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
 ///
@@ -190,6 +197,14 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
 }
 
 impl<T: Real> Newmark<T> {
+    fn validate(&self) -> Result<(), StartError> {
+        if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
+            let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
+            return Err(StartError::Parameter { name: "beta", value, range });
+        }
+        self.stopping.validate()
+    }
+
     fn is_explicit(&self) -> bool {
         self.beta == T::lift(0.0)
     }
@@ -213,11 +228,7 @@ impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
 
 impl<S: Separable<T>, T: Real> Method<S, T> for Newmark<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
-        if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
-            let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
-            return Err(StartError::Parameter { name: "beta", value, range });
-        }
-        self.stopping.validate()?;
+        self.validate()?;
         let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver };
         Ok(NewmarkMemory {
             phase: PhasePoint::new(system, q, v, t, self.summation)?,

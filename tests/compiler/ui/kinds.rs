@@ -32,6 +32,10 @@ fn exponent_of_steps_without_a_discrete_lagrangian() {
     let _ = dvi_core::diagnostics::LyapunovExponent::new(&run);
 }
 
+fn tangent_map_of_newmark() {
+    let _ = TangentMap::new(&Regular, &Newmark::new(0.25));
+}
+
 fn integer_step() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 1, state);

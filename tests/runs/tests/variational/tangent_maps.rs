@@ -5,7 +5,8 @@ use super::Outcome;
 use super::equations::{Omega, discrete_lagrangian};
 use super::phase_space::Start;
 use dvi_core::diagnostics::DiscreteHessian;
-use dvi_core::discrete::{FrequencyIn, GivenFrequency, Interval, Rule};
+use dvi_core::discrete::{FrequencyIn, GivenFrequency, Interval, Rule, TwiceDifferentiable};
+use dvi_core::methods::VariationalMethod;
 use dvi_core::prelude::*;
 use dvi_core::{Space, State};
 use dvi_tests::larger;
@@ -82,7 +83,7 @@ fn tangent_matches_runs<R: Run<System = Kepler, Scalar = f64>>(
     begin: impl Fn(KeplerState) -> Result<R, StartError>,
 ) -> Outcome
 where
-    R::Method: dvi_core::methods::VariationalMethod<Kepler, f64> + Clone,
+    R::Method: VariationalMethod<Kepler, f64, DiscreteLagrangian: TwiceDifferentiable<Kepler, f64>> + Clone,
 {
     let system = Kepler { mu: 1.0 };
     let start = [0.8, 0.1, -0.1, 1.2];
