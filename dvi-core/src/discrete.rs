@@ -17,9 +17,10 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::Sink;
-use crate::space::square::{SquareMatrix, of_second_derivatives};
+use crate::space::square::of_second_derivatives;
+use crate::space::{LinearEquations, LinearSolver};
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Square, Vector};
+use crate::{Lagrangian, Linear, Real, Vector};
 
 pub use frequency::{
     Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, PerCoordinate, Radial, Reading, Unfitted,
@@ -78,9 +79,9 @@ impl<S, T: Copy> Copy for Span<'_, S, T> {}
 /// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so that nothing
 /// is allocated.
 pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
-    /// A matrix with room for D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here it has the entries of ∂²L in all blocks,
-    /// as a sum over nodes has whose points depend on the ends alone.
-    fn matrix(&self, system: &S, q: &[T], v: &[T], t: T) -> Square<S, T> {
+    /// A solver for equations with D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here the matrix has the entries of ∂²L in
+    /// all blocks, as a sum over nodes has whose points depend on the ends alone.
+    fn solver(&self, system: &S, q: &[T], v: &[T], t: T) -> Linear<S, T> {
         of_second_derivatives(system, q, v, t)
     }
 
@@ -123,6 +124,24 @@ pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, 
     fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 3]) -> Result<(), StepFailure>;
 }
 
+/// D₁D₂L_d d = p0 + D₁L_d, for the correction −d of Δ.
+struct Equations<'a, 'b, S, T, L> {
+    l_d: &'a mut L,
+    span: Span<'b, S, T>,
+    p0: &'a [T],
+    statistics: &'a mut Statistics,
+}
+
+impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> LinearEquations<T>
+    for Equations<'_, '_, S, T, L>
+{
+    #[inline(always)]
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        b.copy_from_slice(self.p0);
+        self.l_d.linearize(self.span, b, sink, self.statistics)
+    }
+}
+
 /// Solves p0 + D₁L_d(q0, q0 + Δ) = 0 by Newton's method, from the `delta` that stands there.
 ///
 /// # Errors
@@ -135,23 +154,17 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
     interval: Interval<T>,
     [q0, p0]: [&[T]; 2],
     delta: &mut [T],
-    (matrix, residual): (&mut Square<S, T>, &mut Vector<S, T>),
+    (solver, residual): (&mut Linear<S, T>, &mut Vector<S, T>),
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let scale = norm::largest(q0) + norm::largest(delta);
     let convergence = Convergence::new(stopping, scale, q0, stopping.max_iterations);
     iterate(convergence, statistics, |statistics| {
-        residual.copy_from_slice(p0);
-        let entries = matrix.cleared();
-        let span = Span { system, interval, ends: Ends { q0, delta } };
-        l_d.linearize(span, residual, entries, statistics)?;
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        let finite = norm::finite(residual);
-        if let Err(singular) = matrix.eliminate(residual) {
-            return Err(finite.err().unwrap_or(singular));
-        }
+        let span = Span { system, interval, ends: Ends { q0, delta } };
+        solver.solve(&mut Equations { l_d, span, p0, statistics }, residual)?;
         for (delta, &correction) in delta.iter_mut().zip(residual.iter()) {
             *delta -= correction;
         }

@@ -10,6 +10,7 @@
 
 pub(crate) mod elimination;
 pub(crate) mod inertia;
+pub(crate) mod linear;
 pub mod sink;
 pub(crate) mod square;
 
@@ -18,6 +19,9 @@ use core::ops::{Deref, DerefMut};
 
 use crate::{Real, Scalar};
 
+#[cfg(feature = "alloc")]
+pub use linear::RunTimeSolver;
+pub use linear::{LinearEquations, LinearSolver};
 pub use sink::Sink;
 #[cfg(feature = "alloc")]
 pub use square::RunTimeSquare;
@@ -34,6 +38,8 @@ pub trait Space: Copy + Debug + PartialEq {
     type Matrix<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug + Sink<T>;
     /// A square matrix that is solved with, in the storage that its pattern needs.
     type Square<T: Real>: SquareMatrix<T>;
+    /// What solves linear equations whose matrix comes entry by entry.
+    type Linear<T: Real>: LinearSolver<T>;
     /// A row permutation, `dimension` indices.
     type Permutation: Deref<Target = [usize]> + DerefMut + Clone + Debug;
 
@@ -46,6 +52,9 @@ pub trait Space: Copy + Debug + PartialEq {
     /// A matrix of zeros with room for the entries in the rows and columns, below the dimension, that `entries` visits. Others
     /// may not be added to; see [`SquareMatrix::cleared`].
     fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T>;
+    /// A solver of linear equations with these entries, as of [`square`](Self::square). Where they are many and lie far apart, it
+    /// keeps none of them.
+    fn linear<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T>;
     /// A permutation, all zeros until it is written.
     fn permutation(self) -> Self::Permutation;
 }
@@ -119,6 +128,7 @@ impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
     type Vector<T: Scalar> = FixedVector<T, BLOCKS, N>;
     type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N>;
     type Square<T: Real> = FixedSquare<T, BLOCKS, N>;
+    type Linear<T: Real> = FixedSquare<T, BLOCKS, N>;
     type Permutation = FixedVector<usize, BLOCKS, N>;
 
     #[inline(always)]
@@ -135,6 +145,10 @@ impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
     }
     #[inline(always)]
     fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
+        FixedSquare::new(self)
+    }
+    #[inline(always)]
+    fn linear<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T> {
         FixedSquare::new(self)
     }
     #[inline(always)]
@@ -188,6 +202,7 @@ impl Space for RunTime {
     type Vector<T: Scalar> = alloc::vec::Vec<T>;
     type Matrix<T: Scalar> = RunTimeMatrix<T>;
     type Square<T: Real> = RunTimeSquare<T>;
+    type Linear<T: Real> = RunTimeSolver<T>;
     type Permutation = alloc::vec::Vec<usize>;
 
     fn dimension(self) -> usize {
@@ -202,6 +217,9 @@ impl Space for RunTime {
     }
     fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
         RunTimeSquare::new(self, entries)
+    }
+    fn linear<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T> {
+        RunTimeSolver::new(self.dimension, entries)
     }
     fn permutation(self) -> Self::Permutation {
         alloc::vec![0; self.dimension]

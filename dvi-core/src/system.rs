@@ -29,6 +29,8 @@ pub type Vector<S, T> = <<S as System>::Space as Space>::Vector<T>;
 pub type Matrix<S, T> = <<S as System>::Space as Space>::Matrix<T>;
 /// A square matrix over the space of `S` that is solved with.
 pub type Square<S, T> = <<S as System>::Space as Space>::Square<T>;
+/// What solves linear equations over the space of `S`.
+pub type Linear<S, T> = <<S as System>::Space as Space>::Linear<T>;
 /// A row permutation over the space of `S`.
 pub type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 

@@ -1,5 +1,5 @@
 //! Chains of many masses: Newton's method on Toda's chain, and Verlet's steps on the chain of Fermi, Pasta, Ulam and Tsingou
-//! beside the same steps by hand.
+//! beside the same steps by hand; and Newton's method on vortices, each of which moves all others.
 //!
 //! `cargo bench -p dvi-benches --bench large`. Times are those of one step by Newton and of a hundred by Verlet; throughput
 //! counts masses times steps.
@@ -50,6 +50,42 @@ fn newton(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
             bencher.iter(|| assert!(run.advance().is_ok()));
         });
+    }
+    group.finish();
+}
+
+/// Vortices on a disc, blurred.
+#[degenerate_lagrangian(
+    coordinates(x[gamma.len()], y[gamma.len()]),
+    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
+        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
+)]
+struct Cloud {
+    gamma: Vec<f64>,
+}
+
+/// Below 129 vortices matrices are stored and eliminated, from there on products with vectors do.
+fn many_bodies(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("vortices, midpoint");
+    group.sample_size(10);
+    for n in [64, 128, 129, 1000] {
+        let system = Cloud { gamma: (0..n).map(|j| (1.0 + (j % 5) as f64) / n as f64).collect() };
+        let at = |j: usize| ((j as f64 + 0.5) / n as f64).sqrt();
+        let turn = |j: usize| 2.399_963_229_728_653 * j as f64;
+        let start = CloudState {
+            x: (0..n).map(|j| at(j) * turn(j).cos()).collect(),
+            y: (0..n).map(|j| at(j) * turn(j).sin()).collect(),
+        };
+        for solver in [Solver::FixedPoint, Solver::Newton] {
+            let method = Sigma { solver, ..Sigma::midpoint() };
+            let Ok(mut run) = Integrator::new(&system, method, 0.1, start.clone()) else {
+                panic!("it starts")
+            };
+            group.bench_function(BenchmarkId::new(format!("{solver:?}"), n), |bencher| {
+                bencher.iter(|| assert!(run.advance().is_ok()));
+            });
+        }
     }
     group.finish();
 }
@@ -127,5 +163,5 @@ fn verlet(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, newton, verlet);
+criterion_group!(benches, newton, many_bodies, verlet);
 criterion_main!(benches);

@@ -1,4 +1,5 @@
-//! No step allocates, and what a run of a chain takes before its first step is linear in the length of the chain.
+//! No step allocates, and what a run takes before its first step is linear in the length of a chain, and in the number of
+//! vortices.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -45,6 +46,22 @@ fn of_chain<M: Method<RunTimeChain, f64>>(method: M, n: usize) -> f64 {
     (dhat::HeapStats::get().total_bytes - before) as f64
 }
 
+/// Vortices on a spiral.
+fn spiral(n: usize) -> (ManyVortices, ManyVorticesState) {
+    let at = |j: usize, phase: f64| (1.0 + j as f64).sqrt() * (2.4 * j as f64 + phase).sin();
+    let [x, y] = [1.6, 0.0].map(|phase| (0..n).map(|j| at(j, phase)).collect::<Vec<f64>>());
+    (ManyVortices { gamma: vec![1.0; n] }, ManyVorticesState { x, y })
+}
+
+/// Bytes that a run of `n` vortices takes, each of which moves all others.
+fn of_vortices(method: Sigma, n: usize) -> f64 {
+    let (system, start) = spiral(n);
+    let before = dhat::HeapStats::get().total_bytes;
+    let mut run = Integrator::new(&system, method, 0.01, start).expect("starts");
+    run.advance().expect("steps");
+    (dhat::HeapStats::get().total_bytes - before) as f64
+}
+
 macro_rules! assert_linear {
     ($($method:expr),+ $(,)?) => {$(
         let [short, long] = [1000, 4000].map(|n| of_chain($method, n));
@@ -53,7 +70,7 @@ macro_rules! assert_linear {
 }
 
 #[test]
-fn steps_do_not_allocate_and_chains_take_storage_like_their_length() {
+fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let _profiler = dhat::Profiler::builder().testing().build();
     let counted = of_steps(|| drop(std::hint::black_box(vec![0_u8; 16])));
     assert_eq!(counted, 100, "the counter counts");
@@ -94,6 +111,14 @@ fn steps_do_not_allocate_and_chains_take_storage_like_their_length() {
         Newmark::new(0.25),
         Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },
     );
+
+    // By products with vectors.
+    let (system, start) = spiral(150);
+    assert_none!(system, start, Sigma { solver: Solver::Newton, ..Sigma::midpoint() });
+    for method in [Sigma::midpoint(), Sigma { solver: Solver::Newton, ..Sigma::midpoint() }] {
+        let [few, many] = [200, 800].map(|n| of_vortices(method, n));
+        assert!(many < 4.1 * few, "{method:?}: {few} bytes and {many}");
+    }
 
     // Masses that are coupled, Newton's method, and a fixed point with Newton's method behind it.
     let newton = Solver::Newton;

@@ -169,3 +169,81 @@ fn degenerate_systems_are_those_of_fixed_size() {
         Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
     );
 }
+
+/// Bodies of different masses, each of which is bound to all others and to the centre.
+#[lagrangian(
+    coordinates(x[m.len()], y[m.len()]),
+    lagrangian = sum(0..m.len(), |j| m[j] * (dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0
+            - k * m[j] * (x[j] * x[j] + y[j] * y[j]) / 2.0)
+        + sum_pairs(0..m.len(), |i, j| g * m[i] * m[j] / ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.1).sqrt()),
+)]
+struct Swarm {
+    m: Vec<f64>,
+    k: f64,
+    g: f64,
+}
+
+#[degenerate_lagrangian(
+    coordinates(x[gamma.len()], y[gamma.len()]),
+    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
+        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
+)]
+struct Cloud {
+    gamma: Vec<f64>,
+}
+
+/// The coordinates of points that fill a disc.
+fn disc(n: usize) -> [Vec<f64>; 2] {
+    let turn = |j: usize| (j as f64 + 0.5, 2.399_963_229_728_653 * j as f64);
+    let radius = |j: f64| (j / n as f64).sqrt();
+    [
+        (0..n).map(|j| radius(turn(j).0) * turn(j).1.cos()).collect(),
+        (0..n).map(|j| radius(turn(j).0) * turn(j).1.sin()).collect(),
+    ]
+}
+
+/// Newton's method beyond the dimension up to which full matrices are stored, against the fixed point, which needs none.
+#[test]
+fn matrices_of_many_bodies_are_not_stored() {
+    let n = 129;
+    let [x, y] = disc(n);
+    let distance =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, dvi_tests::larger);
+    fn steps<S: Lagrangian, M: Method<S, f64>>(
+        system: &S,
+        method: M,
+        h: f64,
+        start: S::State<f64>,
+    ) -> (Vec<f64>, u64) {
+        let mut run = Integrator::new(system, method, h, start).expect("starts");
+        run.take_steps(3).expect("steps");
+        (run.q().to_vec(), run.statistics().iterations)
+    }
+
+    let m = (0..n).map(|j| 10.0_f64.powi(j as i32 % 3)).collect();
+    let swarm = Swarm { m, k: 1.0, g: 1.0 / n as f64 };
+    let start = SwarmState { x: x.clone(), y: y.clone(), dot_x: y.clone(), dot_y: x.clone() };
+    let by = |solver| Variational { solver, ..Variational::midpoint() };
+    let (expected, _) = steps(&swarm, by(Solver::FixedPoint), 0.05, start.clone());
+    let (found, iterations) = steps(&swarm, by(Solver::Newton), 0.05, start.clone());
+    assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
+    let by = |solver| Newmark { solver, ..Newmark::new(0.25) };
+    let (expected, _) = steps(&swarm, by(Solver::FixedPoint), 0.05, start.clone());
+    let (found, iterations) = steps(&swarm, by(Solver::Newton), 0.05, start.clone());
+    assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
+    // Where the fixed point does not contract: h²k/4 > 1.
+    let stiff = Swarm { k: 1e3, g: 1e-3 / n as f64, ..swarm };
+    let mut run = Integrator::new(&stiff, Variational::midpoint(), 0.1, start).expect("starts");
+    let energy = run.energy();
+    run.take_steps(5).expect("steps");
+    assert!((run.energy() / energy - 1.0).abs() < 1e-3 && run.statistics().factorisations > 0);
+
+    let gamma = (0..n).map(|j| (1.0 + (j % 5) as f64) / n as f64).collect();
+    let cloud = Cloud { gamma };
+    let start = CloudState { x, y };
+    let by = |solver| Sigma { solver, ..Sigma::midpoint() };
+    let (expected, _) = steps(&cloud, by(Solver::FixedPoint), 0.1, start.clone());
+    let (found, iterations) = steps(&cloud, by(Solver::Newton), 0.1, start);
+    assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
+}

@@ -6,14 +6,15 @@
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
-use crate::space::square::{SquareMatrix, of_second_derivatives};
+use crate::space::square::of_second_derivatives;
+use crate::space::{LinearEquations, LinearSolver, Sink};
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Space, Square, System, Vector, Weights};
+use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
 
 /// Storage for the transform.
 #[derive(Debug)]
 pub(crate) struct Legendre<S: System, T: Real> {
-    matrix: Square<S, T>,
+    solver: Linear<S, T>,
     residual: Vector<S, T>,
     /// By how much the velocity has changed in the last iteration.
     correction: Vector<S, T>,
@@ -28,7 +29,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
         let space = system.space();
         Self {
-            matrix: of_second_derivatives(system, q, v, t),
+            solver: of_second_derivatives(system, q, v, t),
             residual: space.vector(),
             correction: space.vector(),
             l_q: space.vector(),
@@ -63,34 +64,42 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began; returns the size
     /// of its correction.
     fn improve(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<T, StepFailure> {
-        let mut defined = self.linearize(system, q, p, t, v);
+        let Self { solver, residual, correction, l_q } = self;
         for _ in 0..HALVINGS {
-            if defined.is_ok() {
+            system.gradient(q, v, t, l_q, residual);
+            if norm::finite(residual).is_ok() {
                 break;
             }
-            for (v, correction) in v.iter_mut().zip(self.correction.iter_mut()) {
+            for (v, correction) in v.iter_mut().zip(correction.iter_mut()) {
                 *correction *= T::lift(0.5);
                 *v += *correction;
             }
-            defined = self.linearize(system, q, p, t, v);
         }
-        defined?;
-        self.matrix.eliminate(&mut self.residual)?;
-        self.correction.copy_from_slice(&self.residual);
-        for (v, &correction) in v.iter_mut().zip(self.correction.iter()) {
+        solver.solve(&mut Equations { system, points: [q, v, p], t, l_q }, correction)?;
+        for (v, &correction) in v.iter_mut().zip(correction.iter()) {
             *v -= correction;
         }
-        Ok(norm::largest(&self.correction))
+        Ok(norm::largest(correction))
     }
+}
 
-    /// Sets `residual` to ∂L/∂v − p and `matrix` to the mass matrix.
-    fn linearize(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &[T]) -> Result<(), StepFailure> {
-        let zero = T::lift(0.0);
+/// ∂²L/∂v∂v d = ∂L/∂v − p
+struct Equations<'a, S, T> {
+    system: &'a S,
+    /// q, v and p.
+    points: [&'a [T]; 3],
+    t: T,
+    l_q: &'a mut [T],
+}
+
+impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let (zero, [q, v, p]) = (T::lift(0.0), self.points);
         let mass = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
-        system.linearize(q, v, t, mass, &mut self.l_q, &mut self.residual, self.matrix.cleared());
-        for (r, &p) in self.residual.iter_mut().zip(p) {
-            *r -= p;
+        self.system.linearize(q, v, self.t, mass, self.l_q, b, sink);
+        for (b, &p) in b.iter_mut().zip(p) {
+            *b -= p;
         }
-        norm::finite(&self.residual)
+        Ok(())
     }
 }

@@ -11,7 +11,7 @@ use crate::state::Statistics;
 use crate::state::history::{History, is_similar};
 use crate::state::memory::{Memory, lasting};
 use crate::system::start::evaluate;
-use crate::{Lagrangian, Real, Space, Square, System, Vector};
+use crate::{Lagrangian, Linear, Real, Space, System, Vector};
 
 /// The general step of the discrete Lagrangian of `scheme`, by Newton's method, on degenerate and on regular systems
 /// (Marsden & West 2001, eqs. 1.5.2 and 1.5.3). Runs start from p = ∂L/∂v, which is α(q) for a degenerate system.
@@ -43,7 +43,7 @@ pub struct GeneralMemory<S: System, L, T: Real> {
     history: History<S, T>,
     last_step: T,
     l_d: L,
-    matrix: Square<S, T>,
+    solver: Linear<S, T>,
     residual: Vector<S, T>,
     increment: Vector<S, T>,
     sum: Vector<S, T>,
@@ -101,13 +101,13 @@ impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Gen
             legendre.solve(system, q, &p, t, &mut same, false).map_err(StartError::Starter)?;
         }
         let l_d = self.scheme.discrete_lagrangian(system);
-        let matrix = l_d.matrix(system, q, &seed, t);
+        let solver = l_d.solver(system, q, &seed, t);
         Ok(GeneralMemory {
             p,
             history: History::new(system, Some(seed)),
             last_step: T::lift(0.0),
             l_d,
-            matrix,
+            solver,
             residual: space.vector(),
             increment: space.vector(),
             sum: space.vector(),
@@ -124,10 +124,10 @@ impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Gen
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let GeneralMemory { p, history, last_step, l_d, matrix, residual, increment, sum, next } = memory;
+        let GeneralMemory { p, history, last_step, l_d, solver, residual, increment, sum, next } = memory;
         history.extrapolate(increment);
         increment.iter_mut().for_each(|delta| *delta *= h);
-        let (interval, storage) = (Interval { t, h }, (matrix, residual));
+        let (interval, storage) = (Interval { t, h }, (solver, residual));
         solve_by_newton(l_d, system, interval, [q, p], increment, storage, self.stopping, statistics)?;
         sum.fill(T::lift(0.0));
         memory.residual.fill(T::lift(0.0));

@@ -19,11 +19,12 @@ use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
 use crate::scalar::norm::{self, reported};
 use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate};
-use crate::space::square::{SquareMatrix, of_second_derivatives};
+use crate::space::square::of_second_derivatives;
+use crate::space::{LinearEquations, LinearSolver, Sink};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Separable, Space, Square, System, Vector, Weights};
+use crate::{Lagrangian, Linear, Real, RegularLagrangian, Scalar, Separable, Space, System, Vector, Weights};
 
 pub use lagrangian::NewmarkLagrangian;
 
@@ -66,7 +67,7 @@ pub struct NewmarkMemory<S: System, T: Real> {
     phase: PhasePoint<S, T>,
     mass: Mass<S, T>,
     /// With the matrix of Newton's method; explicit steps do not use it.
-    ladder: Ladder<Square<S, T>>,
+    ladder: Ladder<Linear<S, T>>,
     work: Work<S, T>,
 }
 
@@ -75,6 +76,8 @@ pub struct NewmarkMemory<S: System, T: Real> {
 struct Work<S: System, T: Real> {
     /// p½
     half: Vector<S, T>,
+    /// d of Newton's method.
+    correction: Vector<S, T>,
     increment: Vector<S, T>,
     next: Vector<S, T>,
     next_force: Vector<S, T>,
@@ -124,7 +127,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
     /// The same by Newton: (M − βh² ∂²L/∂q∂q)d = MΔ − h[p½ + βh(F1 − F0)], Δ ← Δ − d.
     fn newton(
         &mut self,
-        matrix: &mut Square<S, T>,
+        solver: &mut Linear<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
@@ -136,7 +139,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         let convergence = Convergence::new(self.stopping, self.scale(), self.q, max);
         iterate(convergence, statistics, |statistics| {
             self.place(statistics);
-            self.improve(matrix, statistics)
+            self.improve(solver, statistics)
         })?;
         norm::finite(&self.work.increment)
     }
@@ -175,24 +178,44 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
     }
 
     /// One iteration of Newton's method; returns the size of d.
-    fn improve(&mut self, matrix: &mut Square<S, T>, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let (zero, one, h) = (T::lift(0.0), T::lift(1.0), self.interval.h);
-        let Work { increment, next, transfer, velocity, momentum, next_force, .. } = &mut *self.work;
+    fn improve(&mut self, solver: &mut Linear<S, T>, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Work { increment, next, transfer, velocity, momentum, next_force, correction, .. } =
+            &mut *self.work;
         for transfer in transfer.iter_mut() {
-            *transfer *= -h;
+            *transfer *= -self.interval.h;
         }
-        self.mass.multiply_add(one, increment, transfer);
-        norm::finite(transfer)?;
-        let weights = Weights { qq: -(self.beta * h * h), qv: zero, vq: zero, vv: one };
-        let end = self.interval.time(one);
-        self.system.linearize(next, velocity, end, weights, next_force, momentum, matrix.cleared());
+        self.mass.multiply_add(T::lift(1.0), increment, transfer);
+        let (system, interval, beta) = (self.system, self.interval, self.beta);
+        let unused: [&mut [T]; 3] = [velocity, next_force, momentum];
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        matrix.eliminate(transfer)?;
-        for (delta, &change) in increment.iter_mut().zip(transfer.iter()) {
+        solver.solve(&mut Equations { system, interval, beta, x1: next, b: transfer, unused }, correction)?;
+        for (delta, &change) in increment.iter_mut().zip(correction.iter()) {
             *delta -= change;
         }
-        Ok(norm::largest(transfer))
+        Ok(norm::largest(correction))
+    }
+}
+
+/// (M − βh² ∂²L/∂q∂q)d = b, at q1.
+struct Equations<'a, S, T> {
+    system: &'a S,
+    interval: Interval<T>,
+    beta: T,
+    x1: &'a [T],
+    b: &'a [T],
+    /// A velocity, and the first derivatives of L.
+    unused: [&'a mut [T]; 3],
+}
+
+impl<S: Separable<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let (zero, one, h) = (T::lift(0.0), T::lift(1.0), self.interval.h);
+        b.copy_from_slice(self.b);
+        let weights = Weights { qq: -(self.beta * h * h), qv: zero, vq: zero, vv: one };
+        let [velocity, l_q, l_v] = &mut self.unused;
+        self.system.linearize(self.x1, velocity, self.interval.time(one), weights, l_q, l_v, sink);
+        Ok(())
     }
 }
 
@@ -291,6 +314,7 @@ impl<S: Lagrangian<T>, T: Real> Work<S, T> {
         let vector = || system.space().vector();
         Self {
             half: vector(),
+            correction: vector(),
             increment: vector(),
             next: vector(),
             next_force: vector(),

@@ -23,7 +23,7 @@ use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep
 use crate::solve::{Guess, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Real, RegularLagrangian, Square, System, Vector};
+use crate::{Linear, Real, RegularLagrangian, System, Vector};
 
 pub use lagrangian::QuadratureLagrangian;
 use memory::Parts;
@@ -177,11 +177,11 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S
     #[inline(always)]
     fn newton(
         &mut self,
-        matrix: &mut Square<S, T>,
+        solver: &mut Linear<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        general::by_newton(&self.step, &mut self.parts, matrix, guess, statistics)
+        general::by_newton(&self.step, &mut self.parts, solver, guess, statistics)
     }
 }
 

@@ -18,8 +18,10 @@ use crate::error::StepFailure;
 use crate::space::elimination;
 use crate::space::sink::{Places, Sink};
 use crate::space::{FixedMatrix, FixedVector};
-use crate::{Lagrangian, Real, Scalar, Space, Square, Vector, Weights};
+use crate::{Lagrangian, Linear, Real, Scalar, Space, Square, Vector, Weights};
 
+#[cfg(feature = "alloc")]
+pub(crate) use ordering::Pattern;
 #[cfg(feature = "alloc")]
 pub use run_time::RunTimeSquare;
 
@@ -52,22 +54,31 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]);
 }
 
-/// A matrix for Newton's method, with room for all second derivatives of L. Where they stand does not depend on the point,
+/// A solver for Newton's method, with room for all second derivatives of L. Where they stand does not depend on the point,
 /// but the formulas are evaluated, and are defined at (q, v, t).
 pub(crate) fn of_second_derivatives<S: Lagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
     v: &[T],
     t: T,
-) -> Square<S, T> {
+) -> Linear<S, T> {
     let one = T::lift(1.0);
-    of_entries(system, [q, v], t, Weights { qq: one, qv: one, vq: one, vv: one }, |_| true)
+    let weights = Weights { qq: one, qv: one, vq: one, vv: one };
+    system.space().linear(|visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
 }
 
 /// A matrix with room for all entries.
 pub(crate) fn full<S: Lagrangian<T>, T: Real>(system: &S) -> Square<S, T> {
-    let n = system.space().dimension();
-    system.space().square(|visit| (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j))))
+    system.space().square(|visit| visit_all(system.space().dimension(), visit))
+}
+
+/// A solver for a matrix with all entries.
+pub(crate) fn linear_of_all<S: Lagrangian<T>, T: Real>(system: &S) -> Linear<S, T> {
+    system.space().linear(|visit| visit_all(system.space().dimension(), visit))
+}
+
+fn visit_all(n: usize, visit: &mut dyn FnMut(usize, usize)) {
+    (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j)));
 }
 
 /// A matrix with room for those second derivatives at (q, v, t) that count.
@@ -78,16 +89,25 @@ pub(crate) fn of_entries<S: Lagrangian<T>, T: Real>(
     weights: Weights<T>,
     counts: impl Fn(T) -> bool,
 ) -> Square<S, T> {
+    system.space().square(|visit| visit_entries(system, [q, v], t, weights, counts, visit))
+}
+
+fn visit_entries<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    t: T,
+    weights: Weights<T>,
+    counts: impl Fn(T) -> bool,
+    visit: &mut dyn FnMut(usize, usize),
+) {
     let space = system.space();
-    space.square(|visit| {
-        let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [space.vector(), space.vector()];
-        let mut places = Places(|row: usize, column: usize, entry: T| {
-            if counts(entry) {
-                visit(row, column);
-            }
-        });
-        system.linearize(q, v, t, weights, &mut l_q, &mut l_v, &mut places);
-    })
+    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [space.vector(), space.vector()];
+    let mut places = Places(|row: usize, column: usize, entry: T| {
+        if counts(entry) {
+            visit(row, column);
+        }
+    });
+    system.linearize(q, v, t, weights, &mut l_q, &mut l_v, &mut places);
 }
 
 /// The square matrix of a [`Fixed`](crate::Fixed) space: dense.

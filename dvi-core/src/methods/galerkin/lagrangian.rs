@@ -17,9 +17,9 @@ use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::Sink;
-use crate::space::square::full;
+use crate::space::square::linear_of_all;
 use crate::state::Statistics;
-use crate::{Matrix, Permutation, Real, RegularLagrangian, Space, Square, System, Vector, Weights};
+use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector, Weights};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.
 #[derive(Debug)]
@@ -208,8 +208,8 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Di
     for GalerkinLagrangian<NODES, S, F, T>
 {
     /// The displacements couple what the nodes do not.
-    fn matrix(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Square<S, T> {
-        full(system)
+    fn solver(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Linear<S, T> {
+        linear_of_all(system)
     }
 
     fn derivatives(

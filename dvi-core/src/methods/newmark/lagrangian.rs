@@ -14,9 +14,9 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
 use crate::space::elimination::multiply_add;
 use crate::space::sink::Sink;
-use crate::space::square::{SquareMatrix, full};
+use crate::space::square::{SquareMatrix, full, linear_of_all};
 use crate::state::Statistics;
-use crate::{Matrix, Real, Separable, Space, Square, System, Vector, Weights};
+use crate::{Linear, Matrix, Real, Separable, Space, Square, System, Vector, Weights};
 
 /// The discrete Lagrangian of [`Newmark`], with the storage that it needs: matrices with room for all entries.
 ///
@@ -91,8 +91,8 @@ impl<S: Separable<T>, T: Real> NewmarkLagrangian<S, T> {
 }
 
 impl<S: Separable<T>, T: Real> DiscreteLagrangian<S, T> for NewmarkLagrangian<S, T> {
-    fn matrix(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Square<S, T> {
-        full(system)
+    fn solver(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Linear<S, T> {
+        linear_of_all(system)
     }
 
     fn derivatives(

@@ -19,7 +19,7 @@ use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::summation::{Carried, Summation};
-use crate::{DegenerateLagrangian, Real, Square, Vector};
+use crate::{DegenerateLagrangian, Linear, Real, Vector};
 
 #[inline(always)]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
@@ -237,7 +237,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     #[inline]
     fn newton(
         &mut self,
-        matrix: &mut Square<S, T>,
+        solver: &mut Linear<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
@@ -253,7 +253,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             add_to(&mut work.increment, &work.shift);
         }
         let Work { increment, next: p0, trial, .. } = &mut **work;
-        let (points, storage) = ([&***q, &**p0], (matrix, trial));
+        let (points, storage) = ([&***q, &**p0], (solver, trial));
         let stopping = step.method.stopping;
         solve_by_newton(
             *l_d,

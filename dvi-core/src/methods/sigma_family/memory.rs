@@ -18,7 +18,7 @@ use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Carried;
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, Square, System, Vector};
+use crate::{DegenerateLagrangian, Lagrangian, Linear, Real, Space, System, Vector};
 
 /// The defect of a run of the σ-family, its guesses and its work space.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub struct SigmaMemory<S: System, T: Real> {
     pub(super) ahead: Option<Ahead<S, T>>,
     pub(super) l_d: OneNode<S, T>,
     /// With the matrix of Newton's method. Explicit steps do not use it.
-    pub(super) ladder: Ladder<Square<S, T>>,
+    pub(super) ladder: Ladder<Linear<S, T>>,
     pub(super) monitor: Monitor<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
     /// What rounding has left out of the coordinates, if α is affine and σ neither 0 nor 1.

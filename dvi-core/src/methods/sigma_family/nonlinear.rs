@@ -13,7 +13,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::state::Statistics;
 use crate::state::history::History;
-use crate::{DegenerateLagrangian, Real, Square, Vector};
+use crate::{DegenerateLagrangian, Linear, Real, Vector};
 
 #[inline]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
@@ -127,7 +127,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     #[inline]
     fn newton(
         &mut self,
-        matrix: &mut Square<S, T>,
+        solver: &mut Linear<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
@@ -137,7 +137,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             Guess::Extrapolated => history.extrapolate(increment),
             Guess::Zero => increment.fill(T::lift(0.0)),
         }
-        let (points, storage) = ([&***q, &**p0], (matrix, trial));
+        let (points, storage) = ([&***q, &**p0], (solver, trial));
         let stopping = step.method.stopping;
         solve_by_newton(*l_d, step.system, step.interval(), points, increment, storage, stopping, statistics)
     }

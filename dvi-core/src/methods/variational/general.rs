@@ -15,14 +15,14 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Real, RegularLagrangian, Scalar, Square};
+use crate::{Linear, Real, RegularLagrangian, Scalar};
 
 /// A step by Newton's method from a guess.
 #[inline(never)]
 pub(super) fn by_newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     parts: &mut Parts<'_, S, T>,
-    matrix: &mut Square<S, T>,
+    solver: &mut Linear<S, T>,
     guess: Guess,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -34,9 +34,9 @@ pub(super) fn by_newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: 
     }
     match interpolation {
         Interpolation::Uniform(uniform) => {
-            newton(step, uniform, ends, mass, phase, work, q, matrix, statistics)
+            newton(step, uniform, ends, mass, phase, work, q, solver, statistics)
         }
-        Interpolation::Each(each) => newton(step, each, ends, mass, phase, work, q, matrix, statistics),
+        Interpolation::Each(each) => newton(step, each, ends, mass, phase, work, q, solver, statistics),
     }?;
     finish(step, parts, statistics)
 }
@@ -93,14 +93,14 @@ fn newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, 
     phase: &PhasePoint<S, T>,
     work: &mut Work<S, T>,
     q: &[T],
-    matrix: &mut Square<S, T>,
+    solver: &mut Linear<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let Work { node, next, increment, trial, sum } = work;
     let (method, p, force) = (step.method, &*phase.p, &*phase.force);
     let l_d = &mut Interpolated { method, coefficients, ends, mass, p, force, node, next };
     let (interval, stopping) = (step.interval(), step.method.stopping);
-    solve_by_newton(l_d, step.system, interval, [q, p], increment, (matrix, trial), stopping, statistics)?;
+    solve_by_newton(l_d, step.system, interval, [q, p], increment, (solver, trial), stopping, statistics)?;
     sum.fill(T::lift(0.0));
     l_d.derivatives(step.span(Ends { q0: q, delta: increment }), trial, sum, statistics)
 }

@@ -10,7 +10,7 @@ use crate::mechanics::phase::{Inertial, PhasePoint};
 use crate::solve::{Ladder, Solver};
 use crate::space::square::of_second_derivatives;
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Real, RegularLagrangian, Space, Square, System, Vector};
+use crate::{Lagrangian, Linear, Real, RegularLagrangian, Space, System, Vector};
 
 /// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
@@ -21,7 +21,7 @@ pub struct VariationalMemory<S: System, T: Real> {
     pub(super) phase: PhasePoint<S, T>,
     pub(super) inertial: Inertial<S, T>,
     /// With the matrix of Newton's method; explicit steps do not use it.
-    pub(super) ladder: Ladder<Square<S, T>>,
+    pub(super) ladder: Ladder<Linear<S, T>>,
     pub(super) work: Work<S, T>,
 }
 

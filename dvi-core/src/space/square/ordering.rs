@@ -9,7 +9,7 @@ const FULL: usize = 64;
 
 /// Where a matrix has entries, transposed places included.
 #[derive(Debug)]
-pub(super) struct Pattern {
+pub(crate) struct Pattern {
     dimension: usize,
     /// Off the diagonal, both (i, j) and (j, i), some more than once.
     places: Vec<(u32, u32)>,
@@ -18,19 +18,19 @@ pub(super) struct Pattern {
 
 /// Where each coordinate stands in a banded matrix, and how far from the diagonal its entries lie at most.
 #[derive(Debug)]
-pub(super) struct Order {
+pub(crate) struct Order {
     /// The place of each coordinate.
     pub(super) place: Vec<u32>,
     pub(super) bandwidth: usize,
 }
 
 impl Pattern {
-    pub(super) fn new(dimension: usize) -> Self {
+    pub(crate) fn new(dimension: usize) -> Self {
         let is_full = u32::try_from(dimension).is_err();
         Self { dimension, places: Vec::new(), is_full }
     }
 
-    pub(super) fn add(&mut self, row: usize, column: usize) {
+    pub(crate) fn add(&mut self, row: usize, column: usize) {
         if row == column || self.is_full {
             return;
         }
@@ -49,7 +49,7 @@ impl Pattern {
     }
 
     /// The order in which the matrix is banded, if that takes at most half of the storage of a full one.
-    pub(super) fn banded(mut self) -> Option<Order> {
+    pub(crate) fn banded(mut self) -> Option<Order> {
         self.tidy();
         if self.is_full {
             return None;

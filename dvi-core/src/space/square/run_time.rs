@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::SquareMatrix;
 use super::banded::Banded;
-use super::ordering::Pattern;
+use super::ordering::{Order, Pattern};
 use crate::error::StepFailure;
 use crate::space::RunTimeMatrix;
 use crate::space::elimination;
@@ -28,7 +28,13 @@ impl<T: Scalar> RunTimeSquare<T> {
     pub(crate) fn new(space: RunTime, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
         let mut pattern = Pattern::new(space.dimension);
         entries(&mut |row, column| pattern.add(row, column));
-        Self(match pattern.banded() {
+        Self::in_order(space.dimension, pattern.banded())
+    }
+
+    /// Banded in this order, and full without one.
+    pub(crate) fn in_order(dimension: usize, order: Option<Order>) -> Self {
+        let space = RunTime { dimension };
+        Self(match order {
             Some(order) => Storage::Banded(Banded::new(order)),
             None => Storage::Dense(space.matrix(), space.permutation()),
         })

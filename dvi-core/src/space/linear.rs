@@ -1,0 +1,98 @@
+//! Linear equations whose matrix comes entry by entry: by elimination in the storage of its pattern, or, where that would
+//! be that of a full matrix of high dimension, from products with vectors alone.
+
+#[cfg(feature = "alloc")]
+mod krylov;
+
+use core::fmt::Debug;
+
+use crate::Real;
+use crate::error::StepFailure;
+use crate::scalar::norm;
+use crate::space::square::SquareMatrix;
+use crate::space::{FixedSquare, Sink};
+
+#[cfg(feature = "alloc")]
+use crate::Scalar;
+#[cfg(feature = "alloc")]
+use crate::space::square::{Pattern, RunTimeSquare};
+#[cfg(feature = "alloc")]
+use krylov::Krylov;
+
+/// A system of linear equations A x = b that can be evaluated as often as it is asked for.
+pub trait LinearEquations<T> {
+    /// Sets `b` and adds the entries of A to `sink`.
+    ///
+    /// # Errors
+    /// Those of what they are computed from.
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure>;
+}
+
+/// What solves linear equations, with the storage that it needs.
+pub trait LinearSolver<T: Real>: Debug {
+    /// Sets `x` to the solution.
+    ///
+    /// # Errors
+    /// Those of the equations, [`StepFailure::NotFinite`] if b is not, [`StepFailure::Singular`] if A is singular,
+    /// [`StepFailure::NotConverged`] where products with vectors lead to no solution.
+    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure>;
+}
+
+#[inline(always)]
+fn eliminate<T: Real, M: SquareMatrix<T>>(
+    matrix: &mut M,
+    equations: &mut impl LinearEquations<T>,
+    x: &mut [T],
+) -> Result<(), StepFailure> {
+    equations.evaluate(x, matrix.cleared())?;
+    let finite = norm::finite(x);
+    matrix.eliminate(x).map_err(|singular| finite.err().unwrap_or(singular))
+}
+
+impl<T: Real, const BLOCKS: usize, const N: usize> LinearSolver<T> for FixedSquare<T, BLOCKS, N> {
+    #[inline(always)]
+    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
+        eliminate(self, equations, x)
+    }
+}
+
+/// The largest dimension of a full matrix that is stored: half a megabyte in double precision. Beyond it products are faster.
+#[cfg(feature = "alloc")]
+const LARGEST_FULL: usize = 256;
+
+/// The linear solver of a [`RunTime`](crate::RunTime) space.
+#[cfg(feature = "alloc")]
+#[derive(Debug)]
+pub struct RunTimeSolver<T>(Storage<T>);
+
+#[cfg(feature = "alloc")]
+#[derive(Debug)]
+enum Storage<T> {
+    Matrix(RunTimeSquare<T>),
+    Products(Krylov<T>),
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> RunTimeSolver<T> {
+    /// For a matrix with the entries that `entries` visits.
+    pub(crate) fn new(dimension: usize, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
+        let mut pattern = Pattern::new(dimension);
+        entries(&mut |row, column| pattern.add(row, column));
+        let order = pattern.banded();
+        Self(if order.is_none() && dimension > LARGEST_FULL {
+            Storage::Products(Krylov::new(dimension))
+        } else {
+            Storage::Matrix(RunTimeSquare::in_order(dimension, order))
+        })
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
+    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
+        match &mut self.0 {
+            Storage::Matrix(matrix) => eliminate(matrix, equations, x),
+            Storage::Products(krylov) => krylov.solve(equations, x),
+        }
+    }
+}
