@@ -98,7 +98,7 @@ pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 #[cfg(feature = "alloc")]
 pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
-    AffineOneForm, CoordinateBlock, DegenerateLagrangian, Entry, Formula, Lagrangian, Linear, Matrix,
-    OperationCount, Permutation, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State,
-    System, Vector, Weights,
+    AffineOneForm, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula, Lagrangian, Linear,
+    Matrix, OperationCount, Permutation, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square,
+    State, System, Vector, Weights,
 };

@@ -19,9 +19,9 @@ use core::ops::{Deref, DerefMut};
 
 use crate::{Real, Scalar};
 
+pub use linear::{CoupledSolver, FixedCoupled, LinearEquations, LinearSolver, NodeSum};
 #[cfg(feature = "alloc")]
-pub use linear::RunTimeSolver;
-pub use linear::{LinearEquations, LinearSolver};
+pub use linear::{RunTimeCoupled, RunTimeSolver};
 pub use sink::Sink;
 #[cfg(feature = "alloc")]
 pub use square::RunTimeSquare;
@@ -40,6 +40,8 @@ pub trait Space: Copy + Debug + PartialEq {
     type Square<T: Real>: SquareMatrix<T>;
     /// What solves linear equations whose matrix comes entry by entry.
     type Linear<T: Real>: LinearSolver<T>;
+    /// What solves linear equations for several vectors at once.
+    type Coupled<const NODES: usize, T: Real>: CoupledSolver<NODES, T>;
     /// A row permutation, `dimension` indices.
     type Permutation: Deref<Target = [usize]> + DerefMut + Clone + Debug;
 
@@ -55,6 +57,11 @@ pub trait Space: Copy + Debug + PartialEq {
     /// A solver of linear equations with these entries, as of [`square`](Self::square). Where they are many and lie far apart, it
     /// keeps none of them.
     fn linear<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T>;
+    /// A solver of linear equations for `NODES` − 1 vectors, coupled by blocks with these entries.
+    fn coupled<const NODES: usize, T: Real>(
+        self,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Coupled<NODES, T>;
     /// A permutation, all zeros until it is written.
     fn permutation(self) -> Self::Permutation;
 }
@@ -129,6 +136,7 @@ impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
     type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N>;
     type Square<T: Real> = FixedSquare<T, BLOCKS, N>;
     type Linear<T: Real> = FixedSquare<T, BLOCKS, N>;
+    type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N>;
     type Permutation = FixedVector<usize, BLOCKS, N>;
 
     #[inline(always)]
@@ -150,6 +158,13 @@ impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
     #[inline(always)]
     fn linear<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T> {
         FixedSquare::new(self)
+    }
+    #[inline(always)]
+    fn coupled<const NODES: usize, T: Real>(
+        self,
+        _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Coupled<NODES, T> {
+        FixedCoupled::new(self)
     }
     #[inline(always)]
     fn permutation(self) -> Self::Permutation {
@@ -203,6 +218,7 @@ impl Space for RunTime {
     type Matrix<T: Scalar> = RunTimeMatrix<T>;
     type Square<T: Real> = RunTimeSquare<T>;
     type Linear<T: Real> = RunTimeSolver<T>;
+    type Coupled<const NODES: usize, T: Real> = RunTimeCoupled<T>;
     type Permutation = alloc::vec::Vec<usize>;
 
     fn dimension(self) -> usize {
@@ -220,6 +236,12 @@ impl Space for RunTime {
     }
     fn linear<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T> {
         RunTimeSolver::new(self.dimension, entries)
+    }
+    fn coupled<const NODES: usize, T: Real>(
+        self,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Coupled<NODES, T> {
+        RunTimeCoupled::new(self, NODES, entries)
     }
     fn permutation(self) -> Self::Permutation {
         alloc::vec![0; self.dimension]

@@ -31,6 +31,8 @@ pub type Matrix<S, T> = <<S as System>::Space as Space>::Matrix<T>;
 pub type Square<S, T> = <<S as System>::Space as Space>::Square<T>;
 /// What solves linear equations over the space of `S`.
 pub type Linear<S, T> = <<S as System>::Space as Space>::Linear<T>;
+/// What solves linear equations for several vectors over the space of `S`.
+pub type Coupled<const NODES: usize, S, T> = <<S as System>::Space as Space>::Coupled<NODES, T>;
 /// A row permutation over the space of `S`.
 pub type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 

@@ -128,5 +128,7 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Variational { solver: newton, ..Variational::midpoint() },
         Newmark::new(0.25),
         Newmark { solver: newton, ..Newmark::new(0.25) },
+        Galerkin::<3>::new(),
+        Galerkin { solver: newton, ..Galerkin::<4>::new() },
     );
 }

@@ -121,6 +121,7 @@ fn regular_systems_are_those_of_fixed_size() {
         Newmark { solver: newton, ..Newmark::new(0.25) },
         General::new(Variational::simpson()),
         General::new(Galerkin::<3>::new()),
+        Galerkin { solver: newton, ..Galerkin::<3>::new() },
         General::new(Symmetrised { alpha: 0.2 }),
         Composition::triple_jump(Variational { solver: newton, ..Variational::midpoint() }),
     );
@@ -132,7 +133,15 @@ fn regular_systems_are_those_of_fixed_size() {
         Variational { solver: newton, ..Variational::midpoint() },
         Newmark { solver: newton, ..Newmark::new(0.25) },
     );
-    pair!(Bent, BentState, LongBent, LongBentState, Variational::midpoint(), Variational::trapezoid());
+    pair!(
+        Bent,
+        BentState,
+        LongBent,
+        LongBentState,
+        Variational::midpoint(),
+        Variational::trapezoid(),
+        Galerkin::<4>::new(),
+    );
 }
 
 #[test]
@@ -231,6 +240,14 @@ fn matrices_of_many_bodies_are_not_stored() {
     let by = |solver| Newmark { solver, ..Newmark::new(0.25) };
     let (expected, _) = steps(&swarm, by(Solver::FixedPoint), 0.05, start.clone());
     let (found, iterations) = steps(&swarm, by(Solver::Newton), 0.05, start.clone());
+    assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
+    // With displacements there are twice as many unknowns.
+    let few = Swarm { m: swarm.m[..65].to_vec(), ..swarm };
+    let part = |x: &[f64]| x[..65].to_vec();
+    let few_start = SwarmState { x: part(&x), y: part(&y), dot_x: part(&y), dot_y: part(&x) };
+    let by = |solver| Galerkin { solver, ..Galerkin::<3>::new() };
+    let (expected, _) = steps(&few, by(Solver::FixedPoint), 0.05, few_start.clone());
+    let (found, iterations) = steps(&few, by(Solver::Newton), 0.05, few_start);
     assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
     // Where the fixed point does not contract: h²k/4 > 1.
     let stiff = Swarm { k: 1e3, g: 1e-3 / n as f64, ..swarm };

@@ -8,7 +8,6 @@
 //! the step is the Lobatto IIIA–IIIB pair (Marsden & West 2001, theorem 2.6.1). A step solves p0 = −D₁L_d(q0, q1)
 //! together with ∂L_d/∂δ = 0 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
 
-mod blocks;
 mod coefficients;
 mod general;
 mod lagrangian;

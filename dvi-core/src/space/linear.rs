@@ -1,6 +1,8 @@
 //! Linear equations whose matrix comes entry by entry: by elimination in the storage of its pattern, or, where that would
 //! be that of a full matrix of high dimension, from products with vectors alone.
 
+pub(crate) mod blocks;
+mod coupled;
 #[cfg(feature = "alloc")]
 mod krylov;
 
@@ -18,6 +20,10 @@ use crate::Scalar;
 use crate::space::square::{Pattern, RunTimeSquare};
 #[cfg(feature = "alloc")]
 use krylov::Krylov;
+
+#[cfg(feature = "alloc")]
+pub use coupled::RunTimeCoupled;
+pub use coupled::{CoupledSolver, FixedCoupled, NodeSum};
 
 /// A system of linear equations A x = b that can be evaluated as often as it is asked for.
 pub trait LinearEquations<T> {

@@ -80,6 +80,7 @@ pub struct Places<F>(
 );
 
 impl<T, F: FnMut(usize, usize, T)> Sink<T> for Places<F> {
+    #[inline(always)]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         (self.0)(row, column, entry);
     }

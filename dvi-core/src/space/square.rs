@@ -18,7 +18,7 @@ use crate::error::StepFailure;
 use crate::space::elimination;
 use crate::space::sink::{Places, Sink};
 use crate::space::{FixedMatrix, FixedVector};
-use crate::{Lagrangian, Linear, Real, Scalar, Space, Square, Vector, Weights};
+use crate::{Coupled, Lagrangian, Linear, Real, Scalar, Space, Square, Vector, Weights};
 
 #[cfg(feature = "alloc")]
 pub(crate) use ordering::Pattern;
@@ -90,6 +90,18 @@ pub(crate) fn of_entries<S: Lagrangian<T>, T: Real>(
     counts: impl Fn(T) -> bool,
 ) -> Square<S, T> {
     system.space().square(|visit| visit_entries(system, [q, v], t, weights, counts, visit))
+}
+
+/// The same for several vectors at once.
+pub(crate) fn coupled_by_second_derivatives<const NODES: usize, S: Lagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    v: &[T],
+    t: T,
+) -> Coupled<NODES, S, T> {
+    let one = T::lift(1.0);
+    let weights = Weights { qq: one, qv: one, vq: one, vv: one };
+    system.space().coupled(|visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
 }
 
 fn visit_entries<S: Lagrangian<T>, T: Real>(

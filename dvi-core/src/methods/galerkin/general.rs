@@ -3,26 +3,28 @@
 //! rᵣ = Σⱼ wⱼ (h φ̂ⱼᵣ ∂L/∂q + ψ̂ⱼᵣ ∂L/∂v), for Δ with p0 added
 //! ∂rᵣ/∂xₖ = Σⱼ wⱼ (h φ̂ⱼᵣφⱼₖ L_qq + φ̂ⱼᵣψⱼₖ L_qv + ψ̂ⱼᵣφⱼₖ L_vq + ψ̂ⱼᵣψⱼₖ L_vv/h)
 //!
-//! solved by Newton, [block by block](super::blocks). Where the frequency is read from the motion, the residual is
+//! solved by Newton for all unknowns at once. Where the frequency is read from the motion, the residual is
 //! exact, and the matrix is that of ω held constant, which is close enough for the iteration to contract.
 
 use super::Step;
-use super::blocks;
-use super::memory::{Newton, Path, Work};
+use super::coefficients::Coefficients;
+use super::memory::{Path, Work};
 use crate::discrete::frequency::{Frequency, FrequencyIn};
-use crate::discrete::quadrature::Rule;
+use crate::discrete::quadrature::{Quadrature, Rule};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
+use crate::space::{CoupledSolver, NodeSum, Sink, scratch};
 use crate::state::Statistics;
-use crate::{Real, RegularLagrangian, Vector, Weights};
+use crate::{Coupled, Real, RegularLagrangian, System, Vector, Weights};
+use core::ops::DerefMut;
 
 /// The unknowns.
 pub(super) fn newton<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     q: &[T],
-    storage: &mut Newton<NODES, S, T>,
+    solver: &mut Coupled<NODES, S, T>,
     guess: Guess,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -37,10 +39,13 @@ pub(super) fn newton<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn
     iterate(convergence, statistics, |statistics| {
         path.read_frequency(step, statistics)?;
         differentiate(step, path, statistics)?;
-        linearize(step, path, storage, statistics);
-        let Newton { blocks, permutation } = &mut *storage;
-        let Work { unknowns, residuals, .. } = &mut path.work;
-        blocks::eliminate(blocks, permutation, residuals, 1..NODES)?;
+        statistics.linearizations += 1;
+        statistics.factorisations += 1;
+        let Path { rule, coefficients, work, .. } = &mut *path;
+        let Work { unknowns, residuals, point, velocity, gradient, momentum, .. } = work;
+        let node = [point, velocity, gradient, momentum];
+        let mut equations = Linearized { step, rule, coefficients, unknowns, node, j: 0, t: step.t };
+        solver.solve(&mut equations, residuals)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
             for (x, &change) in unknown.iter_mut().zip(change.iter()) {
@@ -54,14 +59,14 @@ pub(super) fn newton<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn
 }
 
 /// Sets `point` to qʲ and `velocity` to q̇ʲ of node `j`.
-fn place<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real>(
+fn place<const NODES: usize, T: Real, V: DerefMut<Target = [T]>>(
     j: usize,
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+    h: T,
+    coefficients: &Coefficients<NODES, T>,
+    unknowns: &[V; NODES],
+    [point, velocity]: [&mut V; 2],
 ) {
-    let Path { coefficients, work, .. } = path;
-    let Work { unknowns, point, velocity, .. } = work;
-    let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / step.h);
+    let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / h);
     let sum = |row: &[T; NODES], i: usize| {
         row.iter().zip(unknowns.iter()).fold(zero, |sum, (&factor, x)| sum + factor * x[i])
     };
@@ -81,9 +86,9 @@ fn differentiate<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: R
         residual.fill(T::lift(0.0));
     }
     for j in 0..NODES {
-        place(j, step, path);
         let Path { rule, coefficients, work, .. } = &mut *path;
-        let Work { residuals, point, velocity, gradient, momentum, .. } = work;
+        let Work { unknowns, residuals, point, velocity, gradient, momentum, .. } = work;
+        place(j, step.h, coefficients, unknowns, [point, velocity]);
         step.system.gradient(point, velocity, step.node_time(rule.nodes()[j]), gradient, momentum);
         statistics.gradients += 1;
         for (r, residual) in residuals.iter_mut().enumerate() {
@@ -100,60 +105,56 @@ fn differentiate<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: R
     work.residuals.iter().try_for_each(|residual| norm::finite(residual))
 }
 
-/// Sets the blocks of the Newton matrix at the current unknowns.
-fn linearize<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
-    newton: &mut Newton<NODES, S, T>,
-    statistics: &mut Statistics,
-) {
-    let (zero, one) = (T::lift(0.0), T::lift(1.0));
-    let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-    let kinds = [Weights { qq: one, ..none }, Weights { qv: one, ..none }, Weights { vv: one, ..none }];
-    newton.blocks[1..].iter_mut().flatten().for_each(|block| block.fill(zero));
-    for j in 0..NODES {
-        place(j, step, path);
-        let Path { rule, coefficients, work, .. } = &mut *path;
-        let Work { point, velocity, gradient, momentum, .. } = work;
-        let (second, rows) = newton.blocks.split_at_mut(1);
-        for (matrix, weights) in second[0].iter_mut().zip(kinds) {
-            matrix.fill(zero);
-            let t = step.node_time(rule.nodes()[j]);
-            step.system.linearize(point, velocity, t, weights, gradient, momentum, matrix);
-        }
-        let weight = coefficients.weights[j];
-        for (r, row) in rows.iter_mut().enumerate().map(|(r, row)| (r + 1, row)) {
-            let [by_point, by_velocity] = coefficients.direction(j, r).map(|x| weight * x);
-            for (k, block) in row.iter_mut().enumerate().skip(1) {
-                let (phi, psi) = (coefficients.point[j][k], coefficients.velocity[j][k]);
-                let weights = Weights {
-                    qq: step.h * by_point * phi,
-                    qv: by_point * psi,
-                    vq: by_velocity * phi,
-                    vv: by_velocity * psi / step.h,
-                };
-                add_transposed(weights, &second[0], point.len(), block);
-            }
-        }
-    }
-    statistics.linearizations += 1;
-    statistics.factorisations += 1;
+/// The matrix ∂rᵣ/∂xₖ at the current unknowns.
+struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real> {
+    step: &'a Step<'b, NODES, S, F, T>,
+    rule: &'a Quadrature,
+    coefficients: &'a Coefficients<NODES, T>,
+    unknowns: &'a [Vector<S, T>; NODES],
+    /// Work space: point and velocity of a node, and the first derivatives of L there.
+    node: [&'a mut Vector<S, T>; 4],
+    /// The node, and its time.
+    j: usize,
+    t: T,
 }
 
-/// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq = (L_qv)ᵀ.
-#[inline]
-fn add_transposed<T: Real, M: core::ops::Deref<Target = [T]>>(
-    w: Weights<T>,
-    second: &[M],
-    n: usize,
-    block: &mut [T],
-) {
-    let [qq, qv, vv, ..] = second else { return };
-    for i in 0..n {
-        for j in 0..n {
-            let (here, across) = (i * n + j, j * n + i);
-            block[here] += w.qq * qq[here] + w.qv * qv[across] + w.vq * qv[here] + w.vv * vv[here];
+impl<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real> NodeSum<NODES, T>
+    for Linearized<'_, '_, NODES, S, F, T>
+{
+    #[inline(always)]
+    fn place(&mut self, j: usize) {
+        let Self { step, rule, coefficients, unknowns, node: [point, velocity, ..], .. } = self;
+        place(j, step.h, coefficients, unknowns, [point, velocity]);
+        self.j = j;
+        self.t = step.node_time(rule.nodes()[j]);
+    }
+
+    #[inline(always)]
+    fn weights(&self, r: usize, k: usize) -> Weights<T> {
+        let Self { step: Step { h, .. }, coefficients, j, .. } = *self;
+        let [by_point, by_velocity] = coefficients.direction(j, r).map(|x| coefficients.weights[j] * x);
+        let (phi, psi) = (coefficients.point[j][k], coefficients.velocity[j][k]);
+        Weights {
+            qq: *h * by_point * phi,
+            qv: by_point * psi,
+            vq: by_velocity * phi,
+            vv: by_velocity * psi / *h,
         }
+    }
+
+    // Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what is read, and
+    // evaluates once what the three have in common.
+    #[inline(never)]
+    fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>) {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let (system, t) = (self.step.system, self.t);
+        let [point, velocity, gradient, momentum] = &mut self.node;
+        scratch!(l_q = system, **gradient);
+        scratch!(l_v = system, **momentum);
+        system.linearize(point, velocity, t, Weights { qq: one, ..none }, l_q, l_v, qq);
+        system.linearize(point, velocity, t, Weights { qv: one, ..none }, l_q, l_v, qv);
+        system.linearize(point, velocity, t, Weights { vv: one, ..none }, l_q, l_v, vv);
     }
 }
 

@@ -5,10 +5,10 @@
 //!
 //! DᵢL_d = ∂ᵢ(h Σ w L)      DᵢDₖL_d = Hᵢₖ − Hᵢδ Hδδ⁻¹ Hδₖ
 //!
-//! which are the blocks of q0 and q1 that are left once those of the displacements have been [eliminated](super::blocks).
+//! which are the blocks of q0 and q1 that are left once those of the displacements have been [eliminated](crate::space::linear::blocks).
 
+use super::Galerkin;
 use super::coefficients::{Coefficients, differentiation};
-use super::{Galerkin, blocks};
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
 use crate::discrete::quadrature::{Quadrature, Rule};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
@@ -16,6 +16,7 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
+use crate::space::linear::blocks;
 use crate::space::sink::Sink;
 use crate::space::square::linear_of_all;
 use crate::state::Statistics;

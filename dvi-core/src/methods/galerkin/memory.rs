@@ -8,15 +8,16 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver};
+use crate::space::square::coupled_by_second_derivatives;
 use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector};
+use crate::{Coupled, Lagrangian, Real, RegularLagrangian, Space, System, Vector};
 
 /// The phase point of a run with interior displacements, its path between the points and its work space.
 #[derive(Debug)]
 pub struct GalerkinMemory<const NODES: usize, S: System, T: Real> {
-    pub(super) ladder: Ladder<Newton<NODES, S, T>>,
+    pub(super) ladder: Ladder<Coupled<NODES, S, T>>,
     pub(super) path: Path<NODES, S, T>,
 }
 
@@ -33,15 +34,6 @@ pub(super) struct Path<const NODES: usize, S: System, T: Real> {
     /// δ/h² of each interior node, of the last steps; the first and the last entry are not used.
     displacements: [History<S, T>; NODES],
     pub(super) work: Work<NODES, S, T>,
-}
-
-/// Storage for the Newton matrix.
-#[derive(Debug)]
-pub(super) struct Newton<const NODES: usize, S: System, T: Real> {
-    /// The block of equation r and unknown k, transposed, in row r and column k, both from 1. Row 0 begins with
-    /// ∂²L/∂q∂q, ∂²L/∂q∂v and ∂²L/∂v∂v of a node.
-    pub(super) blocks: [[Matrix<S, T>; NODES]; NODES],
-    pub(super) permutation: Permutation<S>,
 }
 
 /// Vectors that are written before they are read in each step.
@@ -74,7 +66,6 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> GalerkinMemory<NODES,
         v: &[T],
     ) -> Result<Self, StartError> {
         let Step { system, method, t, .. } = *step;
-        let space = system.space();
         let rule = Quadrature::lobatto_of::<NODES>();
         let a = differentiation(&rule);
         let solver = match method.solver {
@@ -96,10 +87,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> GalerkinMemory<NODES,
         if reading.is_none() {
             path.fit(method.frequency.fixed(0) * step.h).map_err(StartError::Starter)?;
         }
-        let ladder = Ladder::new(solver, || Newton {
-            blocks: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
-            permutation: space.permutation(),
-        });
+        let ladder = Ladder::new(solver, || coupled_by_second_derivatives(system, q, v, t));
         Ok(Self { ladder, path })
     }
 }

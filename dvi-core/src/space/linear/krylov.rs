@@ -94,22 +94,40 @@ impl<T: Real> Krylov<T> {
         b: &mut [T],
     ) -> Result<(), StepFailure> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let Self { partners, work: [taken, _], .. } = self;
+        let Self { partners, unused, work: [diagonal, taken], .. } = self;
         partners.iter_mut().enumerate().for_each(|(row, partner)| *partner = (row, zero));
+        diagonal.fill(zero);
+        // Beside the diagonal, the largest part of an entry has to do for the entry.
         let mut largest = Places(|row: usize, column: usize, entry: T| {
-            if Scalar::abs(entry) > Scalar::abs(partners[row].1) {
+            if row == column {
+                diagonal[row] += entry;
+            } else if Scalar::abs(entry) > Scalar::abs(partners[row].1) {
                 partners[row] = (column, entry);
             }
         });
         equations.evaluate(b, &mut largest)?;
         norm::finite(b)?;
         taken.fill(zero);
-        partners.iter().for_each(|&(column, _)| taken[column] += one);
-        let apart = taken.iter().all(|&count| count == one);
         for (row, partner) in partners.iter_mut().enumerate() {
-            let reciprocal = one / partner.1;
-            let usable = apart && reciprocal.is_finite();
-            *partner = if usable { (partner.0, reciprocal) } else { (row, one) };
+            if T::lift(2.0) * Scalar::abs(diagonal[row]) >= Scalar::abs(partner.1) {
+                partner.0 = row;
+            }
+            partner.1 = zero;
+            taken[partner.0] += one;
+        }
+        if taken.iter().any(|&count| count != one) {
+            partners.iter_mut().enumerate().for_each(|(row, partner)| *partner = (row, one));
+            return Ok(());
+        }
+        let mut sum = Places(|row: usize, column: usize, entry: T| {
+            if column == partners[row].0 {
+                partners[row].1 += entry;
+            }
+        });
+        equations.evaluate(unused, &mut sum)?;
+        let usable = partners.iter().all(|partner| (one / partner.1).is_finite());
+        for (row, partner) in partners.iter_mut().enumerate() {
+            *partner = if usable { (partner.0, one / partner.1) } else { (row, one) };
         }
         Ok(())
     }

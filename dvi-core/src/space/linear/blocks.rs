@@ -16,7 +16,7 @@ use core::ops::{DerefMut, Range};
 ///
 /// # Errors
 /// [`StepFailure::Singular`] with the column of the block that has no pivot.
-pub(super) fn eliminate<const NODES: usize, T: Real, M, V>(
+pub(crate) fn eliminate<const NODES: usize, T: Real, M, V>(
     rows: &mut [[M; NODES]; NODES],
     permutation: &mut [usize],
     x: &mut [V; NODES],

@@ -1,0 +1,196 @@
+//! Linear equations for several vectors over a space at once, as those of the interior points of a step.
+
+#[cfg(feature = "alloc")]
+use core::cell::RefCell;
+use core::fmt::Debug;
+use core::ops::{Deref, DerefMut};
+
+use super::blocks;
+#[cfg(feature = "alloc")]
+use super::{LinearEquations, LinearSolver, RunTimeSolver};
+#[cfg(feature = "alloc")]
+use crate::RunTime;
+use crate::error::StepFailure;
+#[cfg(feature = "alloc")]
+use crate::space::sink::Places;
+use crate::space::{Fixed, FixedMatrix, FixedVector};
+use crate::{Real, Scalar, Sink, Space, Weights};
+
+/// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k, both from 1: a sum over
+/// the nodes of a rule,
+///
+/// Σⱼ qqⱼᵣₖ L_qq + qvⱼᵣₖ L_qv + vqⱼᵣₖ L_vq + vvⱼᵣₖ L_vv.
+pub trait NodeSum<const NODES: usize, T> {
+    /// Goes to node `j`.
+    fn place(&mut self, j: usize);
+    /// The weights of the second derivatives at the node in block (`r`, `k`).
+    fn weights(&self, r: usize, k: usize) -> Weights<T>;
+    /// Adds the second derivatives of L at the node to sinks: L_qq, L_qv and L_vv.
+    fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>);
+}
+
+/// What solves for `NODES` − 1 vectors, with the storage that it needs.
+pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
+    /// Overwrites the vectors, but the first, with the solution.
+    ///
+    /// # Errors
+    /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).
+    fn solve<V: DerefMut<Target = [T]>>(
+        &mut self,
+        matrix: &mut impl NodeSum<NODES, T>,
+        vectors: &mut [V; NODES],
+    ) -> Result<(), StepFailure>;
+}
+
+/// The solver of a [`Fixed`] space: block by block.
+#[derive(Debug)]
+pub struct FixedCoupled<T, const NODES: usize, const BLOCKS: usize, const N: usize> {
+    /// Transposed; the first row and column are not used.
+    rows: [[FixedMatrix<T, BLOCKS, N>; NODES]; NODES],
+    /// L_qq, L_qv and L_vv at a node.
+    second: [FixedMatrix<T, BLOCKS, N>; 3],
+    permutation: FixedVector<usize, BLOCKS, N>,
+}
+
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize> FixedCoupled<T, NODES, BLOCKS, N> {
+    pub(crate) fn new(space: Fixed<BLOCKS, N>) -> Self {
+        Self {
+            rows: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
+            second: core::array::from_fn(|_| space.matrix()),
+            permutation: space.permutation(),
+        }
+    }
+}
+
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize> CoupledSolver<NODES, T>
+    for FixedCoupled<T, NODES, BLOCKS, N>
+{
+    fn solve<V: DerefMut<Target = [T]>>(
+        &mut self,
+        matrix: &mut impl NodeSum<NODES, T>,
+        vectors: &mut [V; NODES],
+    ) -> Result<(), StepFailure> {
+        let Self { rows, second, permutation } = self;
+        rows[1..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
+        for j in 0..NODES {
+            matrix.place(j);
+            second.iter_mut().for_each(|derivative| derivative.fill(T::lift(0.0)));
+            let [qq, qv, vv] = &mut *second;
+            matrix.second_derivatives(qq, qv, vv);
+            for (r, row) in rows.iter_mut().enumerate().skip(1) {
+                for (k, block) in row.iter_mut().enumerate().skip(1) {
+                    add_transposed(matrix.weights(r, k), second, BLOCKS * N, block);
+                }
+            }
+        }
+        blocks::eliminate(rows, permutation, vectors, 1..NODES)
+    }
+}
+
+/// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq = (L_qv)ᵀ.
+#[inline]
+fn add_transposed<T: Scalar, M: Deref<Target = [T]>>(
+    w: Weights<T>,
+    [qq, qv, vv]: &[M; 3],
+    n: usize,
+    block: &mut [T],
+) {
+    for i in 0..n {
+        for j in 0..n {
+            let (here, across) = (i * n + j, j * n + i);
+            block[here] += w.qq * qq[here] + w.qv * qv[across] + w.vq * qv[here] + w.vv * vv[here];
+        }
+    }
+}
+
+/// The solver of a [`RunTime`] space: one system of linear equations for all vectors.
+#[cfg(feature = "alloc")]
+#[derive(Debug)]
+pub struct RunTimeCoupled<T> {
+    solver: RunTimeSolver<T>,
+    b: alloc::vec::Vec<T>,
+    x: alloc::vec::Vec<T>,
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> RunTimeCoupled<T> {
+    /// For blocks that each have the entries that `entries` visits.
+    pub(crate) fn new(
+        space: RunTime,
+        nodes: usize,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self {
+        let (n, unknown) = (space.dimension, nodes - 1);
+        let all = RunTime { dimension: n * unknown };
+        let solver = RunTimeSolver::new(all.dimension, |visit| {
+            entries(&mut |i, j| {
+                for k in 0..unknown * unknown {
+                    visit(k / unknown * n + i, k % unknown * n + j);
+                }
+            });
+        });
+        Self { solver, b: all.vector(), x: all.vector() }
+    }
+}
+
+#[cfg(feature = "alloc")]
+struct Flat<'a, const NODES: usize, T, M> {
+    matrix: &'a mut M,
+    b: &'a [T],
+    n: usize,
+}
+
+#[cfg(feature = "alloc")]
+impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for Flat<'_, NODES, T, M> {
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let Self { matrix, b: given, n } = self;
+        b.copy_from_slice(given);
+        // Three sinks pass on to it, one at a time.
+        let sink = RefCell::new(sink);
+        for node in 0..NODES {
+            matrix.place(node);
+            let weights: [[_; NODES]; NODES] =
+                core::array::from_fn(|r| core::array::from_fn(|k| matrix.weights(r, k)));
+            // Adds an entry to each block, times what is asked of its weights.
+            let add = |i: usize, j: usize, entry: T, weight: fn(&Weights<T>) -> T| {
+                for (r, row) in weights.iter().enumerate().skip(1) {
+                    for (k, w) in row.iter().enumerate().skip(1) {
+                        sink.borrow_mut().add((r - 1) * *n + i, (k - 1) * *n + j, weight(w) * entry);
+                    }
+                }
+            };
+            matrix.second_derivatives(
+                &mut Places(|i, j, entry| add(i, j, entry, |w| w.qq)),
+                &mut Places(|i, j, entry| {
+                    add(i, j, entry, |w| w.qv);
+                    add(j, i, entry, |w| w.vq);
+                }),
+                &mut Places(|i, j, entry| add(i, j, entry, |w| w.vv)),
+            );
+        }
+        Ok(())
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> {
+    fn solve<V: DerefMut<Target = [T]>>(
+        &mut self,
+        matrix: &mut impl NodeSum<NODES, T>,
+        vectors: &mut [V; NODES],
+    ) -> Result<(), StepFailure> {
+        let Self { solver, b, x } = self;
+        let n = vectors[0].len();
+        if n == 0 {
+            return Ok(());
+        }
+        for (b, vector) in b.chunks_exact_mut(n).zip(&vectors[1..]) {
+            b.copy_from_slice(vector);
+        }
+        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, x)?;
+        for (x, vector) in x.chunks_exact(n).zip(&mut vectors[1..]) {
+            vector.copy_from_slice(x);
+        }
+        Ok(())
+    }
+}
