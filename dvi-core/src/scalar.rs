@@ -8,6 +8,7 @@
 mod error_function;
 pub(crate) mod norm;
 mod number;
+mod sinc;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -77,6 +78,18 @@ macro_rules! scalar {
             /// The error function 2/√π ∫ e^(−s²) ds from 0 to `self`.
             fn erf(self) -> Self {
                 crate::scalar::error_function::erf(self)
+            }
+            /// sin(`self`)/`self`, and 1 at 0.
+            fn sinc(self) -> Self {
+                crate::scalar::sinc::bessel::<0, Self>(self)
+            }
+            /// j₁(`self`)/`self` with the spherical Bessel function j₁: −1/`self` times the derivative of [`sinc`](Self::sinc).
+            fn sinc1(self) -> Self {
+                crate::scalar::sinc::bessel::<1, Self>(self)
+            }
+            /// j₂(`self`)/`self`²: −1/`self` times the derivative of [`sinc1`](Self::sinc1).
+            fn sinc2(self) -> Self {
+                crate::scalar::sinc::bessel::<2, Self>(self)
             }
             $($(#[$doc])* fn $name(self) -> Self;)*
         }

@@ -49,7 +49,7 @@ use proc_macro::TokenStream;
 ///
 /// Formulas are Rust expressions over the coordinates, the fields of the struct by name, `PI` and other
 /// constants by their paths (`std::f64::consts::E`), and the time `t` (a coordinate or field of that name takes precedence): operators, methods
-/// of `f64` and `erf`, `let` blocks, `if … else`, `as f64`; `name.field` and `self.name.field` are fields of
+/// of `f64`, `erf` and `sinc`, `let` blocks, `if … else`, `as f64`; `name.field` and `self.name.field` are fields of
 /// a field. Index sums are `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k and
 /// `sum_ordered_pairs` over j ≠ k; the sign of the zero of a sum without terms is not defined. Indices are sums, differences and literal multiples of bound indices,
 /// sizes and integers; `%` is the Euclidean remainder.

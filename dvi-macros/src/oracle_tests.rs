@@ -16,7 +16,7 @@ mod evaluate;
 mod exhaustive;
 mod expand;
 mod formula;
-mod functions;
+pub(crate) mod functions;
 mod generate;
 mod jet;
 mod parts;

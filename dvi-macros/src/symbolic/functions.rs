@@ -38,7 +38,7 @@ pub(super) struct Row {
 macro_rules! functions {
     ($(
         $(#[$doc:meta])*
-        $name:literal $Variant:ident $value:path, [$($Property:ident)*] |$graph:ident, $u:ident, $f:ident| $derivative:expr;
+        $name:literal $Variant:ident $value:expr, [$($Property:ident)*] |$graph:ident, $u:ident, $f:ident| $derivative:expr;
     )*) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub(crate) enum Unary {
@@ -95,6 +95,10 @@ functions! {
     /// |u|', which is 0 at 0; the compiler makes it, users do not write it.
     "sign" Sign sign, [Odd Internal] |_graph, _u, _f| Expr::ZERO;
     "erf" Erf erf, [Odd Smooth BelowItsArgument] |graph, u, _f| { let g = graph.power(u, 2).negated(); graph.unary(Unary::Exp, g).scaled(FRAC_2_SQRT_PI) };
+    "sinc" Sinc |x| bessel(0, x), [Even Smooth] |graph, u, _f| { let g = graph.unary(Unary::Sinc1, u); graph.multiply(u, g).negated() };
+    /// j₁(u)/u and j₂(u)/u², of which the derivatives of `sinc` are made.
+    "sinc1" Sinc1 |x| bessel(1, x), [Even Smooth Internal] |graph, u, _f| { let g = graph.unary(Unary::Sinc2, u); graph.multiply(u, g).negated() };
+    "sinc2" Sinc2 |x| bessel(2, x), [Even Internal] |graph, u, f| { let g = graph.unary(Unary::Sinc1, u); let g = graph.subtract(g, f.scaled(5.0)); graph.divide(g, u) };
 }
 
 impl Unary {
@@ -148,6 +152,24 @@ fn erf(x: f64) -> f64 {
         sum += term;
     }
     core::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp() * sum
+}
+
+/// jₙ(x)/xⁿ: the alternating series, or the recursion that grows out of the cosine.
+fn bessel(order: u32, x: f64) -> f64 {
+    let (mut value, mut next) = (x.cos(), x.sin() / x);
+    if x.abs() > 2.0 {
+        for n in 0..order {
+            (value, next) = (next, (f64::from(2 * n + 1) * next - value) / (x * x));
+        }
+        return next;
+    }
+    let first = (1..=order).map(|n| f64::from(2 * n + 1)).product::<f64>();
+    let (mut term, mut sum) = (1.0 / first, 0.0);
+    for k in 1..20 {
+        sum += term;
+        term *= -x * x / f64::from(2 * k * (2 * order + 2 * k + 1));
+    }
+    sum
 }
 
 impl Graph {

@@ -35,9 +35,52 @@ fn taylor(name: &str, x: f64) -> Option<Taylor> {
         "abs"    => [x.abs(), if x == 0.0 { 0.0 } else { x.signum() }, 0.0, 0.0],
         "signum" => [x.signum(), 0.0, 0.0, 0.0],
         "erf"    => { let d = 2.0 / PI.sqrt() * (-squared).exp(); [error_function(x), d, -2.0 * x * d, (4.0 * squared - 2.0) * d] }
+        "sinc"   => sinc(x),
         _ => return None,
     };
     Some(value)
+}
+
+/// sin x/x and its derivatives: term by term of the power series, and from x f″ + 2f′ + x f = 0.
+fn sinc(x: f64) -> Taylor {
+    if x.abs() > 2.0 {
+        let f = x.sin() / x;
+        let first = (x.cos() - f) / x;
+        let second = -f - 2.0 * first / x;
+        return [f, first, second, -first - 2.0 * second / x + 2.0 * first / (x * x)];
+    }
+    let mut sums = [0.0; 4];
+    // (−1)ᵏ/(2k + 1)!
+    let mut coefficient = 1.0;
+    for k in 0..16 {
+        let mut factor = coefficient;
+        for (order, sum) in sums.iter_mut().enumerate() {
+            let exponent = 2 * k - order as i32;
+            if exponent >= 0 {
+                *sum += factor * x.powi(exponent);
+            }
+            factor *= f64::from(exponent.max(0));
+        }
+        coefficient /= f64::from(-(2 * k + 2) * (2 * k + 3));
+    }
+    sums
+}
+
+/// −f′/x of the sinc function, and the same of that: by their power series, or from the derivatives.
+fn sinc_slope(order: u32, x: f64) -> f64 {
+    if x.abs() > 2.0 {
+        let [_, first, second, _] = sinc(x);
+        return if order == 1 { -first / x } else { (second - first / x) / (x * x) };
+    }
+    // (−1)ᵏ/(2k + 1)!, times −2k and then −(2k − 2), for x to the power 2k − 2 or 2k − 4.
+    let terms = (0..16).scan(1.0, |coefficient, k| {
+        let slopes = if order == 1 { -2.0 * f64::from(k) } else { f64::from(2 * k) * f64::from(2 * k - 2) };
+        let exponent = 2 * (k - order as i32);
+        let term = if exponent >= 0 { *coefficient * slopes * x.powi(exponent) } else { 0.0 };
+        *coefficient /= f64::from(-(2 * k + 2) * (2 * k + 3));
+        Some(term)
+    });
+    terms.sum()
 }
 
 /// The error function, by its series for small arguments and the continued fraction of its complement for
@@ -106,6 +149,8 @@ pub(super) fn printed_unary(name: &str, x: f64) -> f64 {
                 x.signum()
             }
         }
+        ("sinc1", _) => sinc_slope(1, x),
+        ("sinc2", _) => sinc_slope(2, x),
         (_, Some([value, ..])) => value,
         _ => internal(format!("the self-check does not know the function `{name}`")),
     }

@@ -25,7 +25,7 @@ use dvi_core::{Scalar, degenerate_lagrangian};
         let powers = r.powi(3) + s.powi(-2) + x.powi(0) + r.powi(1) + (x + y).powi(7);
         let reals = r.powf(2.0) + s.powf(-1.5) + r.powf(0.5) + s.powf(-1.0) + r.powf(0.3) + s.powf(y) + 2.0_f64.powf(x)
             + x.powf(r) + r.powf(-2.7);
-        let others = s.recip() + x.mul_add(y, r) + (100.0 * x).to_radians() + y.to_degrees() + f64::sin(r);
+        let others = (3.0 * s).sinc() + s.recip() + x.mul_add(y, r) + (100.0 * x).to_radians() + y.to_degrees() + f64::sin(r);
         roots + exponentials + logarithms + circular + inverse + hyperbolic + areas + signs + two + powers
             + reals + others + 3 as f64 * x
     },

@@ -32,7 +32,7 @@ impl ByHand for EveryFunction {
             r * r * r, (s * s).recip(), D::one(), r, (x + y).powi(4) * (x + y).powi(3),
             r * r, (s * s * s).sqrt().recip(), r.sqrt(), s.recip(), r.powf(0.3), (s.ln() * y).exp(),
             (x * 2.0_f64.ln()).exp(), (r * x.ln()).exp(), r.powf(-2.7),
-            s.recip(), s + r, x * 100.0 * (PI / 180.0), y * (180.0 / PI), r.sin(), x * 3.0,
+            (s * 3.0).sph_j0(), s.recip(), s + r, x * 100.0 * (PI / 180.0), y * (180.0 / PI), r.sin(), x * 3.0,
         ].into_iter().sum()
     }
     fn point(&self, random: &mut Random) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! What generated functions call: the methods of `Scalar`, the helpers of the library, each other, and
 //! the user's own.
 
-use super::super::functions::erf;
+use super::super::functions::{bessel, erf};
 use super::code::Operator;
 
 #[derive(Clone, Debug)]
@@ -36,6 +36,7 @@ const UNARY: &[UnaryRow] = &[
     ("asin",  f64::asin),  ("acos",  f64::acos),  ("atan",  f64::atan),  ("sinh",   f64::sinh),
     ("cosh",  f64::cosh),  ("tanh",  f64::tanh),  ("asinh", f64::asinh), ("acosh",  f64::acosh),
     ("atanh", f64::atanh), ("abs",   f64::abs),   ("signum", f64::signum), ("sign", sign), ("erf", erf),
+    ("sinc", |x| bessel(0, x)), ("sinc1", |x| bessel(1, x)), ("sinc2", |x| bessel(2, x)),
 ];
 
 const BINARY: &[BinaryRow] =

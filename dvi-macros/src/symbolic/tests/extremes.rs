@@ -5,6 +5,7 @@ use crate::symbolic::functions::{self, UNARY};
 use crate::symbolic::{Binary, Coordinate, Expr, Graph, Id, Index, Node, Relation, Unary};
 
 use super::evaluate::{Evaluation, Point};
+use crate::oracle_tests::functions::bessel;
 
 /// A function, its first two derivatives by other formulas, and the points: where a derivative does not
 /// exist the closed form is not finite, and neither may be what is generated.
@@ -57,6 +58,9 @@ const ROWS: &[Extremes] = &[
     ("sign",   |_| 0.0, |_| 0.0, WIDE),
     ("erf",    |x| core::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp(),
                |x| -2.0 * x * core::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp(), REAL),
+    ("sinc",   |x| -x * bessel(1, x), |x| x * x * bessel(2, x) - bessel(1, x), REAL),
+    ("sinc1",  |x| -x * bessel(2, x), |x| x * x * bessel(3, x) - bessel(2, x), &[3.0, -20.0]),
+    ("sinc2",  |x| -x * bessel(3, x), |x| x * x * bessel(4, x) - bessel(3, x), &[3.0, -20.0]),
 ];
 
 /// A graph with two coordinates, x and y.

@@ -44,6 +44,9 @@ fn slope<F: Field>(function: Unary, u: F) -> F {
         Unary::Signum => F::lift(0.0),
         Unary::Sign   => F::lift(0.0),
         Unary::Erf    => call(Unary::Exp, -(u * u)) * F::lift(FRAC_2_SQRT_PI),
+        Unary::Sinc   => -(u * call(Unary::Sinc1, u)),
+        Unary::Sinc1  => -(u * call(Unary::Sinc2, u)),
+        Unary::Sinc2  => (call(Unary::Sinc1, u) - F::lift(5.0) * call(Unary::Sinc2, u)) / u,
     }
 }
 

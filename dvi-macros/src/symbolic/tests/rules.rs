@@ -37,6 +37,9 @@ const DOMAINS: &[(&str, &[Interval])] = &[
     ("signum", &[(0.1, 3.0), (-3.0, -0.1)]),
     ("sign",   &[(0.1, 3.0), (-3.0, -0.1)]),
     ("erf",    &[(-3.0, 3.0)]),
+    ("sinc",   &[(-5.0, 5.0)]),
+    ("sinc1",  &[(-5.0, 5.0)]),
+    ("sinc2",  &[(1.0, 5.0), (-5.0, -1.0)]),
 ];
 
 /// Rectangles of the plane, by the ranges of a and b.
