@@ -24,8 +24,9 @@ mod names;
 mod reach;
 mod sums;
 mod unsupported;
+mod words;
 
-pub(crate) use calls::RESERVED;
+pub(crate) use words::reserved;
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -343,7 +344,7 @@ impl<'a> Lowering<'a> {
         declared.extend(self.model.parameters.iter().map(|parameter| parameter.text.clone()));
         declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));
         declared.extend(self.scope.iter().map(|(name, _)| name.clone()));
-        declared.push("PI".to_string());
+        declared.push(words::PI.to_string());
         if let Some(written) = self.velocity_called(name) {
             let message = format!("{what} `{name}`; {written}");
             self.errors.push_once(&format!("name {name}"), at, message);

@@ -8,7 +8,7 @@ use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{Fields, Ident, ItemStruct, Path};
 
 use crate::errors::Errors;
-use crate::lower::RESERVED;
+use crate::lower::reserved;
 use crate::symbolic::{Index, Names};
 use crate::syntax::{Attribute, Declaration, Function, Kind};
 
@@ -89,7 +89,7 @@ impl Model {
             model.declare(declaration, errors);
         }
         for Function { name, .. } in &model.functions {
-            if RESERVED.iter().any(|reserved| name == reserved) {
+            if reserved().any(|reserved| name == reserved) {
                 errors.push(
                     name,
                     format!("`{name}` has a meaning of its own in formulas; give this function another name"),

@@ -5,17 +5,12 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
+use super::words::{Arithmetic, Method, SUMS, VELOCITIES, callable};
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest, similar, text};
-use crate::symbolic::{Expr, Node, Relation, binary_by_name, binary_names, unary_by_name, unary_names};
+use crate::internal::internal;
+use crate::symbolic::{Expr, Node, Relation};
 use crate::syntax::Kind;
-
-/// Methods that are arithmetic rather than functions of the table, with their number of arguments.
-const ARITHMETIC: [(&str, usize); 7] =
-    [("powi", 1), ("recip", 0), ("mul_add", 2), ("min", 1), ("max", 1), ("to_radians", 0), ("to_degrees", 0)];
-
-/// Names that a function of the user's own cannot have.
-pub(crate) const RESERVED: [&str; 6] = ["sum", "sum_pairs", "sum_ordered_pairs", "product", "d", "dot"];
 
 impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Expr> {
@@ -31,7 +26,7 @@ impl Lowering<'_> {
         if self.iterated(call) {
             return None;
         }
-        let Some(arity) = arity(&name) else {
+        let Some(method) = Method::by_name(&name) else {
             let arguments: Vec<&Syntax> = call.args.iter().collect();
             self.unknown_function(&call.method, &name, Some(&call.receiver), &arguments);
             for argument in &call.args {
@@ -39,13 +34,14 @@ impl Lowering<'_> {
             }
             return None;
         };
-        if call.args.len() != arity {
-            let message = format!("`{name}` takes {}; here are {}", arguments(arity), call.args.len());
+        if call.args.len() != method.arity() {
+            let message =
+                format!("`{name}` takes {}; here are {}", arguments(method.arity()), call.args.len());
             self.errors.push(&call.method, message);
             return None;
         }
         let receiver = self.expr(&call.receiver);
-        if name == "powi" {
+        if let Method::Arithmetic(Arithmetic::Powi) = method {
             let exponent = self.integer(&call.args[0]);
             let (receiver, exponent) = (receiver?, exponent?);
             let value = self.graph.powi(receiver, exponent);
@@ -54,30 +50,28 @@ impl Lowering<'_> {
         let arguments: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
         let arguments: Vec<Expr> = arguments.into_iter().collect::<Option<_>>()?;
         let receiver = receiver?;
-        if name == "min" || name == "max" {
+        if matches!(method, Method::Arithmetic(Arithmetic::Min | Arithmetic::Max)) {
             self.check_at_rest(call, &format!("`{name}`"), &[receiver, arguments[0]])?;
         }
-        let value = self.apply(&name, receiver, &arguments);
+        let value = self.apply(method, receiver, &arguments);
         self.admitted(call, value)
     }
 
-    fn apply(&mut self, name: &str, x: Expr, arguments: &[Expr]) -> Expr {
-        if let Some(function) = unary_by_name(name) {
-            return self.graph.unary(function, x);
-        }
-        if let Some(function) = binary_by_name(name) {
-            return self.graph.binary(function, x, arguments[0]);
-        }
-        match name {
-            "mul_add" => {
-                let product = self.graph.multiply(x, arguments[0]);
-                self.graph.add(product, arguments[1])
+    /// The method of `x` and as many `arguments` as it takes.
+    fn apply(&mut self, method: Method, x: Expr, arguments: &[Expr]) -> Expr {
+        match (method, arguments) {
+            (Method::Unary(function), []) => self.graph.unary(function, x),
+            (Method::Binary(function), [y]) => self.graph.binary(function, x, *y),
+            (Method::Arithmetic(Arithmetic::MulAdd), [y, z]) => {
+                let product = self.graph.multiply(x, *y);
+                self.graph.add(product, *z)
             }
-            "min" => self.smaller(x, arguments[0], (x, arguments[0])),
-            "max" => self.smaller(x, arguments[0], (arguments[0], x)),
-            "to_radians" => x.scaled(std::f64::consts::PI / 180.0),
-            "to_degrees" => x.scaled(180.0 / std::f64::consts::PI),
-            _ => self.graph.reciprocal(x),
+            (Method::Arithmetic(Arithmetic::Min), [y]) => self.smaller(x, *y, (x, *y)),
+            (Method::Arithmetic(Arithmetic::Max), [y]) => self.smaller(x, *y, (*y, x)),
+            (Method::Arithmetic(Arithmetic::ToRadians), []) => x.scaled(std::f64::consts::PI / 180.0),
+            (Method::Arithmetic(Arithmetic::ToDegrees), []) => x.scaled(180.0 / std::f64::consts::PI),
+            (Method::Arithmetic(Arithmetic::Recip), []) => self.graph.reciprocal(x),
+            (method, arguments) => internal(format!("{method:?} with {} arguments", arguments.len())),
         }
     }
 
@@ -110,10 +104,12 @@ impl Lowering<'_> {
         if self.model.functions.iter().any(|function| function.name == name) {
             return self.own_function(&name, call);
         }
-        match name.as_str() {
-            "sum" | "sum_pairs" | "sum_ordered_pairs" | "product" => self.sum(&name, call),
-            "d" | "dot" => self.velocity(&name, call),
-            _ => self.own_function(&name, call),
+        if SUMS.contains(&name.as_str()) {
+            self.sum(&name, call)
+        } else if VELOCITIES.contains(&name.as_str()) {
+            self.velocity(&name, call)
+        } else {
+            self.own_function(&name, call)
         }
     }
 
@@ -144,7 +140,7 @@ impl Lowering<'_> {
     fn own_function(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
         let Some(function) = self.model.functions.iter().position(|function| function.name == name) else {
             let (receiver, arguments) = (call.args.first(), call.args.iter().skip(1).collect::<Vec<_>>());
-            if arity(name).is_some() {
+            if Method::by_name(name).is_some() {
                 let receiver = receiver.map_or_else(|| "x".to_string(), as_receiver);
                 let arguments: Vec<String> = arguments.into_iter().map(text).collect();
                 let written = format!("{receiver}.{name}({})", arguments.join(", "));
@@ -181,9 +177,7 @@ impl Lowering<'_> {
         }
         let own: Vec<String> =
             self.model.functions.iter().map(|function| function.name.to_string()).collect();
-        let mut known: Vec<&str> = unary_names().chain(binary_names()).collect();
-        known.extend(ARITHMETIC.iter().map(|(name, _)| *name));
-        known.extend(RESERVED);
+        let mut known: Vec<&str> = callable().collect();
         known.extend(own.iter().map(String::as_str));
         let mut message = format!("unknown function `{name}`");
         match nearest(name, known.iter().copied()) {
@@ -243,17 +237,6 @@ impl Lowering<'_> {
                 None
             }
         }
-    }
-}
-
-/// The number of arguments of a method, its receiver not counted.
-fn arity(name: &str) -> Option<usize> {
-    if unary_by_name(name).is_some() {
-        return Some(0);
-    }
-    match binary_by_name(name) {
-        Some(_) => Some(1),
-        None => ARITHMETIC.iter().find(|(known, _)| *known == name).map(|(_, arity)| *arity),
     }
 }
 

@@ -4,23 +4,9 @@ use std::f64::consts;
 
 use syn::{Expr as Syntax, ExprField, Path};
 
-use super::{Binding, Lowering};
+use super::{Binding, Lowering, words};
 use crate::model::Shape;
 use crate::symbolic::{Coordinate, Expr, Index, Node};
-
-/// Those of `std::f64::consts`, by their full paths. A single name may be that of another constant in the module of
-/// the user, which the macro cannot see; only `PI` is taken for what it says.
-#[rustfmt::skip]
-const CONSTANTS: [(&str, f64); 8] = [
-    ("PI",          consts::PI),
-    ("TAU",         consts::TAU),
-    ("E",           consts::E),
-    ("SQRT_2",      consts::SQRT_2),
-    ("LN_2",        consts::LN_2),
-    ("LN_10",       consts::LN_10),
-    ("FRAC_PI_2",   consts::FRAC_PI_2),
-    ("FRAC_1_PI",   consts::FRAC_1_PI),
-];
 
 impl Lowering<'_> {
     pub(super) fn path(&mut self, path: &Path) -> Option<Expr> {
@@ -55,15 +41,15 @@ impl Lowering<'_> {
         if let Some(size) = self.model.named_size(&name) {
             return Some(self.graph.count(size));
         }
-        if name == "PI" {
+        if name == words::PI {
             return Some(Expr::number(consts::PI));
         }
-        if name == "t" {
+        if name == words::TIME {
             return Some(self.graph.intern(Node::Time).into());
         }
         if self.index_names.contains(&name) {
             self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
-        } else if CONSTANTS.iter().any(|(known, _)| *known == name) {
+        } else if words::constant(&name).is_some() {
             let message =
                 format!("write `std::f64::consts::{name}`, or `self::{name}` for a constant of your own");
             self.errors.push(path, message);
@@ -268,9 +254,7 @@ impl Lowering<'_> {
 fn standard_constant(path: &Path) -> Option<f64> {
     let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
     match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["std" | "core", "f64", "consts", name] => {
-            CONSTANTS.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
-        }
+        ["std" | "core", "f64", "consts", name] => words::constant(name),
         _ => None,
     }
 }

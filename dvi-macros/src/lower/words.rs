@@ -1,0 +1,101 @@
+//! The words of the language: methods, forms of their own, constants. The functions of one and of two numbers come in from
+//! their tables.
+
+use std::f64::consts;
+
+use crate::symbolic::{Binary, Unary, binary_by_name, binary_names, unary_by_name, unary_names};
+
+/// A method of numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Method {
+    Unary(Unary),
+    Binary(Binary),
+    Arithmetic(Arithmetic),
+}
+
+/// A method that is arithmetic rather than a function of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Arithmetic {
+    Powi,
+    Recip,
+    MulAdd,
+    Min,
+    Max,
+    ToRadians,
+    ToDegrees,
+}
+
+/// With the number of arguments.
+#[rustfmt::skip]
+const ARITHMETIC: [(&str, Arithmetic, usize); 7] = [
+    ("powi",       Arithmetic::Powi,      1),
+    ("recip",      Arithmetic::Recip,     0),
+    ("mul_add",    Arithmetic::MulAdd,    2),
+    ("min",        Arithmetic::Min,       1),
+    ("max",        Arithmetic::Max,       1),
+    ("to_radians", Arithmetic::ToRadians, 0),
+    ("to_degrees", Arithmetic::ToDegrees, 0),
+];
+
+/// Sums and products over indices.
+pub(super) const SUMS: [&str; 4] = ["sum", "sum_pairs", "sum_ordered_pairs", "product"];
+
+/// Velocities, in a one-form and in a Lagrangian.
+pub(super) const VELOCITIES: [&str; 2] = ["d", "dot"];
+
+/// The time, unless a coordinate or a field has that name.
+pub(super) const TIME: &str = "t";
+
+/// The constant that goes without a path: a single name may be that of another one in the module of the user, which the
+/// macro cannot see; only this is taken for what it says.
+pub(super) const PI: &str = "PI";
+
+/// Those of `std::f64::consts`, by their full paths.
+#[rustfmt::skip]
+const CONSTANTS: [(&str, f64); 8] = [
+    (PI,            consts::PI),
+    ("TAU",         consts::TAU),
+    ("E",           consts::E),
+    ("SQRT_2",      consts::SQRT_2),
+    ("LN_2",        consts::LN_2),
+    ("LN_10",       consts::LN_10),
+    ("FRAC_PI_2",   consts::FRAC_PI_2),
+    ("FRAC_1_PI",   consts::FRAC_1_PI),
+];
+
+impl Method {
+    pub(super) fn by_name(name: &str) -> Option<Self> {
+        let arithmetic = || ARITHMETIC.iter().find(|(known, ..)| *known == name);
+        unary_by_name(name)
+            .map(Self::Unary)
+            .or_else(|| binary_by_name(name).map(Self::Binary))
+            .or_else(|| arithmetic().map(|(_, method, _)| Self::Arithmetic(*method)))
+    }
+
+    /// The number of arguments, the receiver not counted.
+    pub(super) fn arity(self) -> usize {
+        match self {
+            Self::Unary(_) => 0,
+            Self::Binary(_) => 1,
+            Self::Arithmetic(method) => {
+                ARITHMETIC.iter().filter(|(_, known, _)| *known == method).map(|(.., arity)| arity).sum()
+            }
+        }
+    }
+}
+
+/// The names that a function of the user's own cannot have.
+pub(crate) fn reserved() -> impl Iterator<Item = &'static str> {
+    SUMS.into_iter().chain(VELOCITIES)
+}
+
+/// All that can be called.
+pub(super) fn callable() -> impl Iterator<Item = &'static str> {
+    let arithmetic = ARITHMETIC.iter().map(|(name, ..)| *name);
+    unary_names().chain(binary_names()).chain(arithmetic).chain(reserved())
+}
+
+/// The constant of `std::f64::consts` with this name.
+pub(super) fn constant(name: &str) -> Option<f64> {
+    CONSTANTS.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
+}
