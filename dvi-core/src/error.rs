@@ -144,7 +144,7 @@ pub enum StepFailure {
     },
     /// A phase-fitted interpolation does not exist, or does not determine the step, near this step length.
     #[error(
-        "phase fitting breaks down at u = ωh = {u}: sin u = {sine:e}, Σ w cos((1 − 2c)u) = {kernel:e}; a smaller \
+        "phase fitting breaks down at u = ωh = {u}: sin u = {sine:e}, Σ w cos((1 − 2c)u) = {cosine_sum:e}; a smaller \
          step helps"
     )]
     Resonance {
@@ -154,7 +154,7 @@ pub enum StepFailure {
         sine: f64,
         /// S = Σ w cos((1 − 2c)u), which multiplies the new point; with interior displacements, what multiplies
         /// it in place of S.
-        kernel: f64,
+        cosine_sum: f64,
     },
     /// A matrix has an entry where its pattern, which decided its storage when the run began, has none.
     #[error("the matrix of the step has an entry ({row}, {column}) that its pattern does not have")]

@@ -1,7 +1,7 @@
 //! What methods need of a system: the vector field, the Legendre transform, matrices that are solved with, and whether they
 //! keep their orientation; and the phase point of a run on T*Q.
 
-pub(crate) mod form;
+pub(crate) mod combination;
 pub(crate) mod legendre;
 pub(crate) mod mass;
 pub(crate) mod orientation;

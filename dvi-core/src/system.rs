@@ -135,8 +135,8 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 )]
 pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
-    const LINEAR: bool;
-    /// Whether Dα couples each coordinate to exactly one other, its partner, and to nothing else; then
+    const AFFINE: bool;
+    /// Whether Dα couples each coordinate to exactly one other, its conjugate, and to nothing else; then
     /// a Dα + b (Dα)ᵀ is solved by one division per coordinate. True of blocks of coordinates that are coupled index by
     /// index; of other couplings it may be false, and the general solve is taken.
     const MATCHING: bool;
@@ -155,11 +155,11 @@ pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     /// Adds a Dα + b (Dα)ᵀ to `sink`.
     fn one_form_jacobian<K: Sink<T>>(&self, q: &[T], t: T, a: T, b: T, sink: &mut K);
     /// Where [`CANONICAL`](Self::CANONICAL) holds: sets `out[i]` to the entry of a Dα + b (Dα)ᵀ in row i
-    /// and the column of i's partner. Elsewhere it leaves zeros.
-    fn partner_entries(&self, q: &[T], t: T, a: T, b: T, out: &mut [T]);
-    /// Where [`CANONICAL`](Self::CANONICAL) holds: the partner of coordinate `i`, of any index below the
+    /// and the column of i's conjugate. Elsewhere it leaves zeros.
+    fn conjugate_entries(&self, q: &[T], t: T, a: T, b: T, out: &mut [T]);
+    /// Where [`CANONICAL`](Self::CANONICAL) holds: the conjugate of coordinate `i`, of any index below the
     /// dimension. Elsewhere `i` itself.
-    fn partner(&self, i: usize) -> usize;
+    fn conjugate(&self, i: usize) -> usize;
     /// Sets `out` to the gradient ∂J/∂q of declared momentum `index`.
     fn momentum_gradient(&self, index: usize, q: &[T], t: T, out: &mut [T]);
 }
@@ -204,7 +204,7 @@ pub trait Separable<T: Scalar = f64>: RegularLagrangian<T> {}
 pub trait QuadraticInVelocity<T: Scalar = f64>: RegularLagrangian<T> {}
 
 /// A system whose α is affine in q with constant coefficients. The attribute implements it where
-/// [`LINEAR`](DegenerateLagrangian::LINEAR) holds.
+/// [`AFFINE`](DegenerateLagrangian::AFFINE) holds.
 #[diagnostic::on_unimplemented(
     message = "the one-form of `{Self}` is not affine in the coordinates",
     label = "Dα is not one constant matrix"

@@ -78,7 +78,7 @@ fn from_its_momentum<S: DegenerateLagrangian>(system: &S, method: Sigma, start: 
         fast.advance()?;
         let apart = fast.q().iter().zip(q.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
         // The parasitic mode of a nonlinear α grows by some 3 a step, and with it the difference of their roundings.
-        let bound = if S::LINEAR { 1e-12 } else { 1e-14 * 4.0_f64.powi(step + 3) };
+        let bound = if S::AFFINE { 1e-12 } else { 1e-14 * 4.0_f64.powi(step + 3) };
         assert!(apart < bound, "{}, σ = {}, step {step}: {apart:e}", S::REPORT.system, method.sigma);
     }
     Ok(())

@@ -166,14 +166,14 @@ pub(crate) fn table_slope<T: Real>(rule: &impl Rule, z: T) -> [Basis<T>; NODES] 
 
 /// The derivative with respect to z of σ(z)/S(z), S = Σ w cos((1 − 2c)u).
 pub(crate) fn weight_factor_slope<T: Real>(rule: &impl Rule, z: T) -> T {
-    let (mut kernel, mut kernel_slope) = (T::lift(0.0), T::lift(0.0));
+    let (mut cosine_sum, mut cosine_slope) = (T::lift(0.0), T::lift(0.0));
     for (&c, &w) in rule.nodes().iter().zip(rule.weights()) {
         let square = T::lift((1.0 - 2.0 * c) * (1.0 - 2.0 * c));
         let Pair { cosine, sinc } = pair(square * z);
-        kernel += T::lift(w) * cosine;
-        kernel_slope -= T::lift(0.5 * w) * square * sinc;
+        cosine_sum += T::lift(w) * cosine;
+        cosine_slope -= T::lift(0.5 * w) * square * sinc;
     }
-    (sinc_slope(z) - pair(z).sinc * kernel_slope / kernel) / kernel
+    (sinc_slope(z) - pair(z).sinc * cosine_slope / cosine_sum) / cosine_sum
 }
 
 /// σ'(z) = Σₖ (−1)ᵏ k zᵏ⁻¹/(2k + 1)!.
@@ -211,7 +211,7 @@ mod tests {
     }
 
     /// S = Σ w cos((1 − 2c)u).
-    fn kernel<T: Real>(rule: &impl Rule, z: T) -> T {
+    fn cosine_sum<T: Real>(rule: &impl Rule, z: T) -> T {
         let term =
             |(&c, &w): (&f64, &f64)| T::lift(w) * Scalar::cos(T::lift(1.0 - 2.0 * c) * Scalar::sqrt(z));
         rule.nodes().iter().zip(rule.weights()).map(term).fold(T::lift(0.0), |sum, term| sum + term)
@@ -255,7 +255,7 @@ mod tests {
         for rule in rules() {
             for u in (1..=30).map(|k| 0.1 * f64::from(k)) {
                 let z = u * u;
-                if kernel(&rule, z).abs() < 1e-3 {
+                if cosine_sum(&rule, z).abs() < 1e-3 {
                     continue;
                 }
                 let (mut numerator, mut denominator) = (0.0, 0.0);
@@ -265,7 +265,7 @@ mod tests {
                     denominator += w * (z * b * b_bar - d * d_bar);
                 }
                 let error = numerator / denominator - 2.0 * u.cos();
-                assert!(error.abs() < 1e-14 / kernel(&rule, z).abs(), "{rule:?}, u = {u}: {error:e}");
+                assert!(error.abs() < 1e-14 / cosine_sum(&rule, z).abs(), "{rule:?}, u = {u}: {error:e}");
             }
         }
     }
@@ -282,9 +282,9 @@ mod tests {
                         assert!((slope - expected.eps).abs() < 1e-13, "z = {z}: {slope} {}", expected.eps);
                     }
                 }
-                let factor = pair(dual).sinc / kernel(&rule, dual);
+                let factor = pair(dual).sinc / cosine_sum(&rule, dual);
                 let found = weight_factor_slope(&rule, z);
-                let size = factor.re.abs().max(1.0) / kernel(&rule, z).abs().min(1.0);
+                let size = factor.re.abs().max(1.0) / cosine_sum(&rule, z).abs().min(1.0);
                 assert!((found - factor.eps).abs() < 1e-13 * size * size, "z = {z}: {found} {}", factor.eps);
             }
         }

@@ -33,12 +33,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     /// At (`q`, `t`).
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Self {
         let space = system.space();
-        if S::LINEAR {
+        if S::AFFINE {
             return Self::Constant;
         }
         if S::CANONICAL {
             let mut entries = space.vector();
-            system.partner_entries(q, t, T::lift(-1.0), T::lift(1.0), &mut entries);
+            system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), &mut entries);
             return Self::Pairs([entries, space.vector()]);
         }
         let mut matrix = space.matrix();
@@ -70,7 +70,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
         match self {
             Self::Constant => Ok(T::lift(0.0)),
             Self::Pairs([entries, next]) => {
-                system.partner_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
+                system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
                 for (&before, &after) in entries.iter().zip(next.iter()) {
                     compare(before, after)?;
                 }
@@ -126,7 +126,7 @@ fn pfaffian_sign<T: Real>(a: &mut [T], n: usize) -> T {
         let best = |best: usize, i: usize| {
             if Scalar::abs(a[i * n + k]) > Scalar::abs(a[best * n + k]) { i } else { best }
         };
-        // Of a space of odd dimension the last row has no partner.
+        // Of a space of odd dimension the last row has no conjugate.
         let Some(row) = candidates.reduce(best) else { return T::lift(0.0) };
         if row != k + 1 {
             for j in 0..n {

@@ -5,14 +5,14 @@
 //! is linear, by one reciprocal per coordinate if it has canonical shape, and by elimination otherwise.
 
 use crate::error::StepFailure;
-use crate::mechanics::form::{Combination, Form};
+use crate::mechanics::combination::{Combination, Inverse};
 use crate::state::Statistics;
 use crate::{DegenerateLagrangian, Real, Space, System, Vector};
 
 /// X = B⁻¹(∇H + ∂α/∂t) with the storage that its evaluation needs.
 #[derive(Debug)]
 pub struct VectorField<S: System, T: Real> {
-    inverse: Form<S, T>,
+    inverse: Inverse<S, T>,
     gradient: Vector<S, T>,
     entries: Vector<S, T>,
 }
@@ -31,7 +31,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     pub fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StepFailure> {
         let (space, omega) = (system.space(), Self::omega());
         let mut entries = space.vector();
-        let mut inverse = Form::new(system, q, t, omega);
+        let mut inverse = Inverse::new(system, q, t, omega);
         inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default())?;
         Ok(Self { inverse, gradient: space.vector(), entries })
     }
@@ -83,7 +83,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         out: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if !S::LINEAR {
+        if !S::AFFINE {
             self.inverse.prepare(system, q, t, Self::omega(), &mut self.entries, statistics)?;
         }
         self.inverse.solve(system, &self.gradient, out);

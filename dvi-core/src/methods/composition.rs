@@ -75,7 +75,7 @@ static KAHAN_LI_8: Table = Table {
 /// A symmetric composition of steps of `M`.
 ///
 /// Made for a symmetric method of order two, such as `Gauss::<1>`; another one that is accepted gains what
-/// [`order`](Scheme::order) says. Each step of the composition is `steps_per_step` steps of `M`.
+/// [`order`](Scheme::order) says. Each step of the composition is `stages` steps of `M`.
 ///
 /// | constructor | order | steps |
 /// |---|---|---|
@@ -137,7 +137,7 @@ impl<M> Composition<M> {
     }
 
     /// The number of steps of the composed method in one step.
-    pub fn steps_per_step(&self) -> usize {
+    pub fn stages(&self) -> usize {
         2 * self.table.gamma.len() - 1
     }
 }
@@ -357,7 +357,7 @@ mod tests {
         assert_eq!(Composition::suzuki(RungeKutta::midpoint()).order(), 3);
         assert_eq!(Composition::suzuki(RungeKutta::classical()).order(), 4);
         assert_eq!(Composition::yoshida(RungeKutta::classical()).order(), 5);
-        assert_eq!(Composition::suzuki(Composition::triple_jump(Gauss::<1>::new())).steps_per_step(), 5);
+        assert_eq!(Composition::suzuki(Composition::triple_jump(Gauss::<1>::new())).stages(), 5);
         assert!(Composition::suzuki(Gauss::<1>::new()).is_symmetric());
         assert!(!Composition::suzuki(RungeKutta::midpoint()).is_symmetric());
     }

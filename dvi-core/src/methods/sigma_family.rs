@@ -8,8 +8,8 @@
 //!
 //! r(Δ) = c0 + α(q0) − α(q_σ) + (1−σ)G = 0        c1 = α(q_σ) + σG − α(q1)
 
+mod affine;
 mod leapfrog;
-mod linear;
 mod memory;
 mod monitor;
 mod nonlinear;
@@ -197,8 +197,8 @@ impl<S: System, T: Real> Carries<S, T> for Sigma<T> {
 
 impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate(S::LINEAR)?;
-        if S::LINEAR && self.is_midpoint() && self.start == Start::Consistent {
+        self.validate(S::AFFINE)?;
+        if S::AFFINE && self.is_midpoint() && self.start == Start::Consistent {
             return SigmaMemory::without_defect(system, self, q, t, h);
         }
         let q1 = self.start.second_point(system, q, t, h)?;
@@ -214,7 +214,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         t: T,
         h: T,
     ) -> Result<Self::Memory, StartError> {
-        self.validate(S::LINEAR)?;
+        self.validate(S::AFFINE)?;
         SigmaMemory::without_defect(system, self, q, t, h)
     }
 
@@ -229,8 +229,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self, t, h };
-        if S::LINEAR {
-            linear::step(&step, memory, q, statistics)
+        if S::AFFINE {
+            affine::step(&step, memory, q, statistics)
         } else {
             nonlinear::step(&step, memory, q, statistics)
         }
@@ -246,7 +246,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if S::LINEAR && self.sigma == T::lift(0.0) {
+        if S::AFFINE && self.sigma == T::lift(0.0) {
             let (taken, result) = leapfrog::steps(system, memory, q, clock, count);
             statistics.steps += taken;
             statistics.gradients += taken;
@@ -261,7 +261,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
-        self.validate(S::LINEAR)
+        self.validate(S::AFFINE)
     }
 
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
@@ -278,7 +278,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoPoint<S, T> for Sigma<T> {
         t: T,
         h: T,
     ) -> Result<Self::Memory, StartError> {
-        self.validate(S::LINEAR)?;
+        self.validate(S::AFFINE)?;
         SigmaMemory::between(system, self, q0, q1, t, h)
     }
 }

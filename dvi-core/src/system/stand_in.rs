@@ -37,7 +37,7 @@ impl<S: StandIn, T: Scalar> Lagrangian<T> for S {
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn, T: Scalar> DegenerateLagrangian<T> for S {
-    const LINEAR: bool = false;
+    const AFFINE: bool = false;
     const MATCHING: bool = false;
     const CANONICAL: bool = false;
     fn hamiltonian(&self, _: &[T], t: T) -> T {
@@ -47,8 +47,8 @@ impl<S: StandIn, T: Scalar> DegenerateLagrangian<T> for S {
     fn flow_source(&self, _: &[T], _: T, _: &mut [T]) {}
     fn one_form(&self, _: &[T], _: T, _: &mut [T]) {}
     fn one_form_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: T, _: T, _: &mut K) {}
-    fn partner_entries(&self, _: &[T], _: T, _: T, _: T, _: &mut [T]) {}
-    fn partner(&self, i: usize) -> usize {
+    fn conjugate_entries(&self, _: &[T], _: T, _: T, _: T, _: &mut [T]) {}
+    fn conjugate(&self, i: usize) -> usize {
         i
     }
     fn momentum_gradient(&self, _: usize, _: &[T], _: T, _: &mut [T]) {}

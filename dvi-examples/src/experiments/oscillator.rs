@@ -244,7 +244,7 @@ fn claims(rows: &[Row], all: &[Errors]) -> Result<Vec<Claim>> {
 
 fn resonance() -> Result<Claim> {
     let refused = match Integrator::new(&SYSTEM, fitted(Quadrature::gauss(2)?), RESONANCE, START) {
-        Err(StartError::Starter(StepFailure::Resonance { kernel, .. })) => Some(kernel),
+        Err(StartError::Starter(StepFailure::Resonance { cosine_sum, .. })) => Some(cosine_sum),
         _ => None,
     };
     Ok(Claim::new(BEYOND, "where S = 0 the step does not exist, and a run is refused").check(

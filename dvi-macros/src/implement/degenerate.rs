@@ -61,13 +61,13 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let flow_source = emitter.vector(&programs.flow_source);
     let (read, offsets) = (emitter.read(&programs.one_form_jacobian), emitter.offsets());
     let jacobian = emitter.body(&programs.one_form_jacobian);
-    let partner_entries = emitter.vector(&programs.partner_entries);
-    let partner = partner(emitter, structure);
+    let conjugate_entries = emitter.vector(&programs.conjugate_entries);
+    let conjugate = conjugate(emitter, structure);
     let indices = 0..programs.momentum_gradients.len();
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
     let affine = linear.then(|| in_numbers(emitter, &quote!(AffineOneForm), &TokenStream::new()));
     let items = quote! {
-            const LINEAR: bool = #linear;
+            const AFFINE: bool = #linear;
             const MATCHING: bool = #matching;
             const CANONICAL: bool = #canonical;
 
@@ -90,13 +90,13 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
                 #read #offsets #jacobian
             }
             #[inline]
-            fn partner_entries(
+            fn conjugate_entries(
                 &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __vector: &mut [__T],
             ) {
-                #partner_entries
+                #conjugate_entries
             }
             #[inline(always)]
-            fn partner(&self, __i: usize) -> usize { #partner }
+            fn conjugate(&self, __i: usize) -> usize { #conjugate }
             #[inline]
             fn momentum_gradient(
                 &self, __index: usize, __q: &[__T], __t: __T, __vector: &mut [__T],
@@ -111,16 +111,16 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     quote!(#lagrangian #affine)
 }
 
-/// Block by block: `if i < end { return i − offset + partner's offset }`.
-fn partner(emitter: &Emitter<'_>, structure: &OneForm) -> TokenStream {
+/// Block by block: `if i < end { return i − offset + conjugate's offset }`.
+fn conjugate(emitter: &Emitter<'_>, structure: &OneForm) -> TokenStream {
     let model = emitter.model;
     let mut offsets = vec![Index::default()];
     for block in 0..model.blocks.len() {
         offsets.push(offsets[block].plus(&model.block_size(block), 1));
     }
-    let cases = structure.partners.iter().enumerate().map(|(block, partner)| {
+    let cases = structure.conjugates.iter().enumerate().map(|(block, conjugate)| {
         let end = emitter.index(&offsets[block + 1]);
-        let (from, to) = (emitter.index(&offsets[block]), emitter.index(&offsets[*partner]));
+        let (from, to) = (emitter.index(&offsets[block]), emitter.index(&offsets[*conjugate]));
         quote!(if __i < #end { return __i - (#from) + (#to); })
     });
     quote!(#(#cases)* __i)

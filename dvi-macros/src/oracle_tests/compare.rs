@@ -82,7 +82,7 @@ pub(super) fn compare(system: &System, random: &mut Random) -> Verdict {
             return differs(&what, details);
         }
     }
-    match structure::hold(system, &expansion, &comparison.partners(), &points) {
+    match structure::hold(system, &expansion, &comparison.conjugates(), &points) {
         Ok(claims) => Verdict::Agrees { largest: comparison.largest, claims },
         Err((what, details)) => differs(&what, details),
     }
@@ -178,16 +178,16 @@ impl<'a> Comparison<'a> {
         Call { machine: self.machine(), arguments: Vec::new() }
     }
 
-    /// The partners of all coordinates, where the functions of degenerate systems are generated.
-    fn partners(&self) -> Vec<usize> {
+    /// The conjugates of all coordinates, where the functions of degenerate systems are generated.
+    fn conjugates(&self) -> Vec<usize> {
         if self.system.is_regular() {
             return Vec::new();
         }
-        let partner = |i| match self.call().index(i).run("partner") {
-            Ok((partner, _)) => partner.integer() as usize,
+        let conjugate = |i| match self.call().index(i).run("conjugate") {
+            Ok((conjugate, _)) => conjugate.integer() as usize,
             Err((_, reason)) => panic!("{reason}"),
         };
-        (0..self.system.dimension()).map(partner).collect()
+        (0..self.system.dimension()).map(conjugate).collect()
     }
 
     fn same(&mut self, what: &str, at: &[usize], expected: Sized, found: f64) -> Result<(), Difference> {
@@ -329,10 +329,10 @@ impl<'a> Comparison<'a> {
             Sized::new(matrix[i * n + j]).plus(combination(i, j))
         })?;
         let call = self.call().slice(q).real(*t).real(a).real(b).slice(&before);
-        let (_, slices) = call.run("partner_entries")?;
-        let (partners, canonical) = (self.partners(), self.expansion.constants["CANONICAL"]);
-        self.same_vector("partner_entries", &slices[1], |i| {
-            if canonical { combination(i, partners[i]) } else { Sized::default() }
+        let (_, slices) = call.run("conjugate_entries")?;
+        let (conjugates, canonical) = (self.conjugates(), self.expansion.constants["CANONICAL"]);
+        self.same_vector("conjugate_entries", &slices[1], |i| {
+            if canonical { combination(i, conjugates[i]) } else { Sized::default() }
         })?;
 
         for (index, jet) in momenta.iter().enumerate() {

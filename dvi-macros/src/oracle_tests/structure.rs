@@ -23,11 +23,11 @@ pub(super) fn same(one: Sized, other: Sized) -> bool {
 pub(super) fn hold(
     system: &System,
     expansion: &Expansion,
-    partners: &[usize],
+    conjugates: &[usize],
     points: &[Expected],
 ) -> Result<Claims, Difference> {
     let n = system.dimension();
-    let numbers = if system.is_regular() { regular(n, points) } else { degenerate(n, partners, points) };
+    let numbers = if system.is_regular() { regular(n, points) } else { degenerate(n, conjugates, points) };
     let mut claims = Claims::new();
     for (name, possible) in numbers {
         let declared = expansion.constants[name];
@@ -50,19 +50,21 @@ fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
     (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)))
 }
 
-fn degenerate(n: usize, partners: &[usize], points: &[Expected]) -> Vec<(&'static str, bool)> {
+fn degenerate(n: usize, conjugates: &[usize], points: &[Expected]) -> Vec<(&'static str, bool)> {
     let dalpha = |at: &Expected, i: usize, j: usize| at.lagrangian.hessian(n + i, j);
     let omega = |at: &Expected, i: usize, j: usize| dalpha(at, j, i).plus(dalpha(at, i, j).scaled(-1.0));
     let first = &points[0];
     let constant = points.iter().all(|at| pairs(n).all(|(i, j)| same(dalpha(at, i, j), dalpha(first, i, j))));
     let free_of_time = points.iter().all(|at| (0..n).all(|i| is_zero(at.lagrangian.hessian(n + i, 2 * n))));
-    // Where nothing is declared, every coordinate is its own partner.
-    let involution = (0..n).all(|i| partners[i] < n && partners[i] != i && partners[partners[i]] == i);
+    // Where nothing is declared, every coordinate is its own conjugate.
+    let involution =
+        (0..n).all(|i| conjugates[i] < n && conjugates[i] != i && conjugates[conjugates[i]] == i);
     let couples = |entry: &dyn Fn(&Expected, usize, usize) -> Sized| {
-        let alone = |i: usize, j: usize| j == partners[i] || points.iter().all(|at| is_zero(entry(at, i, j)));
+        let alone =
+            |i: usize, j: usize| j == conjugates[i] || points.iter().all(|at| is_zero(entry(at, i, j)));
         involution && pairs(n).all(|(i, j)| alone(i, j))
     };
-    vec![("LINEAR", constant && free_of_time), ("MATCHING", couples(&dalpha)), ("CANONICAL", couples(&omega))]
+    vec![("AFFINE", constant && free_of_time), ("MATCHING", couples(&dalpha)), ("CANONICAL", couples(&omega))]
 }
 
 fn regular(n: usize, points: &[Expected]) -> Vec<(&'static str, bool)> {

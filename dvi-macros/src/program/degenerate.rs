@@ -26,7 +26,7 @@ pub(crate) struct DegeneratePrograms {
     pub(crate) flow_source: Routine,
     pub(crate) one_form_jacobian: Routine,
     /// Where Ω is canonical, one entry a row; else nothing.
-    pub(crate) partner_entries: Routine,
+    pub(crate) conjugate_entries: Routine,
     pub(crate) momentum_gradients: Vec<Routine>,
 }
 
@@ -45,7 +45,7 @@ impl DegeneratePrograms {
         let one_form = one_form(graph, formulas.one_form);
         let flow_source = flow_source(graph, &hamiltonian_gradient, &one_form);
         let one_form_jacobian = one_form_jacobian(graph, form_entries);
-        let partner_entries = if canonical { partner_entries(&one_form_jacobian) } else { Vec::new() };
+        let conjugate_entries = if canonical { conjugate_entries(&one_form_jacobian) } else { Vec::new() };
         let momenta = formulas.momenta.iter();
         let momentum_gradients: Vec<Vec<Statement>> =
             momenta.map(|value| first_derivatives(graph, *value, Output::Vector, Output::Lv)).collect();
@@ -56,7 +56,7 @@ impl DegeneratePrograms {
             one_form: Routine::new(graph, one_form),
             flow_source: Routine::new(graph, flow_source),
             one_form_jacobian: Routine::new(graph, one_form_jacobian),
-            partner_entries: Routine::new(graph, partner_entries),
+            conjugate_entries: Routine::new(graph, conjugate_entries),
             momentum_gradients: momentum_gradients
                 .into_iter()
                 .map(|gradient| Routine::new(graph, gradient))
@@ -109,8 +109,8 @@ fn one_form_jacobian(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<S
     statements
 }
 
-/// Row i of a Dα + b (Dα)ᵀ has its off-diagonal entry at i's partner.
-fn partner_entries(jacobian: &[Statement]) -> Vec<Statement> {
+/// Row i of a Dα + b (Dα)ᵀ has its off-diagonal entry at i's conjugate.
+fn conjugate_entries(jacobian: &[Statement]) -> Vec<Statement> {
     let entry = |statement: &Statement| match &statement.place {
         Place::MatrixEntry(row, column) => (row.block != column.block)
             .then(|| Statement { place: Place::Entry(Output::Vector, row.clone()), ..statement.clone() }),

@@ -14,8 +14,8 @@ pub(crate) struct OneForm {
     pub(crate) linear: bool,
     pub(crate) matching: bool,
     pub(crate) canonical: bool,
-    /// The partner of each block, where canonical.
-    pub(crate) partners: Vec<usize>,
+    /// The conjugate of each block, where canonical.
+    pub(crate) conjugates: Vec<usize>,
     /// Blocks that Ω does not involve.
     untouched: Vec<usize>,
     /// Whether the places of Ω that are not zero leave room for an inverse.
@@ -49,28 +49,28 @@ fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<FormEntry> {
     omega
 }
 
-/// The partner of each block, if Ω couples block to block, entry by entry, and Dα holds nothing else but
+/// The conjugate of each block, if Ω couples block to block, entry by entry, and Dα holds nothing else but
 /// entries on its diagonal.
-fn partners(model: &Model, omega: &[FormEntry], dalpha: &[(Coordinate, Coordinate)]) -> Option<Vec<usize>> {
-    let mut partners: Vec<Option<usize>> = vec![None; model.blocks.len()];
+fn conjugates(model: &Model, omega: &[FormEntry], dalpha: &[(Coordinate, Coordinate)]) -> Option<Vec<usize>> {
+    let mut conjugates: Vec<Option<usize>> = vec![None; model.blocks.len()];
     for entry in omega {
         let (row, column) = (entry.row.block as usize, entry.column.block as usize);
         if row == column || entry.row.index != entry.column.index || !covers(model, row, column, entry) {
             return None;
         }
         for (one, other) in [(row, column), (column, row)] {
-            if partners[one].is_some_and(|known| known != other) {
+            if conjugates[one].is_some_and(|known| known != other) {
                 return None;
             }
-            partners[one] = Some(other);
+            conjugates[one] = Some(other);
         }
     }
-    let partners: Vec<usize> = partners.into_iter().collect::<Option<_>>()?;
-    // The same index on both sides: the diagonal of a block, or that between a block and its partner.
+    let conjugates: Vec<usize> = conjugates.into_iter().collect::<Option<_>>()?;
+    // The same index on both sides: the diagonal of a block, or that between a block and its conjugate.
     let belongs = |(i, j): &(Coordinate, Coordinate)| {
-        i.index == j.index && (i.block == j.block || partners[i.block as usize] == j.block as usize)
+        i.index == j.index && (i.block == j.block || conjugates[i.block as usize] == j.block as usize)
     };
-    dalpha.iter().all(belongs).then_some(partners)
+    dalpha.iter().all(belongs).then_some(conjugates)
 }
 
 /// Whether the loops of an entry visit each index of its blocks.
@@ -107,14 +107,14 @@ impl OneForm {
                 .any(|entry| entry.row.block as usize == block || entry.column.block as usize == block)
         };
         let untouched = (0..model.blocks.len()).filter(|block| !touched(*block)).collect();
-        let partners = partners(model, &omega, &places);
-        let canonical = partners.is_some();
+        let conjugates = conjugates(model, &omega, &places);
+        let canonical = conjugates.is_some();
         let matching = canonical && !diagonal;
-        let partners = partners.unwrap_or_else(|| (0..model.blocks.len()).collect());
+        let conjugates = conjugates.unwrap_or_else(|| (0..model.blocks.len()).collect());
         let places: Vec<[usize; 2]> =
             omega.iter().map(|entry| [entry.row.block as usize, entry.column.block as usize]).collect();
         let invertible = has_matching(model, &places);
-        Self { linear, matching, canonical, partners, untouched, invertible }
+        Self { linear, matching, canonical, conjugates, untouched, invertible }
     }
 
     /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
@@ -141,7 +141,7 @@ impl OneForm {
             && let Some(at) = at
         {
             let message = "Ω = -dα is singular for all parameters: its nonzero entries leave a coordinate without a \
-                           partner; the one-form needs more terms such as `p * d(q)`";
+                           conjugate; the one-form needs more terms such as `p * d(q)`";
             errors.push(at, message);
         }
         for block in &self.untouched {
@@ -171,7 +171,9 @@ impl OneForm {
         });
         sentences.push("0 < σ < 1 is implicit.");
         sentences.push(match self.canonical {
-            true => "Ω couples each coordinate to one partner: q' = X(q) takes one division per coordinate.",
+            true => {
+                "Ω couples each coordinate to one conjugate: q' = X(q) takes one division per coordinate."
+            }
             false => "Ω is dense: q' = X(q) takes one linear solve.",
         });
         sentences.into_iter().map(str::to_string).collect()

@@ -43,16 +43,16 @@ impl System<'_> {
             (Claims::Degenerate(form), Functions::Degenerate(programs)) => {
                 self.check_form(form, point)?;
                 if form.canonical {
-                    let blocks = form.partners.iter().enumerate();
-                    for (block, partner) in blocks {
+                    let blocks = form.conjugates.iter().enumerate();
+                    for (block, conjugate) in blocks {
                         let first = Support::Block(block);
-                        let directions = Directions { first, second: Support::Block(*partner) };
+                        let directions = Directions { first, second: Support::Block(*conjugate) };
                         let Some(outputs) = self.at(point, directions) else { continue };
-                        let partners = Some(form.partners.as_slice());
-                        let machine = Machine { graph, model: self.model, point, directions, partners };
-                        let found = machine.run(&programs.partner_entries).along_first(Output::Vector);
+                        let conjugates = Some(form.conjugates.as_slice());
+                        let machine = Machine { graph, model: self.model, point, directions, conjugates };
+                        let found = machine.run(&programs.conjugate_entries).along_first(Output::Vector);
                         let expected = outputs.form_jacobian(point);
-                        claim("partner_entries", "an entry of a Dα + b (Dα)ᵀ", expected, found)?;
+                        claim("conjugate_entries", "an entry of a Dα + b (Dα)ᵀ", expected, found)?;
                         checked.largest = checked.largest.max(difference(expected, found));
                     }
                 }
@@ -72,14 +72,14 @@ impl System<'_> {
         if form.linear {
             let there = self.at(&point.elsewhere(true, true, true), Directions::ALL);
             if let (Some(here), Some(there)) = (self.at(point, Directions::ALL), there) {
-                is_same("LINEAR", "Dα elsewhere", here.form_jacobian(point), there.form_jacobian(point))?;
-                vanishes("LINEAR", "∂α/∂t", here.form_rate())?;
+                is_same("AFFINE", "Dα elsewhere", here.form_jacobian(point), there.form_jacobian(point))?;
+                vanishes("AFFINE", "∂α/∂t", here.form_rate())?;
             }
         }
         if form.canonical {
-            for (block, partner) in form.partners.iter().enumerate() {
+            for (block, conjugate) in form.conjugates.iter().enumerate() {
                 let what = "an entry of Dα away from the conjugate coordinate";
-                for directions in away_from(block, *partner, form.matching, point.seed()) {
+                for directions in away_from(block, *conjugate, form.matching, point.seed()) {
                     if let Some(outputs) = self.at(point, directions) {
                         vanishes("CANONICAL", what, outputs.form_jacobian(point))?;
                     }
@@ -121,13 +121,13 @@ impl System<'_> {
 }
 
 /// Directions between which a matrix vanishes that couples each entry of `block` to the same entry of
-/// `partner` only, and to itself unless `is_off_diagonal`.
-fn away_from(block: usize, partner: usize, is_off_diagonal: bool, seed: u64) -> Vec<Directions> {
+/// `conjugate` only, and to itself unless `is_off_diagonal`.
+fn away_from(block: usize, conjugate: usize, is_off_diagonal: bool, seed: u64) -> Vec<Directions> {
     let pair = |first, second| Directions { first, second };
     let mut directions = vec![
-        pair(Support::Block(block), Support::Except(block, partner)),
+        pair(Support::Block(block), Support::Except(block, conjugate)),
         pair(Support::Half(block, seed), Support::OtherHalf(block, seed)),
-        pair(Support::Half(block, seed), Support::OtherHalf(partner, seed)),
+        pair(Support::Half(block, seed), Support::OtherHalf(conjugate, seed)),
     ];
     if is_off_diagonal {
         directions.push(pair(Support::Block(block), Support::Block(block)));

@@ -38,8 +38,8 @@ pub(super) struct Machine<'a> {
     pub(super) model: &'a Model,
     pub(super) point: &'a Point,
     pub(super) directions: Directions,
-    /// For a vector of the entries (i, partner of i): the partner of each block.
-    pub(super) partners: Option<&'a [usize]>,
+    /// For a vector of the entries (i, conjugate of i): the conjugate of each block.
+    pub(super) conjugates: Option<&'a [usize]>,
 }
 
 struct Run<'a> {
@@ -117,8 +117,8 @@ impl Run<'_> {
                 let (block, index) = (coordinate.block as usize, self.index(&coordinate.index));
                 let at_partner = self
                     .machine
-                    .partners
-                    .map_or(1.0, |partners| self.machine.along(true, partners[block], index));
+                    .conjugates
+                    .map_or(1.0, |conjugates| self.machine.along(true, conjugates[block], index));
                 let first = self.machine.along(false, block, index) * at_partner;
                 let second = self.machine.along(true, block, index);
                 let along = self.results.vectors.entry(*output).or_insert([0.0; 2]);

@@ -245,7 +245,7 @@ impl Functions<'_> {
     /// Whether an instruction reads an entry that is not there: one side of a choice may need sizes that the
     /// other does not, and the generated check asks for both.
     pub(super) fn reads_outside(&self, graph: &Graph, model: &Model, point: &Point) -> bool {
-        let machine = Machine { graph, model, point, directions: Directions::ALL, partners: None };
+        let machine = Machine { graph, model, point, directions: Directions::ALL, conjugates: None };
         let shared = self.shared();
         [&shared.lagrangian]
             .into_iter()
@@ -261,7 +261,7 @@ impl Functions<'_> {
         point: &Point,
         directions: Directions,
     ) -> Vec<(Output, f64)> {
-        let machine = Machine { graph, model, point, directions, partners: None };
+        let machine = Machine { graph, model, point, directions, conjugates: None };
         let mut found = Vec::new();
         let mut add = |function, quantity, value| found.push((Output::new(function, quantity), value));
         let value = |routine: &Routine| machine.run(routine).value;

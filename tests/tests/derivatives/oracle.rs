@@ -229,7 +229,7 @@ fn hamiltonian<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
     place.compare("∇H + ∂α/∂t", &out, &source, larger(scale, largest(&alpha.derivatives.concat())));
 }
 
-/// α, a Dα + b (Dα)ᵀ, and its entries at the partners.
+/// α, a Dα + b (Dα)ᵀ, and its entries at the conjugates.
 fn one_form<S: ByHand>(system: &S, place: &Place<'_>, t: f64, random: &mut Random) {
     let (q, n) = (place.q, place.q.len());
     let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
@@ -247,10 +247,10 @@ fn one_form<S: ByHand>(system: &S, place: &Place<'_>, t: f64, random: &mut Rando
     place.compare("a Dα + b (Dα)ᵀ", &matrix, &expected, scale);
 
     out.fill(f64::NAN);
-    system.partner_entries(q, t, a, b, &mut out);
+    system.conjugate_entries(q, t, a, b, &mut out);
     let at_partner: Vec<f64> =
-        (0..n).map(|i| if S::CANONICAL { combined(i, system.partner(i)) } else { 0.0 }).collect();
-    place.compare("partner entries", &out, &at_partner, scale);
+        (0..n).map(|i| if S::CANONICAL { combined(i, system.conjugate(i)) } else { 0.0 }).collect();
+    place.compare("conjugate entries", &out, &at_partner, scale);
 }
 
 /// The declared momenta and their gradients.

@@ -1,4 +1,4 @@
-//! LINEAR, MATCHING and CANONICAL against the entries that Dα is seen to have.
+//! AFFINE, MATCHING and CANONICAL against the entries that Dα is seen to have.
 
 use dvi_core::Space;
 
@@ -36,7 +36,7 @@ fn observe<S: ByHand>(system: &S) -> Seen {
 
 impl Seen {
     /// The only column in which Ω has an entry in row i, if Dα has no other off its diagonal.
-    fn partner(&self, i: usize) -> Option<usize> {
+    fn conjugate(&self, i: usize) -> Option<usize> {
         let others = || (0..self.n).filter(|j| *j != i);
         let column = others().find(|j| self.omega[self.n * i + j])?;
         let alone = others()
@@ -49,12 +49,12 @@ impl Seen {
 /// The compiler may claim only what is seen, and misses nothing on the systems of these tests.
 pub(crate) fn agrees<S: ByHand>(system: &S) {
     let (seen, name) = (observe(system), S::REPORT.system);
-    let partners: Option<Vec<usize>> = (0..seen.n).map(|i| seen.partner(i)).collect();
+    let conjugates: Option<Vec<usize>> = (0..seen.n).map(|i| seen.conjugate(i)).collect();
     let diagonal = (0..seen.n).any(|i| seen.form[seen.n * i + i]);
-    assert_eq!(S::LINEAR, !seen.varies, "{name}: LINEAR");
-    assert_eq!(S::CANONICAL, partners.is_some(), "{name}: CANONICAL");
-    assert_eq!(S::MATCHING, partners.is_some() && !diagonal, "{name}: MATCHING");
-    let expected = partners.unwrap_or_else(|| (0..seen.n).collect());
-    let found: Vec<usize> = (0..seen.n).map(|i| system.partner(i)).collect();
-    assert_eq!(found, expected, "{name}: partners");
+    assert_eq!(S::AFFINE, !seen.varies, "{name}: AFFINE");
+    assert_eq!(S::CANONICAL, conjugates.is_some(), "{name}: CANONICAL");
+    assert_eq!(S::MATCHING, conjugates.is_some() && !diagonal, "{name}: MATCHING");
+    let expected = conjugates.unwrap_or_else(|| (0..seen.n).collect());
+    let found: Vec<usize> = (0..seen.n).map(|i| system.conjugate(i)).collect();
+    assert_eq!(found, expected, "{name}: conjugates");
 }

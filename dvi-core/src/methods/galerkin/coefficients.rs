@@ -89,12 +89,16 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
             }
         }
         let (sinc, small) = (nodes.sinc(), T::lift(RESONANCE));
-        let kernel = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
-        let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
+        let cosine_sum = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
+        let determined = Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small;
         if !determined {
             frequency::defined(u)?;
             let u = reported(u);
-            return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
+            return Err(StepFailure::Resonance {
+                u,
+                sine: u * reported(sinc),
+                cosine_sum: reported(cosine_sum),
+            });
         }
         Ok(new)
     }

@@ -8,12 +8,12 @@
 //! keep in registers, and c, which no step needs, is computed at the end.
 
 use super::SigmaMemory;
-use super::linear::add;
+use super::affine::add;
 use super::memory::Work;
 use super::monitor::Monitor;
 use crate::discrete::NodeWork;
 use crate::error::StepFailure;
-use crate::mechanics::form::{Form, Product};
+use crate::mechanics::combination::{Inverse, Product};
 use crate::methods::Clock;
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
@@ -33,7 +33,7 @@ pub(super) enum Ahead<S: System, T: Real> {
 
 impl<S: DegenerateLagrangian<T>, T: Real> Ahead<S, T> {
     /// For c1 = `product` Δ and K⁻¹c = `scale` `inverse` c.
-    pub(super) fn new(system: &S, product: &Product<S, T>, inverse: &Form<S, T>, scale: T) -> Self {
+    pub(super) fn new(system: &S, product: &Product<S, T>, inverse: &Inverse<S, T>, scale: T) -> Self {
         let [mut delta, mut c]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
         if !S::MATCHING {
             return Self::General([delta, c]);
@@ -89,7 +89,7 @@ pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
 /// What the steps work on.
 struct Run<'a, S: System, T: Real> {
     system: &'a S,
-    inverse: &'a Form<S, T>,
+    inverse: &'a Inverse<S, T>,
     product: &'a Product<S, T>,
     node: &'a mut NodeWork<S, T>,
     work: &'a mut Work<S, T>,
@@ -116,7 +116,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Run<'_, S, T> {
         ahead.copy_from_slice(kept_ahead);
         let points = Points { q0, q1, q2, ahead, gradient, s };
         let before = monitor.steps;
-        let hops = Hops {
+        let leapfrog = Leapfrog {
             system,
             inverse,
             product,
@@ -129,7 +129,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Run<'_, S, T> {
             defect,
             spare,
         };
-        walk(hops, before, count)
+        walk(leapfrog, before, count)
     }
 }
 
@@ -144,9 +144,9 @@ struct Points<'a, T> {
 }
 
 /// The last points, and where they are kept.
-struct Hops<'a, S: System, T: Real, L> {
+struct Leapfrog<'a, S: System, T: Real, L> {
     system: &'a S,
-    inverse: &'a Form<S, T>,
+    inverse: &'a Inverse<S, T>,
     product: &'a Product<S, T>,
     monitor: &'a mut Monitor<S, T>,
     clock: Clock<T>,
@@ -158,7 +158,7 @@ struct Hops<'a, S: System, T: Real, L> {
     spare: &'a mut Vector<S, T>,
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for Hops<'_, S, T, L> {
+impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for Leapfrog<'_, S, T, L> {
     #[inline(always)]
     fn step(&mut self, number: u64) {
         let Points { q0, q1, q2, ahead, gradient, s } = &mut self.points;

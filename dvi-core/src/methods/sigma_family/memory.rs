@@ -9,7 +9,7 @@ use super::leapfrog::Ahead;
 use super::monitor::{Monitor, Pace, ParasiticMode};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
 use crate::error::StartError;
-use crate::mechanics::form::{Combination, Form, Product};
+use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
@@ -31,7 +31,7 @@ pub struct SigmaMemory<S: System, T: Real> {
     pub(super) one_form: Vector<S, T>,
     pub(super) history: History<S, T>,
     /// The matrix of the fixed point: constant if α is affine, and else frozen for one step.
-    pub(super) inverse: Form<S, T>,
+    pub(super) inverse: Inverse<S, T>,
     /// −1/((1−σ)h), the scale of `inverse` if α is affine and σ ≠ 1.
     pub(super) scale: T,
     /// K' = σ(Dα)ᵀ − (1−σ)Dα; kept if α is affine and c is not just reversed.
@@ -147,7 +147,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         derivatives.map_err(StartError::Starter)?;
         memory.defect.iter_mut().for_each(|c| *c = -*c);
         crate::scalar::norm::finite(&memory.defect).map_err(StartError::Starter)?;
-        if S::LINEAR && sigma != T::lift(1.0) {
+        if S::AFFINE && sigma != T::lift(1.0) {
             memory.shift_by_defect(system);
             let work = &mut memory.work;
             for i in 0..q0.len() {
@@ -162,18 +162,18 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
     fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
         let (space, sigma) = (system.space(), method.sigma);
         let left = T::lift(1.0) - sigma;
-        let explicit = if S::LINEAR { method.is_end() } else { sigma == T::lift(0.0) };
+        let explicit = if S::AFFINE { method.is_end() } else { sigma == T::lift(0.0) };
         let combination = fixed_point_matrix::<S, T>(method, h);
-        let mut inverse = Form::new(system, q, t, combination);
+        let mut inverse = Inverse::new(system, q, t, combination);
         let rest: Vector<S, T> = space.vector();
         let mut work = Work::new(system);
-        if S::LINEAR {
+        if S::AFFINE {
             let mut unused = Statistics::default();
             inverse
                 .prepare(system, q, t, combination, &mut work.trial, &mut unused)
                 .map_err(StartError::Starter)?;
         }
-        let product = (S::LINEAR && !method.is_midpoint())
+        let product = (S::AFFINE && !method.is_midpoint())
             .then(|| Product::new(system, q, t, Combination { a: -left, b: sigma }));
         let scale = fixed_point_scale(method, h);
         let ahead = product
@@ -224,10 +224,10 @@ fn pace<S: DegenerateLagrangian<T>, T: Real>(
     let one = T::lift(1.0);
     match method.parasitic_limit {
         // The mode is only reversed.
-        _ if S::LINEAR && method.is_midpoint() => (None, Pace::Seldom),
+        _ if S::AFFINE && method.is_midpoint() => (None, Pace::Seldom),
         None => (None, Pace::Seldom),
         // Where Dα is antisymmetric, K' = −K: c is reversed, and a gradient added to it.
-        limit if S::LINEAR && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) => {
+        limit if S::AFFINE && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) => {
             (limit, Pace::WithTheFlow)
         }
         limit => (limit, Pace::EachStep),
@@ -242,10 +242,10 @@ pub(super) fn fixed_point_matrix<S: DegenerateLagrangian<T>, T: Real>(
 ) -> Combination<T> {
     let sigma = method.sigma;
     let left = T::lift(1.0) - sigma;
-    if S::LINEAR && sigma != T::lift(1.0) {
+    if S::AFFINE && sigma != T::lift(1.0) {
         let scale = fixed_point_scale(method, h);
         Combination { a: sigma * scale, b: -left * scale }
-    } else if !S::LINEAR && sigma == T::lift(0.0) {
+    } else if !S::AFFINE && sigma == T::lift(0.0) {
         Combination { a: T::lift(0.0), b: T::lift(1.0) }
     } else {
         Combination { a: sigma, b: -left }

@@ -8,7 +8,7 @@ use super::memory::{Work, fixed_point_matrix};
 use super::{SigmaMemory, Step};
 use crate::discrete::{DiscreteLagrangian, Ends, NodeWork, OneNode, Span, solve_by_newton};
 use crate::error::StepFailure;
-use crate::mechanics::form::Form;
+use crate::mechanics::combination::Inverse;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::state::Statistics;
@@ -88,7 +88,7 @@ struct Attempt<'a, S: DegenerateLagrangian<T>, T: Real> {
     step: &'a Step<'a, S, T>,
     q: &'a Vector<S, T>,
     history: &'a History<S, T>,
-    inverse: &'a mut Form<S, T>,
+    inverse: &'a mut Inverse<S, T>,
     l_d: &'a mut OneNode<S, T>,
     work: &'a mut Work<S, T>,
     budget: usize,

@@ -88,7 +88,7 @@ pub(super) struct Sums<T> {
     /// C − K = Σ w B̄(B + B̄)
     pub(super) right: T,
     /// (sin u/u)²/S, one over the stiffness K + z Σ w b b̄
-    pub(super) compliance: T,
+    pub(super) inverse_kappa: T,
 }
 
 /// One frequency for all coordinates.
@@ -111,7 +111,12 @@ impl<T: Real> Uniform<T> {
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
             (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
         }
-        Self { u: zero, weights, bases, sums: Sums { mixed: one, left: zero, right: zero, compliance: one } }
+        Self {
+            u: zero,
+            weights,
+            bases,
+            sums: Sums { mixed: one, left: zero, right: zero, inverse_kappa: one },
+        }
     }
 
     /// Makes these the coefficients for u = ωh.
@@ -133,27 +138,31 @@ impl<T: Real> Uniform<T> {
             inner += T::lift(w * c * (1.0 - c)) * (l.sinc * r.sinc);
         }
         let sinc = nodes.sinc();
-        let kernel = mixed + u * u * inner;
+        let cosine_sum = mixed + u * u * inner;
         let small = T::lift(RESONANCE);
-        let determined = Scalar::abs(sinc) > small && Scalar::abs(kernel) > small;
+        let determined = Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small;
         if !determined {
             // Not the coefficients of any step.
             self.u = T::lift(f64::NAN);
             frequency::defined(u)?;
             let u = reported(u);
-            return Err(StepFailure::Resonance { u, sine: u * reported(sinc), kernel: reported(kernel) });
+            return Err(StepFailure::Resonance {
+                u,
+                sine: u * reported(sinc),
+                cosine_sum: reported(cosine_sum),
+            });
         }
         let mut factor = nodes.reciprocal() * nodes.reciprocal();
         if fitting == Fitting::PhaseAndMomentum {
-            let fitted = sinc / kernel;
+            let fitted = sinc / cosine_sum;
             factor *= fitted;
             for (weight, &w) in self.weights.iter_mut().zip(rule.weights()) {
                 *weight = T::lift(w) * fitted;
             }
         }
-        let compliance = T::lift(1.0) / (kernel * factor);
+        let inverse_kappa = T::lift(1.0) / (cosine_sum * factor);
         let [mixed, left, right] = [mixed, left, right].map(|sum| sum * factor);
-        (self.u, self.sums) = (u, Sums { mixed, left, right, compliance });
+        (self.u, self.sums) = (u, Sums { mixed, left, right, inverse_kappa });
         Ok(())
     }
 }
@@ -178,7 +187,7 @@ impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
         Err(StepFailure::Resonance {
             u,
             sine,
-            kernel: sine * sine / (u * u * reported(self.sums.compliance)),
+            cosine_sum: sine * sine / (u * u * reported(self.sums.inverse_kappa)),
         })
     }
 
@@ -263,7 +272,7 @@ pub(super) struct Each<S: System, T: Real> {
     mixed: Vector<S, T>,
     left: Vector<S, T>,
     right: Vector<S, T>,
-    compliance: Vector<S, T>,
+    inverse_kappa: Vector<S, T>,
 }
 
 impl<S: RegularLagrangian<T>, T: Real> Each<S, T> {
@@ -280,7 +289,7 @@ impl<S: RegularLagrangian<T>, T: Real> Each<S, T> {
             mixed: space.vector(),
             left: space.vector(),
             right: space.vector(),
-            compliance: space.vector(),
+            inverse_kappa: space.vector(),
         }
     }
 }
@@ -308,7 +317,7 @@ impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Each<S, T> {
             self.mixed[i] = sums.mixed;
             self.left[i] = sums.left;
             self.right[i] = sums.right;
-            self.compliance[i] = sums.compliance;
+            self.inverse_kappa[i] = sums.inverse_kappa;
         }
         self.h = step.h;
         Ok(())
@@ -374,6 +383,6 @@ impl<S: RegularLagrangian<T>, T: Real> Coefficients<T> for Each<S, T> {
     }
     fn sums(&self, i: usize) -> Sums<T> {
         let (left, right) = (self.left[i], self.right[i]);
-        Sums { mixed: self.mixed[i], left, right, compliance: self.compliance[i] }
+        Sums { mixed: self.mixed[i], left, right, inverse_kappa: self.inverse_kappa[i] }
     }
 }

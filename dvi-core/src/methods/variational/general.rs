@@ -67,11 +67,11 @@ pub(super) fn by_fixed_point<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule
         trial.copy_from_slice(p);
         let ends = Ends { q0: q, delta: increment };
         l_d.derivatives(step.span(ends), trial, sum, statistics)?;
-        let compliance = Coefficients::<T>::sums(l_d.coefficients, 0).compliance;
+        let inverse_kappa = Coefficients::<T>::sums(l_d.coefficients, 0).inverse_kappa;
         mass.solve(trial, &mut l_d.node.velocity);
         let mut correction = T::lift(0.0);
         for (delta, &velocity) in increment.iter_mut().zip(l_d.node.velocity.iter()) {
-            let change = step.h * compliance * velocity;
+            let change = step.h * inverse_kappa * velocity;
             *delta += change;
             correction = norm::larger(correction, Scalar::abs(change));
         }

@@ -175,7 +175,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T
         for i in 0..self.q.len() {
             let sums = self.coefficients.sums(i);
             let residual = h * velocity[i] + sums.left * self.q[i] - sums.mixed * increment[i];
-            let change = residual * sums.compliance;
+            let change = residual * sums.inverse_kappa;
             increment[i] += change;
             correction = norm::larger(correction, Scalar::abs(change));
         }

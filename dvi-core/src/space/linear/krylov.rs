@@ -34,7 +34,7 @@ pub(super) struct Krylov<T> {
     columns: Vec<[T; BASIS + 1]>,
     rotations: [[T; 2]; BASIS],
     /// The column of the largest entry of each row, and one over that entry.
-    partners: Vec<(usize, T)>,
+    pivots: Vec<(usize, T)>,
     /// b, which is overwritten at each evaluation of the equations.
     unused: Vec<T>,
     solution: Vec<T>,
@@ -49,7 +49,7 @@ impl<T: Scalar> Krylov<T> {
             basis: vec![zero; (BASIS + 1) * dimension],
             columns: vec![[zero; BASIS + 1]; BASIS],
             rotations: [[zero; 2]; BASIS],
-            partners: vec![(0, zero); dimension],
+            pivots: vec![(0, zero); dimension],
             unused: vector(),
             solution: vector(),
             work: [vector(), vector()],
@@ -64,7 +64,7 @@ impl<T: Real> Krylov<T> {
         equations: &mut impl LinearEquations<T>,
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        self.find_partners(equations, x)?;
+        self.find_pivots(equations, x)?;
         self.solution.fill(T::lift(0.0));
         let begin = length(x);
         let (mut left, mut products) = (begin, 0);
@@ -88,46 +88,46 @@ impl<T: Real> Krylov<T> {
     }
 
     /// Sets `b`, and the preconditioner: the identity if two rows have their largest entry in one column.
-    fn find_partners(
+    fn find_pivots(
         &mut self,
         equations: &mut impl LinearEquations<T>,
         b: &mut [T],
     ) -> Result<(), StepFailure> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let Self { partners, unused, work: [diagonal, taken], .. } = self;
-        partners.iter_mut().enumerate().for_each(|(row, partner)| *partner = (row, zero));
+        let Self { pivots, unused, work: [diagonal, taken], .. } = self;
+        pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, zero));
         diagonal.fill(zero);
         // Beside the diagonal, the largest part of an entry has to do for the entry.
         let mut largest = Places(|row: usize, column: usize, entry: T| {
             if row == column {
                 diagonal[row] += entry;
-            } else if Scalar::abs(entry) > Scalar::abs(partners[row].1) {
-                partners[row] = (column, entry);
+            } else if Scalar::abs(entry) > Scalar::abs(pivots[row].1) {
+                pivots[row] = (column, entry);
             }
         });
         equations.evaluate(b, &mut largest)?;
         norm::finite(b)?;
         taken.fill(zero);
-        for (row, partner) in partners.iter_mut().enumerate() {
-            if T::lift(2.0) * Scalar::abs(diagonal[row]) >= Scalar::abs(partner.1) {
-                partner.0 = row;
+        for (row, pivot) in pivots.iter_mut().enumerate() {
+            if T::lift(2.0) * Scalar::abs(diagonal[row]) >= Scalar::abs(pivot.1) {
+                pivot.0 = row;
             }
-            partner.1 = zero;
-            taken[partner.0] += one;
+            pivot.1 = zero;
+            taken[pivot.0] += one;
         }
         if taken.iter().any(|&count| count != one) {
-            partners.iter_mut().enumerate().for_each(|(row, partner)| *partner = (row, one));
+            pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, one));
             return Ok(());
         }
         let mut sum = Places(|row: usize, column: usize, entry: T| {
-            if column == partners[row].0 {
-                partners[row].1 += entry;
+            if column == pivots[row].0 {
+                pivots[row].1 += entry;
             }
         });
         equations.evaluate(unused, &mut sum)?;
-        let usable = partners.iter().all(|partner| (one / partner.1).is_finite());
-        for (row, partner) in partners.iter_mut().enumerate() {
-            *partner = if usable { (partner.0, one / partner.1) } else { (row, one) };
+        let usable = pivots.iter().all(|pivot| (one / pivot.1).is_finite());
+        for (row, pivot) in pivots.iter_mut().enumerate() {
+            *pivot = if usable { (pivot.0, one / pivot.1) } else { (row, one) };
         }
         Ok(())
     }
@@ -224,8 +224,8 @@ impl<T: Real> Krylov<T> {
 
     /// Sets the direction to M⁻¹ of the vector that begins at `begin` in the basis.
     fn precondition(&mut self, begin: usize) {
-        let Self { basis, partners, work: [direction, _], .. } = self;
-        for (&(column, reciprocal), &v) in partners.iter().zip(&basis[begin..]) {
+        let Self { basis, pivots, work: [direction, _], .. } = self;
+        for (&(column, reciprocal), &v) in pivots.iter().zip(&basis[begin..]) {
             direction[column] = reciprocal * v;
         }
     }
@@ -291,8 +291,8 @@ mod tests {
                 let scale = 0.2 / n as f64;
                 let full = DMatrix::from_row_slice(n, n, &entries(n * n, 3)) * scale;
                 let matrix = DMatrix::from_fn(n, n, |i, j| {
-                    let partner = if paired && n % 2 == 0 { (i + n / 2) % n } else { i };
-                    let mass = if j == partner { 10.0_f64.powi(i as i32 % 4) } else { 0.0 };
+                    let pivot = if paired && n % 2 == 0 { (i + n / 2) % n } else { i };
+                    let mass = if j == pivot { 10.0_f64.powi(i as i32 % 4) } else { 0.0 };
                     full[(i, j)] + if i < n / 2 { mass } else { -mass }
                 });
                 let expected = matrix.clone().lu().solve(&DVector::from_column_slice(&b));

@@ -38,7 +38,7 @@ fn rules() -> Result<Vec<Quadrature>, StartError> {
 }
 
 /// S = Σ w cos((1 − 2c)u).
-fn kernel(rule: &impl Rule, u: f64) -> f64 {
+fn cosine_sum(rule: &impl Rule, u: f64) -> f64 {
     rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
 }
 
@@ -67,7 +67,7 @@ fn worst<R: Rule>(
 fn the_recursion_is_exact_for_every_rule_and_step() -> Outcome {
     for rule in rules()? {
         for u in (1..=30).map(|k| 0.1 * f64::from(k)) {
-            if kernel(&rule, u).abs() < 0.05 {
+            if cosine_sum(&rule, u).abs() < 0.05 {
                 continue;
             }
             let method = Variational::new(rule).phase_fitted(Constant(1.0));
@@ -184,7 +184,7 @@ fn a_resonance_is_an_error_and_not_a_number() -> Outcome {
             matches!(error, Some(StartError::Starter(StepFailure::Resonance { u: found, .. })) if (found - u).abs() < 1e-12),
             "{rule:?}: {error:?}"
         );
-        assert!(kernel(&rule, u).abs() < 1e-9 || u.sin().abs() < 1e-9);
+        assert!(cosine_sum(&rule, u).abs() < 1e-9 || u.sin().abs() < 1e-9);
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Matrices a Dα + b (Dα)ᵀ, ready to be solved with.
 //!
-//! Where the matrix couples each coordinate to one partner only, its inverse is one reciprocal per
+//! Where the matrix couples each coordinate to one conjugate only, its inverse is one reciprocal per
 //! coordinate. Dα itself has that shape if the system is `MATCHING`; the antisymmetric combinations
 //! a = −b, which are multiples of Ω, have it already if the system is `CANONICAL`. Any other matrix is
 //! factored.
@@ -27,14 +27,14 @@ impl<T: Real> Combination<T> {
 
 /// The inverse of a combination.
 #[derive(Debug)]
-pub(crate) enum Form<S: System, T: Real> {
+pub(crate) enum Inverse<S: System, T: Real> {
     /// Entry j is one over the only entry of column j.
     Reciprocals(Vector<S, T>),
     /// The factors of the matrix.
     Factors(Square<S, T>),
 }
 
-impl<S: System, T: Real> Clone for Form<S, T> {
+impl<S: System, T: Real> Clone for Inverse<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
@@ -43,7 +43,7 @@ impl<S: System, T: Real> Clone for Form<S, T> {
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> Form<S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from [`prepare`](Self::prepare).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
         let space = system.space();
@@ -72,9 +72,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Form<S, T> {
         let Combination { a, b } = combination;
         match self {
             Self::Reciprocals(reciprocals) => {
-                system.partner_entries(q, t, a, b, entries);
+                system.conjugate_entries(q, t, a, b, entries);
                 for j in 0..entries.len() {
-                    reciprocals[j] = norm::reciprocal(entries[system.partner(j)], j)?;
+                    reciprocals[j] = norm::reciprocal(entries[system.conjugate(j)], j)?;
                 }
                 Ok(())
             }
@@ -92,7 +92,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Form<S, T> {
         match self {
             Self::Reciprocals(reciprocals) => {
                 for (j, (x, &reciprocal)) in x.iter_mut().zip(reciprocals.iter()).enumerate() {
-                    *x = rhs[system.partner(j)] * reciprocal;
+                    *x = rhs[system.conjugate(j)] * reciprocal;
                 }
             }
             // Never built for such a system; saying so keeps elimination out of its steps.
@@ -128,7 +128,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
         if combination.is_matching::<S>() {
             let mut entries = system.space().vector();
-            system.partner_entries(q, t, combination.a, combination.b, &mut entries);
+            system.conjugate_entries(q, t, combination.a, combination.b, &mut entries);
             Self::Entries(entries)
         } else {
             Self::Coefficients(combination)
@@ -151,7 +151,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
         match self {
             Self::Entries(entries) => {
                 for (i, (out, &entry)) in out.iter_mut().zip(entries.iter()).enumerate() {
-                    *out = x[system.partner(i)] * entry;
+                    *out = x[system.conjugate(i)] * entry;
                 }
             }
             Self::Coefficients(_) if S::MATCHING => {}

@@ -11,7 +11,7 @@ use super::memory::Work;
 use super::{SigmaMemory, Step};
 use crate::discrete::{Ends, OneNode, solve_by_newton};
 use crate::error::StepFailure;
-use crate::mechanics::form::Form;
+use crate::mechanics::combination::Inverse;
 use crate::methods::Clock;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
@@ -158,7 +158,7 @@ struct Attempt<'a, S: DegenerateLagrangian<T>, T: Real> {
     defect: Option<&'a Vector<S, T>>,
     one_form: &'a mut Vector<S, T>,
     history: &'a History<S, T>,
-    inverse: &'a Form<S, T>,
+    inverse: &'a Inverse<S, T>,
     l_d: &'a mut OneNode<S, T>,
     work: &'a mut Work<S, T>,
     budget: usize,
