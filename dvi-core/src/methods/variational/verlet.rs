@@ -39,7 +39,7 @@ pub(super) fn steps<S: RegularLagrangian<T>, T: Real>(
     p1.copy_from_slice(&phase.p);
     f1.copy_from_slice(&phase.force);
     let half = T::lift(0.5) * clock.step_size();
-    walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v }, 0, count)
+    walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v, owed: false }, 0, count)
 }
 
 /// One step with compensated sums, forces being evaluated at these.
@@ -82,37 +82,61 @@ struct Kicks<'a, S: RegularLagrangian<T>, T: Real> {
     p1: &'a mut [T],
     f1: &'a mut [T],
     v: &'a mut [T],
+    /// Whether the half kick that ends a step is still to come: with that of the next step it takes one pass over memory.
+    owed: bool,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
+impl<S: RegularLagrangian<T>, T: Real> Kicks<'_, S, T> {
+    /// Kicks the momentum by (h/2)F, in the way that is given, and moves the point on.
     #[inline(always)]
-    fn step(&mut self, number: u64) {
+    fn move_on(&mut self, kick: impl Fn(T, T) -> T) {
         let Self { half, q1, p1, f1, v, .. } = self;
         if let Some(reciprocals) = self.mass.reciprocals() {
             // In one pass over memory.
             for (((p, &f), q), &reciprocal) in
                 p1.iter_mut().zip(f1.iter()).zip(q1.iter_mut()).zip(reciprocals)
             {
-                *p += *half * f;
+                *p = kick(*p, *half * f);
                 *q += self.clock.step_size() * (*p * reciprocal);
             }
         } else {
             for (p, &f) in p1.iter_mut().zip(f1.iter()) {
-                *p += *half * f;
+                *p = kick(*p, *half * f);
             }
             self.mass.solve(p1, v);
             for (q, &v) in q1.iter_mut().zip(v.iter()) {
                 *q += self.clock.step_size() * v;
             }
         }
-        self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
-        for (p, &f) in p1.iter_mut().zip(f1.iter()) {
-            *p += *half * f;
+    }
+
+    /// Ends the last step.
+    #[inline(always)]
+    fn complete(&mut self) {
+        if core::mem::take(&mut self.owed) {
+            for (p, &f) in self.p1.iter_mut().zip(self.f1.iter()) {
+                *p += self.half * f;
+            }
         }
+    }
+}
+
+impl<S: RegularLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
+    #[inline(always)]
+    fn step(&mut self, number: u64) {
+        if self.owed {
+            self.move_on(|p, impulse| (p + impulse) + impulse);
+        } else {
+            self.move_on(|p, impulse| p + impulse);
+        }
+        self.owed = true;
+        let Self { q1, f1, .. } = self;
+        self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
     }
 
     #[inline(always)]
     fn examine(&mut self, _steps: u64) -> Result<(), StepFailure> {
+        self.complete();
         scratch!(examined = self.system, *self.v);
         examined.copy_from_slice(self.q1);
         norm::finite(examined)?;
@@ -128,6 +152,7 @@ impl<S: RegularLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
 
     #[inline(always)]
     fn go_back(&mut self) {
+        self.owed = false;
         self.q1.copy_from_slice(self.q);
         self.p1.copy_from_slice(&self.phase.p);
         self.f1.copy_from_slice(&self.phase.force);
