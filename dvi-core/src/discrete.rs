@@ -18,7 +18,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::Sink;
 use crate::space::square::of_second_derivatives;
-use crate::space::{LinearEquations, LinearSolver};
+use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Vector};
 
@@ -82,7 +82,7 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
     /// A solver for equations with D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here the matrix has the entries of ∂²L in
     /// all blocks, as a sum over nodes has whose points depend on the ends alone.
     fn solver(&self, system: &S, q: &[T], v: &[T], t: T) -> Linear<S, T> {
-        of_second_derivatives(system, q, v, t)
+        of_second_derivatives(system, q, v, t, Storing::Always)
     }
 
     /// Adds D₁L_d to `d1` and D₁L_d + D₂L_d to `sum`, each one entry per coordinate.

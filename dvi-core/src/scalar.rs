@@ -194,3 +194,11 @@ pub trait Real: Scalar + RealField + Copy {}
 
 #[diagnostic::do_not_recommend]
 impl<T: RealField + Copy> Real for T {}
+
+/// Whether a number has parts that comparisons do not see, as the derivative of a dual number: it is larger than its digits
+/// need.
+#[inline(always)]
+pub(crate) fn carries_derivatives<T: Real>() -> bool {
+    let is_single = T::default_epsilon() > T::lift(1e-10);
+    size_of::<T>() > if is_single { size_of::<f32>() } else { size_of::<f64>() }
+}

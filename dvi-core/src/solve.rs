@@ -4,6 +4,8 @@ mod stopping;
 
 use crate::Real;
 use crate::error::StepFailure;
+use crate::scalar::carries_derivatives;
+use crate::space::linear::Storing;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 
@@ -16,13 +18,39 @@ use stopping::Verdict;
 pub enum Solver {
     /// Fixed point where it contracts fast, Newton where it does not: a step whose fixed-point iteration
     /// is slow is done again by Newton, and so are the 31 steps after it before the fixed point is tried
-    /// anew. It holds storage for the Newton matrix.
+    /// anew. It holds storage for the Newton matrix, unless that would be full and of more than 1024 rows: there it is
+    /// [`NewtonKrylov`](Self::NewtonKrylov) that stands by.
     #[default]
     Automatic,
     /// One gradient per iteration, no matrix (nonlinear α: one matrix of first derivatives per step).
     FixedPoint,
-    /// The exact matrix of second derivatives, factored in each iteration.
+    /// The exact matrix of second derivatives, factored in each iteration, in the storage that its pattern needs.
     Newton,
+    /// Newton's method from products of that matrix with vectors alone, by the generalised minimal residual method: for many
+    /// bodies that all depend on each other, whose matrix is too large. It fails where forces between neighbours are so stiff
+    /// that 200 products do not make the residual ten times smaller. Systems of fixed size are solved as by
+    /// [`Newton`](Self::Newton), and so are runs in dual numbers.
+    NewtonKrylov,
+}
+
+impl Solver {
+    /// How Newton's equations are stored.
+    pub(crate) fn storing(self) -> Storing {
+        match self {
+            Self::Automatic => Storing::IfSmall,
+            Self::FixedPoint | Self::Newton => Storing::Always,
+            Self::NewtonKrylov => Storing::Never,
+        }
+    }
+
+    /// The solver of a run in `T`: where numbers carry derivatives, of which a fixed point does not see whether they have
+    /// converged, Newton's method, which needs to know no more than when values have.
+    pub(crate) fn in_numbers<T: Real>(self) -> Self {
+        match self {
+            Self::Automatic | Self::NewtonKrylov if carries_derivatives::<T>() => Self::Newton,
+            solver => solver,
+        }
+    }
 }
 
 /// Where Newton begins.
@@ -55,7 +83,8 @@ pub(crate) fn iterate<T: Real>(
         };
         match convergence.judge(correction) {
             Verdict::Continue => {}
-            Verdict::Accept => break Ok(()),
+            // Comparisons have not seen the derivatives that numbers may carry.
+            Verdict::Accept => break (0..convergence.more).try_for_each(|_| improve(statistics).map(drop)),
             Verdict::GiveUp => break Err(convergence.failure()),
         }
     };
@@ -83,7 +112,7 @@ impl<N> Ladder<N> {
     pub(crate) fn new(solver: Solver, storage: impl FnOnce() -> N) -> Self {
         let always = match solver {
             Solver::FixedPoint => return Self { newton: None },
-            Solver::Newton => true,
+            Solver::Newton | Solver::NewtonKrylov => true,
             Solver::Automatic => false,
         };
         Self { newton: Some(Newton { storage: storage(), always, steps_left: 0 }) }

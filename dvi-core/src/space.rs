@@ -19,7 +19,7 @@ use core::ops::{Deref, DerefMut};
 
 use crate::{Real, Scalar};
 
-pub use linear::{CoupledSolver, FixedCoupled, LinearEquations, LinearSolver, NodeSum};
+pub use linear::{CoupledSolver, FixedCoupled, LinearEquations, LinearSolver, NodeSum, Storing};
 #[cfg(feature = "alloc")]
 pub use linear::{RunTimeCoupled, RunTimeSolver};
 pub use sink::Sink;
@@ -56,10 +56,15 @@ pub trait Space: Copy + Debug + PartialEq {
     fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T>;
     /// A solver of linear equations with these entries, as of [`square`](Self::square). Where they are many and lie far apart, it
     /// keeps none of them.
-    fn linear<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T>;
+    fn linear<T: Real>(
+        self,
+        storing: Storing,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Linear<T>;
     /// A solver of linear equations for `NODES` − 1 vectors, coupled by blocks with these entries.
     fn coupled<const NODES: usize, T: Real>(
         self,
+        storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T>;
     /// A permutation, all zeros until it is written.
@@ -156,12 +161,17 @@ impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
         FixedSquare::new(self)
     }
     #[inline(always)]
-    fn linear<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T> {
+    fn linear<T: Real>(
+        self,
+        _storing: Storing,
+        _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Linear<T> {
         FixedSquare::new(self)
     }
     #[inline(always)]
     fn coupled<const NODES: usize, T: Real>(
         self,
+        _storing: Storing,
         _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T> {
         FixedCoupled::new(self)
@@ -234,14 +244,19 @@ impl Space for RunTime {
     fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
         RunTimeSquare::new(self, entries)
     }
-    fn linear<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Linear<T> {
-        RunTimeSolver::new(self.dimension, entries)
+    fn linear<T: Real>(
+        self,
+        storing: Storing,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Linear<T> {
+        RunTimeSolver::new(self.dimension, storing, entries)
     }
     fn coupled<const NODES: usize, T: Real>(
         self,
+        storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T> {
-        RunTimeCoupled::new(self, NODES, entries)
+        RunTimeCoupled::new(self, NODES, storing, entries)
     }
     fn permutation(self) -> Self::Permutation {
         alloc::vec![0; self.dimension]

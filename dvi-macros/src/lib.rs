@@ -44,7 +44,7 @@ use proc_macro::TokenStream;
 /// | `lagrangian = …` | instead of these two: L, affine in the velocities `dot(x)` |
 /// | `momenta(name = …)` | conserved quantities to watch |
 /// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
-/// | `derive(Trait, …)` | what the state derives beside `Clone`, `Debug`, `PartialEq` and, without `Vec`s, `Copy`: `serde::Serialize` for instance |
+/// | `derive(Trait, …)` | what the state derives beside `Clone`, `Debug`, `PartialEq` and, without `Vec`s, `Copy`: `serde::Serialize` for instance, which does not know arrays of const-generic size |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
 /// Formulas are Rust expressions over the coordinates, the fields of the struct by name, `PI` and other
@@ -59,7 +59,8 @@ use proc_macro::TokenStream;
 /// field of a field, whose types are not known, are taken for integers there.
 ///
 /// The struct may be generic over the type of its parameters, `struct System<P = f64> { mu: P, charges: Vec<P> }`. It is then a
-/// system wherever that type is a number or, for derivatives with respect to a parameter, a `dvi_core::Varied` dual number.
+/// system wherever that type is a number or, for derivatives with respect to a parameter, a `dvi_core::Varied` dual number. A field of a
+/// field has to be a number.
 ///
 /// At the zeros of a root the rules of differentiation give 0/0. Where a limit exists, it is the derivative for powers of
 /// a sum of squares that is written out with positive literal coefficients or runs over a whole array of coordinates, and

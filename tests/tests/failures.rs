@@ -1,5 +1,6 @@
 //! Failures are values, and the last good state is kept.
 
+use dvi_core::methods::{General, Symmetrised};
 use dvi_core::prelude::*;
 use dvi_core::{IndexError, LengthError};
 use dvi_tests::configurations::quasi_periodic;
@@ -273,6 +274,53 @@ fn a_step_over_a_place_where_the_form_is_singular_is_an_error() -> Outcome {
         crossing(&Vanishing, RungeKutta::classical(), h, start)?;
         let start = CoupledState { x: 1.0, y: 0.0, u: 0.3, w: 0.1 };
         crossing(&Coupled, RungeKutta::classical(), h, start)?;
+    }
+    Ok(())
+}
+
+/// From rest at the origin all numbers are zero but the force; the first correction says how large they become.
+#[test]
+fn steps_from_rest_at_the_origin_succeed() -> Outcome {
+    #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0 - x.powi(4) / 4.0 + g * x)]
+    struct Weight {
+        g: f64,
+    }
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = x * d(y),
+        hamiltonian = ((x - g).powi(2) + (y + g).powi(2)) / 2.0 + x.powi(3)
+    )]
+    struct Shifted {
+        g: f64,
+    }
+    fn succeeds<S: Lagrangian, M: dvi_core::methods::Method<S, f64> + core::fmt::Debug>(
+        system: &S,
+        method: M,
+        start: S::State<f64>,
+        h: f64,
+    ) -> Outcome {
+        let name = format!("{method:?}, h = {h}");
+        let mut run = Integrator::new(system, method, h, start)?;
+        run.take_steps(3).map_err(|error| format!("{name}: {error}"))?;
+        Ok(())
+    }
+    for g in 1..=10 {
+        let g = 0.3 * f64::from(g);
+        for h in [0.01, 0.03, 0.05, 0.1, 0.2] {
+            let (system, start) = (Weight { g }, WeightState { x: 0.0, dot_x: 0.0 });
+            for solver in [Solver::Automatic, Solver::Newton] {
+                succeeds(&system, Variational { solver, ..Variational::midpoint() }, start, h)?;
+                succeeds(&system, Variational { solver, ..Variational::simpson() }, start, h)?;
+                succeeds(&system, Galerkin { solver, ..Galerkin::<3>::new() }, start, h)?;
+                succeeds(&system, Galerkin { solver, ..Galerkin::<5>::new() }, start, h)?;
+                succeeds(&system, Newmark { solver, ..Newmark::new(0.25) }, start, h)?;
+                let (system, start) = (Shifted { g }, ShiftedState { x: 0.0, y: 0.0 });
+                succeeds(&system, Sigma { solver, ..Sigma::midpoint() }, start, h)?;
+            }
+            succeeds(&system, General::new(Variational::simpson()), start, h)?;
+            succeeds(&system, General::new(Symmetrised { alpha: 0.2 }), start, h)?;
+            succeeds(&system, General::new(Newmark::new(0.25)), start, h)?;
+        }
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use dvi_core::Varied;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use num_dual::Dual64;
+use num_dual::{Dual64, HyperDual64};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -122,6 +122,63 @@ fn runs_are_differentiated_in_a_circulation() -> Outcome {
     }
     check(RungeKutta::classical())?;
     check(Gauss::<3>::new())?;
+    Ok(())
+}
+
+/// At an equilibrium values have converged before the first iteration, and derivatives have not: those of Newton's method
+/// of all orders, those of a fixed point to what its rate leaves of them after many iterations.
+#[test]
+fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
+    #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - (x - a).powi(2)) / 2.0 - (x - a).powi(3) / 3.0)]
+    struct Well<P> {
+        a: P,
+    }
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ((x - a).powi(2) + y * y) / 2.0)]
+    struct Turn<P> {
+        a: P,
+    }
+    // The midpoint rule turns by 2 atan(h/2) a step, about (a, 0).
+    let (h, n) = (0.5, 7);
+    let turned = 1.0 - (2.0 * n as f64 * f64::atan(h / 2.0)).cos();
+    let one = |x: f64| dual(x);
+    for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov] {
+        let start = WellState { x: one(0.0), dot_x: one(0.0) };
+        let system = Well { a: varied(0.0) };
+        let method = Variational { solver, ..Variational::midpoint() };
+        let mut run = Integrator::new(&system, method, one(h), start)?;
+        run.take_steps(n)?;
+        let error = run.q()[0].eps - turned;
+        assert!(error.abs() < 1e-13, "{solver:?}: {error:e}");
+        let start = TurnState { x: one(0.0), y: one(0.0) };
+        let system = Turn { a: varied(0.0) };
+        let method = Sigma { solver, ..Sigma::new(one(0.5)) };
+        let mut run = Integrator::new(&system, method, one(h), start)?;
+        run.take_steps(n)?;
+        let error = run.q()[0].eps - turned;
+        assert!(error.abs() < 1e-13, "{solver:?}: {error:e}");
+    }
+    let start = TurnState { x: one(0.0), y: one(0.0) };
+    let system = Turn { a: varied(0.0) };
+    let mut run = Integrator::new(&system, Gauss::<1>::new(), one(h), start)?;
+    run.take_steps(n)?;
+    assert!((run.q()[0].eps - turned).abs() < 1e-13);
+
+    // Second derivatives, against differences of first ones.
+    let first = |a: f64| -> Result<f64, Box<dyn core::error::Error>> {
+        let start = WellState { x: one(0.0), dot_x: one(0.0) };
+        let system = Well { a: varied(a) };
+        let mut run = Integrator::new(&system, Variational::midpoint(), one(h), start)?;
+        run.take_steps(n)?;
+        Ok(run.q()[0].eps)
+    };
+    let expected = (first(-2e-3)? - 8.0 * first(-1e-3)? + 8.0 * first(1e-3)? - first(2e-3)?) / 12e-3;
+    let real = |x: f64| HyperDual64::from_re(x);
+    let system = Well { a: Varied(HyperDual64::new(0.0, 1.0, 1.0, 0.0)) };
+    let start = WellState { x: real(0.0), dot_x: real(0.0) };
+    let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
+    run.take_steps(n)?;
+    let error = run.q()[0].eps1eps2 - expected;
+    assert!(error.abs() < 1e-8 * expected.abs(), "{} {expected}", run.q()[0].eps1eps2);
     Ok(())
 }
 

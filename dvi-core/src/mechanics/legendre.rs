@@ -7,7 +7,7 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::square::of_second_derivatives;
-use crate::space::{LinearEquations, LinearSolver, Sink};
+use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
 
@@ -29,7 +29,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
         let space = system.space();
         Self {
-            solver: of_second_derivatives(system, q, v, t),
+            solver: of_second_derivatives(system, q, v, t, Storing::Always),
             residual: space.vector(),
             correction: space.vector(),
             l_q: space.vector(),

@@ -252,11 +252,11 @@ impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
 impl<S: Separable<T>, T: Real> Method<S, T> for Newmark<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
-        let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver };
+        let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
         Ok(NewmarkMemory {
             phase: PhasePoint::new(system, q, v, t, self.summation)?,
             mass: Mass::new(system, q, t).map_err(StartError::Starter)?,
-            ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t)),
+            ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t, solver.storing())),
             work: Work::new(system),
         })
     }

@@ -62,9 +62,20 @@ impl<T: Real, const BLOCKS: usize, const N: usize> LinearSolver<T> for FixedSqua
     }
 }
 
-/// The largest dimension of a full matrix that is stored: half a megabyte in double precision. Beyond it products are faster.
+/// Whether a matrix is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storing {
+    /// In the storage that its pattern needs.
+    Always,
+    /// A full one only up to 1024 rows.
+    IfSmall,
+    /// Products with vectors have to do. A matrix of fixed size is stored all the same.
+    Never,
+}
+
+/// The largest dimension of a full matrix that is stored where that is asked for if small: 8 MB in double precision.
 #[cfg(feature = "alloc")]
-const LARGEST_FULL: usize = 256;
+const LARGEST_FULL: usize = 1024;
 
 /// The linear solver of a [`RunTime`](crate::RunTime) space.
 #[cfg(feature = "alloc")]
@@ -81,11 +92,19 @@ enum Storage<T> {
 #[cfg(feature = "alloc")]
 impl<T: Scalar> RunTimeSolver<T> {
     /// For a matrix with the entries that `entries` visits.
-    pub(crate) fn new(dimension: usize, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
+    pub(crate) fn new(
+        dimension: usize,
+        storing: Storing,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self {
+        if storing == Storing::Never {
+            return Self(Storage::Products(Krylov::new(dimension)));
+        }
         let mut pattern = Pattern::new(dimension);
         entries(&mut |row, column| pattern.add(row, column));
         let order = pattern.banded();
-        Self(if order.is_none() && dimension > LARGEST_FULL {
+        let is_large = storing == Storing::IfSmall && dimension > LARGEST_FULL;
+        Self(if order.is_none() && is_large {
             Storage::Products(Krylov::new(dimension))
         } else {
             Storage::Matrix(RunTimeSquare::in_order(dimension, order))

@@ -16,6 +16,7 @@ use core::fmt::Debug;
 
 use crate::error::StepFailure;
 use crate::space::elimination;
+use crate::space::linear::Storing;
 use crate::space::sink::{Places, Sink};
 use crate::space::{FixedMatrix, FixedVector};
 use crate::{Coupled, Lagrangian, Linear, Real, Scalar, Space, Square, Vector, Weights};
@@ -61,10 +62,11 @@ pub(crate) fn of_second_derivatives<S: Lagrangian<T>, T: Real>(
     q: &[T],
     v: &[T],
     t: T,
+    storing: Storing,
 ) -> Linear<S, T> {
     let one = T::lift(1.0);
     let weights = Weights { qq: one, qv: one, vq: one, vv: one };
-    system.space().linear(|visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
+    system.space().linear(storing, |visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
 }
 
 /// A matrix with room for all entries.
@@ -74,7 +76,7 @@ pub(crate) fn full<S: Lagrangian<T>, T: Real>(system: &S) -> Square<S, T> {
 
 /// A solver for a matrix with all entries.
 pub(crate) fn linear_of_all<S: Lagrangian<T>, T: Real>(system: &S) -> Linear<S, T> {
-    system.space().linear(|visit| visit_all(system.space().dimension(), visit))
+    system.space().linear(Storing::Always, |visit| visit_all(system.space().dimension(), visit))
 }
 
 fn visit_all(n: usize, visit: &mut dyn FnMut(usize, usize)) {
@@ -98,10 +100,11 @@ pub(crate) fn coupled_by_second_derivatives<const NODES: usize, S: Lagrangian<T>
     q: &[T],
     v: &[T],
     t: T,
+    storing: Storing,
 ) -> Coupled<NODES, S, T> {
     let one = T::lift(1.0);
     let weights = Weights { qq: one, qv: one, vq: one, vv: one };
-    system.space().coupled(|visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
+    system.space().coupled(storing, |visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
 }
 
 fn visit_entries<S: Lagrangian<T>, T: Real>(

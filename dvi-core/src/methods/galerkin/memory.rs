@@ -68,7 +68,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> GalerkinMemory<NODES,
         let Step { system, method, t, .. } = *step;
         let rule = Quadrature::lobatto_of::<NODES>();
         let a = differentiation(&rule);
-        let solver = match method.solver {
+        let solver = match method.solver.in_numbers::<T>() {
             // Any L has no fixed point.
             Solver::Automatic if !S::SEPARABLE => Solver::Newton,
             solver => solver,
@@ -87,7 +87,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> GalerkinMemory<NODES,
         if reading.is_none() {
             path.fit(method.frequency.fixed(0) * step.h).map_err(StartError::Starter)?;
         }
-        let ladder = Ladder::new(solver, || coupled_by_second_derivatives(system, q, v, t));
+        let ladder = Ladder::new(solver, || coupled_by_second_derivatives(system, q, v, t, solver.storing()));
         Ok(Self { ladder, path })
     }
 }

@@ -180,7 +180,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
             .as_ref()
             .filter(|_| sigma == T::lift(0.0))
             .map(|product| Ahead::new(system, product, &inverse, scale));
-        let solver = if explicit { Solver::FixedPoint } else { method.solver };
+        let solver = if explicit { Solver::FixedPoint } else { method.solver.in_numbers::<T>() };
         let mut one_form = space.vector();
         system.one_form(q, t, &mut one_form);
         let (limit, pace) = pace(system, method, q, t);
@@ -194,7 +194,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
             product,
             ahead,
             l_d: OneNode::new(system, sigma),
-            ladder: Ladder::new(solver, || of_second_derivatives(system, q, &rest, t)),
+            ladder: Ladder::new(solver, || of_second_derivatives(system, q, &rest, t, solver.storing())),
             monitor: Monitor::new(system, limit, pace),
             orientation: FormOrientation::new(system, q, t),
             carried: Carried::new(system, method.summation),

@@ -69,12 +69,12 @@ impl<S: RegularLagrangian<T>, T: Real> VariationalMemory<S, T> {
         h: T,
     ) -> Result<Self, StartError> {
         let explicit = method.is_explicit();
-        let solver = match (method.needs_forces_only::<S, T>(), method.solver) {
+        let solver = match (method.needs_forces_only::<S, T>(), method.solver.in_numbers::<T>()) {
             (true, _) if explicit => Solver::FixedPoint,
             (true, solver) => solver,
             // Any L has no fixed point.
             (false, Solver::Automatic | Solver::Newton) => Solver::Newton,
-            (false, Solver::FixedPoint) => Solver::FixedPoint,
+            (false, solver @ (Solver::FixedPoint | Solver::NewtonKrylov)) => solver,
         };
         let reading = method.frequency.reading();
         let mut interpolation = Interpolation::new(system, method);
@@ -86,7 +86,7 @@ impl<S: RegularLagrangian<T>, T: Real> VariationalMemory<S, T> {
             ends: [Local::new(system, reading), Local::new(system, reading)],
             phase: PhasePoint::new(system, q, v, t, method.summation)?,
             inertial: Inertial::new(system, q, v, t)?,
-            ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t)),
+            ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t, solver.storing())),
             work: Work::new(system),
         })
     }

@@ -7,7 +7,7 @@ use core::ops::{Deref, DerefMut};
 
 use super::blocks;
 #[cfg(feature = "alloc")]
-use super::{LinearEquations, LinearSolver, RunTimeSolver};
+use super::{LinearEquations, LinearSolver, RunTimeSolver, Storing};
 #[cfg(feature = "alloc")]
 use crate::RunTime;
 use crate::error::StepFailure;
@@ -118,11 +118,12 @@ impl<T: Scalar> RunTimeCoupled<T> {
     pub(crate) fn new(
         space: RunTime,
         nodes: usize,
+        storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self {
         let (n, unknown) = (space.dimension, nodes - 1);
         let all = RunTime { dimension: n * unknown };
-        let solver = RunTimeSolver::new(all.dimension, |visit| {
+        let solver = RunTimeSolver::new(all.dimension, storing, |visit| {
             entries(&mut |i, j| {
                 for k in 0..unknown * unknown {
                     visit(k / unknown * n + i, k % unknown * n + j);
