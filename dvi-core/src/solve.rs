@@ -2,6 +2,8 @@
 
 mod stopping;
 
+use core::ops::DerefMut;
+
 use crate::Real;
 use crate::error::StepFailure;
 use crate::scalar::carries_derivatives;
@@ -61,6 +63,21 @@ pub(crate) enum Guess {
     /// No increment: Newton's first iterate is then the linearly implicit step, which is safer where steps are so long
     /// that extrapolation is off.
     Zero,
+}
+
+impl Guess {
+    /// Sets `increment` to it, by what extrapolates.
+    #[inline(always)]
+    pub(crate) fn begin<V: DerefMut<Target = [T]>, T: Real>(
+        self,
+        increment: &mut V,
+        extrapolate: impl FnOnce(&mut V),
+    ) {
+        match self {
+            Self::Extrapolated => extrapolate(increment),
+            Self::Zero => increment.fill(T::lift(0.0)),
+        }
+    }
 }
 
 /// After the fixed point has failed, this many steps are left to Newton before it is tried again.

@@ -131,10 +131,10 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        match guess {
-            Guess::Extrapolated => self.guess(),
-            Guess::Zero => self.work.increment.fill(T::lift(0.0)),
-        }
+        let Work { half, increment, .. } = &mut *self.work;
+        guess.begin(increment, |increment| {
+            self.phase.guess(Some(self.mass), half, self.interval.h, increment);
+        });
         let max = self.stopping.max_iterations;
         let convergence = Convergence::new(self.stopping, self.scale(), self.q, max);
         iterate(convergence, statistics, |statistics| {

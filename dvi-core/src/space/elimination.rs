@@ -23,13 +23,7 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
     let n = permutation.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
-        let (row, pivot) = pivot_row(matrix, n, k);
-        let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
-        // A pivot that is not a number is no use either.
-        let usable = pivot > rounding * above;
-        if !usable {
-            return Err(singular(pivot, k));
-        }
+        let row = pivot_row(matrix, n, k, rounding)?;
         permutation[k] = row;
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
         let upper = &mut upper[k * n..];
@@ -48,9 +42,9 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
     Ok(())
 }
 
-/// The row at or below `k` with the largest entry in column `k`, and the size of that entry.
-#[inline]
-fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
+/// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of those above.
+#[inline(always)]
+fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize, rounding: T) -> Result<usize, StepFailure> {
     let mut best = (k, Scalar::abs(matrix[k * n + k]));
     for row in k + 1..n {
         let size = Scalar::abs(matrix[row * n + k]);
@@ -58,7 +52,11 @@ fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
             best = (row, size);
         }
     }
-    best
+    let (row, pivot) = best;
+    let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
+    // A pivot that is not a number is no use either.
+    let usable = pivot > rounding * above;
+    if usable { Ok(row) } else { Err(singular(pivot, k)) }
 }
 
 /// Overwrites `x` with the solution of A y = x, A as left behind by [`factor`].
@@ -95,12 +93,7 @@ pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), St
     let n = x.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
-        let (row, pivot) = pivot_row(matrix, n, k);
-        let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
-        let usable = pivot > rounding * above;
-        if !usable {
-            return Err(singular(pivot, k));
-        }
+        let row = pivot_row(matrix, n, k, rounding)?;
         let begin = if n <= SHORT { 0 } else { (k + 1) & !3 };
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
         let upper = &mut upper[k * n..];

@@ -242,10 +242,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { step, q, defect, one_form, history, l_d, work, .. } = self;
-        match guess {
-            Guess::Extrapolated => history.extrapolate(&mut work.increment),
-            Guess::Zero => work.increment.fill(T::lift(0.0)),
-        }
+        guess.begin(&mut work.increment, |increment| history.extrapolate(increment));
         step.system.one_form(q, step.t, one_form);
         work.next.copy_from_slice(one_form);
         if let Some(defect) = defect {

@@ -133,10 +133,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     ) -> Result<(), StepFailure> {
         let Self { step, q, history, l_d, work, .. } = self;
         let Work { increment, trial, shift: p0, .. } = &mut **work;
-        match guess {
-            Guess::Extrapolated => history.extrapolate(increment),
-            Guess::Zero => increment.fill(T::lift(0.0)),
-        }
+        guess.begin(increment, |increment| history.extrapolate(increment));
         let (points, storage) = ([&***q, &**p0], (solver, trial));
         let stopping = step.method.stopping;
         solve_by_newton(*l_d, step.system, step.interval(), points, increment, storage, stopping, statistics)

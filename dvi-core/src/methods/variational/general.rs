@@ -28,10 +28,7 @@ pub(super) fn by_newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: 
 ) -> Result<(), StepFailure> {
     let Parts { interpolation, ends, phase, inertial, work, q } = parts;
     let mass = inertial.constant();
-    match guess {
-        Guess::Extrapolated => phase.guess(mass, &phase.p, step.h, &mut work.increment),
-        Guess::Zero => work.increment.fill(T::lift(0.0)),
-    }
+    guess.begin(&mut work.increment, |increment| phase.guess(mass, &phase.p, step.h, increment));
     match interpolation {
         Interpolation::Uniform(uniform) => {
             newton(step, uniform, ends, mass, phase, work, q, solver, statistics)
