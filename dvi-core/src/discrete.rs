@@ -14,10 +14,10 @@ pub(crate) mod frequency;
 pub(crate) mod quadrature;
 
 use crate::error::StepFailure;
+use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::Sink;
-use crate::space::square::of_second_derivatives;
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Vector};

@@ -5,6 +5,7 @@ pub(crate) mod combination;
 pub(crate) mod legendre;
 pub(crate) mod mass;
 pub(crate) mod orientation;
+pub(crate) mod pattern;
 pub(crate) mod phase;
 mod vector_field;
 

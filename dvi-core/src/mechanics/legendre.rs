@@ -4,9 +4,9 @@
 //! (Marsden & West 2001, section 1.4).
 
 use crate::error::StepFailure;
+use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
-use crate::space::square::of_second_derivatives;
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};

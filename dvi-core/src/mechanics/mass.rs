@@ -3,10 +3,11 @@
 //! L = ½ v·M v − V(q, t), p = M v. M is inverted once: by one reciprocal per coordinate if it is diagonal, by
 //! elimination otherwise.
 
+use super::pattern::of_entries;
 use crate::error::StepFailure;
 use crate::scalar::norm;
+use crate::space::SquareMatrix;
 use crate::space::sink::{Places, Sink};
-use crate::space::square::{SquareMatrix, of_entries};
 use crate::{Real, RegularLagrangian, Space, Square, System, Vector, Weights};
 
 /// M and M⁻¹.

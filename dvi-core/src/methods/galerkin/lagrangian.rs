@@ -13,12 +13,12 @@ use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
 use crate::discrete::quadrature::{Quadrature, Rule};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::pattern::linear_of_all;
 use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::linear::blocks;
 use crate::space::sink::Sink;
-use crate::space::square::linear_of_all;
 use crate::state::Statistics;
 use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector, Weights};
 

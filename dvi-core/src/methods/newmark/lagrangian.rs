@@ -11,10 +11,11 @@
 use super::Newmark;
 use crate::discrete::{DiscreteLagrangian, Ends, Span};
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::pattern::{full, linear_of_all};
 use crate::methods::VariationalMethod;
+use crate::space::SquareMatrix;
 use crate::space::elimination::multiply_add;
 use crate::space::sink::Sink;
-use crate::space::square::{SquareMatrix, full, linear_of_all};
 use crate::state::Statistics;
 use crate::{Linear, Matrix, Real, Separable, Space, Square, System, Vector, Weights};
 

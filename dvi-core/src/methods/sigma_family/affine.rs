@@ -6,7 +6,7 @@
 //! At σ = 0 and σ = 1 no gradient of the unknown point occurs: explicit. At σ = ½, K' = −K and c1 = −c0;
 //! with c0 = 0 the scheme is the implicit midpoint rule.
 
-use super::leapfrog;
+use super::leapfrog::{self, add};
 use super::memory::Work;
 use super::{SigmaMemory, Step};
 use crate::discrete::{Ends, OneNode, solve_by_newton};
@@ -73,13 +73,6 @@ fn explicit_right<S: DegenerateLagrangian<T>, T: Real>(
         *c -= step.h * g;
     }
     Ok(())
-}
-
-#[inline(always)]
-pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
-    for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(increment) {
-        *sum = q + delta;
-    }
 }
 
 /// Adds the increment to `q` if the result is finite.

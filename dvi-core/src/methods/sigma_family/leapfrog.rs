@@ -8,8 +8,7 @@
 //! keep in registers, and c, which no step needs, is computed at the end.
 
 use super::SigmaMemory;
-use super::affine::add;
-use super::memory::Work;
+use super::memory::{Ahead, Work};
 use super::monitor::Monitor;
 use crate::discrete::NodeWork;
 use crate::error::StepFailure;
@@ -18,32 +17,12 @@ use crate::methods::Clock;
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
 use crate::space::scratch;
-use crate::{DegenerateLagrangian, Real, Space, System, Vector};
+use crate::{DegenerateLagrangian, Real, System, Vector};
 
-/// How the point ahead, q1 + K⁻¹c1, follows from q0 and q1.
-#[derive(Debug)]
-pub(super) enum Ahead<S: System, T: Real> {
-    /// It is q0.
-    Reversal,
-    /// K⁻¹c1 is a multiple of Δ in each coordinate.
-    Diagonal(Vector<S, T>),
-    /// By a product and a solve, with storage for Δ and c1.
-    General([Vector<S, T>; 2]),
-}
-
-impl<S: DegenerateLagrangian<T>, T: Real> Ahead<S, T> {
-    /// For c1 = `product` Δ and K⁻¹c = `scale` `inverse` c.
-    pub(super) fn new(system: &S, product: &Product<S, T>, inverse: &Inverse<S, T>, scale: T) -> Self {
-        let [mut delta, mut c]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
-        if !S::MATCHING {
-            return Self::General([delta, c]);
-        }
-        delta.fill(scale);
-        product.apply(system, &delta, &mut c);
-        let mut factors = delta;
-        inverse.solve(system, &c, &mut factors);
-        let reversal = factors.iter().all(|&factor| factor == T::lift(-1.0));
-        if reversal { Self::Reversal } else { Self::Diagonal(factors) }
+#[inline(always)]
+pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
+    for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(increment) {
+        *sum = q + delta;
     }
 }
 

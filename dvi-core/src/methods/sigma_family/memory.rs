@@ -5,15 +5,14 @@
 //! nonlinear α it extrapolates Δ.
 
 use super::Sigma;
-use super::leapfrog::Ahead;
 use super::monitor::{Monitor, Pace, ParasiticMode};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
 use crate::error::StartError;
 use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
+use crate::mechanics::pattern::of_second_derivatives;
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
-use crate::space::square::of_second_derivatives;
 use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::memory::{Memory, lasting};
@@ -74,6 +73,33 @@ impl<S: Lagrangian<T>, T: Real> Work<S, T> {
             sum: vector(),
             next: vector(),
         }
+    }
+}
+
+/// How the point ahead, q1 + K⁻¹c1, follows from q0 and q1.
+#[derive(Debug)]
+pub(super) enum Ahead<S: System, T: Real> {
+    /// It is q0.
+    Reversal,
+    /// K⁻¹c1 is a multiple of Δ in each coordinate.
+    Diagonal(Vector<S, T>),
+    /// By a product and a solve, with storage for Δ and c1.
+    General([Vector<S, T>; 2]),
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> Ahead<S, T> {
+    /// For c1 = `product` Δ and K⁻¹c = `scale` `inverse` c.
+    pub(super) fn new(system: &S, product: &Product<S, T>, inverse: &Inverse<S, T>, scale: T) -> Self {
+        let [mut delta, mut c]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
+        if !S::MATCHING {
+            return Self::General([delta, c]);
+        }
+        delta.fill(scale);
+        product.apply(system, &delta, &mut c);
+        let mut factors = delta;
+        inverse.solve(system, &c, &mut factors);
+        let reversal = factors.iter().all(|&factor| factor == T::lift(-1.0));
+        if reversal { Self::Reversal } else { Self::Diagonal(factors) }
     }
 }
 

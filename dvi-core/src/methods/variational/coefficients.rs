@@ -4,7 +4,6 @@
 //! D₂L_d is M(C q1 − K q0)/h, A = Σ w B², C = Σ w B̄², K = −Σ w B B̄. On the oscillator of frequency ω,
 //! ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
 
-use super::lagrangian::place;
 use super::{Fitting, Step};
 use crate::discrete::basis::{self, Bases, Basis};
 use crate::discrete::frequency::{self, FrequencyIn};
@@ -19,13 +18,23 @@ use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 const RESONANCE: f64 = 1e-4;
 
 /// The coefficients of all nodes of a step, which may differ from coordinate to coordinate.
-pub(super) trait Coefficients<T> {
+pub(super) trait Coefficients<T: Real> {
     /// The weight of a node.
     fn weight(&self, node: usize) -> T;
     /// b, b̄, B and B̄ of a node.
     fn basis(&self, node: usize, coordinate: usize) -> Basis<T>;
     /// The sums of the kinetic part.
     fn sums(&self, coordinate: usize) -> Sums<T>;
+
+    /// Sets `point` to qʲ and `velocity` to q̇ʲ of a node.
+    fn place<S: System>(&self, node: usize, h: T, ends: Ends<'_, T>, at: &mut NodeWork<S, T>) {
+        let (Ends { q0, delta }, per_h) = (ends, T::lift(1.0) / h);
+        for i in 0..q0.len() {
+            let Basis { b, b_bar, d, d_bar } = self.basis(node, i);
+            at.point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
+            at.velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
+        }
+    }
 }
 
 /// Coefficients that follow a frequency.
@@ -222,7 +231,7 @@ impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
         let per_h = T::lift(1.0) / step.h;
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
-            place(self, node, step.h, ends, work);
+            self.place(node, step.h, ends, work);
             let NodeWork { point, velocity, gradient, momentum } = &mut *work;
             let (t, Ends { q0, delta }) = (step.node_time(c), ends);
             step.system.gradient(point, velocity, t, gradient, momentum);

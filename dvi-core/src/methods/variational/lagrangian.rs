@@ -192,7 +192,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferen
     ) -> Result<(), StepFailure> {
         with_coefficients!(self, system, interval, |step, coefficients| {
             for (node, &c) in self.method.rule.nodes().iter().enumerate() {
-                place(coefficients, node, step.h, ends, &mut self.node);
+                coefficients.place(node, step.h, ends, &mut self.node);
                 let at = [step.node_time(c), step.h];
                 coefficients.add_second(node, [End::Left, End::Left], system, at, &mut self.node, d11);
                 coefficients.add_second(node, [End::Left, End::Right], system, at, &mut self.node, d12);
@@ -212,7 +212,7 @@ fn add_derivatives<S: RegularLagrangian<T>, F: Frequency, R: Rule, C: Adjustable
     statistics: &mut Statistics,
 ) {
     for (node, &c) in step.method.rule.nodes().iter().enumerate() {
-        place(coefficients, node, step.h, ends, work);
+        coefficients.place(node, step.h, ends, work);
         let NodeWork { point, velocity, gradient, momentum } = &mut *work;
         step.system.gradient(point, velocity, step.node_time(c), gradient, momentum);
         statistics.gradients += 1;
@@ -242,7 +242,7 @@ fn add_linearized<
     sink: &mut K,
 ) {
     for (node, &c) in step.method.rule.nodes().iter().enumerate() {
-        place(coefficients, node, step.h, ends, work);
+        coefficients.place(node, step.h, ends, work);
         let at = [step.node_time(c), step.h];
         coefficients.add_second(node, [End::Left, End::Right], step.system, at, work, sink);
         add_first(coefficients, node, step.h, work, d1);
@@ -261,21 +261,5 @@ fn add_first<S: RegularLagrangian<T>, C: Coefficients<T>, T: Real>(
     for (i, d1) in d1.iter_mut().enumerate() {
         let Basis { b, d, .. } = coefficients.basis(node, i);
         *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
-    }
-}
-
-/// Sets `point` to qʲ and `velocity` to q̇ʲ.
-pub(super) fn place<S: RegularLagrangian<T>, C: Coefficients<T>, T: Real>(
-    coefficients: &C,
-    node: usize,
-    h: T,
-    Ends { q0, delta }: Ends<'_, T>,
-    NodeWork { point, velocity, .. }: &mut NodeWork<S, T>,
-) {
-    let per_h = T::lift(1.0) / h;
-    for i in 0..q0.len() {
-        let Basis { b, b_bar, d, d_bar } = coefficients.basis(node, i);
-        point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
-        velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
     }
 }

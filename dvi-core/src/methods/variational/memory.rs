@@ -6,9 +6,9 @@ use crate::discrete::NodeWork;
 use crate::discrete::frequency::{Frequency, FrequencyIn, Local};
 use crate::discrete::quadrature::Rule;
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Inertial, PhasePoint};
 use crate::solve::{Ladder, Solver};
-use crate::space::square::of_second_derivatives;
 use crate::state::memory::{Memory, lasting};
 use crate::{Lagrangian, Linear, Real, RegularLagrangian, Space, System, Vector};
 

@@ -1,0 +1,75 @@
+//! Matrices and solvers with room for the second derivatives of a system.
+
+use crate::space::Storing;
+use crate::space::sink::Places;
+use crate::{Coupled, Lagrangian, Linear, Real, Space, Square, Vector, Weights};
+
+/// A solver for Newton's method, with room for all second derivatives of L. Where they stand does not depend on the point,
+/// but the formulas are evaluated, and are defined at (q, v, t).
+pub(crate) fn of_second_derivatives<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    v: &[T],
+    t: T,
+    storing: Storing,
+) -> Linear<S, T> {
+    let one = T::lift(1.0);
+    let weights = Weights { qq: one, qv: one, vq: one, vv: one };
+    system.space().linear(storing, |visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
+}
+
+/// A matrix with room for all entries.
+pub(crate) fn full<S: Lagrangian<T>, T: Real>(system: &S) -> Square<S, T> {
+    system.space().square(|visit| visit_all(system.space().dimension(), visit))
+}
+
+/// A solver for a matrix with all entries.
+pub(crate) fn linear_of_all<S: Lagrangian<T>, T: Real>(system: &S) -> Linear<S, T> {
+    system.space().linear(Storing::Always, |visit| visit_all(system.space().dimension(), visit))
+}
+
+fn visit_all(n: usize, visit: &mut dyn FnMut(usize, usize)) {
+    (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j)));
+}
+
+/// A matrix with room for those second derivatives at (q, v, t) that count.
+pub(crate) fn of_entries<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    t: T,
+    weights: Weights<T>,
+    counts: impl Fn(T) -> bool,
+) -> Square<S, T> {
+    system.space().square(|visit| visit_entries(system, [q, v], t, weights, counts, visit))
+}
+
+/// The same for several vectors at once.
+pub(crate) fn coupled_by_second_derivatives<const NODES: usize, S: Lagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    v: &[T],
+    t: T,
+    storing: Storing,
+) -> Coupled<NODES, S, T> {
+    let one = T::lift(1.0);
+    let weights = Weights { qq: one, qv: one, vq: one, vv: one };
+    system.space().coupled(storing, |visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
+}
+
+fn visit_entries<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    t: T,
+    weights: Weights<T>,
+    counts: impl Fn(T) -> bool,
+    visit: &mut dyn FnMut(usize, usize),
+) {
+    let space = system.space();
+    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [space.vector(), space.vector()];
+    let mut places = Places(|row: usize, column: usize, entry: T| {
+        if counts(entry) {
+            visit(row, column);
+        }
+    });
+    system.linearize(q, v, t, weights, &mut l_q, &mut l_v, &mut places);
+}
