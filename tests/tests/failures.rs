@@ -301,7 +301,12 @@ fn steps_from_rest_at_the_origin_succeed() -> Outcome {
     ) -> Outcome {
         let name = format!("{method:?}, h = {h}");
         let mut run = Integrator::new(system, method, h, start)?;
+        let energy = run.energy();
         run.take_steps(3).map_err(|error| format!("{name}: {error}"))?;
+        let moved = run.q().iter().fold(0.0, |m: f64, q| dvi_tests::larger(m, q.abs()));
+        let change = (run.energy() - energy).abs();
+        // Of the square of what has moved, which the kinetic energy is at least.
+        assert!(moved > h * h && change < 0.01 * moved * moved / (h * h), "{name}: {moved:e} {change:e}");
         Ok(())
     }
     for g in 1..=10 {

@@ -3,7 +3,7 @@
 use dvi_core::Varied;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use num_dual::{Dual64, HyperDual64};
+use num_dual::{Dual3_64, Dual64, HyperDual64};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -179,6 +179,23 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     run.take_steps(n)?;
     let error = run.q()[0].eps1eps2 - expected;
     assert!(error.abs() < 1e-8 * expected.abs(), "{} {expected}", run.q()[0].eps1eps2);
+
+    // Third derivatives, against differences of second ones.
+    let second = |a: f64| -> Result<f64, Box<dyn core::error::Error>> {
+        let start = WellState { x: real(0.0), dot_x: real(0.0) };
+        let system = Well { a: Varied(HyperDual64::new(a, 1.0, 1.0, 0.0)) };
+        let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
+        run.take_steps(n)?;
+        Ok(run.q()[0].eps1eps2)
+    };
+    let expected = (second(-2e-3)? - 8.0 * second(-1e-3)? + 8.0 * second(1e-3)? - second(2e-3)?) / 12e-3;
+    let real = |x: f64| Dual3_64::from_re(x);
+    let system = Well { a: Varied(Dual3_64::new(0.0, 1.0, 0.0, 0.0)) };
+    let start = WellState { x: real(0.0), dot_x: real(0.0) };
+    let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
+    run.take_steps(n)?;
+    let error = run.q()[0].v3 - expected;
+    assert!(error.abs() < 1e-8 * expected.abs(), "{} {expected}", run.q()[0].v3);
     Ok(())
 }
 

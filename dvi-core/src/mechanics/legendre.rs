@@ -15,9 +15,10 @@ use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
 #[derive(Debug)]
 pub(crate) struct Legendre<S: System, T: Real> {
     solver: Linear<S, T>,
-    residual: Vector<S, T>,
     /// By how much the velocity has changed in the last iteration.
     correction: Vector<S, T>,
+    /// By how much it is to change in the next.
+    next: Vector<S, T>,
     l_q: Vector<S, T>,
 }
 
@@ -30,8 +31,8 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         let space = system.space();
         Self {
             solver: of_second_derivatives(system, q, v, t, Storing::Always),
-            residual: space.vector(),
             correction: space.vector(),
+            next: space.vector(),
             l_q: space.vector(),
         }
     }
@@ -64,22 +65,33 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began; returns the size
     /// of its correction.
     fn improve(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<T, StepFailure> {
-        let Self { solver, residual, correction, l_q } = self;
+        let mut solved = self.solve_once(system, [q, v, p], t);
         for _ in 0..HALVINGS {
-            system.gradient(q, v, t, l_q, residual);
-            if norm::finite(residual).is_ok() {
+            if !matches!(solved, Err(StepFailure::NotFinite { .. })) {
                 break;
             }
-            for (v, correction) in v.iter_mut().zip(correction.iter_mut()) {
+            for (v, correction) in v.iter_mut().zip(self.correction.iter_mut()) {
                 *correction *= T::lift(0.5);
                 *v += *correction;
             }
+            solved = self.solve_once(system, [q, v, p], t);
         }
-        solver.solve(&mut Equations { system, points: [q, v, p], t, l_q }, correction)?;
-        for (v, &correction) in v.iter_mut().zip(correction.iter()) {
+        solved?;
+        core::mem::swap(&mut self.correction, &mut self.next);
+        for (v, &correction) in v.iter_mut().zip(self.correction.iter()) {
             *v -= correction;
         }
-        Ok(norm::largest(correction))
+        Ok(norm::largest(&self.correction))
+    }
+
+    /// Sets `next` to the correction of v at (q, v), p.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotFinite`] where L is not defined, [`StepFailure::Singular`] where the mass matrix is.
+    fn solve_once(&mut self, system: &S, points: [&[T]; 3], t: T) -> Result<(), StepFailure> {
+        let Self { solver, next, l_q, .. } = self;
+        solver.solve(&mut Equations { system, points, t, l_q }, next)?;
+        norm::finite(next)
     }
 }
 

@@ -38,8 +38,9 @@ impl<N: Number> Number for &N {
 ///
 /// A struct may be generic over the type of its parameters. Derivatives with respect to one then come from dual numbers,
 /// as they do for a coordinate. Whether a step has converged is decided by its values. Newton's method, which solves the steps
-/// of a run in dual numbers by default, therefore takes two iterations more, which brings derivatives of up to third order; a
-/// fixed point takes 64 more, which leave r⁶⁴ of an error of the derivatives at a rate of convergence r.
+/// of a run in dual numbers by default, therefore takes two iterations more, which brings derivatives of up to third order where its
+/// matrix is exact: where no frequency is read from the motion. A fixed point takes 64 more, which leave r⁶⁴ of an error of the
+/// derivatives at a rate of convergence r.
 ///
 ///
 /// ```

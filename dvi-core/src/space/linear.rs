@@ -39,8 +39,9 @@ pub trait LinearSolver<T: Real>: Debug {
     /// Sets `x` to the solution.
     ///
     /// # Errors
-    /// Those of the equations, [`StepFailure::NotFinite`] if b is not, [`StepFailure::Singular`] if A is singular,
-    /// [`StepFailure::NotConverged`] where products with vectors lead to no solution.
+    /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if b is no number
+    /// there; [`StepFailure::NotConverged`] where products with vectors lead to no solution. Of a regular A and a b that is no
+    /// number, the solution may be no number.
     fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure>;
 }
 
