@@ -1,12 +1,15 @@
-//! What methods need of a system: the vector field, the Legendre transform, matrices that are solved with, and whether they
-//! keep their orientation; and the phase point of a run on T*Q.
+//! The equations of motion, and what can be asked of a system [at one state](AtState); and what methods need beside them: the
+//! Legendre transform, matrices that are solved with, whether they keep their orientation, the phase point of a run on T*Q.
 
+mod at_state;
 pub(crate) mod combination;
 pub(crate) mod legendre;
 pub(crate) mod mass;
+pub mod motion;
 pub(crate) mod orientation;
 pub(crate) mod pattern;
 pub(crate) mod phase;
 mod vector_field;
 
+pub use at_state::{AtState, AtTime};
 pub use vector_field::VectorField;

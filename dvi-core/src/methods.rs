@@ -39,7 +39,8 @@ pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMem
 pub enum PreservedForm {
     /// None.
     Nothing,
-    /// Ω = −dα on Q, if α is affine.
+    /// The form of the equations of motion where it is constant: dq ∧ dp for a regular system; Ω = −dα on Q for a degenerate
+    /// one whose α is affine.
     OmegaIfAffine,
     /// The discrete two-form ∂²L_d/∂q0∂q1 dq0 ∧ dq1 on Q×Q (Rowley & Marsden 2002, eq. 17).
     Discrete,

@@ -6,6 +6,7 @@ pub use crate::diagnostics::{
 };
 pub use crate::discrete::{Constant, Curvature, PerCoordinate, Quadrature, Radial, Reading};
 pub use crate::error::{StartError, StepError, StepFailure};
+pub use crate::mechanics::AtState;
 pub use crate::methods::{
     Composition, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, ParasiticMode, RungeKutta, Scheme, Sigma,
     Start, Variational,

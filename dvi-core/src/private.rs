@@ -1,13 +1,8 @@
 //! What generated code calls. Not part of the interface.
 
-#[cfg(feature = "alloc")]
-pub use alloc::vec::Vec;
-
 pub use crate::Number;
 pub use crate::system::stand_in::StandIn;
 
-#[cfg(feature = "alloc")]
-use crate::Scalar;
 use crate::error::{IndexError, LengthError};
 
 /// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
@@ -63,12 +58,4 @@ pub fn read_array<T: Copy, const N: usize>(_len: usize, at: &mut usize, flat: &[
     let start = *at;
     *at += N;
     core::array::from_fn(|i| flat[start + i])
-}
-
-/// Reads a block whose length the run knows.
-#[cfg(feature = "alloc")]
-pub fn read_vec<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> Vec<T> {
-    let start = *at;
-    *at += len;
-    flat[start..*at].to_vec()
 }

@@ -5,8 +5,9 @@
 //! [`Fixed`] every length is a constant and all storage lives on the stack; with [`RunTime`] each
 //! array is allocated once, before the first step.
 //!
-//! A fixed space is `BLOCKS` blocks of `N` coordinates, because stable Rust can write
-//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; BLOCKS * N]`.
+//! A fixed space is `BLOCKS` blocks of `N` coordinates, `SINGLES` of which have one coordinate only. Stable Rust can write
+//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so that is the storage, and the
+//! entries beyond the dimension are never seen.
 
 pub(crate) mod elimination;
 pub(crate) mod inertia;
@@ -14,6 +15,10 @@ pub(crate) mod linear;
 pub mod sink;
 pub(crate) mod square;
 
+/// An array of coordinates whose length is known at run time only.
+#[cfg(feature = "alloc")]
+#[doc(no_inline)]
+pub use alloc::vec::Vec;
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
 
@@ -86,67 +91,90 @@ macro_rules! scratch {
 }
 pub(crate) use scratch;
 
-/// A space of `BLOCKS` × `N` coordinates, stored on the stack.
+/// A space on the stack, of `BLOCKS` blocks of `N` coordinates, of which `SINGLES` have one coordinate only:
+/// (`BLOCKS` − `SINGLES`) `N` + `SINGLES` coordinates. With `SINGLES` > 0, an `N` of zero does not compile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Fixed<const BLOCKS: usize, const N: usize>;
+pub struct Fixed<const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>;
+
+impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Fixed<BLOCKS, N, SINGLES> {
+    const DIMENSION: usize = {
+        assert!(SINGLES <= BLOCKS, "more single coordinates than blocks");
+        assert!(N > 0 || SINGLES == 0, "an array of coordinates beside single ones needs one entry at least");
+        (BLOCKS - SINGLES) * N + SINGLES
+    };
+}
 
 /// The vector of a [`Fixed`] space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FixedVector<T, const BLOCKS: usize, const N: usize>([[T; N]; BLOCKS]);
+pub struct FixedVector<T, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>([[T; N]; BLOCKS]);
 
 /// The matrix of a [`Fixed`] space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FixedMatrix<T, const BLOCKS: usize, const N: usize>([[[[T; N]; BLOCKS]; N]; BLOCKS]);
+pub struct FixedMatrix<T, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>(
+    [[[[T; N]; BLOCKS]; N]; BLOCKS],
+);
 
-impl<T, const BLOCKS: usize, const N: usize> Deref for FixedVector<T, BLOCKS, N> {
+impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
+    for FixedVector<T, BLOCKS, N, SINGLES>
+{
     type Target = [T];
     #[inline(always)]
     fn deref(&self) -> &[T] {
-        self.0.as_flattened()
+        &self.0.as_flattened()[..Fixed::<BLOCKS, N, SINGLES>::DIMENSION]
     }
 }
 
-impl<T, const BLOCKS: usize, const N: usize> DerefMut for FixedVector<T, BLOCKS, N> {
+impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> DerefMut
+    for FixedVector<T, BLOCKS, N, SINGLES>
+{
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
-        self.0.as_flattened_mut()
+        &mut self.0.as_flattened_mut()[..Fixed::<BLOCKS, N, SINGLES>::DIMENSION]
     }
 }
 
-impl<T, const BLOCKS: usize, const N: usize> Deref for FixedMatrix<T, BLOCKS, N> {
+impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
+    for FixedMatrix<T, BLOCKS, N, SINGLES>
+{
     type Target = [T];
     #[inline(always)]
     fn deref(&self) -> &[T] {
-        self.0.as_flattened().as_flattened().as_flattened()
+        let dimension = Fixed::<BLOCKS, N, SINGLES>::DIMENSION;
+        &self.0.as_flattened().as_flattened().as_flattened()[..dimension * dimension]
     }
 }
 
-impl<T, const BLOCKS: usize, const N: usize> DerefMut for FixedMatrix<T, BLOCKS, N> {
+impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> DerefMut
+    for FixedMatrix<T, BLOCKS, N, SINGLES>
+{
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
-        self.0.as_flattened_mut().as_flattened_mut().as_flattened_mut()
+        let dimension = Fixed::<BLOCKS, N, SINGLES>::DIMENSION;
+        &mut self.0.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..dimension * dimension]
     }
 }
 
-impl<T: Scalar, const BLOCKS: usize, const N: usize> Sink<T> for FixedMatrix<T, BLOCKS, N> {
+impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize> Sink<T>
+    for FixedMatrix<T, BLOCKS, N, SINGLES>
+{
     #[inline(always)]
     fn add(&mut self, row: usize, column: usize, entry: T) {
-        self[row * (BLOCKS * N) + column] += entry;
+        self[row * Fixed::<BLOCKS, N, SINGLES>::DIMENSION + column] += entry;
     }
 }
 
-impl<const BLOCKS: usize, const N: usize> Space for Fixed<BLOCKS, N> {
+impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<BLOCKS, N, SINGLES> {
     const ON_STACK: bool = true;
-    type Vector<T: Scalar> = FixedVector<T, BLOCKS, N>;
-    type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N>;
-    type Square<T: Real> = FixedSquare<T, BLOCKS, N>;
-    type Linear<T: Real> = FixedSquare<T, BLOCKS, N>;
-    type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N>;
-    type Permutation = FixedVector<usize, BLOCKS, N>;
+    type Vector<T: Scalar> = FixedVector<T, BLOCKS, N, SINGLES>;
+    type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N, SINGLES>;
+    type Square<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES>;
+    type Linear<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES>;
+    type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N, SINGLES>;
+    type Permutation = FixedVector<usize, BLOCKS, N, SINGLES>;
 
     #[inline(always)]
     fn dimension(self) -> usize {
-        BLOCKS * N
+        Self::DIMENSION
     }
     #[inline(always)]
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
@@ -218,6 +246,17 @@ impl<T: Scalar> Sink<T> for RunTimeMatrix<T> {
     #[inline(always)]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.entries[row * self.dimension + column] += entry;
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl RunTime {
+    /// Reads a block of a state whose length the run knows; generated code does.
+    #[doc(hidden)]
+    pub fn read_block<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> Vec<T> {
+        let start = *at;
+        *at += len;
+        flat[start..*at].to_vec()
     }
 }
 

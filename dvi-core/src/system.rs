@@ -11,6 +11,7 @@
 //! order of the declared coordinates, unless a function says that one may be empty; the integrators of
 //! this crate pass no others.
 
+mod names;
 mod report;
 pub(crate) mod stand_in;
 pub(crate) mod start;
@@ -21,6 +22,7 @@ use crate::error::{IndexError, LengthError};
 use crate::space::sink::Sink;
 use crate::{Scalar, Space};
 
+pub use names::Name;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 
 /// A point, velocity or covector of the space of `S`.
@@ -75,8 +77,10 @@ pub trait System {
     type State<T: Scalar>: State<T> + Clone + Debug;
     /// What the compiler saw: formulas, structure, operation counts, sparsity.
     const REPORT: Report;
+    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`].
+    type Kind: Kind;
     /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
-    const REGULAR: bool;
+    const REGULAR: bool = <Self::Kind as Kind>::REGULAR;
 
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
@@ -87,6 +91,52 @@ pub trait System {
     /// # Errors
     /// [`IndexError`] names the first array that is too short, and the index.
     fn check(&self) -> Result<(), IndexError>;
+
+    /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …: coordinates in the order of declaration, then
+    /// the velocities of a regular system.
+    fn names(&self) -> impl Iterator<Item = Name>
+    where
+        Self: Sized,
+    {
+        names::names(self)
+    }
+
+    /// The entries of a state, in the order of [`names`](Self::names).
+    ///
+    /// # Errors
+    /// [`LengthError`] if an array of the state does not have the length that the system declares.
+    fn values<T: Scalar>(&self, state: &Self::State<T>) -> Result<impl Iterator<Item = T>, LengthError> {
+        let space = self.space();
+        let (mut q, mut v) = (space.vector(), space.vector());
+        state.write(|block| self.block_len(block), &mut q, &mut v)?;
+        let velocities = if Self::REGULAR { space.dimension() } else { 0 };
+        let [coordinates, velocities] = [(q, space.dimension()), (v, velocities)]
+            .map(|(vector, count)| (0..count).map(move |i| vector[i]));
+        Ok(coordinates.chain(velocities))
+    }
+}
+
+/// What decides which equations of motion a system has: [`Degenerate`] or [`Regular`].
+pub trait Kind: Debug {
+    /// Whether the mass matrix is regular.
+    const REGULAR: bool;
+}
+
+/// The kind of L = α(q, t)·v − H(q, t): the equations of motion are of first order on Q.
+#[derive(Clone, Copy, Debug)]
+pub enum Degenerate {}
+
+/// The kind of L(q, v, t) with a regular mass matrix: the equations of motion are of second order, or of first order on
+/// T*Q.
+#[derive(Clone, Copy, Debug)]
+pub enum Regular {}
+
+impl Kind for Degenerate {
+    const REGULAR: bool = false;
+}
+
+impl Kind for Regular {
+    const REGULAR: bool = true;
 }
 
 /// The Lagrangian L(q, v, t) of a system, in numbers of type `T`.
@@ -131,9 +181,9 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
-    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin` or `Newmark`"
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
 )]
-pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
+pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degenerate> {
     /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
     const AFFINE: bool;
     /// Whether Dα couples each coordinate to exactly one other, its conjugate, and to nothing else; then
@@ -169,9 +219,9 @@ pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
-    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `RungeKutta` or `Gauss`"
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `Gauss` or `RungeKutta`"
 )]
-pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> {
+pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regular> {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no
     /// term is linear in v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
     /// Störmer and Verlet (Marsden & West 2001, section 2.6).
@@ -184,6 +234,8 @@ pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> {
     /// Sets `out` to ∂L/∂q alone. Where [`SEPARABLE`](Self::SEPARABLE) holds, this is −∇V(q, t): `v` is
     /// not read, and may be empty.
     fn force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
+    /// Sets `out` to ∂²L/∂t∂v: the rate at which p = ∂L/∂v changes where q and v do not.
+    fn momentum_rate(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
 }
 
 /// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where

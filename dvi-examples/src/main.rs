@@ -10,7 +10,6 @@ mod experiments;
 mod figure;
 mod gallery;
 mod job;
-mod models;
 mod options;
 mod output;
 mod progress;
@@ -24,6 +23,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use anyhow::{Context as _, Result};
 use clap::Parser as _;
 use console::Term;
+
+use dvi_examples::models;
 
 use crate::gallery::{Ended, Experiment};
 use crate::job::Length;

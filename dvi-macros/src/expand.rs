@@ -17,6 +17,7 @@ use crate::syntax::{Attribute, Kind, depth, parse_attribute};
 use crate::validate::{self, Checked, Difference};
 
 mod formulas;
+mod numbers;
 mod stand_in;
 
 use stand_in::stand_in;
@@ -87,6 +88,16 @@ impl Stages {
 /// The stages that both attributes share, and the `ending` of one of them: what it makes of the model, or
 /// `None` if a mistake was found.
 fn expand(
+    kind: Kind,
+    attribute: TokenStream,
+    item: TokenStream,
+    ending: impl FnOnce(&mut Stages) -> Option<TokenStream>,
+) -> TokenStream {
+    let number = numbers::name([&attribute, &item]);
+    numbers::named(expanded(kind, attribute, item, ending), number)
+}
+
+fn expanded(
     kind: Kind,
     attribute: TokenStream,
     item: TokenStream,

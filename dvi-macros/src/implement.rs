@@ -14,7 +14,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
-use syn::{Generics, parse_quote};
+use syn::{Generics, Path, parse_quote};
 
 use crate::emit::{Emitter, local, output_block, own_function};
 use crate::program::{Output, Programs};
@@ -203,6 +203,11 @@ fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStr
     }
 }
 
+/// The type that says what kind of Lagrangian it is.
+pub(crate) fn kind(krate: &Path, regular: bool) -> TokenStream {
+    if regular { quote!(#krate::system::Regular) } else { quote!(#krate::system::Degenerate) }
+}
+
 /// The implementation of `System`.
 fn configuration(
     emitter: &Emitter<'_>,
@@ -217,15 +222,15 @@ fn configuration(
     let lengths =
         (0..emitter.model.blocks.len()).map(|block| emitter.index(&emitter.model.block_size(block)));
     let blocks = 0..emitter.model.blocks.len();
-    let (check, regular) = (check::check(emitter, programs), emitter.model.has_velocities());
+    let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.has_velocities()));
     quote! {
         #[automatically_derived]
         #allow
         impl #impl_generics #krate::System for #name #type_generics #where_clause {
             type Space = #space;
+            type Kind = #kind;
             type State<__T: #krate::Scalar> = #type_in_trait;
             const REPORT: #krate::Report = #report;
-            const REGULAR: bool = #regular;
 
             #[inline(always)]
             fn space(&self) -> Self::Space { #space_value }

@@ -100,6 +100,16 @@ fn first_derivatives(graph: &mut Graph, of: Expr, position: Output, velocity: Ou
     contributions.into_iter().map(statement).collect()
 }
 
+/// ∂/∂t of each statement that depends on t.
+fn rates(graph: &mut Graph, statements: &[Statement]) -> Vec<Statement> {
+    let time = graph.intern(Node::Time);
+    let rate = |statement: &Statement| {
+        let value = graph.derivative(statement.value, time);
+        (!value.is_zero()).then(|| Statement { value, ..statement.clone() })
+    };
+    statements.iter().filter_map(rate).collect()
+}
+
 /// `value` on (row, column) and, with the other weight, on (column, row).
 fn mirrored_pair(
     graph: &mut Graph,

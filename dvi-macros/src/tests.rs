@@ -33,7 +33,7 @@ fn check_expansion(expansion: TokenStream, name: &str, expected: &Expect) {
     let (ident, block) = (&found.sig.ident, &found.block);
     let file = syn::parse2(quote!(fn #ident() #block)).expect("a function");
     expected
-        .assert_eq(&prettyplease::unparse(&file).replace("::dvi_core::", "").replace("<__T as Scalar>", "T"));
+        .assert_eq(&prettyplease::unparse(&file).replace("::dvi_core::", "").replace("<T as Scalar>", "T"));
 }
 
 #[test]

@@ -10,24 +10,27 @@ pub fn larger(a: f64, b: f64) -> f64 {
 
 /// The vortex configurations of the literature.
 pub mod configurations {
+    use dvi_examples::models::{self, Case};
+
     use crate::systems::{PointVortices, PointVorticesState};
+
+    fn pair(Case { vortices, start }: Case) -> (PointVortices<4>, PointVorticesState<4>) {
+        (vortices, start)
+    }
 
     /// Two leapfrogging pairs.
     pub fn leapfrogging() -> (PointVortices<4>, PointVorticesState<4>) {
-        let state = PointVorticesState { x: [-1.0, 1.0, -1.0, 1.0], y: [2.0, 2.0, -2.0, -2.0] };
-        (PointVortices { gamma: [1.0, 1.0, -1.0, -1.0] }, state)
+        pair(models::leapfrogging())
     }
 
     /// Four equal vortices, quasi-periodic.
     pub fn quasi_periodic() -> (PointVortices<4>, PointVorticesState<4>) {
-        let state = PointVorticesState { x: [1.0, 0.866, -0.85, -0.5], y: [1.0, 0.45, -1.363_636, -0.15] };
-        (PointVortices { gamma: [1.0; 4] }, state)
+        pair(models::quasi_periodic())
     }
 
     /// Four equal vortices, chaotic.
     pub fn chaotic() -> (PointVortices<4>, PointVorticesState<4>) {
-        let state = PointVorticesState { x: [-1.85, -0.07, 0.78, 0.76], y: [0.05, -1.332, 0.167, -1.2902] };
-        (PointVortices { gamma: [1.0; 4] }, state)
+        pair(models::chaotic())
     }
 }
 

@@ -2,23 +2,7 @@
 
 use dvi_core::degenerate_lagrangian;
 
-/// N point vortices in the plane (Rowley & Marsden 2002, section 3.1).
-#[degenerate_lagrangian(
-    coordinates(x[N], y[N]),
-    one_form    = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
-                      * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-    momenta(
-        impulse_x = sum(0..N, |j| gamma[j] * x[j]),
-        impulse_y = sum(0..N, |j| gamma[j] * y[j]),
-        angular   = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))) / 2.0,
-    ),
-)]
-#[derive(Clone, Debug)]
-pub struct PointVortices<const N: usize> {
-    /// Circulations.
-    pub gamma: [f64; N],
-}
+pub use dvi_examples::models::{PointVortices, PointVorticesState};
 
 /// Point vortices whose number is known at run time only.
 #[degenerate_lagrangian(

@@ -110,6 +110,8 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged)),
         Newmark::new(0.25),
         Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },
+        Gauss::<2>::new(),
+        RungeKutta::classical(),
     );
 
     // By products with vectors.

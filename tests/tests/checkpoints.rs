@@ -7,7 +7,7 @@ use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
 use dvi_tests::configurations::{leapfrogging, quasi_periodic};
 use dvi_tests::systems::*;
-use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
+use dvi_tests::zoo::regular::{self, Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -112,6 +112,12 @@ fn regular_runs_go_on() -> Outcome {
     check(&KEPLER, dvi_core::methods::Composition::kahan_li_6(Variational::trapezoid()), planet)?;
     check(&Polar, Variational::midpoint(), particle)?;
     check(&Polar, Galerkin::<3>::new(), particle)?;
+    check(&KEPLER, Gauss::<2>::new(), planet)?;
+    check(&KEPLER, RungeKutta::classical(), planet)?;
+    check(&Polar, Gauss::<2>::new(), PolarState { dot_phi: 1.9, ..particle })?;
+    check(&Polar, RungeKutta::classical(), particle)?;
+    let fast = regular::RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
+    check(&regular::Relativistic { m: 1.5 }, Gauss::<3>::new(), fast)?;
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
     let wave =
         RunTimeChainState { q: vec![0.1, 0.5, -0.2], wall: 0.3, dot_q: vec![0.3, 0.1, -0.4], dot_wall: 0.2 };

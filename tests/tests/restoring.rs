@@ -78,6 +78,9 @@ fn regular_runs_go_on_from_a_copy() -> Outcome {
     check(&KEPLER, Variational::simpson(), &q, &v)?;
     check(&Polar, Variational::midpoint(), &q, &v)?;
     check(&Polar, Galerkin::<3>::new(), &q, &v)?;
+    check(&KEPLER, Gauss::<2>::new(), &q, &v)?;
+    check(&Polar, Gauss::<2>::new(), &q, &[0.1, 1.9])?;
+    check(&Polar, RungeKutta::midpoint(), &q, &v)?;
     let summation = Summation::Compensated;
     check(&KEPLER, Newmark { summation, ..Newmark::new(0.25) }, &q, &v)?;
     check(&KEPLER, Variational { summation, ..Variational::trapezoid() }, &q, &v)?;

@@ -9,7 +9,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
-use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
+use crate::{Lagrangian, Linear, Real, RegularLagrangian, Space, System, Vector, Weights};
 
 /// Storage for the transform.
 #[derive(Debug)]
@@ -60,6 +60,28 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         let convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
         iterate(convergence, &mut Statistics::default(), |_| self.improve(system, q, p, t, v))?;
         norm::finite(v)
+    }
+
+    /// Improves the guess `v` until ∂L/∂v = `p`, and begins again from rest where that does not lead to a velocity:
+    /// extrapolated, it may be beyond what L is defined for.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    pub(crate) fn solve_near(
+        &mut self,
+        system: &S,
+        q: &[T],
+        p: &[T],
+        t: T,
+        v: &mut [T],
+    ) -> Result<(), StepFailure>
+    where
+        S: RegularLagrangian<T>,
+    {
+        self.solve(system, q, p, t, v, S::QUADRATIC).or_else(|_| {
+            v.fill(T::lift(0.0));
+            self.solve(system, q, p, t, v, S::QUADRATIC)
+        })
     }
 
     /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began; returns the size

@@ -231,12 +231,7 @@ impl<S: RegularLagrangian<T>, T: Real> Inertial<S, T> {
             }
             Self::Varying(_) => {
                 phase.history.extrapolate(v);
-                let mut legendre = Legendre::new(system, q, v, t);
-                legendre.solve(system, q, &phase.p, t, v, S::QUADRATIC).or_else(|_| {
-                    // Extrapolated, it may be beyond what L is defined for.
-                    v.fill(T::lift(0.0));
-                    legendre.solve(system, q, &phase.p, t, v, S::QUADRATIC)
-                })
+                Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v)
             }
         }
     }

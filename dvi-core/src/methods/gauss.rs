@@ -1,22 +1,24 @@
-//! Gauss collocation on q' = X(q, t).
+//! Gauss collocation on the equations of motion y' = X(y, t).
 //!
-//! Kᵢ = X(q + h Σⱼ aᵢⱼ Kⱼ, t + cᵢh),   q⁺ = q + h Σᵢ bᵢ Kᵢ,   c the zeros of the shifted Legendre polynomial
+//! Kᵢ = X(y + h Σⱼ aᵢⱼ Kⱼ, t + cᵢh),   y⁺ = y + h Σᵢ bᵢ Kᵢ,   c the zeros of the shifted Legendre polynomial
 //! (Butcher 1964; Hairer, Lubich & Wanner 2006, section II.1.3). The stages are iterated as a fixed point
 //! down to rounding errors, from the collocation polynomial of the last step, continued.
 
+use core::fmt;
+
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::VectorField;
-use crate::mechanics::orientation::FormOrientation;
+use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
+use crate::{Lagrangian, Real, Scalar, System, Vector};
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 3, of order 2`S`; `S` = 1 is the implicit midpoint rule.
 ///
-/// Symmetric; preserves Ω if α is affine, and then all quadratic momenta. The fixed point contracts for
+/// On q' = X(q) of a degenerate system it is symmetric and preserves Ω if α is affine, and then all quadratic momenta; on
+/// Hamilton's equations of a regular one it is symmetric and preserves dq ∧ dp, and all momenta that are bilinear in q and p. The fixed point contracts for
 /// h small against the fastest time scale only: [`StepFailure::NotConverged`] where it does not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gauss<const S: usize> {
@@ -92,21 +94,27 @@ impl<const S: usize> Tableau<S> {
 }
 
 /// The stages of a Gauss step, and those of the step before.
-#[derive(Debug)]
-pub struct GaussMemory<const STAGES: usize, S: System, T: Real> {
-    field: VectorField<S, T>,
+pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    equations: EquationsOf<S, T>,
     tableau: Tableau<STAGES>,
     continuation: [[f64; STAGES]; STAGES],
     /// Of the last completed step.
-    completed: [Vector<S, T>; STAGES],
-    slopes: [Vector<S, T>; STAGES],
-    updated: [Vector<S, T>; STAGES],
-    point: Vector<S, T>,
-    orientation: FormOrientation<S, T>,
+    completed: [PointOf<S, T>; STAGES],
+    slopes: [PointOf<S, T>; STAGES],
+    updated: [PointOf<S, T>; STAGES],
+    /// Where the step begins, and where a stage is.
+    y: PointOf<S, T>,
+    stage: PointOf<S, T>,
 }
 
-impl<const STAGES: usize, S: System, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
-    lasting!(T; vectors completed, part orientation);
+impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
+    lasting!(T; part equations, parts completed);
+}
+
+impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for GaussMemory<STAGES, S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("GaussMemory").field("completed", &self.completed).finish_non_exhaustive()
+    }
 }
 
 impl<const S: usize> Scheme for Gauss<S> {
@@ -121,28 +129,32 @@ impl<const S: usize> Scheme for Gauss<S> {
     }
 }
 
-impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for Gauss<STAGES> {
+impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Carries<S, T> for Gauss<STAGES> {
     type Memory = GaussMemory<STAGES, S, T>;
 }
 
-impl<const STAGES: usize, S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Gauss<STAGES> {
-    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T>
+    for Gauss<STAGES>
+{
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
-        let (vectors, tableau) = (|| core::array::from_fn(|_| system.space().vector()), Tableau::new());
-        let mut completed: [Vector<S, T>; STAGES] = vectors();
+        let mut equations = S::Kind::begin(system, q, v, t)?;
+        let (points, tableau) = (|| core::array::from_fn(|_| S::Kind::point(system)), Tableau::new());
+        let (mut y, mut completed): (_, [PointOf<S, T>; STAGES]) = (S::Kind::point(system), points());
+        S::Kind::gather(&mut equations, q, &mut y);
         for slope in &mut completed {
-            field.evaluate(system, q, t, slope, &mut Statistics::default()).map_err(StartError::Starter)?;
+            S::Kind::evaluate(&mut equations, system, &y, t, slope, &mut Statistics::default())
+                .map_err(StartError::Starter)?;
         }
         Ok(GaussMemory {
-            field,
+            equations,
             tableau,
             continuation: tableau.continuation(),
             completed,
-            slopes: vectors(),
-            updated: vectors(),
-            point: system.space().vector(),
-            orientation: FormOrientation::new(system, q, t),
+            slopes: points(),
+            updated: points(),
+            y,
+            stage: S::Kind::point(system),
         })
     }
 
@@ -156,75 +168,88 @@ impl<const STAGES: usize, S: DegenerateLagrangian<T>, T: Real> Method<S, T> for 
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        memory.guess(q);
-        let size = memory.slopes.iter().fold(T::lift(0.0), |m, slope| m.max(norm::largest(slope)));
-        let h_size = Scalar::abs(h);
-        let scale = norm::largest(q) + h_size * size;
+        S::Kind::gather(&mut memory.equations, q, &mut memory.y);
+        memory.guess();
+        let speed = memory.slopes.iter().fold(T::lift(0.0), |m: T, slope| m.max(norm::largest(&slope[0])));
+        let scale = norm::largest(q) + Scalar::abs(h) * speed;
         let convergence = Convergence::fixed_point(self.stopping, scale, q, self.stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| {
-            Ok(h_size * memory.iterate(system, q, t, h, statistics)?)
-        })?;
-        let GaussMemory { tableau, slopes, completed, point, orientation, .. } = memory;
-        combine(q, h, &tableau.b, slopes, point);
-        norm::finite(point)?;
-        orientation.check(system, point, t + h)?;
-        q.copy_from_slice(point);
+        iterate(convergence, statistics, |statistics| memory.iterate(system, t, h, statistics))?;
+        let GaussMemory { equations, tableau, slopes, completed, y, stage, .. } = memory;
+        combine::<STAGES, S, T>(y, h, &tableau.b, slopes, stage);
+        S::Kind::arrive(equations, system, stage, q, t + h)?;
         for (completed, slope) in completed.iter_mut().zip(slopes.iter()) {
-            completed.copy_from_slice(slope);
+            completed.restore(slope);
         }
         Ok(())
     }
+
+    fn velocity(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        S::Kind::velocity(&memory.equations, system, q, t, v)
+    }
 }
 
-impl<const STAGES: usize, S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Gauss<STAGES> {}
+impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T>
+    for Gauss<STAGES>
+{
+}
 
-impl<const STAGES: usize, S: DegenerateLagrangian<T>, T: Real> GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
     /// Continues the polynomial through the completed stages into the next step.
     #[inline]
-    fn guess(&mut self, q: &[T]) {
+    fn guess(&mut self) {
         for (row, slope) in self.continuation.iter().zip(&mut self.slopes) {
-            for n in 0..q.len() {
-                let terms = row.iter().zip(&self.completed).map(|(&l, k)| T::lift(l) * k[n]);
-                slope[n] = terms.fold(T::lift(0.0), |sum, term| sum + term);
+            for (part, slope) in slope.iter_mut().enumerate() {
+                for (n, slope) in slope.iter_mut().enumerate() {
+                    let terms = row.iter().zip(&self.completed).map(|(&l, k)| T::lift(l) * k[part][n]);
+                    *slope = terms.fold(T::lift(0.0), |sum, term| sum + term);
+                }
             }
         }
     }
 
-    /// Evaluates all stages once and returns the largest change of a slope.
+    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity: the
+    /// momenta follow from the velocities.
     #[inline]
-    fn iterate(
-        &mut self,
-        system: &S,
-        q: &Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
-        let Self { field, tableau, slopes, updated, point, .. } = self;
-        let mut correction = T::lift(0.0);
-        for i in 0..STAGES {
-            combine(q, h, &tableau.a[i], slopes, point);
-            let stage_time = t + T::lift(tableau.c[i]) * h;
-            field.evaluate(system, point, stage_time, &mut updated[i], statistics)?;
-            correction = correction.max(norm::distance(&updated[i], &slopes[i]));
+    fn iterate(&mut self, system: &S, t: T, h: T, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { equations, tableau, slopes, updated, y, stage, .. } = self;
+        for part in (0..y.len()).rev() {
+            for i in 0..STAGES {
+                combine::<STAGES, S, T>(y, h, &tableau.a[i], slopes, stage);
+                let time = t + T::lift(tableau.c[i]) * h;
+                let (from, to) = (&slopes[i], &mut updated[i][part]);
+                S::Kind::evaluate_part(equations, system, part, stage, time, from, to, statistics)?;
+            }
+            for (slope, updated) in slopes.iter_mut().zip(updated.iter_mut()) {
+                core::mem::swap(&mut slope[part], &mut updated[part]);
+            }
         }
-        core::mem::swap(slopes, updated);
-        Ok(correction)
+        let changes =
+            slopes.iter().zip(updated.iter()).map(|(now, before)| norm::distance(&now[0], &before[0]));
+        Ok(Scalar::abs(h) * changes.fold(T::lift(0.0), |m: T, change| m.max(change)))
     }
 }
 
-/// Sets `out` to q + h Σ wⱼ kⱼ.
+/// Sets `out` to y + h Σ wⱼ kⱼ.
 #[inline(always)]
-fn combine<const S: usize, T: Real, V: core::ops::Deref<Target = [T]> + core::ops::DerefMut>(
-    q: &V,
+fn combine<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real>(
+    y: &PointOf<S, T>,
     h: T,
-    weights: &[f64; S],
-    slopes: &[V; S],
-    out: &mut V,
+    weights: &[f64; STAGES],
+    slopes: &[PointOf<S, T>; STAGES],
+    out: &mut PointOf<S, T>,
 ) {
-    let factors: [T; S] = weights.map(|weight| h * T::lift(weight));
-    for (n, (out, &q)) in out.iter_mut().zip(q.iter()).enumerate() {
-        *out = factors.iter().zip(slopes).fold(q, |sum, (&factor, k)| sum + factor * k[n]);
+    let factors: [T; STAGES] = weights.map(|weight| h * T::lift(weight));
+    for (part, (out, y)) in out.iter_mut().zip(y.iter()).enumerate() {
+        for (n, (out, &y)) in out.iter_mut().zip(y.iter()).enumerate() {
+            *out = factors.iter().zip(slopes).fold(y, |sum, (&factor, k)| sum + factor * k[part][n]);
+        }
     }
 }
 

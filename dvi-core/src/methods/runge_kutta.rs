@@ -1,15 +1,15 @@
-//! Explicit Runge–Kutta methods on q' = X(q, t): the baselines.
+//! Explicit Runge–Kutta methods on the equations of motion y' = X(y, t): the baselines.
 //!
-//! kᵢ = X(q + h Σⱼ aᵢⱼ kⱼ, t + cᵢh),   q⁺ = q + h Σᵢ bᵢ kᵢ
+//! kᵢ = X(y + h Σⱼ aᵢⱼ kⱼ, t + cᵢh),   y⁺ = y + h Σᵢ bᵢ kᵢ
+
+use core::fmt;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::VectorField;
-use crate::mechanics::orientation::FormOrientation;
+use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
-use crate::scalar::norm;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{DegenerateLagrangian, Real, Space, System, Vector};
+use crate::{Lagrangian, Real, System, Vector};
 
 const STAGES: usize = 4;
 
@@ -60,7 +60,8 @@ static CLASSICAL: Tableau = Tableau {
     c:  [0.0, 0.5, 0.5, 1.0],
 };
 
-/// An explicit Runge–Kutta method on q' = X(q): kᵢ = X(q + h Σⱼ aᵢⱼ kⱼ), q⁺ = q + h Σᵢ bᵢ kᵢ.
+/// An explicit Runge–Kutta method on the equations of motion y' = X(y): kᵢ = X(y + h Σⱼ aᵢⱼ kⱼ), y⁺ = y + h Σᵢ bᵢ kᵢ,
+/// with y = q for a degenerate system and y = (q, p) for a regular one.
 ///
 /// Neither symmetric nor symplectic: energy and, on nonlinear systems, all momenta but the linear ones
 /// drift.
@@ -70,12 +71,12 @@ pub struct RungeKutta {
 }
 
 impl RungeKutta {
-    /// Order 2: q⁺ = q + h X(q + ½h X(q)) (Runge 1895).
+    /// Order 2: y⁺ = y + h X(y + ½h X(y)) (Runge 1895).
     pub fn midpoint() -> Self {
         Self { tableau: &MIDPOINT }
     }
 
-    /// Order 2: q⁺ = q + ½h (k₁ + X(q + h k₁)) (Heun 1900).
+    /// Order 2: y⁺ = y + ½h (k₁ + X(y + h k₁)) (Heun 1900).
     pub fn heun() -> Self {
         Self { tableau: &HEUN }
     }
@@ -92,16 +93,22 @@ impl RungeKutta {
 }
 
 /// The stages of a Runge–Kutta step.
-#[derive(Debug)]
-pub struct RungeKuttaMemory<S: System, T: Real> {
-    field: VectorField<S, T>,
-    slopes: [Vector<S, T>; STAGES],
-    point: Vector<S, T>,
-    orientation: FormOrientation<S, T>,
+pub struct RungeKuttaMemory<S: System<Kind: Motion<S, T>>, T: Real> {
+    equations: EquationsOf<S, T>,
+    slopes: [PointOf<S, T>; STAGES],
+    /// Where the step begins, and where a stage is.
+    y: PointOf<S, T>,
+    stage: PointOf<S, T>,
 }
 
-impl<S: System, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
-    lasting!(T; part orientation);
+impl<S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
+    lasting!(T; part equations);
+}
+
+impl<S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for RungeKuttaMemory<S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RungeKuttaMemory").field("slopes", &self.slopes).finish_non_exhaustive()
+    }
 }
 
 impl Scheme for RungeKutta {
@@ -116,17 +123,17 @@ impl Scheme for RungeKutta {
     }
 }
 
-impl<S: System, T: Real> Carries<S, T> for RungeKutta {
+impl<S: System<Kind: Motion<S, T>>, T: Real> Carries<S, T> for RungeKutta {
     type Memory = RungeKuttaMemory<S, T>;
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for RungeKutta {
-    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> for RungeKutta {
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         Ok(RungeKuttaMemory {
-            field: VectorField::new(system, q, t).map_err(StartError::Starter)?,
-            slopes: core::array::from_fn(|_| system.space().vector()),
-            point: system.space().vector(),
-            orientation: FormOrientation::new(system, q, t),
+            equations: S::Kind::begin(system, q, v, t)?,
+            slopes: core::array::from_fn(|_| S::Kind::point(system)),
+            y: S::Kind::point(system),
+            stage: S::Kind::point(system),
         })
     }
 
@@ -141,39 +148,51 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for RungeKutta {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Tableau { stages, a, b, c, .. } = self.tableau;
-        let RungeKuttaMemory { field, slopes, point, orientation } = memory;
+        let RungeKuttaMemory { equations, slopes, y, stage } = memory;
+        S::Kind::gather(equations, q, y);
         for i in 0..(*stages).min(STAGES) {
-            combine(q, h, &a[i], &slopes[..i], point);
+            combine::<S, T>(y, h, &a[i], &slopes[..i], stage);
+            let time = t + T::lift(c[i]) * h;
             if i > 0 {
-                orientation.compare(system, point, t + T::lift(c[i]) * h)?;
+                S::Kind::compare(equations, system, stage, time)?;
             }
-            field.evaluate(system, point, t + T::lift(c[i]) * h, &mut slopes[i], statistics)?;
+            S::Kind::evaluate(equations, system, stage, time, &mut slopes[i], statistics)?;
         }
-        combine(q, h, b, &slopes[..*stages], point);
-        norm::finite(point)?;
-        orientation.check(system, point, t + h)?;
-        q.copy_from_slice(point);
-        Ok(())
+        combine::<S, T>(y, h, b, &slopes[..*stages], stage);
+        S::Kind::arrive(equations, system, stage, q, t + h)
+    }
+
+    fn velocity(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        S::Kind::velocity(&memory.equations, system, q, t, v)
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for RungeKutta {}
+impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T> for RungeKutta {}
 
-/// Sets `out` to q + h Σ wⱼ kⱼ.
+/// Sets `out` to y + h Σ wⱼ kⱼ.
 #[inline(always)]
-fn combine<T: Real, V: core::ops::Deref<Target = [T]> + core::ops::DerefMut>(
-    q: &V,
+fn combine<S: System<Kind: Motion<S, T>>, T: Real>(
+    y: &PointOf<S, T>,
     h: T,
     weights: &[f64; STAGES],
-    slopes: &[V],
-    out: &mut V,
+    slopes: &[PointOf<S, T>],
+    out: &mut PointOf<S, T>,
 ) {
-    out.copy_from_slice(q);
-    for (&weight, slope) in weights.iter().zip(slopes) {
-        if weight != 0.0 {
-            let factor = h * T::lift(weight);
-            for (out, &k) in out.iter_mut().zip(slope.iter()) {
-                *out += factor * k;
+    for (part, (out, y)) in out.iter_mut().zip(y.iter()).enumerate() {
+        out.copy_from_slice(y);
+        for (&weight, slope) in weights.iter().zip(slopes) {
+            if weight != 0.0 {
+                let factor = h * T::lift(weight);
+                for (out, &k) in out.iter_mut().zip(slope[part].iter()) {
+                    *out += factor * k;
+                }
             }
         }
     }

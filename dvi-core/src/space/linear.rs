@@ -56,7 +56,9 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     matrix.eliminate(x).map_err(|singular| finite.err().unwrap_or(singular))
 }
 
-impl<T: Real, const BLOCKS: usize, const N: usize> LinearSolver<T> for FixedSquare<T, BLOCKS, N> {
+impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> LinearSolver<T>
+    for FixedSquare<T, BLOCKS, N, SINGLES>
+{
     #[inline(always)]
     fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
         eliminate(self, equations, x)

@@ -56,20 +56,24 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
 
 /// The square matrix of a [`Fixed`](crate::Fixed) space: dense.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FixedSquare<T, const BLOCKS: usize, const N: usize> {
-    matrix: FixedMatrix<T, BLOCKS, N>,
-    permutation: FixedVector<usize, BLOCKS, N>,
+pub struct FixedSquare<T, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0> {
+    matrix: FixedMatrix<T, BLOCKS, N, SINGLES>,
+    permutation: FixedVector<usize, BLOCKS, N, SINGLES>,
 }
 
-impl<T: Scalar, const BLOCKS: usize, const N: usize> FixedSquare<T, BLOCKS, N> {
+impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize>
+    FixedSquare<T, BLOCKS, N, SINGLES>
+{
     #[inline(always)]
-    pub(crate) fn new(space: crate::Fixed<BLOCKS, N>) -> Self {
+    pub(crate) fn new(space: crate::Fixed<BLOCKS, N, SINGLES>) -> Self {
         Self { matrix: space.matrix(), permutation: space.permutation() }
     }
 }
 
-impl<T: Real, const BLOCKS: usize, const N: usize> SquareMatrix<T> for FixedSquare<T, BLOCKS, N> {
-    type Entries = FixedMatrix<T, BLOCKS, N>;
+impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareMatrix<T>
+    for FixedSquare<T, BLOCKS, N, SINGLES>
+{
+    type Entries = FixedMatrix<T, BLOCKS, N, SINGLES>;
 
     #[inline(always)]
     fn cleared(&mut self) -> &mut Self::Entries {

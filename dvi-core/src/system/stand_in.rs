@@ -2,8 +2,8 @@
 //! the only ones that the compiler reports. None of the functions is ever called, as such a program does not compile.
 
 use super::{
-    AffineOneForm, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, RegularLagrangian, Separable,
-    System, Weights,
+    AffineOneForm, Degenerate, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, Regular,
+    RegularLagrangian, Separable, System, Weights,
 };
 use crate::{Scalar, Sink};
 
@@ -36,7 +36,7 @@ impl<S: StandIn, T: Scalar> Lagrangian<T> for S {
 }
 
 #[diagnostic::do_not_recommend]
-impl<S: StandIn, T: Scalar> DegenerateLagrangian<T> for S {
+impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> DegenerateLagrangian<T> for S {
     const AFFINE: bool = false;
     const MATCHING: bool = false;
     const CANONICAL: bool = false;
@@ -55,16 +55,17 @@ impl<S: StandIn, T: Scalar> DegenerateLagrangian<T> for S {
 }
 
 #[diagnostic::do_not_recommend]
-impl<S: StandIn, T: Scalar> RegularLagrangian<T> for S {
+impl<S: StandIn + System<Kind = Regular>, T: Scalar> RegularLagrangian<T> for S {
     const SEPARABLE: bool = false;
     const DIAGONAL_MASS: bool = false;
     const QUADRATIC: bool = false;
     fn force(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+    fn momentum_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
 }
 
 #[diagnostic::do_not_recommend]
-impl<S: StandIn, T: Scalar> Separable<T> for S {}
+impl<S: StandIn + System<Kind = Regular>, T: Scalar> Separable<T> for S {}
 #[diagnostic::do_not_recommend]
-impl<S: StandIn, T: Scalar> QuadraticInVelocity<T> for S {}
+impl<S: StandIn + System<Kind = Regular>, T: Scalar> QuadraticInVelocity<T> for S {}
 #[diagnostic::do_not_recommend]
-impl<S: StandIn, T: Scalar> AffineOneForm<T> for S {}
+impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> AffineOneForm<T> for S {}

@@ -28,7 +28,9 @@ pub type FourPoints = PointVorticesState<4>;
 /// A system with its initial state.
 #[derive(Clone, Debug)]
 pub struct Case {
+    /// The vortices.
     pub vortices: FourVortices,
+    /// Where they are at t = 0.
     pub start: FourPoints,
 }
 

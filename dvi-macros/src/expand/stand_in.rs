@@ -60,7 +60,7 @@ impl StandIn<'_> {
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         let allow = implement::allow();
         let never = quote!({ ::core::unreachable!() });
-        let regular = self.kind == Kind::Regular;
+        let kind = implement::kind(krate, self.kind == Kind::Regular);
         quote! {
             const _: () = {
                 #[automatically_derived]
@@ -69,7 +69,7 @@ impl StandIn<'_> {
                     type Space = #space;
                     type State<__T: #krate::Scalar> = #state;
                     const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[]);
-                    const REGULAR: bool = #regular;
+                    type Kind = #kind;
                     fn space(&self) -> Self::Space #never
                     fn block_len(&self, _: usize) -> usize #never
                     fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never

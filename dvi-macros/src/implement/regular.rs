@@ -52,7 +52,7 @@ fn account(
 /// The implementation of `RegularLagrangian`.
 fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: &MassMatrix) -> TokenStream {
     let MassMatrix { separable, diagonal, quadratic, .. } = *structure;
-    let force = emitter.vector(&programs.force);
+    let (force, rate) = (emitter.vector(&programs.force), emitter.vector(&programs.momentum_rate));
     let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
     let traits = traits.map(|structure| in_numbers(emitter, &structure, &TokenStream::new()));
@@ -63,6 +63,8 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
 
         #[inline(always)]
         fn force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }
+        #[inline]
+        fn momentum_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #rate }
     };
     let lagrangian = in_numbers(emitter, &quote!(RegularLagrangian), &lagrangian);
     quote!(#lagrangian #(#traits)*)

@@ -18,19 +18,32 @@ pub(crate) struct State {
     pub(crate) space_value: TokenStream,
 }
 
-/// Fixed if all blocks have one size, or all sizes are literals; else known at run time.
+/// With so many coordinates of known number beside arrays of a const generic `N`, each of which takes the place of `N`, a
+/// state is still on the stack.
+const MOST_SINGLES: usize = 16;
+
+/// Fixed if all sizes are literals, or one const generic beside a few literals; else known at run time.
 fn space(emitter: &Emitter<'_>) -> (TokenStream, TokenStream) {
     let (model, krate) = (emitter.model, emitter.krate());
-    let sizes: Vec<Index> = (0..model.blocks.len()).map(|block| model.block_size(block)).collect();
-    let fixed = |blocks: usize, size: &Index| {
-        let size = emitter.index(size);
-        (quote!(#krate::Fixed<#blocks, { #size }>), quote!(#krate::Fixed))
-    };
     let constant = (0..model.blocks.len()).all(|block| model.is_constant(block));
-    match (model.dimension().as_literal(), sizes.first()) {
-        (Some(_), _) => fixed(1, &model.dimension()),
-        (None, Some(first)) if constant && sizes.iter().all(|size| size == first) && is_name(first) => {
-            fixed(sizes.len(), first)
+    let mut names: Vec<Index> = Vec::new();
+    let (mut arrays, mut singles) = (0, 0);
+    for size in (0..model.blocks.len()).map(|block| model.block_size(block)) {
+        match size.as_literal() {
+            Some(literal) => singles += literal as usize,
+            None => {
+                arrays += 1;
+                if !names.contains(&size) {
+                    names.push(size);
+                }
+            }
+        }
+    }
+    match names.as_slice() {
+        [] => (quote!(#krate::Fixed<1usize, { #singles }>), quote!(#krate::Fixed)),
+        [size] if constant && is_name(size) && singles <= MOST_SINGLES => {
+            let (blocks, size) = (arrays + singles, emitter.index(size));
+            (quote!(#krate::Fixed<#blocks, { #size }, #singles>), quote!(#krate::Fixed))
         }
         _ => {
             let dimension = emitter.index(&model.dimension());
@@ -167,7 +180,7 @@ fn field_type(emitter: &Emitter<'_>, block: usize) -> TokenStream {
             let size = emitter.index(size);
             quote!([__T; #size])
         }
-        Some(_) => quote!(#krate::__private::Vec<__T>),
+        Some(_) => quote!(#krate::space::Vec<__T>),
     }
 }
 
@@ -205,9 +218,10 @@ fn transfer(
         let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
         return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);
     }
-    let reader = if on_stack(emitter, block) { quote!(read_array) } else { quote!(read_vec) };
+    let reader =
+        if on_stack(emitter, block) { quote!(__private::read_array) } else { quote!(RunTime::read_block) };
     let write = quote! {
         #krate::__private::write_block(#text, &self.#field[..], __len(#block), &mut __at, #flat)?;
     };
-    (write, quote!(#krate::__private::#reader(__len(#block), &mut __at, #flat)))
+    (write, quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
 }

@@ -295,7 +295,10 @@ impl<'a> Comparison<'a> {
         let wanted = (0..n).fold(jet.value.scaled(-1.0), kinetic);
         self.same("energy", &[], wanted, energy)?;
         let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]).run("force")?;
-        self.same_vector("force", &slices[2], |i| jet.gradient(i))
+        self.same_vector("force", &slices[2], |i| jet.gradient(i))?;
+        let call = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]);
+        let (_, slices) = call.run("momentum_rate")?;
+        self.same_vector("momentum_rate", &slices[2], |i| jet.hessian(n + i, 2 * n))
     }
 
     fn degenerate(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {

@@ -1,11 +1,11 @@
 //! What is special to L = α·v − H: the one-form, the Hamiltonian, the right side of the flow.
 
 use super::{
-    Output, Place, Programs, Statement, Variable, first_derivatives, mirrored_pair, result, variable,
+    Output, Place, Programs, Statement, Variable, first_derivatives, mirrored_pair, rates, result, variable,
 };
 use crate::internal::internal;
 use crate::routine::Routine;
-use crate::symbolic::{Coordinate, Expr, Graph, Node, SecondContribution, Weight};
+use crate::symbolic::{Coordinate, Expr, Graph, SecondContribution, Weight};
 
 /// The formulas of a degenerate system.
 #[derive(Clone, Debug)]
@@ -76,12 +76,7 @@ fn flow_source(
     hamiltonian_gradient: &[Statement],
     one_form: &[Statement],
 ) -> Vec<Statement> {
-    let time = graph.intern(Node::Time);
-    let rates = one_form.iter().filter_map(|statement| {
-        let value = graph.derivative(statement.value, time);
-        (!value.is_zero()).then(|| Statement { value, ..statement.clone() })
-    });
-    let rates: Vec<Statement> = rates.collect();
+    let rates = rates(graph, one_form);
     hamiltonian_gradient.iter().cloned().chain(rates).collect()
 }
 

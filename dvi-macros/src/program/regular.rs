@@ -1,6 +1,6 @@
-//! What is special to a regular L: the energy and the force.
+//! What is special to a regular L: the energy, the force, and the rate of the momentum.
 
-use super::{Output, Place, Programs, Statement, result};
+use super::{Output, Place, Programs, Statement, rates, result};
 use crate::routine::Routine;
 use crate::symbolic::{Expr, Graph, SecondContribution};
 
@@ -20,6 +20,8 @@ pub(crate) struct RegularPrograms {
     pub(crate) energy: Routine,
     /// ∂L/∂q
     pub(crate) force: Routine,
+    /// ∂²L/∂t∂v
+    pub(crate) momentum_rate: Routine,
 }
 
 impl RegularPrograms {
@@ -31,15 +33,19 @@ impl RegularPrograms {
     ) -> Self {
         let shared = Programs::new(graph, formulas.lagrangian, entries, &formulas.momenta);
         let energy = result(graph.energy(formulas.lagrangian));
-        let force = shared.gradient.statements.iter().filter_map(as_force).collect();
-        Self { shared, energy: Routine::new(graph, energy), force: Routine::new(graph, force) }
+        let part = |output| shared.gradient.statements.iter().filter_map(move |s| as_vector(s, output));
+        let [force, momentum]: [Vec<Statement>; 2] =
+            [Output::Lq, Output::Lv].map(|output| part(output).collect());
+        let rate = rates(graph, &momentum);
+        let [energy, force, momentum_rate] = [energy, force, rate].map(|s| Routine::new(graph, s));
+        Self { shared, energy, force, momentum_rate }
     }
 }
 
-/// The statement of a derivative by a position, with its value in the only vector.
-fn as_force(statement: &Statement) -> Option<Statement> {
+/// The statement of an entry of `output`, with its value in the only vector.
+fn as_vector(statement: &Statement, output: Output) -> Option<Statement> {
     match &statement.place {
-        Place::Entry(Output::Lq, coordinate) => {
+        Place::Entry(found, coordinate) if *found == output => {
             Some(Statement { place: Place::Entry(Output::Vector, coordinate.clone()), ..statement.clone() })
         }
         Place::Result | Place::Entry(..) | Place::MatrixEntry(..) => None,

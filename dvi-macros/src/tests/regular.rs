@@ -86,28 +86,26 @@ fn energy_of_kepler() {
         kepler(),
         "energy",
         &expect![[r#"
-        fn energy() {
-            let (__q0, __rest) = __q.split_at(1usize);
-            let (__q1, __rest) = __rest.split_at(1usize);
-            let _ = __rest;
-            let (__v0, __rest) = __v.split_at(1usize);
-            let (__v1, __rest) = __rest.split_at(1usize);
-            let _ = __rest;
-            let __r1 = __v0[0usize];
-            let __r3 = __v1[0usize];
-            let __r9 = __q0[0usize];
-            let __r11 = __q1[0usize];
-            (T::lift(0.5f64)
-                * (((__r1 * __r1) + (__r3 * __r3))
-                    - ((T::lift(2f64)
-                        * T::lift(
-                            __private::Number::number(self.mu),
-                        ))
-                        / (T::sqrt(
-                            ((__r9 * __r9) + (__r11 * __r11)),
-                        )))))
-        }
-    "#]],
+            fn energy() {
+                let (__q0, __rest) = __q.split_at(1usize);
+                let (__q1, __rest) = __rest.split_at(1usize);
+                let _ = __rest;
+                let (__v0, __rest) = __v.split_at(1usize);
+                let (__v1, __rest) = __rest.split_at(1usize);
+                let _ = __rest;
+                let __r1 = __v0[0usize];
+                let __r3 = __v1[0usize];
+                let __r9 = __q0[0usize];
+                let __r11 = __q1[0usize];
+                (T::lift(0.5f64)
+                    * (((__r1 * __r1) + (__r3 * __r3))
+                        - ((T::lift(2f64)
+                            * T::lift(
+                                __private::Number::number(self.mu),
+                            ))
+                            / (T::sqrt(((__r9 * __r9) + (__r11 * __r11)))))))
+            }
+        "#]],
     );
 }
 

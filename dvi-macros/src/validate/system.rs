@@ -46,6 +46,7 @@ enum Quantity {
     HamiltonianGradient,
     OneForm,
     FlowSource,
+    MomentumRate,
     OneFormJacobian,
     Energy,
     Force,
@@ -141,6 +142,7 @@ impl Output {
             Quantity::HamiltonianGradient => "∇H",
             Quantity::OneForm => "α",
             Quantity::FlowSource => "∇H + ∂α/∂t",
+            Quantity::MomentumRate => "∂²L/∂t∂v",
             Quantity::OneFormJacobian => "a Dα + b (Dα)ᵀ",
             Quantity::Energy => "E",
             Quantity::Force => "the force",
@@ -206,6 +208,7 @@ impl Outputs {
             Quantity::HamiltonianGradient => hamiltonian.first(First::Q),
             Quantity::OneForm => form.first(First::V),
             Quantity::FlowSource => hamiltonian.second(Second::Q).plus(form.both(First::T, Second::V)),
+            Quantity::MomentumRate => lagrangian.both(First::T, Second::V),
             Quantity::OneFormJacobian => self.form_jacobian(point),
             Quantity::Energy => lagrangian.first(First::Stretch).plus(lagrangian.value().times(-1.0)),
             Quantity::Momentum(number) => momenta[number].value(),
@@ -296,6 +299,8 @@ impl Functions<'_> {
             Self::Regular(programs) => {
                 add("energy", Quantity::Energy, value(&programs.energy));
                 add("force", Quantity::Force, vector(&programs.force));
+                let rate = machine.run(&programs.momentum_rate).along_second(program::Output::Vector);
+                add("momentum_rate", Quantity::MomentumRate, rate);
             }
         }
         found

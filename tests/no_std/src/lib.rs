@@ -7,18 +7,16 @@
 
 use dvi_core::prelude::*;
 
-/// Point vortices in the plane.
+/// N oscillators that are coupled by one more: an array of const-generic size beside single coordinates.
 #[degenerate_lagrangian(
-    coordinates(x[N], y[N]),
-    one_form    = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
-                      * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-    momenta(impulse = sum(0..N, |j| gamma[j] * x[j])),
+    coordinates(q[N], p[N], w[2]),
+    one_form    = sum(0..N, |j| p[j] * d(q[j])) + w[1] * d(w[0]),
+    hamiltonian = sum(0..N, |j| p[j].powi(2) + (q[j] - w[0]).powi(2)) / 2.0 + w[1].powi(2) / (2.0 * mass),
 )]
 #[derive(Clone, Debug)]
-pub struct PointVortices<const N: usize> {
-    /// Circulations.
-    pub gamma: [f64; N],
+pub struct Bath<const N: usize> {
+    /// Of the one in the middle.
+    pub mass: f64,
 }
 
 /// A chain whose length is known at run time only.
@@ -51,9 +49,9 @@ pub struct Gravity<const N: usize> {
 ///
 /// # Errors
 /// [`StepFailure`], if a step fails; `None`, if the run cannot start.
-pub fn last(steps: usize) -> Result<PointVorticesState<2>, Option<StepFailure>> {
-    let system = PointVortices { gamma: [1.0, -1.0] };
-    let start = PointVorticesState { x: [-1.0, 1.0], y: [0.0, 0.0] };
+pub fn last(steps: usize) -> Result<BathState<3>, Option<StepFailure>> {
+    let system = Bath::<3> { mass: 2.0 };
+    let start = BathState { q: [-1.0, 1.0, 0.5], p: [0.0; 3], w: [0.25, 0.0] };
     let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start).map_err(|_| None)?;
     for _ in 0..steps {
         run.advance().map_err(|error| Some(error.failure))?;

@@ -44,16 +44,19 @@ pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
 
 /// The solver of a [`Fixed`] space: block by block.
 #[derive(Debug)]
-pub struct FixedCoupled<T, const NODES: usize, const BLOCKS: usize, const N: usize> {
+pub struct FixedCoupled<T, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>
+{
     /// Transposed; the first row and column are not used.
-    rows: [[FixedMatrix<T, BLOCKS, N>; NODES]; NODES],
+    rows: [[FixedMatrix<T, BLOCKS, N, SINGLES>; NODES]; NODES],
     /// L_qq, L_qv and L_vv at a node.
-    second: [FixedMatrix<T, BLOCKS, N>; 3],
-    permutation: FixedVector<usize, BLOCKS, N>,
+    second: [FixedMatrix<T, BLOCKS, N, SINGLES>; 3],
+    permutation: FixedVector<usize, BLOCKS, N, SINGLES>,
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize> FixedCoupled<T, NODES, BLOCKS, N> {
-    pub(crate) fn new(space: Fixed<BLOCKS, N>) -> Self {
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize>
+    FixedCoupled<T, NODES, BLOCKS, N, SINGLES>
+{
+    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES>) -> Self {
         Self {
             rows: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
             second: core::array::from_fn(|_| space.matrix()),
@@ -62,8 +65,8 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize> FixedCoup
     }
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize> CoupledSolver<NODES, T>
-    for FixedCoupled<T, NODES, BLOCKS, N>
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize>
+    CoupledSolver<NODES, T> for FixedCoupled<T, NODES, BLOCKS, N, SINGLES>
 {
     fn solve<V: DerefMut<Target = [T]>>(
         &mut self,
@@ -79,7 +82,12 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize> CoupledSo
             matrix.second_derivatives(qq, qv, vv);
             for (r, row) in rows.iter_mut().enumerate().skip(1) {
                 for (k, block) in row.iter_mut().enumerate().skip(1) {
-                    add_transposed(matrix.weights(r, k), second, BLOCKS * N, block);
+                    add_transposed(
+                        matrix.weights(r, k),
+                        second,
+                        Fixed::<BLOCKS, N, SINGLES>::DIMENSION,
+                        block,
+                    );
                 }
             }
         }

@@ -1,0 +1,111 @@
+//! What can be asked of a system at one state, without a run.
+
+use crate::error::StartError;
+use crate::mechanics::motion::FirstOrder;
+use crate::system::start::{evaluate, flatten, validate, velocities};
+use crate::{Lagrangian, Real, State, System};
+
+/// A system at a time t. Made by [`AtState::at_time`].
+#[derive(Debug)]
+pub struct AtTime<'a, S, T = f64> {
+    system: &'a S,
+    t: T,
+}
+
+/// What can be asked of a system at one state.
+///
+/// Time is 0 where the Lagrangian depends on it; [`at_time`](Self::at_time) asks at another.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.powi(4) / 4.0)]
+/// struct Quartic;
+///
+/// let state = QuarticState { x: 2.0, dot_x: 3.0 };
+/// // x' and dot_x' along the motion.
+/// let rates: QuarticState = Quartic.vector_field(&state)?;
+/// assert_eq!((rates.x, rates.dot_x), (3.0, -8.0));
+/// assert_eq!(Quartic.energy_at(&state)?, 4.5 + 4.0);
+/// assert_eq!(Quartic.lagrangian_at(&state)?, 4.5 - 4.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// All of these functions return [`StartError`], as the start of a run does, if an array of the system or of the state has
+/// the wrong length, a coordinate is not finite, or energy or first derivatives of L are not finite there.
+pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: FirstOrder<Self, T>> + Sized {
+    /// The system at time `t`.
+    fn at_time(&self, t: T) -> AtTime<'_, Self, T> {
+        AtTime { system: self, t }
+    }
+
+    /// The rates of change of all entries of `state` along the motion, named as they are: X(q), that is q' of
+    /// Ω q' = ∇H + ∂α/∂t, for a degenerate system; velocities and accelerations for a regular one.
+    ///
+    /// # Errors
+    /// Besides those of the trait, [`StartError::Starter`] where Ω or the mass matrix is singular.
+    fn vector_field(&self, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
+        self.at_time(T::lift(0.0)).vector_field(state)
+    }
+
+    /// The energy v·∂L/∂v − L; H for a degenerate system.
+    ///
+    /// # Errors
+    /// Those of the trait.
+    fn energy_at(&self, state: &Self::State<T>) -> Result<T, StartError> {
+        self.at_time(T::lift(0.0)).energy(state)
+    }
+
+    /// L along the motion through `state`; for a degenerate system that is α(q)·X(q) − H(q).
+    ///
+    /// # Errors
+    /// Those of [`vector_field`](Self::vector_field).
+    fn lagrangian_at(&self, state: &Self::State<T>) -> Result<T, StartError> {
+        self.at_time(T::lift(0.0)).lagrangian(state)
+    }
+}
+
+impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> AtState<T> for S {}
+
+impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
+    /// See [`AtState::vector_field`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn vector_field(&self, state: &S::State<T>) -> Result<S::State<T>, StartError> {
+        let Self { system, t } = *self;
+        let [q, v] = self.point(state)?;
+        let [rates, accelerations] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Starter)?;
+        Ok(S::State::read(|block| system.block_len(block), &rates, &accelerations))
+    }
+
+    /// See [`AtState::energy_at`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn energy(&self, state: &S::State<T>) -> Result<T, StartError> {
+        let [q, v] = self.point(state)?;
+        Ok(self.system.energy(&q, &v[..velocities(self.system)], self.t))
+    }
+
+    /// See [`AtState::lagrangian_at`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn lagrangian(&self, state: &S::State<T>) -> Result<T, StartError> {
+        let Self { system, t } = *self;
+        let [q, v] = self.point(state)?;
+        // Of either kind the first is the velocity.
+        let [velocity, _] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Starter)?;
+        Ok(system.lagrangian(&q, &velocity, t))
+    }
+
+    /// The coordinates and velocities of a state at which the system is defined.
+    fn point(&self, state: &S::State<T>) -> Result<[crate::Vector<S, T>; 2], StartError> {
+        validate(self.system, self.t)?;
+        let [q, v] = flatten(self.system, state)?;
+        evaluate(self.system, &q, &v, self.t)?;
+        Ok([q, v])
+    }
+}

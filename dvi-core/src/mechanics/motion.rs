@@ -1,0 +1,153 @@
+//! The equations of motion as ordinary differential equations of first order, y' = X(y, t): what the baselines solve.
+//!
+//! A degenerate system has y = q and Ω q' = ∇H + ∂α/∂t. A regular one has y = (q, p) and Hamilton's equations in terms
+//! of L: q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t) (Marsden & Ratiu 1999, section 7.2).
+
+mod flow_on_q;
+mod hamilton;
+
+use core::fmt::Debug;
+use core::ops::{Deref, DerefMut};
+
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
+use crate::error::{StartError, StepFailure};
+use crate::state::Statistics;
+use crate::state::memory::Memory;
+#[cfg(feature = "alloc")]
+use crate::state::memory::{Reader, Record};
+use crate::system::Kind;
+use crate::{Real, System, Vector};
+
+pub use flow_on_q::FlowOnQ;
+pub use hamilton::HamiltonsEquations;
+
+/// A point y, or its velocity: `K` vectors of the space.
+#[derive(Clone, Debug)]
+pub struct Point<V, const K: usize>([V; K]);
+
+impl<V, const K: usize> Deref for Point<V, K> {
+    type Target = [V];
+    #[inline(always)]
+    fn deref(&self) -> &[V] {
+        &self.0
+    }
+}
+
+impl<V, const K: usize> DerefMut for Point<V, K> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [V] {
+        &mut self.0
+    }
+}
+
+impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, K> {
+    fn restore(&mut self, from: &Self) {
+        for (to, from) in self.0.iter_mut().zip(&from.0) {
+            to.copy_from_slice(from);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>) {
+        self.0.iter().for_each(|vector| record.numbers(vector));
+    }
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        self.0.iter_mut().try_for_each(|vector| reader.numbers(vector))
+    }
+}
+
+/// What the equations of motion of a kind of system are stored in.
+pub trait Motion<S: System, T: Real>: Kind {
+    /// y: q, or q and p.
+    type Point: Debug + DerefMut<Target = [Vector<S, T>]> + Memory<T>;
+    /// The equations, with the storage that their evaluation needs, and all of y but q.
+    type Equations: Memory<T>;
+
+    /// A point of zeros.
+    fn point(system: &S) -> Self::Point;
+}
+
+/// The equations of motion of `S` with their storage.
+pub type EquationsOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Equations;
+/// A point y of the equations of motion of `S`, or its velocity.
+pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point;
+
+/// The equations of motion of a system `S`, y' = X(y, t), in the arithmetic of `T`.
+#[diagnostic::on_unimplemented(
+    message = "the equations of motion of `{S}` cannot be solved in `{T}`",
+    label = "it is no system, or a parameter of it is no number"
+)]
+pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
+    /// The equations at (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] where Ω or the mass matrix is singular.
+    fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self::Equations, StartError>;
+    /// Sets `y` to the present point.
+    fn gather(equations: &mut Self::Equations, q: &Vector<S, T>, y: &mut Self::Point);
+    /// Sets `slope` to X(`y`, `t`).
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular, [`StepFailure::NotConverged`] where no velocity
+    /// belongs to the momentum.
+    fn evaluate(
+        equations: &mut Self::Equations,
+        system: &S,
+        y: &Self::Point,
+        t: T,
+        slope: &mut Self::Point,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>;
+    /// Sets `out` to entry `part` of X(`y`, `t`), from a guess `slope` of it: the velocity that belongs to the momentum, or
+    /// the force at the velocity of `slope`.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate).
+    #[allow(clippy::too_many_arguments)]
+    fn evaluate_part(
+        equations: &mut Self::Equations,
+        system: &S,
+        part: usize,
+        y: &Self::Point,
+        t: T,
+        slope: &Self::Point,
+        out: &mut Vector<S, T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>;
+    /// Whether Ω has kept its orientation at a point within a step.
+    ///
+    /// # Errors
+    /// [`StepFailure::Orientation`].
+    fn compare(equations: &mut Self::Equations, system: &S, y: &Self::Point, t: T)
+    -> Result<(), StepFailure>;
+    /// Moves to `y`, the end of a step; all but `q` is kept here.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotFinite`], and [`StepFailure::Orientation`] where Ω or the mass matrix has lost its orientation;
+    /// nothing has moved then.
+    fn arrive(
+        equations: &mut Self::Equations,
+        system: &S,
+        y: &Self::Point,
+        q: &mut Vector<S, T>,
+        t: T,
+    ) -> Result<(), StepFailure>;
+    /// Sets `v` to the velocity at the present point, if states carry one.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate).
+    fn velocity(
+        equations: &Self::Equations,
+        system: &S,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure>;
+    /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a degenerate system,
+    /// which has no velocities, the second is zero.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular.
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure>;
+}

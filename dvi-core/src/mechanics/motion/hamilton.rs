@@ -1,0 +1,245 @@
+//! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
+
+use super::{FirstOrder, Motion, Point};
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::legendre::Legendre;
+use crate::mechanics::mass::Mass;
+use crate::mechanics::orientation::MassOrientation;
+use crate::mechanics::pattern::of_second_derivatives;
+use crate::scalar::norm;
+use crate::space::sink::Places;
+use crate::space::{LinearEquations, LinearSolver, Storing};
+use crate::state::Statistics;
+use crate::state::memory::{Memory, lasting};
+#[cfg(feature = "alloc")]
+use crate::state::memory::{Reader, Record};
+use crate::system::Regular;
+use crate::{Linear, Real, RegularLagrangian, Sink, Space, System, Vector, Weights};
+
+/// Hamilton's equations of a regular system, on T*Q, in terms of L.
+#[derive(Debug)]
+pub struct HamiltonsEquations<S: System, T: Real> {
+    /// p at the present point.
+    p: Vector<S, T>,
+    inverse: Velocities<S, T>,
+}
+
+/// What finds the velocity that belongs to a momentum.
+#[derive(Debug)]
+enum Velocities<S: System, T: Real> {
+    /// L is separable.
+    Constant(Mass<S, T>),
+    Varying(Transform<S, T>),
+}
+
+/// The Legendre transform at the points of a step.
+#[derive(Debug)]
+struct Transform<S: System, T: Real> {
+    legendre: Legendre<S, T>,
+    orientation: MassOrientation<S, T>,
+    /// The last velocity of the last step, from which the first of the next is sought.
+    guess: Vector<S, T>,
+    /// The last velocity.
+    latest: Vector<S, T>,
+}
+
+impl<S: RegularLagrangian<T>, T: Real> Velocities<S, T> {
+    /// Sets `v` to the velocity that belongs to `p`; where it is sought, from the one that stands there.
+    #[inline(always)]
+    fn velocity(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
+        match self {
+            Self::Constant(mass) => mass.solve(p, v),
+            Self::Varying(Transform { legendre, latest, .. }) => {
+                legendre.solve_near(system, q, p, t, v)?;
+                latest.copy_from_slice(v);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S: System, T: Real> Memory<T> for HamiltonsEquations<S, T> {
+    lasting!(T; numbers p, part inverse);
+}
+
+impl<S: System, T: Real> Memory<T> for Velocities<S, T> {
+    fn restore(&mut self, from: &Self) {
+        if let (Self::Varying(transform), Self::Varying(from)) = (self, from) {
+            transform.restore(from);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>) {
+        if let Self::Varying(transform) = self {
+            transform.save(record);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        match self {
+            Self::Constant(_) => Ok(()),
+            Self::Varying(transform) => transform.load(reader),
+        }
+    }
+}
+
+impl<S: System, T: Real> Memory<T> for Transform<S, T> {
+    lasting!(T; part orientation, numbers guess);
+}
+
+impl<S: System, T: Real> Motion<S, T> for Regular {
+    type Point = Point<Vector<S, T>, 2>;
+    type Equations = HamiltonsEquations<S, T>;
+
+    fn point(system: &S) -> Self::Point {
+        Point([0, 1].map(|_| system.space().vector()))
+    }
+}
+
+impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
+    fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<HamiltonsEquations<S, T>, StartError> {
+        let [mut force, mut p, mut guess, latest]: [Vector<S, T>; 4] =
+            core::array::from_fn(|_| system.space().vector());
+        system.gradient(q, v, t, &mut force, &mut p);
+        guess.copy_from_slice(v);
+        let inverse = if S::SEPARABLE {
+            Velocities::Constant(Mass::new(system, q, t).map_err(StartError::Starter)?)
+        } else {
+            let orientation = MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?;
+            let legendre = Legendre::new(system, q, v, t);
+            Velocities::Varying(Transform { legendre, orientation, guess, latest })
+        };
+        Ok(HamiltonsEquations { p, inverse })
+    }
+    #[inline(always)]
+    fn gather(equations: &mut HamiltonsEquations<S, T>, q: &Vector<S, T>, y: &mut Self::Point) {
+        let [coordinates, momenta] = &mut y.0;
+        coordinates.copy_from_slice(q);
+        momenta.copy_from_slice(&equations.p);
+        if let Velocities::Varying(Transform { guess, latest, .. }) = &mut equations.inverse {
+            latest.copy_from_slice(guess);
+        }
+    }
+    #[inline(always)]
+    fn evaluate(
+        equations: &mut HamiltonsEquations<S, T>,
+        system: &S,
+        y: &Self::Point,
+        t: T,
+        slope: &mut Self::Point,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let ([q, p], [velocity, force]) = (&y.0, &mut slope.0);
+        if let Velocities::Varying(Transform { latest, .. }) = &equations.inverse {
+            velocity.copy_from_slice(latest);
+        }
+        equations.inverse.velocity(system, q, p, t, velocity)?;
+        system.force(q, velocity, t, force);
+        statistics.gradients += 1;
+        Ok(())
+    }
+    #[inline(always)]
+    fn evaluate_part(
+        equations: &mut HamiltonsEquations<S, T>,
+        system: &S,
+        part: usize,
+        y: &Self::Point,
+        t: T,
+        slope: &Self::Point,
+        out: &mut Vector<S, T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let ([q, p], [velocity, _]) = (&y.0, &slope.0);
+        if part == 0 {
+            out.copy_from_slice(velocity);
+            return equations.inverse.velocity(system, q, p, t, out);
+        }
+        system.force(q, velocity, t, out);
+        statistics.gradients += 1;
+        Ok(())
+    }
+    #[inline(always)]
+    fn compare(
+        _equations: &mut HamiltonsEquations<S, T>,
+        _system: &S,
+        _y: &Self::Point,
+        _t: T,
+    ) -> Result<(), StepFailure> {
+        Ok(())
+    }
+    #[inline(always)]
+    fn arrive(
+        equations: &mut HamiltonsEquations<S, T>,
+        system: &S,
+        y: &Self::Point,
+        q: &mut Vector<S, T>,
+        t: T,
+    ) -> Result<(), StepFailure> {
+        let [arrival, momentum] = &y.0;
+        norm::finite(arrival).and(norm::finite(momentum))?;
+        if let Velocities::Varying(Transform { orientation, guess, latest, .. }) = &mut equations.inverse {
+            orientation.check(system, arrival, latest, t)?;
+            guess.copy_from_slice(latest);
+        }
+        equations.p.copy_from_slice(momentum);
+        q.copy_from_slice(arrival);
+        Ok(())
+    }
+    fn velocity(
+        equations: &HamiltonsEquations<S, T>,
+        system: &S,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        match &equations.inverse {
+            Velocities::Constant(mass) => {
+                mass.solve(&equations.p, v);
+                Ok(())
+            }
+            Velocities::Varying(Transform { guess, .. }) => {
+                v.copy_from_slice(guess);
+                Legendre::new(system, q, v, t).solve_near(system, q, &equations.p, t, v)
+            }
+        }
+    }
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
+        let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] =
+            core::array::from_fn(|_| system.space().vector());
+        velocity.copy_from_slice(v);
+        let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
+        let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
+        solver.solve(&mut equations, &mut acceleration)?;
+        norm::finite(&acceleration)?;
+        Ok([velocity, acceleration])
+    }
+}
+
+/// ∂²L/∂v∂v a = ∂L/∂q − ∂²L/∂v∂q v − ∂²L/∂t∂v, the Euler–Lagrange equations.
+struct SecondOrder<'a, S, T> {
+    system: &'a S,
+    q: &'a [T],
+    v: &'a [T],
+    t: T,
+    l_v: &'a mut [T],
+}
+
+impl<S: RegularLagrangian<T>, T: Real> LinearEquations<T> for SecondOrder<'_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let Self { system, q, v, t, l_v } = self;
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let [mass, transport] =
+            [[zero, one], [one, zero]].map(|[vq, vv]| Weights { qq: zero, qv: zero, vq, vv });
+        system.linearize(q, v, *t, mass, b, l_v, sink);
+        let mut transported: Vector<S, T> = system.space().vector();
+        let mut product = Places(|row: usize, column: usize, entry: T| transported[row] += entry * v[column]);
+        system.linearize(q, v, *t, transport, b, l_v, &mut product);
+        system.momentum_rate(q, v, *t, l_v);
+        for ((b, &transported), &rate) in b.iter_mut().zip(transported.iter()).zip(l_v.iter()) {
+            *b -= transported + rate;
+        }
+        Ok(())
+    }
+}

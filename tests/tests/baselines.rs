@@ -1,0 +1,194 @@
+//! Gauss collocation and explicit Runge–Kutta methods on Hamilton's equations of regular systems.
+
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_examples::models::Orbit;
+use dvi_tests::larger;
+use dvi_tests::zoo::regular::*;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+fn last<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    start: S::State<f64>,
+    time: f64,
+    steps: u64,
+) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
+    run.take_steps(steps)?;
+    Ok(run.q().to_vec())
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
+}
+
+fn check_order<S: Lagrangian, M: Method<S, f64> + Copy>(
+    system: &S,
+    method: M,
+    start: &S::State<f64>,
+    reference: &[f64],
+    steps: u64,
+) -> Outcome {
+    let mut errors = Vec::new();
+    for steps in [steps, steps * 3 / 2, 2 * steps] {
+        let found = last(system, method, start.clone(), 1.0, steps)?;
+        errors.push((1.0 / steps as f64, apart(&found, reference)));
+    }
+    let (order, name) = (convergence_order(&errors).ok_or("no slope")?, S::REPORT.system);
+    assert!((order - method.order() as f64).abs() < 0.3, "{name}, order {}: {order}", method.order());
+    Ok(())
+}
+
+/// Against the variational method with interior displacements of order eight; Kepler's orbit against its closed form.
+#[test]
+fn baselines_have_their_orders_on_regular_systems() -> Outcome {
+    macro_rules! check {
+        ($system:expr, $start:expr, $reference:expr, $steps:expr) => {{
+            let (system, start, reference) = (&$system, &$start, &$reference);
+            check_order(system, RungeKutta::midpoint(), start, reference, 1024)?;
+            check_order(system, RungeKutta::heun(), start, reference, 1024)?;
+            check_order(system, RungeKutta::classical(), start, reference, 96)?;
+            check_order(system, Gauss::<1>::new(), start, reference, 64)?;
+            check_order(system, Gauss::<2>::new(), start, reference, 16)?;
+            // Few enough for errors above rounding.
+            check_order(system, Gauss::<3>::new(), start, reference, $steps)?;
+        }};
+    }
+    let orbit = Orbit { e: 0.3 };
+    let at = orbit.pericentre();
+    let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };
+    check!(Kepler { mu: 1.0 }, start, orbit.position(1.0), 12);
+    let fine = Galerkin::<5>::new();
+    let pendulum = DoublePendulum { mass: [1.0, 0.7], length: [0.9, 1.2], g: 3.0 };
+    let start = DoublePendulumState { a: 1.1, b: -0.4, dot_a: 0.8, dot_b: 2.1 };
+    check!(pendulum, start, last(&pendulum, fine, start, 1.0, 256)?, 24);
+    let (fast, start) =
+        (Relativistic { m: 1.5 }, RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 });
+    check!(fast, start, last(&fast, fine, start, 1.0, 256)?, 8);
+    let (growing, start) = (GrowingMass {}, GrowingMassState { x: 0.8, y: 0.4, dot_x: 0.3, dot_y: -0.9 });
+    check!(growing, start, last(&growing, fine, start, 1.0, 256)?, 8);
+    let magnetic = MagneticParticle { m: 1.2, b: 1.0 };
+    let start = MagneticParticleState { x: 0.3, y: -0.2, z: 0.5, dot_x: 1.0, dot_y: 0.4, dot_z: -0.8 };
+    check!(magnetic, start, last(&magnetic, fine, start, 1.0, 256)?, 12);
+    Ok(())
+}
+
+/// A position-dependent mass, so that p = ∂L/∂v is not a multiple of v.
+#[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x).powi(2) / 2.0 - x.powi(2) - x.powi(4) / 2.0)]
+struct Heavier;
+
+/// The area dq ∧ dp of a small parallelogram, carried along for a hundred steps, by central differences.
+#[test]
+fn gauss_preserves_area_and_runge_kutta_does_not() -> Outcome {
+    fn image<M: Method<Heavier, f64>>(
+        method: M,
+        q: f64,
+        p: f64,
+    ) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+        let start = HeavierState { x: q, dot_x: p / (1.0 + q * q) };
+        let mut run = Integrator::new(&Heavier, method, 0.3, start)?;
+        run.take_steps(100)?;
+        let HeavierState { x, dot_x } = run.state();
+        Ok([x, (1.0 + x * x) * dot_x])
+    }
+    fn defect<M: Method<Heavier, f64> + Copy>(method: M) -> Result<f64, Box<dyn core::error::Error>> {
+        let (q, p, eps) = (0.8, 0.3, 1e-5);
+        let along = |dq: f64, dp: f64| -> Result<[f64; 2], Box<dyn core::error::Error>> {
+            let (ahead, behind) = (image(method, q + dq, p + dp)?, image(method, q - dq, p - dp)?);
+            Ok([0, 1].map(|i| (ahead[i] - behind[i]) / (2.0 * eps)))
+        };
+        let [a, b] = [along(eps, 0.0)?, along(0.0, eps)?];
+        Ok((a[0] * b[1] - a[1] * b[0] - 1.0).abs())
+    }
+    for (defect, name) in [
+        (defect(Gauss::<1>::new())?, "Gauss 1"),
+        (defect(Gauss::<2>::new())?, "Gauss 2"),
+        (defect(Gauss::<3>::new())?, "Gauss 3"),
+    ] {
+        assert!(defect < 1e-5, "{name}: {defect:e}");
+    }
+    let lost = defect(RungeKutta::classical())?;
+    assert!(lost > 1e-3, "Runge–Kutta: {lost:e}");
+    Ok(())
+}
+
+#[test]
+fn gauss_keeps_the_angular_momentum() -> Outcome {
+    let kepler = Kepler { mu: 1.0 };
+    let start = KeplerState { x: 0.4, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
+    fn drift<M: Method<Kepler, f64>>(
+        method: M,
+        kepler: &Kepler,
+        start: KeplerState,
+    ) -> Result<f64, Box<dyn core::error::Error>> {
+        let mut run = Integrator::new(kepler, method, 0.05, start)?;
+        let before = run.momentum(0).ok_or("no momentum")?;
+        run.take_steps(5000)?;
+        Ok((run.momentum(0).ok_or("no momentum")? - before).abs())
+    }
+    let (kept, lost) =
+        (drift(Gauss::<3>::new(), &kepler, start)?, drift(RungeKutta::classical(), &kepler, start)?);
+    assert!(kept < 1e-13, "{kept:e}");
+    assert!(lost > 1e-5, "{lost:e}");
+    Ok(())
+}
+
+/// A planet of any mass, so that momenta are much larger or smaller than coordinates.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + m * mu / (x * x + y * y).sqrt(),
+)]
+struct Planet {
+    m: f64,
+    mu: f64,
+}
+
+/// Stages are judged in units of the coordinates: the earth in SI units goes where the unit orbit goes.
+#[test]
+fn units_do_not_matter() -> Outcome {
+    let start = PlanetState { x: 0.7, y: 0.0, dot_x: 0.0, dot_y: 1.3 };
+    let unit = last(&Planet { m: 1.0, mu: 1.0 }, Gauss::<2>::new(), start, 6.0, 120)?;
+    for (length, velocity, m) in
+        [(1.5e11, 3e4, 6e24), (1e-9, 1e-3, 1e-27), (1e6, 1e-6, 1e-12), (1.0, 1.0, 1e30)]
+    {
+        let planet = Planet { m, mu: length * velocity * velocity };
+        let start = PlanetState { x: 0.7 * length, y: 0.0, dot_x: 0.0, dot_y: 1.3 * velocity };
+        let found = last(&planet, Gauss::<2>::new(), start, 6.0 * length / velocity, 120)?;
+        let off = found.iter().zip(&unit).map(|(a, b)| (a / length - b).abs()).fold(0.0, larger);
+        assert!(off < 1e-12, "{length:e}, {velocity:e}, {m:e}: {off:e}");
+    }
+    Ok(())
+}
+
+/// x'' = sin t.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + x * t.sin())]
+struct Pushed;
+
+/// From rest at the origin without a force: all that the first guess of a step knows is zero.
+#[test]
+fn steps_from_rest_at_the_origin() -> Outcome {
+    let start = PushedState { x: 0.0, dot_x: 0.0 };
+    let gauss = last(&Pushed, Gauss::<3>::new(), start, 2.0, 40)?;
+    let explicit = last(&Pushed, RungeKutta::classical(), start, 2.0, 400)?;
+    let exact = 2.0 - 2.0_f64.sin();
+    assert!((gauss[0] - exact).abs() < 1e-12, "{gauss:?}");
+    assert!((explicit[0] - exact).abs() < 1e-10, "{explicit:?}");
+    Ok(())
+}
+
+/// Velocities that a run gives are those that belong to its momenta.
+#[test]
+fn velocities_are_those_of_the_momenta() -> Outcome {
+    let start: RelativisticState = RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
+    let system = Relativistic { m: 1.5 };
+    let mut run = Integrator::new(&system, Gauss::<3>::new(), 0.01, start)?;
+    assert!((run.state().dot_x - 0.6).abs() < 1e-14);
+    let energy = run.energy();
+    run.take_steps(1000)?;
+    assert!((run.energy() - energy).abs() < 1e-11, "{:e}", run.energy() - energy);
+    let speed = run.state().dot_x.hypot(run.state().dot_y);
+    assert!(speed < 1.0 && speed > 0.1);
+    Ok(())
+}
