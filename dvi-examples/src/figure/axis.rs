@@ -111,10 +111,13 @@ fn round_numbers([low, high]: [f64; 2], wanted: f64) -> Ticks {
     Ticks { marks: marks.collect(), factor }
 }
 
-/// Powers of ten, thinned out where there are many; minor ticks at 2…9 where there are few.
+/// Powers of ten, thinned out where there are many; minor ticks at 2…9 where there are few, with labels at 2 and 5 on an
+/// axis of one decade or with fewer than two powers.
 fn decades([low, high]: [f64; 2]) -> Ticks {
     let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
     let span = last - first;
+    let is_inside = |value: f64| (low * 0.999..=high * 1.001).contains(&value);
+    let is_short = span <= 1 || (first..=last).filter(|&k| is_inside(10f64.powi(k))).count() < 2;
     let every = match span {
         0..=7 => 1,
         8..=15 => 2,
@@ -126,16 +129,16 @@ fn decades([low, high]: [f64; 2]) -> Ticks {
         marks.push((10f64.powi(exponent), label));
         if span <= 4 {
             marks.extend((2..10).map(|m| {
-                let label = if span <= 1 && (m == 2 || m == 5) {
-                    format!("{m}·{}", power_of_ten(exponent))
-                } else {
-                    String::new()
+                let label = match exponent {
+                    _ if !is_short || (m != 2 && m != 5) => String::new(),
+                    0 => m.to_string(),
+                    _ => format!("{m}·{}", power_of_ten(exponent)),
                 };
                 (f64::from(m) * 10f64.powi(exponent), label)
             }));
         }
     }
-    marks.retain(|(value, _)| (low * 0.999..=high * 1.001).contains(value));
+    marks.retain(|(value, _)| is_inside(*value));
     Ticks { marks, factor: String::new() }
 }
 
@@ -224,6 +227,7 @@ mod tests {
     #[test]
     fn logarithmic_ticks_are_decades() {
         assert_eq!(labels(&decades([0.5e-4, 2.0])), ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰"]);
+        assert_eq!(labels(&decades([1.1, 22.0])), ["2", "5", "10¹", "2·10¹"]);
     }
 
     #[test]

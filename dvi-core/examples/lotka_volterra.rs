@@ -1,0 +1,47 @@
+//! A system of first order, and a question to its run: predators and prey, and the period of their cycle, from the times
+//! at which the prey passes its equilibrium.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write as _};
+
+use dvi_core::prelude::*;
+
+/// Prey x and predators y: x' = x (1 - y), y' = y (x - rate).
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = -y.ln() / x * d(x),
+    hamiltonian = x - rate * x.ln() + y - y.ln(),
+)]
+struct LotkaVolterra {
+    rate: f64,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let system = LotkaVolterra { rate: 2.0 };
+    let start: LotkaVolterraState = LotkaVolterraState { x: 1.0, y: 0.5 };
+    let rates = system.vector_field(&start)?;
+    println!("at the start x' = {} and y' = {}", rates.x, rates.y);
+
+    let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;
+    let energy = run.energy();
+    fs::create_dir_all("results")?;
+    let mut table = BufWriter::new(File::create("results/lotka-volterra.csv")?);
+    writeln!(table, "t,x,y")?;
+    for _ in 0..2000 {
+        let LotkaVolterraState { x, y } = run.state();
+        writeln!(table, "{},{x},{y}", run.time())?;
+        run.advance()?;
+    }
+    table.flush()?;
+
+    let equilibrium = system.rate;
+    let mut section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0] - equilibrium);
+    let mut times = Vec::new();
+    for crossing in section.by_ref().take(101) {
+        times.push(crossing?.time);
+    }
+    println!("period of the cycle: {:.10}", (times[100] - times[0]) / 100.0);
+    println!("energy changed by {:.0e} until t = {:.0}", (run.energy() - energy).abs(), run.time());
+    println!("The table is results/lotka-volterra.csv.");
+    Ok(())
+}
