@@ -1,11 +1,17 @@
-//! The discrete Lagrangian: L_d(q0, q1; t, h), close to the action ∫L dt of the motion from q0 at t to q1 at t + h.
+//! The discrete Lagrangian: a function of the two ends of a step, close to the action of the motion between them.
+//!
+//! ```math
+//! L_d(q_0, q_1;\ t, h) \approx \int_t^{t+h} L(q, \dot q, t')\, \mathrm{d}t'
+//! ```
 //!
 //! A step solves the first of the discrete Euler–Lagrange equations in position–momentum form for q1 = q0 + Δ, and
 //! evaluates the second (Marsden & West 2001, eqs. 1.5.2 and 1.5.3):
 //!
-//! p0 = −D₁L_d(q0, q1)      p1 = D₂L_d(q0, q1) = p0 + (D₁ + D₂)L_d
+//! ```math
+//! p_0 = -D_1 L_d(q_0, q_1), \qquad p_1 = D_2 L_d(q_0, q_1) = p_0 + (D_1 + D_2) L_d(q_0, q_1)
+//! ```
 //!
-//! The second is written with a sum that is of order h, which rounds less.
+//! The second is evaluated in its last form, as a sum of terms of order h, which rounds less.
 
 mod node;
 
@@ -32,7 +38,7 @@ pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 /// The time from t to t + h.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval<T = f64> {
-    /// Where it begins.
+    /// The time at which it begins.
     pub t: T,
     /// Its length, which may be negative.
     pub h: T,
@@ -51,7 +57,7 @@ impl<T: Real> Interval<T> {
 pub struct Ends<'a, T> {
     /// The coordinates where it begins.
     pub q0: &'a [T],
-    /// By how much they change.
+    /// The difference of the two points.
     pub delta: &'a [T],
 }
 

@@ -84,6 +84,9 @@ pub enum StartError {
     /// The step that computes the starting values failed.
     #[error("the starting step failed: {0}")]
     Starter(StepFailure),
+    /// The rates of change of a state cannot be computed.
+    #[error("the motion is not determined at this state: {0}")]
+    Undetermined(StepFailure),
     /// A checkpoint is not one of this method on this system.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -221,7 +224,7 @@ pub enum StepFailure {
         /// the smallest pivot of Ω, with the sign of the Pfaffian; or the smallest pivot of the mass matrix on the side of
         /// zero that has been left.
         before: f64,
-        /// At its end.
+        /// The same at the end of the step.
         after: f64,
     },
     /// The density of steps that a step control carries along is no density any more.

@@ -1,65 +1,86 @@
 //! Variational integrators from Lagrangians, generated at compile time.
 //!
-//! A degenerate Lagrangian is affine in the velocities, L(q, v, t) = α(q, t)·v − H(q, t). Its
-//! Euler–Lagrange equations are of first order, Ω q' = ∇H with Ω = (Dα)ᵀ − Dα. Declare α and H on the
-//! struct of the parameters, choose a [method](methods), and iterate:
+//! You declare the Lagrangian of a mechanical system in an attribute on a struct, choose a [method](methods), and get a run:
+//! an iterator over states. The attribute differentiates the formula symbolically and generates the equations of a step
+//! with their exact Jacobian.
 //!
 //! ```
 //! use dvi_core::prelude::*;
 //!
-//! /// Predators y and prey x.
-//! #[degenerate_lagrangian(
-//!     coordinates(x, y),
-//!     one_form    = y.ln() / x * d(x),
-//!     hamiltonian = x + y - x.ln() - rate * y.ln(),
+//! /// A pendulum; its coordinate is the angle from the vertical, in radians.
+//! #[lagrangian(
+//!     coordinates(angle),
+//!     lagrangian = dot(angle).powi(2) / 2.0 + g / length * angle.cos(),
 //! )]
-//! pub struct LotkaVolterra { rate: f64 }
+//! struct Pendulum {
+//!     g: f64,
+//!     length: f64,
+//! }
 //!
-//! let system = LotkaVolterra { rate: 2.0 };
-//! let start: LotkaVolterraState = LotkaVolterraState { x: 1.0, y: 1.0 };
-//! let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;
+//! let pendulum = Pendulum { g: 9.81, length: 1.0 };
+//! let start: PendulumState = PendulumState { angle: 1.0, dot_angle: 0.0 };
+//! let mut run = Integrator::new(&pendulum, Variational::trapezoid(), 0.01, start)?;
+//! let energy = run.energy();
 //! for state in run.by_ref().take(1000) {
 //!     let state = state?;
-//!     assert!(state.x > 0.0 && state.y > 0.0);
+//!     assert!(state.angle.abs() < 1.001);
 //! }
-//! assert!((run.energy() - 2.0).abs() < 1e-8);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
-//! A regular Lagrangian L(q, v, t) is declared in the same language by [`lagrangian`](macro@lagrangian), and
-//! its states carry velocities:
-//!
-//! ```
-//! use dvi_core::prelude::*;
-//!
-//! /// A plane pendulum.
-//! #[lagrangian(coordinates(a), lagrangian = dot(a).powi(2) / 2.0 + g * a.cos())]
-//! pub struct Pendulum { g: f64 }
-//!
-//! let system = Pendulum { g: 9.81 };
-//! let start: PendulumState = PendulumState { a: 1.0, dot_a: 0.0 };
-//! let mut run = Integrator::new(&system, Variational::trapezoid(), 0.01, start)?;
-//! let energy = run.energy();
 //! run.take_steps(1_000_000)?;
 //! assert!((run.energy() - energy).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | room | what is in it |
+//! # What a variational integrator is
+//!
+//! The motion of a system with the Lagrangian $`L(q, \dot q, t)`$ makes the action stationary. A variational integrator
+//! replaces the action of each time step by a function of its two ends, the *discrete Lagrangian*, and makes the sum over
+//! all steps stationary. That gives the *discrete Euler–Lagrange equation*, which determines each point from the two before:
+//!
+//! ```math
+//! \delta \int L\, \mathrm{d}t = 0
+//! \qquad\longrightarrow\qquad
+//! D_2 L_d(q_{k-1}, q_k) + D_1 L_d(q_k, q_{k+1}) = 0
+//! ```
+//!
+//! The steps of such a method preserve a symplectic form, and they conserve the momenta of the symmetries that $`L_d`$ has. As
+//! a rule their energy error does not add up from step to step, as that of a Runge–Kutta method does. This holds as long as
+//! the motion is regular and the steps are short against its periods.
+//!
+//! # Where to go on
+//!
+//! | page | what it answers |
 //! |---|---|
+//! | [Your first system](guide::first_system) | How do I declare a system, run it, and write a table? |
+//! | [Choosing a method](guide::choosing_a_method) | Which method do I begin with, and when do I take another? |
+//! | [Reading the report](guide::reading_the_report) | What did the compiler see, and what follows from it? |
+//! | [What can go wrong](guide::what_can_go_wrong) | What do the errors mean, and what does no error show? |
+//! | [`lagrangian`](macro@lagrangian), [`degenerate_lagrangian`] | What can formulas say? |
+//!
+//! # The two kinds of Lagrangian
+//!
+//! - A **regular** Lagrangian has second-order equations of motion. Its states hold coordinates and velocities. It is declared
+//!   by [`lagrangian`](macro@lagrangian).
+//! - A **degenerate** Lagrangian is affine in the velocities, $`L = \alpha(q) \cdot \dot q - H(q)`$, as that of vortices, of
+//!   guiding centres, of predators and prey. Its equations of motion are of first order, $`\Omega \dot q = \nabla H`$ with
+//!   $`\Omega = (D\alpha)^\mathsf{T} - D\alpha`$. Its states hold coordinates only. It is declared by
+//!   [`degenerate_lagrangian`].
+//!
+//! # The modules
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | [`prelude`] | what a first program needs |
+//! | [`guide`] | the pages above |
 //! | [`system`] | what the attributes implement: [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`], [`Report`] |
-//! | [`methods`] | the σ-family, quadrature rules with phase fitting, Galerkin, Newmark, compositions, baselines |
-//! | [`run`] | stepping with a fixed or a controlled step: state, energy, momenta, errors, checkpoints |
-//! | [`diagnostics`] | sections, exponents, tangent maps, preserved forms, orders |
+//! | [`methods`] | the σ-family, quadrature rules with phase fitting, Galerkin, Newmark, compositions, Gauss, Runge–Kutta |
+//! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
+//! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
 //! | [`solve`] | how implicit steps are solved, and when they count as solved |
-//! | [`mechanics`] | the vector field of a degenerate system |
+//! | [`mechanics`] | the equations of motion, and what can be asked of a system at one state |
 //! | [`state`] | what a run carries from step to step, compensated sums, what a run has cost |
-//! | [`space`], [`scalar`] | storage for points and matrices; sinks; numbers |
+//! | [`space`], [`scalar`] | storage for points and matrices; numbers |
 //! | [`error`] | failures as values |
-//!
-//! What the attributes understand is in their own documentation, [`degenerate_lagrangian`] and
-//! [`lagrangian`](macro@lagrangian); what a first program needs is in the [`prelude`].
 //!
 //! # Features
 //! - `macros` (default): the attributes.
@@ -80,6 +101,7 @@ pub mod __private;
 pub mod diagnostics;
 pub mod discrete;
 pub mod error;
+pub mod guide;
 pub mod mechanics;
 pub mod methods;
 pub mod prelude;

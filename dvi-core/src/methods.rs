@@ -71,7 +71,7 @@ pub struct Clock<T> {
 }
 
 impl<T: Real> Clock<T> {
-    /// Of steps of length `h` from time `start`.
+    /// A clock that begins at time `start` and whose steps have the length `h`.
     pub fn new(start: T, h: T) -> Self {
         Self { start, h, step: 0 }
     }

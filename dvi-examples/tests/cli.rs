@@ -49,6 +49,9 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
         assert!(read("png").starts_with(b"\x89PNG") && read("png").ends_with(b"IEND\xaeB`\x82"), "{name}");
         assert!(read("csv").iter().filter(|&&byte| byte == b'\n').count() > 3, "{name}");
     }
+    let figure = fs::read(folder.path().join("fig3-leapfrogging.svg")).expect("readable");
+    let shown = include_bytes!("../figures/leapfrogging.svg");
+    assert!(figure == shown, "the README shows another figure than this program draws: copy it to figures/");
     let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
     assert!(experiments.iter().all(|name| summary.contains(&format!("## {name}:"))), "{summary}");
     assert!(

@@ -36,6 +36,31 @@ use proc_macro::TokenStream;
 
 /// Declares a degenerate system, L(q, v, t) = α(q, t)·v − H(q, t), on the struct of its parameters.
 ///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A pendulum in phase space.
+/// #[degenerate_lagrangian(
+///     coordinates(angle, p),
+///     one_form    = p * d(angle),
+///     hamiltonian = p * p / 2.0 - g * angle.cos(),
+/// )]
+/// struct Pendulum {
+///     g: f64,
+/// }
+///
+/// let start: PendulumState = PendulumState { angle: 1.0, p: 0.0 };
+/// let mut run = Integrator::new(&Pendulum { g: 9.81 }, Sigma::midpoint(), 0.01, start)?;
+/// run.take_steps(1000)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
+/// `dvi_core::DegenerateLagrangian`, defines `SystemState` with the coordinates as fields, and continues the documentation of the
+/// struct with its formulas.
+///
+/// # Arguments
+///
 /// | argument | meaning |
 /// |---|---|
 /// | `coordinates(x, y[N])` | single coordinates and arrays; a size is a literal, a const generic, a `usize` field, `field.len()`, or sums and multiples of these |
@@ -47,54 +72,98 @@ use proc_macro::TokenStream;
 /// | `derive(Trait, …)` | what the state derives beside `Clone`, `Debug`, `PartialEq` and, without `Vec`s, `Copy`: `serde::Serialize` for instance, which does not know arrays of const-generic size |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
-/// Formulas are Rust expressions over the coordinates, the fields of the struct by name, `PI` and other
-/// constants by their paths (`std::f64::consts::E`), and the time `t` (a coordinate or field of that name takes precedence): operators, methods
-/// of `f64`, `erf` and `sinc`, `let` blocks, `if … else`, `as f64`; `name.field` and `self.name.field` are fields of
-/// a field. Index sums are `sum(0..n, |j| …)`, `sum_pairs(0..n, |j, k| …)` over j < k and
-/// `sum_ordered_pairs` over j ≠ k; the sign of the zero of a sum without terms is not defined. Indices are sums, differences and literal multiples of bound indices,
-/// sizes and integers; `%` is the Euclidean remainder.
+/// # Formulas
 ///
-/// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without
-/// the remainder, so `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient. A constant of the user's and a
-/// field of a field, whose types are not known, are taken for integers there.
+/// Formulas are Rust expressions over
+///
+/// - the coordinates, and the fields of the struct by name; `name.field` and `self.name.field` are fields of a field;
+/// - `PI`, and other constants by their paths (`std::f64::consts::E`);
+/// - the time `t`; a coordinate or field of that name takes precedence.
+///
+/// They are made of operators, methods of `f64`, `erf` and `sinc`, `let` blocks, `if … else`, and `as f64`.
+///
+/// | sum | over |
+/// |---|---|
+/// | `sum(0..n, \|j\| …)` | an index; the range may depend on outer indices |
+/// | `sum_pairs(0..n, \|j, k\| …)` | pairs with j < k |
+/// | `sum_ordered_pairs(0..n, \|j, k\| …)` | pairs with j ≠ k |
+/// | `product(0..n, \|j\| …)` | the same as `sum`, with products |
+///
+/// Indices are sums, differences and literal multiples of bound indices, sizes and integers; `%` is the Euclidean remainder, for
+/// periodic neighbours. The sign of the zero of a sum without terms is not defined.
+///
+/// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without the remainder, so
+/// `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient. A constant of the user's and a field of a field, whose types
+/// are not known, are taken for integers there.
+///
+/// # Sizes
+///
+/// A state and its run live on the stack if all sizes are literals; or if arrays have one const generic as their size, beside at
+/// most 16 coordinates of literal number, as in `coordinates(x[N], y[N], w)`. Other sizes are known at run time only, and arrays
+/// of such a size are `Vec`s: `field.len()`, a `usize` field, and expressions such as `N + 1`, from which stable Rust makes no
+/// array.
+///
+/// # Parameters
 ///
 /// The struct may be generic over the type of its parameters, `struct System<P = f64> { mu: P, charges: Vec<P> }`. It is then a
-/// system wherever that type is a number or, for derivatives with respect to a parameter, a `dvi_core::Varied` dual number. A field of a
-/// field has to be a number.
+/// system wherever that type is a number or, for derivatives with respect to a parameter, a `dvi_core::Varied` dual number. A
+/// field of a field has to be a number.
 ///
-/// At the zeros of a root the rules of differentiation give 0/0. Where a limit exists, it is the derivative for powers of
-/// a sum of squares that is written out with positive literal coefficients or runs over a whole array of coordinates, and
-/// of `x.hypot(y)`: for the first derivatives of powers of the distance above 1, for the second above 2, of sums over an
-/// array from 3 on. So those of `x.powf(1.5)` at 0 and of `(x*x + y*y).powf(1.5)` at the origin are 0. It is so for even
-/// roots of even powers, third and higher powers of `cbrt`, and the first derivatives of `cos` and `cosh` of a distance.
-/// In products of such powers with coordinates and smooth functions, and in sums of these, limits are looked for too;
-/// where none is found the derivative is not a number, as it is where it does not exist, of `x.hypot(y)` at the origin for
-/// instance. The derivative of `x.abs()` at 0 is taken to be 0, and its square to be 1; so is that of the root of an even power, a product of such sizes. A function of a
-/// sum without terms is a constant where that sum stands directly under a root; of other functions that have no derivative
-/// at 0, the derivative is not a number there. Sizes are taken to be at least 1 in all this.
+/// # Where derivatives have limits
 ///
-/// Derivatives are as exact as the arithmetic of their terms. Where a part of one is beyond the range of the numbers,
-/// a derivative can be no number or lose its digits although the formula has a value: `x.exp().atan()` at x = 800, or
-/// `(x*a).hypot(y*a)/a` with a = 1e-170. The reciprocal of a sum with exponentials, as in Fermi's function
-/// `1/(1 + x.exp())`, is taken to be constant where it is 0.
+/// At the zeros of a root the rules of differentiation give 0/0. Where a limit exists, it is the derivative in these cases:
 ///
-/// Stable Rust computes no array length from a const generic: in a state, an array of size `N + 1` is a
-/// `Vec`, and the size of the system is known at run time only.
+/// - Powers of a sum of squares that is written out with positive literal coefficients or runs over a whole array of
+///   coordinates, and of `x.hypot(y)`. First derivatives have it for powers of the distance above 1, second ones above 2, and
+///   those of sums over an array from 3 on. So the derivatives of `x.powf(1.5)` at 0 and of `(x*x + y*y).powf(1.5)` at the
+///   origin are 0.
+/// - Even roots of even powers, third and higher powers of `cbrt`, and the first derivatives of `cos` and `cosh` of a distance.
+/// - Products of such powers with coordinates and smooth functions, and sums of these, where a limit is found.
+/// - The derivative of `x.abs()` at 0 is taken to be 0, and its square to be 1. The same is true of the root of an even power,
+///   which is a product of such sizes.
+/// - A function of a sum without terms is a constant where that sum stands directly under a root.
 ///
-/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
-/// `dvi_core::DegenerateLagrangian`, defines `SystemState` with the coordinates as fields, and continues
-/// the documentation of the struct with its formulas.
+/// Elsewhere a derivative that does not exist is not a number: that of `x.hypot(y)` at the origin, for instance, and that of
+/// other functions that have no derivative at 0. Sizes are taken to be at least 1 in all this.
+///
+/// Derivatives are as exact as the arithmetic of their terms. Where a part of one is beyond the range of the numbers, a
+/// derivative can be no number or lose its digits although the formula has a value: `x.exp().atan()` at x = 800, or
+/// `(x*a).hypot(y*a)/a` with a = 1e-170. The reciprocal of a sum with exponentials, as in Fermi's function `1/(1 + x.exp())`, is
+/// taken to be constant where it is 0.
 ///
 /// # Errors
-/// Each mistake is one error on the token at fault. Ω with a row that is empty for certain is a mistake;
-/// another that is singular is an error where a run begins.
+///
+/// Each mistake is one error on the token at fault. Ω with a row that is empty for certain is a mistake; another that is singular
+/// is an error where a run begins.
 #[proc_macro_attribute]
 pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand::degenerate_lagrangian(attribute.into(), item.into()).into()
 }
 
-/// Declares a regular system, L(q, v, t) with a regular mass matrix ∂²L/∂v∂v, on the struct of its
-/// parameters.
+/// Declares a regular system, L(q, v, t) with a regular mass matrix ∂²L/∂v∂v, on the struct of its parameters.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A planet around a fixed sun.
+/// #[lagrangian(
+///     coordinates(x, y),
+///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / x.hypot(y),
+///     momenta(angular = x * dot(y) - y * dot(x)),
+/// )]
+/// struct Kepler {
+///     mu: f64,
+/// }
+///
+/// let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+/// let mut run = Integrator::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.01, start)?;
+/// run.take_steps(1000)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and `dvi_core::RegularLagrangian`,
+/// defines `SystemState` with the coordinates `x` and then the velocities `dot_x` as fields, and continues the documentation of
+/// the struct with its formulas.
 ///
 /// | argument | meaning |
 /// |---|---|
@@ -105,15 +174,12 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// | `derive(Trait, …)` | what the state derives beside the usual traits |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
-/// Formulas are those of [`macro@degenerate_lagrangian`], without restriction on the velocities.
-///
-/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
-/// `dvi_core::RegularLagrangian`, defines `SystemState` with the coordinates `x` and then the velocities
-/// `dot_x` as fields, and continues the documentation of the struct with its formulas.
+/// Formulas, sizes and parameters are those of [`macro@degenerate_lagrangian`], without restriction on the velocities.
 ///
 /// # Errors
-/// Each mistake is one error on the token at fault. A mass matrix with an empty row is a mistake; another
-/// that is singular is an error where a run begins.
+///
+/// Each mistake is one error on the token at fault. A mass matrix with an empty row is a mistake; another that is singular is an
+/// error where a run begins.
 #[proc_macro_attribute]
 pub fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand::lagrangian(attribute.into(), item.into()).into()

@@ -27,7 +27,7 @@ pub struct LyapunovExponent<S: System, L, T: Real = f64> {
 }
 
 impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
-    /// For the given run, from its current state; the first perturbation points nowhere in particular, and that of a
+    /// The exponent of the given run, from its current state on. The first perturbation has a direction of no significance, and that of a
     /// degenerate system keeps p = α(q).
     pub fn new<R: Run<System = S, Scalar = T>>(run: &R) -> Self
     where

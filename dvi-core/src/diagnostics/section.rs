@@ -31,9 +31,9 @@ pub enum Direction {
 /// A point of a section.
 #[derive(Clone, Debug)]
 pub struct Crossing<S, T> {
-    /// When.
+    /// The time of the crossing.
     pub time: T,
-    /// Where, with named coordinates. The velocities of a regular system are those of the interpolant.
+    /// The state at the crossing, with named coordinates. The velocities of a regular system are those of the interpolant.
     pub state: S,
 }
 

@@ -38,7 +38,7 @@ impl<S: Lagrangian<T>, T: Real> NodeWork<S, T> {
 }
 
 impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
-    /// With the node at q0 + σΔ.
+    /// The discrete Lagrangian with its node at q0 + σΔ.
     pub fn new(system: &S, sigma: T) -> Self {
         Self { sigma, work: NodeWork::new(system) }
     }

@@ -44,7 +44,7 @@ pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: FirstOrder<Self, 
     /// Ω q' = ∇H + ∂α/∂t, for a degenerate system; velocities and accelerations for a regular one.
     ///
     /// # Errors
-    /// Besides those of the trait, [`StartError::Starter`] where Ω or the mass matrix is singular.
+    /// Besides those of the trait, [`StartError::Undetermined`] where Ω or the mass matrix is singular.
     fn vector_field(&self, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
         self.at_time(T::lift(0.0)).vector_field(state)
     }
@@ -76,7 +76,7 @@ impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
     pub fn vector_field(&self, state: &S::State<T>) -> Result<S::State<T>, StartError> {
         let Self { system, t } = *self;
         let [q, v] = self.point(state)?;
-        let [rates, accelerations] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Starter)?;
+        let [rates, accelerations] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Undetermined)?;
         Ok(S::State::read(|block| system.block_len(block), &rates, &accelerations))
     }
 
@@ -97,7 +97,7 @@ impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
         let Self { system, t } = *self;
         let [q, v] = self.point(state)?;
         // Of either kind the first is the velocity.
-        let [velocity, _] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Starter)?;
+        let [velocity, _] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Undetermined)?;
         Ok(system.lagrangian(&q, &velocity, t))
     }
 

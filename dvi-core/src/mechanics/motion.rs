@@ -74,6 +74,13 @@ pub type EquationsOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Equations;
 pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point;
 
 /// The equations of motion of a system `S`, y' = X(y, t), in the arithmetic of `T`.
+///
+/// ```math
+/// \begin{aligned}
+/// \text{degenerate:} \quad & y = q, & \Omega\, \dot q &= \nabla H + \partial_t \alpha \\
+/// \text{regular:} \quad & y = (q, p), & \dot q &= v \ \text{ with } \ \partial_v L(q, v, t) = p, \quad \dot p = \partial_q L(q, v, t)
+/// \end{aligned}
+/// ```
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be solved in `{T}`",
     label = "it is no system, or a parameter of it is no number"

@@ -25,32 +25,36 @@ use crate::{Real, RegularLagrangian, System, Vector};
 pub use lagrangian::GalerkinLagrangian;
 pub use memory::GalerkinMemory;
 
-/// The discrete Lagrangian of the Lobatto rule with `S` nodes and displacements at the interior ones; `S` is 3,
-/// 4 or 5.
+/// The discrete Lagrangian of the Lobatto rule with `S` nodes, stationary in displacements of the interior nodes; `S` is 3, 4
+/// or 5.
 ///
-/// Order 2`S` − 2, symmetric, for every regular L; preserves dq ∧ dp and the momentum maps of symmetries that act
-/// linearly, unless the frequency is read from the motion. A step of L = ½ v·M v − V(q, t) is a fixed point that
-/// needs `S` − 2 values of ∂L/∂q an iteration; that of any other L is Newton's method in (`S` − 1) n unknowns for
-/// n coordinates, with all second derivatives of L.
+/// ```math
+/// L_d(q_0, q_1) = \operatorname*{ext}_{\delta_2, \dots, \delta_{S-1}} \; h \sum_{j=1}^{S} w_j\, L(q^j, \dot q^j, t + c_j h)
+/// ```
+///
+/// The order is 2`S` − 2 for every regular L, and the method is symmetric. It preserves dq ∧ dp and the momentum maps of
+/// symmetries that act linearly, unless the frequency is read from the motion. For L = ½ v·M v − V(q, t) a step is solved by a
+/// fixed point that needs `S` − 2 values of ∂L/∂q an iteration. For any other L it is solved by Newton's method in (`S` − 1) n
+/// unknowns for n coordinates, with all second derivatives of L.
 ///
 /// The interpolation may be [fitted](Self::phase_fitted) to a frequency that is [`Constant`](crate::discrete::Constant) or
-/// read from the motion as [`Reading::Averaged`]. On the oscillator of that frequency the phase error of a step is
-/// then of order 2`S` + 1 in ωh, not 2`S` − 1; it is not zero as without displacements, because the polynomials
-/// behind aⱼₖ are not fitted. The fitted interpolation is not translation invariant.
+/// read from the motion as [`Reading::Averaged`]. On the oscillator of that frequency the phase error of a step is then of order
+/// 2`S` + 1 in ωh, not 2`S` − 1. It is not zero, as it would be without displacements, because the polynomials of the
+/// displacements are not fitted. The fitted interpolation is not translation invariant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Galerkin<const S: usize, F = Unfitted> {
     /// What the interpolation between the ends is fitted to.
     pub frequency: F,
     /// How steps are solved. [`Solver::FixedPoint`] is for L = ½ v·M v − V(q, t) only.
     pub solver: Solver,
-    /// When a step counts as solved. Default: to rounding errors.
+    /// The criterion by which a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
     /// How the increments of the steps are added up. Default: [`Summation::Plain`].
     pub summation: Summation,
 }
 
 impl<const S: usize> Galerkin<S> {
-    /// With linear interpolation between the ends: Lobatto IIIA–IIIB. A number of nodes other than 3, 4 or 5
+    /// The method with linear interpolation between the ends: Lobatto IIIA–IIIB. A number of nodes other than 3, 4 or 5
     /// does not compile.
     pub fn new() -> Self {
         const { assert!(S >= 3 && S <= 5, "interior displacements are available with 3, 4 or 5 nodes") };

@@ -15,19 +15,26 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::{Lagrangian, Real, Scalar, System, Vector};
 
-/// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 3, of order 2`S`; `S` = 1 is the implicit midpoint rule.
+/// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 3, of order 2`S`, on the equations of motion y' = X(y, t).
 ///
-/// On q' = X(q) of a degenerate system it is symmetric and preserves Ω if α is affine, and then all quadratic momenta; on
-/// Hamilton's equations of a regular one it is symmetric and preserves dq ∧ dp, and all momenta that are bilinear in q and p. The fixed point contracts for
-/// h small against the fastest time scale only: [`StepFailure::NotConverged`] where it does not.
+/// ```math
+/// K_i = X\Bigl(y + h \sum_j a_{ij} K_j,\ t + c_i h\Bigr), \qquad y^+ = y + h \sum_i b_i K_i
+/// ```
+///
+/// Of a degenerate system y = q, and of a regular one y = (q, p). With `S` = 1 the method is the implicit midpoint rule.
+///
+/// It is symmetric. On Hamilton's equations of a regular system it preserves dq ∧ dp, and all momenta that are bilinear in q
+/// and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all quadratic momenta. The stages are found
+/// by a fixed point, which contracts if h is small against the fastest time scale only:
+/// [`StepFailure::NotConverged`] where it does not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gauss<const S: usize> {
-    /// When the stages count as converged. Default: to rounding errors.
+    /// The criterion by which the stages count as converged. Default: to rounding errors.
     pub stopping: Stopping,
 }
 
 impl<const S: usize> Gauss<S> {
-    /// With default options. A number of stages other than 1, 2 or 3 does not compile.
+    /// The method with default options. A number of stages other than 1, 2 or 3 does not compile.
     pub fn new() -> Self {
         const { assert!(S >= 1 && S <= 3, "Gauss collocation is available with 1, 2 or 3 stages") };
         Self::default()

@@ -24,12 +24,12 @@ use crate::{Lagrangian, Linear, Real, Space, System, Vector};
 pub struct General<M> {
     /// What has a discrete Lagrangian.
     pub scheme: M,
-    /// When a step counts as solved. Default: to rounding errors.
+    /// The criterion by which a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
 }
 
 impl<M> General<M> {
-    /// With default options.
+    /// The method with default options.
     pub fn new(scheme: M) -> Self {
         Self { scheme, stopping: Stopping::default() }
     }

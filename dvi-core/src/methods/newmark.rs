@@ -30,27 +30,34 @@ pub use lagrangian::NewmarkLagrangian;
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
 ///
-/// Order 2, symmetric. β = 0 is Störmer–Verlet, explicit; β = ¼ the average acceleration method, stable on linear
-/// oscillators at every step; other β > 0 are implicit too and stable on them for (¼ − β)(ωh)² < 1. One ∂L/∂q an
-/// iteration.
+/// ```math
+/// \begin{aligned}
+/// q_1 &= q_0 + h v_0 + h^2 \left[ (\tfrac12 - \beta) a_0 + \beta a_1 \right] \\
+/// v_1 &= v_0 + \tfrac{h}{2} (a_0 + a_1), \qquad\qquad a = -M^{-1} \nabla V(q, t)
+/// \end{aligned}
+/// ```
 ///
-/// Preserves d(q − βh² a(q)) ∧ dp, which depends on h: steps of different lengths would preserve nothing, so the
-/// method is no [`VariableStep`](crate::methods::VariableStep) and cannot be composed. Momenta of symmetries that act
-/// linearly are preserved in the form that they have at q − βh² a(q).
+/// The method is symmetric and of order 2. With β = 0 it is Störmer–Verlet, and explicit. With β = ¼ it is the average
+/// acceleration method, which is stable on linear oscillators at every step. With other β > 0 it is implicit too, and stable on
+/// them for (¼ − β)(ωh)² < 1. An iteration evaluates ∂L/∂q once.
+///
+/// It preserves d(q − βh² a(q)) ∧ dp, a form that depends on h. Steps of different lengths would preserve nothing, so the
+/// method is no [`VariableStep`](crate::methods::VariableStep) and cannot be composed. Momenta of symmetries that act linearly
+/// are preserved in the form that they have at q − βh² a(q).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newmark<T = f64> {
     /// β, from 0 to ½.
     pub beta: T,
     /// How steps are solved; of no concern for β = 0.
     pub solver: Solver,
-    /// When a step counts as solved. Default: to rounding errors.
+    /// The criterion by which a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
     /// How the increments of the steps are added up. Default: [`Summation::Plain`].
     pub summation: Summation,
 }
 
 impl<T> Newmark<T> {
-    /// With any β; a run refuses one that is not in \[0, ½\].
+    /// The method with the parameter β; a run refuses one that is not in \[0, ½\].
     pub fn new(beta: T) -> Self {
         Self {
             beta,

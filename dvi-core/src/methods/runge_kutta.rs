@@ -60,11 +60,14 @@ static CLASSICAL: Tableau = Tableau {
     c:  [0.0, 0.5, 0.5, 1.0],
 };
 
-/// An explicit Runge–Kutta method on the equations of motion y' = X(y): kᵢ = X(y + h Σⱼ aᵢⱼ kⱼ), y⁺ = y + h Σᵢ bᵢ kᵢ,
-/// with y = q for a degenerate system and y = (q, p) for a regular one.
+/// An explicit Runge–Kutta method on the equations of motion y' = X(y, t).
 ///
-/// Neither symmetric nor symplectic: energy and, on nonlinear systems, all momenta but the linear ones
-/// drift.
+/// ```math
+/// k_i = X\Bigl(y + h \sum_{j < i} a_{ij} k_j,\ t + c_i h\Bigr), \qquad y^+ = y + h \sum_i b_i k_i
+/// ```
+///
+/// Of a degenerate system y = q, and of a regular one y = (q, p). The method is neither symmetric nor symplectic: the energy
+/// drifts, and so do all momenta but linear ones on nonlinear systems.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RungeKutta {
     tableau: &'static Tableau,

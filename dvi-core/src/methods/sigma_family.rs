@@ -28,12 +28,16 @@ pub use memory::SigmaMemory;
 pub use monitor::ParasiticMode;
 pub use start::Start;
 
-/// The σ-family: L_d(q0, q1) = α(q_σ)·(q1 − q0) − h H(q_σ), q_σ = (1−σ)q0 + σq1.
+/// The σ-family: a discrete Lagrangian with one node between the ends.
 ///
-/// Second order on nonlinear systems for every σ ∈ \[0, 1\]; symmetric for σ = ½; σ = (3 − √3)/6 is of
-/// fourth order on linear systems. Where α depends on time, be it by an added function of t alone, the order is one
-/// unless σ = ½. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden
-/// 2002, eq. 17) and, for symmetries that act by affine maps, the discrete momenta.
+/// ```math
+/// L_d(q_0, q_1) = \alpha(q_\sigma) \cdot (q_1 - q_0) - h H(q_\sigma), \qquad q_\sigma = (1 - \sigma) q_0 + \sigma q_1
+/// ```
+///
+/// For every σ in \[0, 1\] it is of second order on nonlinear systems, and for σ = ½ it is symmetric. For σ = (3 − √3)/6 and
+/// σ = (3 + √3)/6 it is of fourth order on linear systems. If α depends on time, be it by an added function of t alone, the
+/// order is one unless σ = ½. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for
+/// symmetries that act by affine maps, the discrete momenta.
 ///
 /// | α | σ = 0 | 0 < σ < 1 | σ = 1 |
 /// |---|---|---|---|
@@ -64,13 +68,13 @@ pub use start::Start;
 /// If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a singular matrix and cannot be stepped this way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sigma<T = f64> {
-    /// Where between q0 and q1 the Lagrangian is evaluated, in \[0, 1\].
+    /// The point between q0 and q1 at which the Lagrangian is evaluated: 0 is q0, 1 is q1.
     pub sigma: T,
     /// How the second starting value is found. Default: [`Start::Consistent`].
     pub start: Start,
     /// How implicit steps are solved. Default: [`Solver::Automatic`].
     pub solver: Solver,
-    /// When an implicit step counts as solved. Default: to rounding errors.
+    /// The criterion by which an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
     /// How the increments of the steps are added up. [`Summation::Compensated`] is for affine α and 0 < σ < 1; what is
     /// compensated are the coordinates. Default: [`Summation::Plain`].

@@ -11,8 +11,15 @@ use crate::space::sink::{Scaled, Sink};
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, System, Vector};
 
-/// The symmetrised family for systems of either kind, as a method by [`General`](crate::methods::General): α = 0 is Störmer–Verlet
-/// where that exists, α = ½ the midpoint rule. On degenerate systems it is a two-step map with a parasitic mode.
+/// The symmetrised family, for systems of either kind (Marsden & West 2001, section 2.3.2).
+///
+/// ```math
+/// L_d = \tfrac12 \left( L_d^{\alpha} + L_d^{1 - \alpha} \right), \qquad
+/// L_d^{\alpha}(q_0, q_1) = h\, L\!\left((1 - \alpha) q_0 + \alpha q_1,\ \tfrac{q_1 - q_0}{h},\ t + \alpha h\right)
+/// ```
+///
+/// It has no steps of its own: [`General`](crate::methods::General) makes a method of it. With α = 0 it is Störmer–Verlet where
+/// that exists, and with α = ½ the midpoint rule. On degenerate systems it is a two-step map with a parasitic mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Symmetrised<T = f64> {
     /// α, in \[0, 1\].

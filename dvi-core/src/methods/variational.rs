@@ -42,7 +42,14 @@ pub enum Fitting {
     PhaseAndMomentum,
 }
 
-/// The quadrature family: L_d = h Σⱼ wⱼ L(qʲ, q̇ʲ), q and q̇ interpolated between q0 and q1.
+/// The quadrature family: the discrete Lagrangian is a quadrature rule of L on an interpolation between the two ends.
+///
+/// ```math
+/// L_d(q_0, q_1) = h \sum_j w_j\, L(q^j, \dot q^j, t + c_j h), \qquad
+/// q^j = q_0 + c_j (q_1 - q_0), \quad \dot q^j = \frac{q_1 - q_0}{h}
+/// ```
+///
+/// [`phase_fitted`](Self::phase_fitted) replaces the straight line by one that is exact on an oscillator.
 ///
 /// | rule | step if L = ½ v·M v − V(q, t) | order |
 /// |---|---|---|
@@ -52,16 +59,17 @@ pub enum Fitting {
 /// | others with Σ w c = ½, such as symmetric rules | implicit in q1 | 2 |
 /// | others | implicit in q1 | 1 |
 ///
-/// The order is two for every rule that is exact for linear functions, however many nodes it has, because the
-/// interpolation between two points is; [`Galerkin`](crate::methods::Galerkin) has more. Other Lagrangians take the implicit step. Starts
-/// from p0 = ∂L/∂v(q0, v0). Preserves the momentum maps of symmetries that act linearly and leave the
-/// frequency as it is, and dq ∧ dp unless the frequency is read from the motion without being differentiated
-/// ([`Reading`]).
+/// For other Lagrangians every step is implicit. The order is two for every rule that is exact for linear functions, however
+/// many nodes it has, because the interpolation is linear; [`Galerkin`](crate::methods::Galerkin) has higher orders. A run starts
+/// from p0 = ∂L/∂v(q0, v0).
 ///
-/// On the oscillator of the fitted frequency steps of one length are exact, whatever the rule, where sin u ≠ 0 and
-/// S ≠ 0, u = ωh; near a zero of either a step ends with [`StepFailure::Resonance`]. Steps of different lengths are exact
-/// there with [`Fitting::PhaseAndMomentum`] only, because the momentum between them is off by a factor that depends on the
-/// length. The interpolation is not translation invariant: constants are not among the functions that it interpolates.
+/// The steps preserve dq ∧ dp, unless a frequency is read from the motion without being differentiated ([`Reading`]). They
+/// conserve the momentum maps of symmetries that act linearly and leave the frequency as it is.
+///
+/// On the oscillator of the fitted frequency ω steps of one length are exact, whatever the rule, if sin u ≠ 0 and S ≠ 0 for
+/// u = ωh; near a zero of either a step ends with [`StepFailure::Resonance`]. Steps of different lengths are exact there with
+/// [`Fitting::PhaseAndMomentum`] only, because the momentum between them is off by a factor that depends on the length. A fitted
+/// interpolation is not translation invariant: constants are not among the functions that it interpolates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variational<F = Unfitted, R = Quadrature> {
     /// Nodes and weights.
@@ -72,7 +80,7 @@ pub struct Variational<F = Unfitted, R = Quadrature> {
     pub fitting: Fitting,
     /// How implicit steps are solved. [`Solver::FixedPoint`] is for L = ½ v·M v − V(q, t) only.
     pub solver: Solver,
-    /// When an implicit step counts as solved. Default: to rounding errors.
+    /// The criterion by which an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
     /// How the increments of the steps are added up; with frequencies per coordinate plainly. Default:
     /// [`Summation::Plain`].

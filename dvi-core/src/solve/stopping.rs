@@ -16,7 +16,7 @@ use crate::error::{StartError, StepFailure};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported, smallest};
 
-/// When an iteration is done.
+/// The criterion by which an iteration is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
     /// The largest error to accept, relative to max|q| + max|Δ| over all coordinates. Default: 1e-17, below the

@@ -68,11 +68,11 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> LinearS
 /// Whether a matrix is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storing {
-    /// In the storage that its pattern needs.
+    /// It is, in the storage that its pattern needs.
     Always,
-    /// A full one only up to 1024 rows.
+    /// It is, unless it would be full and of more than 1024 rows.
     IfSmall,
-    /// Products with vectors have to do. A matrix of fixed size is stored all the same.
+    /// It is not: products with vectors have to do. A matrix of fixed size is stored all the same.
     Never,
 }
 

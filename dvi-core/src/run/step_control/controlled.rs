@@ -1,4 +1,4 @@
-//! A run in the hands of its step control.
+//! A run that a step control moves on, step by step, and back.
 
 use crate::state::memory::Memory;
 use core::fmt;

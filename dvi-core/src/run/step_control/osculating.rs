@@ -38,15 +38,16 @@ impl CentreSpeed {
     }
 }
 
-/// Steps for which | |1/k₁ − 1/k₂| − v_o d | is at most a tolerance (Kosmas & Vlachos, eq. 23).
+/// Steps for which $`\left| |1/k_1 - 1/k_2| - v_o d \right|`$ is at most a tolerance (Kosmas & Vlachos, eq. 23): the osculating
+/// circle of the path changes little in a step.
 ///
-/// A step that is too long, or fails, is undone and tried again; h ← h·0.9 (tolerance/e)^(1/p), between h/5 and
-/// 5h, with p the order of e in h. For L = ½ v·M v − V(q) with a constant matrix M, and for the curvature of the
-/// path in the Euclidean metric of the coordinates; a V that depends on time explicitly does so in a, but not in
-/// j. Not available on straight paths, which have no osculating circle.
+/// A step that is too long, or fails, is undone and tried again. The next length is h·0.9 (tolerance/e)^(1/p), between h/5 and
+/// 5h, with the order p of the error e in h. The control is for L = ½ v·M v − V(q) with a constant matrix M, and for the
+/// curvature of the path in the Euclidean metric of the coordinates; a V that depends on time explicitly does so in the
+/// acceleration, but not in its rate of change. It is not available on straight paths, which have no osculating circle.
 ///
-/// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method. With the
-/// distance along the path it may also lock in to a periodic motion, and then they do not: the gallery shows both.
+/// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method. With the distance along
+/// the path it may also lock in to a periodic motion, and then they do not: the gallery shows both.
 /// [`Reversible`](super::Reversible) is better and cheaper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Osculating {
@@ -59,7 +60,7 @@ pub struct Osculating {
 }
 
 impl Osculating {
-    /// With d = |v| h.
+    /// The control with the deviation d = |v| h.
     pub fn new(tolerance: f64, first_step: f64) -> Self {
         Self { tolerance, first_step, centre: CentreSpeed::default() }
     }

@@ -53,11 +53,11 @@ impl<T: Real> Density<T> for Power {
     }
 }
 
-/// Steps h = ε/ρ with a density that is carried along symmetrically.
+/// Steps h = ε/ρ with a density ρ that is carried along symmetrically (Hairer & Söderlind 2005).
 ///
-/// With a symmetric method the whole is reversible, so that energy errors do not drift on reversible orbits; it
-/// is not symplectic. For regular systems. The velocity at the start of a step is all it needs beside the
-/// position: for L = ½ v·M v − V(q, t), no evaluation of L.
+/// With a symmetric method a run can be retraced backwards, so that energy errors do not drift on reversible orbits. The whole
+/// is not symplectic. The control is for regular systems. Beside the position it needs the velocity at the start of a step, and
+/// for L = ½ v·M v − V(q, t) no evaluation of L.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversible<D = Power> {
     /// ε ≠ 0, in units of ρ times time; negative to run back in time.

@@ -1,0 +1,125 @@
+//! What the README shows is what the examples are, and what they print; and each example writes its table.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const README: &str = include_str!("../../README.md");
+
+/// What an example of `dvi-core` prints, started in `folder`.
+fn printed_by(example: &str, folder: &Path) -> String {
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
+    let arguments =
+        ["run", "--quiet", "--locked", "-p", "dvi-core", "--example", example, "--manifest-path", manifest];
+    let output =
+        Command::new(env!("CARGO")).args(arguments).current_dir(folder).output().expect("cargo starts");
+    assert!(output.status.success(), "{example}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+fn empty_folder(name: &str) -> std::path::PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if folder.exists() {
+        fs::remove_dir_all(&folder).expect("removed");
+    }
+    fs::create_dir_all(&folder).expect("made");
+    folder
+}
+
+/// The source of an example from the first line that contains `from` up to the last before `to`.
+fn excerpt<'a>(source: &'a str, from: &str, to: &str) -> &'a str {
+    let start = source.find(from).expect("it begins");
+    let end = source[start..].find(to).map_or(source.len(), |end| start + end);
+    source[start..end].trim_end()
+}
+
+#[test]
+fn the_readme_shows_the_examples() {
+    let first = include_str!("../../dvi-core/examples/first.rs");
+    let shown = format!("```rust\n{}\n```", excerpt(first, "use dvi_core", "no such line"));
+    assert!(README.contains(&shown), "the README should show the program `first`:\n{shown}");
+    let vortices = include_str!("../../dvi-core/examples/vortices.rs");
+    let shown = format!("```rust,ignore\n{}\n```", excerpt(vortices, "/// Point vortices", "fn main"));
+    assert!(README.contains(&shown), "the README should show the system of `vortices`:\n{shown}");
+}
+
+#[test]
+fn the_readme_shows_what_the_first_program_prints() {
+    let shown = format!("```text\n{}```", printed_by("first", &empty_folder("first")));
+    assert!(README.contains(&shown), "the README should show:\n{shown}");
+}
+
+/// What the examples are to show, in their own numbers.
+#[test]
+fn examples_write_their_tables_and_show_what_they_say() {
+    let folder = empty_folder("examples");
+    for (example, table, rows) in [
+        ("pendulum", "pendulum", 1000),
+        ("kepler", "kepler", 40_000),
+        ("vortices", "vortices", 3000),
+        ("lotka_volterra", "lotka-volterra", 2000),
+    ] {
+        let printed = printed_by(example, &folder);
+        let file = format!("results/{table}.csv");
+        assert!(printed.contains(&file), "{printed}");
+        let written = fs::read_to_string(folder.join(&file)).expect("a table");
+        let columns = written.lines().next().expect("a head").split(',').count();
+        assert!(written.lines().count() > rows, "{file}");
+        for line in written.lines().skip(1) {
+            let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
+            assert!(numbers.len() == columns && numbers.iter().all(|x| x.is_finite()), "{file}: {line}");
+        }
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../dvi-core/examples/{example}.rs"));
+        assert!(fs::read_to_string(source).expect("source").lines().count() < 60, "{example}");
+    }
+    let table = |name: &str| -> Vec<Vec<f64>> {
+        let text = fs::read_to_string(folder.join(format!("results/{name}.csv"))).expect("a table");
+        text.lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect())
+            .collect()
+    };
+    // The error of the variational integrator is as large in the last tenth of the run as in the first, and that of
+    // Runge–Kutta has grown.
+    let largest =
+        |rows: &[Vec<f64>], column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
+    let pendulum = table("pendulum");
+    let growth = |column: usize| largest(&pendulum[900..], column) / largest(&pendulum[..100], column);
+    assert!(growth(1) < 1.1 && growth(2) > 5.0, "{} and {}", growth(1), growth(2));
+    // The comet's energy error with steps that follow the motion.
+    assert!(largest(&table("kepler"), 4) < 2e-3);
+}
+
+/// The period of the cycle, by another integration: the classical Runge–Kutta method, written out, with steps a tenth as
+/// long, and the passage through the equilibrium by Newton's method on it.
+#[test]
+fn the_period_that_an_example_prints_is_right() {
+    let printed = printed_by("lotka_volterra", &empty_folder("period"));
+    let line = printed.lines().find(|line| line.starts_with("period")).expect("the period");
+    let found: f64 = line.rsplit(' ').next().expect("a number").parse().expect("a number");
+    let field = |[x, y]: [f64; 2]| [x * (1.0 - y), y * (x - 2.0)];
+    let step = |z: [f64; 2], h: f64| {
+        let along = |k: [f64; 2], c: f64| [z[0] + c * h * k[0], z[1] + c * h * k[1]];
+        let k1 = field(z);
+        let k2 = field(along(k1, 0.5));
+        let k3 = field(along(k2, 0.5));
+        let k4 = field(along(k3, 1.0));
+        [0, 1].map(|i| z[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+    };
+    let (mut z, mut t, h) = ([1.0, 0.5], 0.0, 1e-3);
+    let mut times = Vec::new();
+    while times.len() < 2 {
+        let next = step(z, h);
+        if z[0] < 2.0 && next[0] >= 2.0 {
+            let mut part = h * (2.0 - z[0]) / (next[0] - z[0]);
+            for _ in 0..5 {
+                let at = step(z, part);
+                part -= (at[0] - 2.0) / field(at)[0];
+            }
+            times.push(t + part);
+        }
+        (z, t) = (next, t + h);
+    }
+    let expected = times[1] - times[0];
+    assert!((found - expected).abs() < 1e-7, "{found}, not {expected}");
+}
