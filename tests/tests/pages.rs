@@ -4,6 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use dvi_core::prelude::*;
+use dvi_tests::larger;
+
 const README: &str = include_str!("../../README.md");
 
 /// What an example of `dvi-core` prints, started in `folder`.
@@ -49,6 +52,37 @@ fn the_readme_shows_what_the_first_program_prints() {
     assert!(README.contains(&shown), "the README should show:\n{shown}");
 }
 
+/// The system of the first program.
+#[lagrangian(
+    coordinates(angle),
+    lagrangian = dot(angle).powi(2) / 2.0 + g / length * angle.cos(),
+)]
+struct Pendulum {
+    g: f64,
+    length: f64,
+}
+
+#[test]
+fn the_energy_of_the_first_program_stays_in_its_band() -> Result<(), Box<dyn std::error::Error>> {
+    let pendulum = Pendulum { g: 9.81, length: 1.0 };
+    let start: PendulumState = PendulumState { angle: 2.0, dot_angle: 0.0 };
+    let mut run = Integrator::new(&pendulum, Variational::trapezoid(), 0.01, start)?;
+    let energy = run.energy();
+    let mut largest = |steps: u64| -> Result<f64, StepError> {
+        let mut largest = 0.0;
+        for _ in 0..steps {
+            run.advance()?;
+            largest = larger(largest, (run.energy() - energy).abs());
+        }
+        Ok(largest)
+    };
+    // A swing to and fro takes 2.66.
+    let (first, all) = (largest(266)?, largest(2_000_000)?);
+    assert!(first > 1e-3 && all < 1.01 * first, "{first:e} and {all:e}");
+    assert!(README.contains("within two\nmillion steps it does not differ by more"));
+    Ok(())
+}
+
 /// What the examples are to show, in their own numbers.
 #[test]
 fn examples_write_their_tables_and_show_what_they_say() {
@@ -82,7 +116,7 @@ fn examples_write_their_tables_and_show_what_they_say() {
     // The error of the variational integrator is as large in the last tenth of the run as in the first, and that of
     // Runge–Kutta has grown.
     let largest =
-        |rows: &[Vec<f64>], column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
+        |rows: &[Vec<f64>], column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, larger);
     let pendulum = table("pendulum");
     let growth = |column: usize| largest(&pendulum[900..], column) / largest(&pendulum[..100], column);
     assert!(growth(1) < 1.1 && growth(2) > 5.0, "{} and {}", growth(1), growth(2));
