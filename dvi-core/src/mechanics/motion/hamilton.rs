@@ -9,7 +9,7 @@ use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::space::sink::Places;
+use crate::space::sink::Product;
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
@@ -234,7 +234,7 @@ impl<S: RegularLagrangian<T>, T: Real> LinearEquations<T> for SecondOrder<'_, S,
             [[zero, one], [one, zero]].map(|[vq, vv]| Weights { qq: zero, qv: zero, vq, vv });
         system.linearize(q, v, *t, mass, b, l_v, sink);
         let mut transported: Vector<S, T> = system.space().vector();
-        let mut product = Places(|row: usize, column: usize, entry: T| transported[row] += entry * v[column]);
+        let mut product = Product { x: v, sum: &mut transported };
         system.linearize(q, v, *t, transport, b, l_v, &mut product);
         system.momentum_rate(q, v, *t, l_v);
         for ((b, &transported), &rate) in b.iter_mut().zip(transported.iter()).zip(l_v.iter()) {
