@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::name::Name;
+
 /// An array of a state does not have the length that its system declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("`{array}` has length {found}, but the system declares {expected}")]
@@ -55,10 +57,10 @@ pub enum StartError {
         reason: &'static str,
     },
     /// A coordinate or velocity of the initial state is infinite or not a number.
-    #[error("number {coordinate} of the initial state is {value}")]
+    #[error("{entry} = {value} in the initial state")]
     NotFinite {
-        /// Its index in the flat state, counted from 0: the coordinates, then the velocities.
-        coordinate: usize,
+        /// Its name.
+        entry: Name,
         /// Its value.
         value: f64,
     },

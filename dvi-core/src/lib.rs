@@ -104,6 +104,7 @@ pub mod error;
 pub mod guide;
 pub mod mechanics;
 pub mod methods;
+mod name;
 pub mod prelude;
 pub mod run;
 pub mod scalar;
@@ -121,6 +122,6 @@ pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
     AffineOneForm, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula, Lagrangian, Linear,
-    Matrix, OperationCount, Permutation, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square,
-    State, System, Vector, Weights,
+    Matrix, OperationCount, Permutation, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report,
+    Separable, Square, State, System, Vector, Weights,
 };

@@ -4,12 +4,14 @@
 //! [`Galerkin`], [`Newmark`]. Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that
 //! has no method, as [`Symmetrised`] has none.
 
+mod collocation;
 mod composition;
 mod energy_limit;
 mod galerkin;
 mod gauss;
 mod general;
 mod newmark;
+mod one_step;
 mod runge_kutta;
 mod sigma_family;
 mod symmetrised;
@@ -28,6 +30,7 @@ pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use general::{General, GeneralMemory};
 pub use newmark::{Newmark, NewmarkLagrangian, NewmarkMemory};
+pub use one_step::{OneStep, OneStepGauss, OneStepGaussMemory, OneStepMemory};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
 pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
@@ -42,12 +45,14 @@ pub enum PreservedForm {
     /// The form of the equations of motion where it is constant: dq ∧ dp for a regular system; Ω = −dα on Q for a degenerate
     /// one whose α is affine.
     OmegaIfAffine,
+    /// Ω = −dα on Q, of a degenerate system.
+    Omega,
     /// The discrete two-form ∂²L_d/∂q0∂q1 dq0 ∧ dq1 on Q×Q (Rowley & Marsden 2002, eq. 17).
     Discrete,
     /// dq ∧ dp on T*Q.
     Canonical,
-    /// dq' ∧ dp on T*Q, where q' differs from q by a term of order h² that the method documents: its orbits
-    /// are those of a symplectic map in other coordinates.
+    /// dq' ∧ dp, where q' differs from q by a term of first or second order in h that the method documents: its orbits are
+    /// those of a symplectic map in other coordinates.
     Conjugate,
 }
 

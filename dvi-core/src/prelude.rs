@@ -8,8 +8,8 @@ pub use crate::discrete::{Constant, Curvature, PerCoordinate, Quadrature, Radial
 pub use crate::error::{StartError, StepError, StepFailure};
 pub use crate::mechanics::AtState;
 pub use crate::methods::{
-    Composition, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, ParasiticMode, RungeKutta, Scheme, Sigma,
-    Start, Variational,
+    Composition, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, OneStep, OneStepGauss, ParasiticMode,
+    RungeKutta, Scheme, Sigma, Start, Variational,
 };
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Density, Integrator, Osculating, Power, Reversible, Run,

@@ -22,7 +22,7 @@ use crate::error::{IndexError, LengthError};
 use crate::space::sink::Sink;
 use crate::{Scalar, Space};
 
-pub use names::Name;
+pub use crate::name::Name;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 
 /// A point, velocity or covector of the space of `S`.
@@ -212,6 +212,16 @@ pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = D
     fn conjugate(&self, i: usize) -> usize;
     /// Sets `out` to the gradient ∂J/∂q of declared momentum `index`.
     fn momentum_gradient(&self, index: usize, q: &[T], t: T, out: &mut [T]);
+}
+
+/// A system in the class of one-step schemes: there is a half y of the coordinates along which α has no component, so that
+/// α = ϑ(x, y)·dx with the other half x (Ellison, Finn, Burby, Kraus, Qin & Tang 2018). Then Ω is regular where ∂ϑ/∂y is.
+///
+/// The attribute implements it where the formula of α shows that. The class is a property of the formula: α and α + dF have
+/// the same motion, and one may be in the class and the other not.
+pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
+    /// The place of a coordinate, below the dimension n, in the order (x, y): below n/2 if α has a component along it.
+    fn place(&self, coordinate: usize) -> usize;
 }
 
 /// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform

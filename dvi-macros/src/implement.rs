@@ -122,10 +122,11 @@ fn system(
     let state = state(emitter);
     let configuration = configuration(emitter, programs, &state, &report);
     let lagrangian = lagrangian(emitter, programs, energy);
-    let (item, state) = (&emitter.model.item, &state.item);
-    let functions = functions(emitter);
+    // Below what the user says.
+    let mut item = emitter.model.item.clone();
+    item.attrs.push(parse_quote!(#[doc = #documentation]));
+    let (state, functions) = (&state.item, functions(emitter));
     quote! {
-        #[doc = #documentation]
         #item
         #state
         const _: () = {

@@ -3,10 +3,12 @@
 
 use crate::model::Model;
 
+mod class;
 mod mass;
 mod one_form;
 mod singular;
 
+pub(crate) use class::{Class, Components};
 pub(crate) use mass::MassMatrix;
 pub(crate) use one_form::OneForm;
 

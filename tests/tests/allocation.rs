@@ -5,6 +5,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
 use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};
+use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
 #[global_allocator]
@@ -62,6 +63,16 @@ fn of_vortices(method: Sigma, n: usize) -> f64 {
     (dhat::HeapStats::get().total_bytes - before) as f64
 }
 
+/// A one-form in class, of run-time size.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| (y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % n] / 8.0) * d(x[j])),
+    hamiltonian = sum(0..n, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0),
+)]
+struct Borne {
+    n: usize,
+}
+
 macro_rules! assert_linear {
     ($($method:expr),+ $(,)?) => {$(
         let [short, long] = [1000, 4000].map(|n| of_chain($method, n));
@@ -88,6 +99,19 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let prey_start = LotkaVolterraState { x: 1.0, y: 1.0 };
     assert_none!(prey, prey_start, Sigma::midpoint(), newton(0.5), RungeKutta::heun(), Gauss::<2>::new());
+
+    let one_sided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    let one_sided_start = OneSidedState { x: 1.0, y: 1.0 };
+    assert_none!(
+        one_sided,
+        one_sided_start,
+        OneStep::midpoint(),
+        OneStep::scheme_b(),
+        OneStepGauss::<3>::new()
+    );
+    let ring = Borne { n: 3 };
+    let ring_start = BorneState { x: vec![0.3, -0.4, 0.2], y: vec![0.5, 0.1, -0.3] };
+    assert_none!(ring, ring_start, OneStep::trapezoid(), OneStep::scheme_a(), OneStepGauss::<2>::new());
 
     // Of variable length, on the stack and on the heap, with steps that are undone.
     let fitted = || Variational::simpson().phase_fitted(Radial(Reading::Averaged));

@@ -7,6 +7,7 @@ use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
 use dvi_tests::configurations::{leapfrogging, quasi_periodic};
 use dvi_tests::systems::*;
+use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::zoo::regular::{self, Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -87,6 +88,11 @@ fn degenerate_runs_go_on() -> Outcome {
     check(&vortices, Sigma { summation, ..Sigma::midpoint() }, start)?;
     check(&vortices, Gauss::<2>::new(), start)?;
     check(&vortices, RungeKutta::midpoint(), start)?;
+    let prey = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    for method in [OneStep::midpoint(), OneStep::trapezoid(), OneStep::scheme_a(), OneStep::scheme_b()] {
+        check(&prey, method, OneSidedState { x: 1.2, y: 0.9 })?;
+    }
+    check(&prey, OneStepGauss::<3>::new(), OneSidedState { x: 1.2, y: 0.9 })?;
     check(&vortices, General::new(Sigma::midpoint()), start)?;
     check(&vortices, EnergyLimit { method: Sigma::midpoint(), limit: 1.0 }, start)?;
     // The parasitic mode is watched on as it was.

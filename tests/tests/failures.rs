@@ -30,10 +30,13 @@ fn a_start_that_is_not_finite_is_refused() {
     let (system, mut start) = quasi_periodic();
     start.y[1] = f64::NAN;
     let error = Integrator::new(&system, Sigma::midpoint(), 0.1, start).err();
-    assert!(matches!(error, Some(StartError::NotFinite { coordinate: 5, value }) if value.is_nan()));
+    assert!(
+        matches!(error, Some(StartError::NotFinite { entry, value }) if value.is_nan() && entry.to_string() == "y[1]")
+    );
     start.y[1] = f64::INFINITY;
     let error = Integrator::new(&system, RungeKutta::classical(), 0.1, start).err();
-    assert_eq!(error, Some(StartError::NotFinite { coordinate: 5, value: f64::INFINITY }));
+    let message = error.map(|error| error.to_string());
+    assert_eq!(message.as_deref(), Some("y[1] = inf in the initial state"));
     let error = Integrator::new_at(&system, Sigma::midpoint(), f64::INFINITY, 0.1, quasi_periodic().1).err();
     assert_eq!(error, Some(StartError::Parameter { name: "t", value: f64::INFINITY, range: "finite" }));
 }
@@ -98,10 +101,12 @@ fn a_start_in_a_collision_is_refused_by_every_method() {
 #[test]
 fn a_form_that_is_singular_at_an_end_is_refused_there() {
     let (system, start) = (SphereForm { gamma: 1.0 }, SphereFormState { phi: 0.4, z: 0.3 });
-    for (sigma, column) in [(0.0, 1), (1.0, 0)] {
+    for sigma in [0.0, 1.0] {
         let error = Integrator::new(&system, Sigma::new(sigma), 0.1, start).err();
-        let expected = StartError::Starter(StepFailure::Singular { column, pivot: 0.0 });
-        assert_eq!(error, Some(expected), "sigma = {sigma}");
+        let Some(StartError::Unsupported { option: "sigma = 0 or 1", reason }) = error else {
+            panic!("sigma = {sigma}: {error:?}")
+        };
+        assert!(reason.contains("OneStep"), "{reason}");
     }
     assert!(Integrator::new(&system, Sigma::midpoint(), 0.1, start).is_ok());
 }

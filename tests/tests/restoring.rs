@@ -6,6 +6,7 @@ use dvi_core::state::{Memory, Statistics};
 use dvi_core::{Lagrangian, Space};
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
+use dvi_tests::zoo::gauges::OneSided;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -62,6 +63,11 @@ fn degenerate_runs_go_on_from_a_copy() -> Outcome {
     }
     check(&vortices, Gauss::<2>::new(), &start, &[])?;
     check(&vortices, RungeKutta::midpoint(), &start, &[])?;
+    let prey = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    for method in [OneStep::midpoint(), OneStep::trapezoid(), OneStep::scheme_a(), OneStep::scheme_b()] {
+        check(&prey, method, &[1.2, 0.9], &[])?;
+    }
+    check(&prey, OneStepGauss::<2>::new(), &[1.2, 0.9], &[])?;
     let compensated = Sigma { summation: Summation::Compensated, ..Sigma::midpoint() };
     check(&vortices, compensated, &start, &[])?;
     check(&vortices, EnergyLimit { method: Sigma::leapfrog(), limit: 1.0 }, &start, &[])

@@ -8,6 +8,7 @@ use core::fmt;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
+use crate::methods::collocation::{Collocation, MOST};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
@@ -15,7 +16,7 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::{Lagrangian, Real, Scalar, System, Vector};
 
-/// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 3, of order 2`S`, on the equations of motion y' = X(y, t).
+/// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 4, of order 2`S`, on the equations of motion y' = X(y, t).
 ///
 /// ```math
 /// K_i = X\Bigl(y + h \sum_j a_{ij} K_j,\ t + c_i h\Bigr), \qquad y^+ = y + h \sum_i b_i K_i
@@ -34,76 +35,17 @@ pub struct Gauss<const S: usize> {
 }
 
 impl<const S: usize> Gauss<S> {
-    /// The method with default options. A number of stages other than 1, 2 or 3 does not compile.
+    /// The method with default options. A number of stages other than 1, 2, 3 or 4 does not compile.
     pub fn new() -> Self {
-        const { assert!(S >= 1 && S <= 3, "Gauss collocation is available with 1, 2 or 3 stages") };
+        const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1, 2, 3 or 4 stages") };
         Self::default()
-    }
-}
-
-/// Nodes, weights and matrix of a collocation method.
-#[derive(Clone, Copy, Debug)]
-struct Tableau<const S: usize> {
-    a: [[f64; S]; S],
-    b: [f64; S],
-    c: [f64; S],
-}
-
-const ROOT_3: f64 = 1.732_050_807_568_877_2;
-const ROOT_15: f64 = 3.872_983_346_207_417;
-
-/// The nodes; the rest of the tableau follows from them.
-#[rustfmt::skip]
-const NODES: [[f64; 3]; 3] = [
-    [0.5,                 0.0,                 0.0                 ],
-    [0.5 - ROOT_3 / 6.0,  0.5 + ROOT_3 / 6.0,  0.0                 ],
-    [0.5 - ROOT_15 / 10.0, 0.5,                0.5 + ROOT_15 / 10.0],
-];
-
-#[rustfmt::skip]
-const WEIGHTS: [[f64; 3]; 3] = [
-    [1.0,        0.0,       0.0       ],
-    [0.5,        0.5,       0.0       ],
-    [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0],
-];
-
-#[rustfmt::skip]
-const MATRICES: [[[f64; 3]; 3]; 3] = [
-    [[0.5,                         0.0,                         0.0                        ],
-     [0.0,                         0.0,                         0.0                        ],
-     [0.0,                         0.0,                         0.0                        ]],
-    [[0.25,                        0.25 - ROOT_3 / 6.0,         0.0                        ],
-     [0.25 + ROOT_3 / 6.0,         0.25,                        0.0                        ],
-     [0.0,                         0.0,                         0.0                        ]],
-    [[5.0 / 36.0,                  2.0 / 9.0 - ROOT_15 / 15.0,  5.0 / 36.0 - ROOT_15 / 30.0],
-     [5.0 / 36.0 + ROOT_15 / 24.0, 2.0 / 9.0,                   5.0 / 36.0 - ROOT_15 / 24.0],
-     [5.0 / 36.0 + ROOT_15 / 30.0, 2.0 / 9.0 + ROOT_15 / 15.0,  5.0 / 36.0                 ]],
-];
-
-impl<const S: usize> Tableau<S> {
-    fn new() -> Self {
-        const { assert!(S >= 1 && S <= 3, "Gauss collocation is available with 1, 2 or 3 stages") };
-        Self {
-            a: core::array::from_fn(|i| core::array::from_fn(|j| MATRICES[S - 1][i][j])),
-            b: core::array::from_fn(|i| WEIGHTS[S - 1][i]),
-            c: core::array::from_fn(|i| NODES[S - 1][i]),
-        }
-    }
-
-    /// Entry (i, j): the j-th Lagrange polynomial of the nodes at 1 + cᵢ.
-    fn continuation(&self) -> [[f64; S]; S] {
-        let basis = |j: usize, x: f64| {
-            let others = (0..S).filter(|&k| k != j);
-            others.fold(1.0, |product, k| product * (x - self.c[k]) / (self.c[j] - self.c[k]))
-        };
-        core::array::from_fn(|i| core::array::from_fn(|j| basis(j, 1.0 + self.c[i])))
     }
 }
 
 /// The stages of a Gauss step, and those of the step before.
 pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     equations: EquationsOf<S, T>,
-    tableau: Tableau<STAGES>,
+    tableau: Collocation<STAGES>,
     continuation: [[f64; STAGES]; STAGES],
     /// Of the last completed step.
     completed: [PointOf<S, T>; STAGES],
@@ -146,7 +88,7 @@ impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let mut equations = S::Kind::begin(system, q, v, t)?;
-        let (points, tableau) = (|| core::array::from_fn(|_| S::Kind::point(system)), Tableau::new());
+        let (points, tableau) = (|| core::array::from_fn(|_| S::Kind::point(system)), Collocation::gauss());
         let (mut y, mut completed): (_, [PointOf<S, T>; STAGES]) = (S::Kind::point(system), points());
         S::Kind::gather(&mut equations, q, &mut y);
         for slope in &mut completed {
@@ -256,49 +198,6 @@ fn combine<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real>(
     for (part, (out, y)) in out.iter_mut().zip(y.iter()).enumerate() {
         for (n, (out, &y)) in out.iter_mut().zip(y.iter()).enumerate() {
             *out = factors.iter().zip(slopes).fold(y, |sum, (&factor, k)| sum + factor * k[part][n]);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Tableau;
-
-    /// The simplifying assumptions that define collocation at the zeros of the Legendre polynomial:
-    /// C(s): Σⱼ aᵢⱼ cⱼᵏ⁻¹ = cᵢᵏ/k for k ≤ s, and B(2s): Σᵢ bᵢ cᵢᵏ⁻¹ = 1/k for k ≤ 2s.
-    fn check<const S: usize>() {
-        let Tableau::<S> { a, b, c } = Tableau::new();
-        let moment = |w: &[f64; S], k: i32| w.iter().zip(&c).map(|(w, c)| w * c.powi(k - 1)).sum::<f64>();
-        for k in 1..=2 * S as i32 {
-            assert!((moment(&b, k) * f64::from(k) - 1.0).abs() < 1e-14, "B({k}) of {S} stages");
-        }
-        let beyond = 2 * S as i32 + 1;
-        assert!((moment(&b, beyond) * f64::from(beyond) - 1.0).abs() > 1e-4, "{S} stages");
-        for i in 0..S {
-            for k in 1..=S as i32 {
-                assert!((moment(&a[i], k) * f64::from(k) - c[i].powi(k)).abs() < 1e-15, "C({k}), row {i}");
-            }
-            for j in 0..S {
-                let symplectic = b[i] * a[i][j] + b[j] * a[j][i] - b[i] * b[j];
-                assert!(symplectic.abs() < 1e-16, "{S} stages, ({i}, {j})");
-            }
-        }
-    }
-
-    #[test]
-    fn tableaus_are_those_of_gauss() {
-        check::<1>();
-        check::<2>();
-        check::<3>();
-    }
-
-    #[test]
-    fn continuation_reproduces_polynomials_of_the_stages() {
-        let tableau = Tableau::<3>::new();
-        let cubic_free = |x: f64| 2.0 - x + 3.0 * x * x;
-        for (row, c) in tableau.continuation().iter().zip(tableau.c) {
-            let value: f64 = row.iter().zip(tableau.c).map(|(l, c)| l * cubic_free(c)).sum();
-            assert!((value - cubic_free(1.0 + c)).abs() < 1e-12);
         }
     }
 }

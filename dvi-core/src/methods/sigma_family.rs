@@ -19,10 +19,12 @@ use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
+use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
+use crate::space::sink::Places;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{DegenerateLagrangian, Real, System, Vector};
+use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 pub use memory::SigmaMemory;
 pub use monitor::ParasiticMode;
@@ -136,7 +138,7 @@ impl<T: Real> Sigma<T> {
     fn validate(&self, is_affine: bool) -> Result<(), StartError> {
         let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
         if !in_range {
-            let value = crate::scalar::norm::reported(self.sigma);
+            let value = norm::reported(self.sigma);
             return Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" });
         }
         if self.summation == Summation::Compensated && (!is_affine || self.is_end()) {
@@ -149,6 +151,25 @@ impl<T: Real> Sigma<T> {
             }
             _ => self.stopping.validate(),
         }
+    }
+
+    /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
+    fn go_with<S: DegenerateLagrangian<T>>(&self, system: &S, q: &[T], t: T) -> Result<(), StartError> {
+        if !self.is_end() {
+            return Ok(());
+        }
+        let (zero, mut sizes): (T, Vector<S, T>) = (T::lift(0.0), system.space().vector());
+        let mut sink = Places(|row: usize, _: usize, entry: T| {
+            sizes[row] = norm::larger(sizes[row], Scalar::abs(entry));
+        });
+        system.one_form_jacobian(q, t, T::lift(1.0), zero, &mut sink);
+        if sizes.contains(&zero) {
+            let reason = "the one-form has no component along some coordinate, or one that is constant at the start, so \
+                          that the equations are singular; take `Sigma::midpoint()`, `OneStep`, or a one-form such as \
+                          (p dq - q dp) / 2 in place of p dq";
+            return Err(StartError::Unsupported { option: "sigma = 0 or 1", reason });
+        }
+        Ok(())
     }
 }
 
@@ -202,6 +223,7 @@ impl<S: System, T: Real> Carries<S, T> for Sigma<T> {
 impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
+        self.go_with(system, q, t)?;
         if S::AFFINE && self.is_midpoint() && self.start == Start::Consistent {
             return SigmaMemory::without_defect(system, self, q, t, h);
         }
@@ -219,6 +241,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         h: T,
     ) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
+        self.go_with(system, q, t)?;
         SigmaMemory::without_defect(system, self, q, t, h)
     }
 
@@ -283,6 +306,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoPoint<S, T> for Sigma<T> {
         h: T,
     ) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
+        self.go_with(system, q0, t)?;
         SigmaMemory::between(system, self, q0, q1, t, h)
     }
 }

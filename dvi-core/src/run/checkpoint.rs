@@ -8,7 +8,7 @@ use crate::run::Stepper;
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, Reader, Record};
-use crate::system::start::velocities;
+use crate::system::start::{not_finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
 
 /// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) and
@@ -90,7 +90,7 @@ impl<T: Real> Checkpoint<T> {
         }
         for (coordinate, x) in self.q.iter().chain(&self.v).enumerate() {
             if !x.is_finite() {
-                return Err(StartError::NotFinite { coordinate, value: reported(*x) });
+                return Err(not_finite(system, coordinate, reported(*x)));
             }
         }
         let Statistics { steps, iterations, gradients, linearizations, factorisations } = self.statistics;

@@ -97,11 +97,19 @@ impl fmt::Display for CoordinateBlock {
 impl fmt::Display for OperationCount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let nest = if self.loops.is_empty() { "once" } else { self.loops };
-        write!(
-            f,
-            "{nest}: {} additions, {} multiplications, {} divisions, {} calls",
-            self.additions, self.multiplications, self.divisions, self.calls
-        )
+        let Self { additions, multiplications, divisions, calls, .. } = *self;
+        let counts = [
+            (additions, "addition"),
+            (multiplications, "multiplication"),
+            (divisions, "division"),
+            (calls, "call"),
+        ];
+        write!(f, "{nest}: ")?;
+        for (place, (count, what)) in counts.into_iter().enumerate() {
+            let (comma, plural) = (if place == 0 { "" } else { ", " }, if count == 1 { "" } else { "s" });
+            write!(f, "{comma}{count} {what}{plural}")?;
+        }
+        Ok(())
     }
 }
 

@@ -2,8 +2,8 @@
 //! the only ones that the compiler reports. None of the functions is ever called, as such a program does not compile.
 
 use super::{
-    AffineOneForm, Degenerate, DegenerateLagrangian, Lagrangian, QuadraticInVelocity, Regular,
-    RegularLagrangian, Separable, System, Weights,
+    AffineOneForm, Degenerate, DegenerateLagrangian, Lagrangian, ProperlyDegenerate, QuadraticInVelocity,
+    Regular, RegularLagrangian, Separable, System, Weights,
 };
 use crate::{Scalar, Sink};
 
@@ -52,6 +52,13 @@ impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> DegenerateLagrangian<T> 
         i
     }
     fn momentum_gradient(&self, _: usize, _: &[T], _: T, _: &mut [T]) {}
+}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> ProperlyDegenerate<T> for S {
+    fn place(&self, coordinate: usize) -> usize {
+        coordinate
+    }
 }
 
 #[diagnostic::do_not_recommend]

@@ -1,6 +1,7 @@
 //! What is checked and laid out before a run begins.
 
 use crate::error::StartError;
+use crate::name::Name;
 use crate::scalar::norm::reported;
 use crate::{Lagrangian, Real, Space, State, System, Vector};
 
@@ -45,6 +46,12 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     Err(StartError::Undefined { quantity, coordinate: None, value: reported(energy) })
 }
 
+/// The entry of a state, counted from 0 through coordinates and velocities, that is no number.
+pub(crate) fn not_finite<S: System>(system: &S, entry: usize, value: f64) -> StartError {
+    let unnamed = Name { block: "?", is_velocity: false, index: Some(entry) };
+    StartError::NotFinite { entry: system.names().nth(entry).unwrap_or(unnamed), value }
+}
+
 /// The number of velocities that a state carries.
 pub(crate) fn velocities<S: System>(system: &S) -> usize {
     if S::REGULAR { system.space().dimension() } else { 0 }
@@ -60,7 +67,7 @@ pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
     match q.iter().chain(v.iter()).position(|x| !x.is_finite()) {
         Some(coordinate) => {
             let value = if coordinate < q.len() { q[coordinate] } else { v[coordinate - q.len()] };
-            Err(StartError::NotFinite { coordinate, value: reported(value) })
+            Err(not_finite(system, coordinate, reported(value)))
         }
         None => Ok([q, v]),
     }

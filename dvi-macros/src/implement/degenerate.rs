@@ -1,13 +1,13 @@
 //! What is generated for a degenerate system beyond what every system has.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::document::{Account, quantity};
-use super::in_numbers;
+use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
 use crate::program::{DegenerateFormulas, DegeneratePrograms};
-use crate::structure::OneForm;
+use crate::structure::{Class, Components, OneForm};
 use crate::symbolic::{Index, print_coordinate};
 use crate::validate::Checked;
 
@@ -39,8 +39,11 @@ fn account(
 ) -> Account {
     let declared = [("α", formulas.one_form), ("H", formulas.hamiltonian)];
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
-    let mut account =
-        Account::new("L(q, v, t) = α(q, t)·v − H(q, t) with", declared.to_vec(), structure.sentences());
+    let mut account = Account::new(
+        "L(q, v, t) = α(q, t)·v − H(q, t) with",
+        declared.to_vec(),
+        structure.sentences(emitter.model),
+    );
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
@@ -108,7 +111,81 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             }
     };
     let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian), &items);
-    quote!(#lagrangian #affine)
+    let proper = proper(emitter, &structure.class);
+    quote!(#lagrangian #affine #proper)
+}
+
+/// The implementation of `ProperlyDegenerate`, or what says why there is none.
+fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
+    let (krate, model) = (emitter.krate(), emitter.model);
+    if class.is_proper {
+        let place = place(emitter, class);
+        let items = quote! {
+            #[inline(always)]
+            fn place(&self, __coordinate: usize) -> usize { #place }
+        };
+        return in_numbers(emitter, &quote!(ProperlyDegenerate), &items);
+    }
+    let components = class.names(model, true).join(", ");
+    let message = format!(
+        "one-step schemes need a half of the coordinates along which the one-form has no component, and that of `{}` \
+         has components along {components}",
+        model.item.ident
+    );
+    let (name, allow) = (&model.item.ident, super::allow());
+    let lacking = format_ident!("{name}InClass");
+    let mut generics = over_numbers(emitter);
+    generics.make_where_clause().predicates.push(syn::parse_quote!(__T: #lacking));
+    let (impl_generics, _, where_clause) = generics.split_for_impl();
+    let (_, type_generics, _) = model.item.generics.split_for_impl();
+    quote! {
+        #[diagnostic::on_unimplemented(
+            message = #message,
+            label = "takes systems of that class only",
+            note = "the motion is the same for α + dF with any function F: choose F such that the components along one half \
+                    of the coordinates vanish, as in ½ (x dy - y dx) + d(½ x y) = x dy",
+            note = "`Gauss` and `Sigma` step any degenerate system"
+        )]
+        trait #lacking {}
+        #allow
+        impl #impl_generics #krate::ProperlyDegenerate<__T> for #name #type_generics #where_clause {
+            fn place(&self, __coordinate: usize) -> usize { __coordinate }
+        }
+    }
+}
+
+/// Block by block: `if i < end { return place of the first + i − offset }`.
+fn place(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
+    let model = emitter.model;
+    let mut offset = Index::default();
+    let mut places = [Index::default(), class.size(model, true)];
+    let cases = (0..model.blocks.len()).map(|block| {
+        let start = emitter.index(&offset);
+        offset = offset.plus(&model.block_size(block), 1);
+        let end = emitter.index(&offset);
+        let [with, without] = [0, 1].map(|half| emitter.index(&places[half]));
+        for (half, place) in places.iter_mut().enumerate() {
+            *place = place.plus(&class.size_in(model, block, half == 0), 1);
+        }
+        let place = match &class.components[block] {
+            Components::Block(true) => quote!(__coordinate - (#start) + (#with)),
+            Components::Block(false) => quote!(__coordinate - (#start) + (#without)),
+            Components::Entries(entries) => {
+                let rank = |index: usize| entries[..index].iter().filter(|e| **e == entries[index]).count();
+                let ranks = (0..entries.len()).map(rank);
+                let size = entries.len();
+                quote!({
+                    const __HAS: [bool; #size] = [#(#entries),*];
+                    const __RANK: [usize; #size] = [#(#ranks),*];
+                    let __entry = __coordinate - (#start);
+                    __RANK[__entry] + if __HAS[__entry] { #with } else { #without }
+                })
+            }
+        };
+        quote!(if __coordinate < #end { return #place; })
+    });
+    let cases: Vec<TokenStream> = cases.collect();
+    quote!(#(#cases)* __coordinate)
 }
 
 /// Block by block: `if i < end { return i − offset + conjugate's offset }`.

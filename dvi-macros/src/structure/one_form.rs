@@ -2,7 +2,7 @@
 
 use syn::Expr as Syntax;
 
-use super::has_matching;
+use super::{Class, has_matching};
 use crate::errors::Errors;
 use crate::model::Model;
 use crate::program::dalpha;
@@ -16,6 +16,8 @@ pub(crate) struct OneForm {
     pub(crate) canonical: bool,
     /// The conjugate of each block, where canonical.
     pub(crate) conjugates: Vec<usize>,
+    /// Whether one-step schemes can be used.
+    pub(crate) class: Class,
     /// Blocks that Ω does not involve.
     untouched: Vec<usize>,
     /// Whether the places of Ω that are not zero leave room for an inverse.
@@ -114,7 +116,8 @@ impl OneForm {
         let places: Vec<[usize; 2]> =
             omega.iter().map(|entry| [entry.row.block as usize, entry.column.block as usize]).collect();
         let invertible = has_matching(model, &places);
-        Self { linear, matching, canonical, conjugates, untouched, invertible }
+        let class = Class::new(graph, model, one_form);
+        Self { linear, matching, canonical, conjugates, class, untouched, invertible }
     }
 
     /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
@@ -155,19 +158,23 @@ impl OneForm {
     }
 
     /// What is said of the structure in reports.
-    pub(crate) fn sentences(&self) -> Vec<String> {
+    pub(crate) fn sentences(&self, model: &Model) -> Vec<String> {
         let mut sentences = Vec::new();
         sentences.push(match self.linear {
             true => "α is affine in q with constant coefficients: Ω is constant.",
             false => "α is nonlinear in q or depends on t.",
         });
-        sentences.push(match (self.linear, self.matching) {
-            (true, true) => {
+        let lacks = self.class.lacks_components();
+        sentences.push(match (lacks, self.linear, self.matching) {
+            (true, ..) => {
+                "σ = 0 and σ = 1 cannot be used: α has no component along some coordinate, so their equations are singular."
+            }
+            (_, true, true) => {
                 "σ = 0 and σ = 1 are explicit: one gradient of H a step, no iteration, no factorisation."
             }
-            (true, false) => "σ = 0 and σ = 1 are explicit up to one factorisation for the whole run.",
-            (false, true) => "σ = 0 is explicit: no iteration, no factorisation. σ = 1 is implicit.",
-            (false, false) => "σ = 0 solves one linear system a step, without iteration. σ = 1 is implicit.",
+            (_, true, false) => "σ = 0 and σ = 1 are explicit up to one factorisation for the whole run.",
+            (_, false, true) => "σ = 0 is explicit: no iteration, no factorisation. σ = 1 is implicit.",
+            (_, false, false) => "σ = 0 solves one linear system a step, without iteration. σ = 1 is implicit.",
         });
         sentences.push("0 < σ < 1 is implicit.");
         sentences.push(match self.canonical {
@@ -176,6 +183,18 @@ impl OneForm {
             }
             false => "Ω is dense: q' = X(q) takes one linear solve.",
         });
-        sentences.into_iter().map(str::to_string).collect()
+        let mut sentences: Vec<String> = sentences.into_iter().map(str::to_string).collect();
+        sentences.push(self.class.sentence(model));
+        sentences.push(
+            match (self.linear, self.class.is_proper) {
+                (true, _) => "Begin with `Sigma::midpoint()`: α is affine, so it is the implicit midpoint rule.",
+                (false, true) => "Begin with `OneStep::midpoint()`: it has no parasitic mode and preserves Ω.",
+                (false, false) => {
+                    "Begin with `Gauss::<2>::new()`: α is not affine, and `Sigma` would have a parasitic mode."
+                }
+            }
+            .to_string(),
+        );
+        sentences
     }
 }

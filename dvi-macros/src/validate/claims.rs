@@ -6,7 +6,7 @@ use super::point::{Directions, Point, Support};
 use super::system::{Functions, Outputs, Part, System, difference};
 use super::{Checked, Difference, TOLERANCE};
 use crate::program::Output;
-use crate::structure::{MassMatrix, OneForm};
+use crate::structure::{Components, MassMatrix, OneForm};
 use crate::symbolic::Graph;
 
 pub(super) enum Claims<'a> {
@@ -74,6 +74,18 @@ impl System<'_> {
             if let (Some(here), Some(there)) = (self.at(point, Directions::ALL), there) {
                 is_same("AFFINE", "Dα elsewhere", here.form_jacobian(point), there.form_jacobian(point))?;
                 vanishes("AFFINE", "∂α/∂t", here.form_rate())?;
+            }
+        }
+        for (block, components) in form.class.components.iter().enumerate() {
+            let directions = Directions { first: Support::Block(block), ..Directions::ALL };
+            if *components == Components::Block(false)
+                && let Some(outputs) = self.at(point, directions)
+            {
+                vanishes(
+                    "ProperlyDegenerate",
+                    "a component of α that is said to vanish",
+                    outputs.form_along(),
+                )?;
             }
         }
         if form.canonical {

@@ -182,6 +182,11 @@ impl Outputs {
         [self.lagrangian.both(First::Q, Second::V), self.lagrangian.both(First::V, Second::Q)]
     }
 
+    /// α along the first direction.
+    pub(super) fn form_along(&self) -> Sized {
+        self.form.first(First::V)
+    }
+
     /// ∂L/∂v along the first direction.
     pub(super) fn momentum_along(&self) -> Sized {
         self.lagrangian.first(First::V)

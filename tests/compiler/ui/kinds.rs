@@ -36,6 +36,26 @@ fn tangent_map_of_newmark() {
     let _ = TangentMap::new(&Regular, &Newmark::new(0.25));
 }
 
+#[degenerate_lagrangian(
+    coordinates(z[3], w),
+    one_form = z[0] * d(z[1]) + z[1] * z[2] * d(w) + w * d(z[2]),
+    hamiltonian = z[0] * z[0] + z[1] * w,
+)]
+pub struct OutOfClass;
+
+fn one_step_scheme_out_of_class() {
+    let state: OutOfClassState = OutOfClassState { z: [1.0; 3], w: 0.0 };
+    let _ = Integrator::new(&OutOfClass, OneStep::midpoint(), 0.1, state);
+}
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) - y * d(x), hamiltonian = x * x + y * y)]
+pub struct Symmetric;
+
+fn one_step_scheme_in_the_symmetric_gauge() {
+    let state: SymmetricState = SymmetricState { x: 1.0, y: 0.0 };
+    let _ = Integrator::new(&Symmetric, OneStepGauss::<2>::new(), 0.1, state);
+}
+
 fn integer_step() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 1, state);

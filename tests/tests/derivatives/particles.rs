@@ -24,7 +24,7 @@ impl<const N: usize> ByHand for PointVortices<N> {
     }
     fn integrals<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
         let sum = |f: &dyn Fn(usize) -> D| (0..N).map(|j| f(j) * self.gamma[j]).sum();
-        let squares = sum(&|j| (q[j] * q[j] + q[N + j] * q[N + j]));
+        let squares = sum(&|j| q[j] * q[j] + q[N + j] * q[N + j]);
         vec![sum(&|j| q[j]), sum(&|j| q[N + j]), squares]
     }
 }

@@ -20,7 +20,10 @@ fn steps_and_starts_that_are_none_are_refused() {
         assert!(matches!(error, Some(StartError::Step { .. })), "{error:?}");
     }
     let error = Integrator::new(&KEPLER, Variational::trapezoid(), 0.1, state(1.0, f64::NAN)).err();
-    assert!(matches!(error, Some(StartError::NotFinite { coordinate: 3, .. })), "{error:?}");
+    assert!(
+        matches!(error, Some(StartError::NotFinite { entry, .. }) if entry.to_string() == "dot_y"),
+        "{error:?}"
+    );
     let collided = Integrator::new(&KEPLER, Variational::simpson(), 0.1, state(0.0, 1.0)).err();
     let Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(0), value }) = collided
     else {

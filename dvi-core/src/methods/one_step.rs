@@ -1,0 +1,277 @@
+//! One-step schemes for degenerate systems in class, α = ϑ(x, y)·dx.
+//!
+//! As α has no component along y, the discrete Lagrangian of a rule with nodes cⱼ and weights wⱼ needs one ȳ for the step,
+//!
+//! L_d(x0, x1, ȳ) = h Σⱼ wⱼ L((x0 + cⱼΔ, ȳ), Δ/h),   Δ = x1 − x0, stationary in ȳ,
+//!
+//! so that its step couples two points and not three (Ellison, Finn, Burby, Kraus, Qin & Tang 2018; Burby, Finn &
+//! Ellison 2022). With f = ∂L/∂q it is
+//!
+//! p0 = Σⱼ wⱼ(ϑⱼ − h(1 − cⱼ) f_xⱼ),   0 = Σⱼ wⱼ f_yⱼ,   p1 = p0 + h Σⱼ wⱼ f_xⱼ,   ϑ(x1, y1) = p1
+//!
+//! The schemes A and B are those of c = 1 and c = 0 with ȳ in place of y.
+
+mod gauss;
+mod split;
+mod stage;
+
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::VectorField;
+use crate::mechanics::orientation::FormOrientation;
+use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::scalar::norm;
+use crate::solve::Stopping;
+use crate::state::Statistics;
+use crate::state::history::{History, is_similar};
+use crate::state::memory::{Memory, lasting};
+use crate::{ProperlyDegenerate, Real, Space, System, Vector};
+pub use gauss::{OneStepGauss, OneStepGaussMemory};
+use split::Split;
+use stage::{Node, Stage};
+
+/// A one-step scheme for degenerate systems in class: [`ProperlyDegenerate`].
+///
+/// There α = ϑ(x, y)·dx has components along one half x of the coordinates only. The schemes couple two points, and not three
+/// as [`Sigma`](crate::methods::Sigma) does, so that they have no parasitic mode. With f = ∂L/∂q and v = Δ/h, Δ = x1 − x0:
+///
+/// | scheme | equations | order | preserves |
+/// |---|---|---|---|
+/// | [`midpoint`](Self::midpoint) | ϑ(q̃) = p0 + ½h f_x(q̃, v), f_y(q̃, v) = 0 at q̃ = (x0 + ½Δ, ȳ); p1 = p0 + h f_x(q̃, v) | 2 | Ω |
+/// | [`trapezoid`](Self::trapezoid) | the same with the mean of both ends, (x0, ȳ) and (x1, ȳ) | 2 | Ω |
+/// | [`scheme_b`](Self::scheme_b) | x1 = x0 + h v(q0); ϑ(q1) = p0 + h f_x(q1, v(q1)) | 1 | dϑ ∧ d(x + h v(q)) |
+/// | [`scheme_a`](Self::scheme_a), its adjoint | ϑ(q1) = p0 + h f_x(q0, v(q0)); x1 = x0 + h v(q1) | 1 | dϑ ∧ d(x − h v(q)) |
+///
+/// where p = ϑ(q), and v(q) is the velocity of x at q. The first two are symmetric, and end with ϑ(q1) = p1. A step is solved
+/// by Newton's method with all second derivatives of L.
+///
+/// A system that is not in class has no such scheme, and using one is a compile error: out of class their equations converge
+/// to a wrong motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OneStep {
+    rule: Rule,
+    /// The criterion by which a step counts as solved. Default: to rounding errors.
+    pub stopping: Stopping,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rule {
+    A,
+    B,
+    Midpoint,
+    Trapezoid,
+}
+
+impl OneStep {
+    /// Order 2, symmetric: one node, at the centre.
+    pub fn midpoint() -> Self {
+        Self::of(Rule::Midpoint)
+    }
+
+    /// Order 2, symmetric: a node at each end.
+    pub fn trapezoid() -> Self {
+        Self::of(Rule::Trapezoid)
+    }
+
+    /// Order 1: the scheme A of Ellison et al. 2018.
+    pub fn scheme_a() -> Self {
+        Self::of(Rule::A)
+    }
+
+    /// Order 1: the scheme B of Ellison et al. 2018.
+    pub fn scheme_b() -> Self {
+        Self::of(Rule::B)
+    }
+
+    fn of(rule: Rule) -> Self {
+        Self { rule, stopping: Stopping::default() }
+    }
+}
+
+impl Scheme for OneStep {
+    fn order(&self) -> usize {
+        match self.rule {
+            Rule::A | Rule::B => 1,
+            Rule::Midpoint | Rule::Trapezoid => 2,
+        }
+    }
+    fn is_symmetric(&self) -> bool {
+        matches!(self.rule, Rule::Midpoint | Rule::Trapezoid)
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        if self.is_symmetric() { PreservedForm::Omega } else { PreservedForm::Conjugate }
+    }
+}
+
+/// What a run of a one-step scheme carries.
+#[derive(Debug)]
+pub struct OneStepMemory<S: System, T: Real> {
+    /// ϑ at the current point, zero along y.
+    p: Vector<S, T>,
+    /// The velocity of x at the current point, and zero along y, for the schemes A and B.
+    velocity: Vector<S, T>,
+    /// The mean rates of change of the last steps, that of y to where it stands in the equations.
+    history: History<S, T>,
+    last_step: T,
+    orientation: FormOrientation<S, T>,
+    split: Split<S, T>,
+    stage: Stage<S, T>,
+    next: Vector<S, T>,
+}
+
+impl<S: System, T: Real> Memory<T> for OneStepMemory<S, T> {
+    lasting!(T; numbers p, numbers velocity, part history, number last_step, part orientation);
+}
+
+impl<S: System, T: Real> Carries<S, T> for OneStep {
+    type Memory = OneStepMemory<S, T>;
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+        self.stopping.validate()?;
+        let split = Split::new(system);
+        let [mut p, mut velocity, mut rates]: [Vector<S, T>; 3] =
+            core::array::from_fn(|_| system.space().vector());
+        system.one_form(q, t, &mut p);
+        let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
+        field.evaluate(system, q, t, &mut rates, &mut Statistics::default()).map_err(StartError::Starter)?;
+        split.copy_x(&rates, &mut velocity);
+        Ok(OneStepMemory {
+            p,
+            velocity,
+            history: History::new(system, Some(rates)),
+            last_step: T::lift(0.0),
+            orientation: FormOrientation::new(system, q, t),
+            stage: Stage::new(system, q, t),
+            split,
+            next: system.space().vector(),
+        })
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        match self.rule {
+            Rule::Midpoint => self.variational(system, memory, q, [t, h], &[Node::CENTRE], statistics)?,
+            Rule::Trapezoid => self.variational(system, memory, q, [t, h], &Node::ENDS, statistics)?,
+            Rule::A => self.first_order(system, memory, q, [t, h], Node::END, statistics)?,
+            Rule::B => self.first_order(system, memory, q, [t, h], Node::BEGIN, statistics)?,
+        }
+        norm::finite(&memory.next)?;
+        memory.orientation.check(system, &memory.next, t + h)?;
+        memory.arrive(q, h);
+        Ok(())
+    }
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {}
+
+impl OneStep {
+    /// Sets `next` to q1 of a symmetric scheme, `stage.impulse` to p1, and `stage.rates` to the rates of change.
+    fn variational<S: ProperlyDegenerate<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut OneStepMemory<S, T>,
+        q: &Vector<S, T>,
+        [t, h]: [T; 2],
+        nodes: &[Node],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let half = T::lift(0.5);
+        memory.guess(q, h, half);
+        let OneStepMemory { p, split, stage, next, .. } = memory;
+        stage.momentum.copy_from_slice(p);
+        stage.solve(system, split, q, [t, h], nodes, self.stopping, statistics)?;
+        // p1 = p0 + h Σ w f_x, from the nodes at the solution.
+        stage.kick(system, split, q, [t, h], nodes, statistics);
+        for i in 0..q.len() {
+            let is_x = split.is_x(i);
+            // From ȳ on, as far again.
+            next[i] =
+                if is_x { q[i] + stage.unknown[i] } else { stage.unknown[i] + (stage.unknown[i] - q[i]) };
+            stage.rates[i] = if is_x { stage.unknown[i] } else { (stage.unknown[i] - q[i]) / half } / h;
+        }
+        let end = t + h;
+        split.solve_y(system, next, end, &stage.momentum, self.stopping, statistics).or_else(|_| {
+            // From where y was, if as far again is too far.
+            for i in (0..q.len()).filter(|&i| !split.is_x(i)) {
+                next[i] = stage.unknown[i];
+            }
+            split.solve_y(system, next, end, &stage.momentum, self.stopping, statistics)
+        })
+    }
+
+    /// The same for A, whose node is at the end, and B, whose node is at the beginning of the interval that comes next.
+    fn first_order<S: ProperlyDegenerate<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut OneStepMemory<S, T>,
+        q: &Vector<S, T>,
+        [t, h]: [T; 2],
+        node: Node,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        memory.guess(q, h, T::lift(1.0));
+        let OneStepMemory { p, velocity, split, stage, next, .. } = memory;
+        stage.momentum.copy_from_slice(p);
+        let is_b = node == Node::BEGIN;
+        next.copy_from_slice(q);
+        let begin = if is_b {
+            for i in 0..q.len() {
+                next[i] += h * velocity[i];
+            }
+            t + h
+        } else {
+            system.gradient(q, velocity, t, &mut stage.gradient, &mut stage.one_form);
+            statistics.gradients += 1;
+            for i in (0..q.len()).filter(|&i| split.is_x(i)) {
+                stage.momentum[i] += h * stage.gradient[i];
+            }
+            t
+        };
+        stage.solve(system, split, next, [begin, h], &[node], self.stopping, statistics)?;
+        for i in 0..q.len() {
+            if split.is_x(i) {
+                stage.rates[i] = stage.unknown[i] / h;
+                if !is_b {
+                    next[i] = q[i] + stage.unknown[i];
+                }
+            } else {
+                next[i] = stage.unknown[i];
+                stage.rates[i] = (next[i] - q[i]) / h;
+            }
+        }
+        system.one_form(next, t + h, &mut stage.momentum);
+        Ok(())
+    }
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
+    /// Sets `stage.unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
+    fn guess(&mut self, q: &[T], h: T, c: T) {
+        if !is_similar(h, self.last_step) {
+            self.history.clear();
+        }
+        self.history.extrapolate(&mut self.stage.unknown);
+        for (i, unknown) in self.stage.unknown.iter_mut().enumerate() {
+            *unknown = if self.split.is_x(i) { h * *unknown } else { q[i] + c * h * *unknown };
+        }
+    }
+
+    /// Moves to `next`, with the momentum and the rates of the stage.
+    fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {
+        let Self { p, velocity, history, last_step, split, stage, next, .. } = self;
+        q.copy_from_slice(next);
+        p.copy_from_slice(&stage.momentum);
+        split.copy_x(&stage.rates, velocity);
+        *last_step = h;
+        history.push(&stage.rates);
+    }
+}

@@ -1,0 +1,24 @@
+//! Names of the entries of a state, for tables and for errors.
+
+use core::fmt;
+
+/// The name of an entry of a state: `x`, `x[3]`, `dot_x[3]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The name of the block of coordinates.
+    pub block: &'static str,
+    /// Whether it is the velocity.
+    pub is_velocity: bool,
+    /// The index in an array of coordinates.
+    pub index: Option<usize>,
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let prefix = if self.is_velocity { "dot_" } else { "" };
+        match self.index {
+            Some(index) => write!(f, "{prefix}{}[{index}]", self.block),
+            None => write!(f, "{prefix}{}", self.block),
+        }
+    }
+}

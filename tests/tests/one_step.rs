@@ -1,0 +1,282 @@
+//! One-step schemes of systems in class: orders, preserved forms, reversal, failures.
+
+use dvi_core::methods::{Composition, Method, Scheme};
+use dvi_core::prelude::*;
+use dvi_core::state::Statistics;
+use dvi_core::{ProperlyDegenerate, Real, Space};
+use dvi_tests::larger;
+use dvi_tests::systems::{SphereForm, SphereFormState};
+use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
+use nalgebra::DMatrix;
+use num_dual::Dual64;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+const PREY: OneSided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
+
+/// No component of α is affine, nothing is separable, the halves stand mixed, and one of them begins in the middle of an
+/// array.
+#[degenerate_lagrangian(
+    coordinates(z[3], u),
+    one_form = (z[0] + z[0].powi(3) / 3.0 + 0.2 * (z[1] + u).sin() * z[2]) * d(u)
+        + ((z[2] / 2.0).sinh() + z[0] * z[1].cos() / 4.0) * d(z[1]),
+    hamiltonian = z[0].powi(2) / 2.0 + z[2].powi(2) / 2.0 + (1.0 - u.cos()) + z[1].powi(4) / 4.0
+        + 0.3 * z[0] * z[2] * (u - z[1]).cos(),
+)]
+#[derive(Clone, Debug)]
+struct Mixed;
+
+/// A form that depends on time, and arrays of run-time size.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| ((1.0 + t / 4.0) * y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % n] / 8.0) * d(x[j])),
+    hamiltonian = sum(0..n, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0 + (x[(j + 1) % n] - x[j]).powi(4) / 4.0)
+        + x[0] * t.sin(),
+)]
+#[derive(Clone, Debug)]
+struct Ring {
+    n: usize,
+}
+
+/// The flat coordinates after steps of length `h` from `t` on.
+fn stepped<S: Lagrangian<T>, T: Real, M: Method<S, T>>(
+    system: &S,
+    method: &M,
+    q0: &[T],
+    [t, h]: [f64; 2],
+    steps: u64,
+) -> Result<Vec<T>, Box<dyn core::error::Error>> {
+    let mut q = system.space().vector();
+    q.copy_from_slice(q0);
+    let mut memory = method.begin(system, &q, &[], T::lift(t), T::lift(h))?;
+    let mut statistics = Statistics::default();
+    for step in 0..steps {
+        let now = T::lift(t + step as f64 * h);
+        method.step(system, &mut memory, &mut q, now, T::lift(h), &mut statistics)?;
+    }
+    Ok(q.to_vec())
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
+}
+
+const MIXED: [f64; 4] = [0.4, 0.3, -0.5, 0.7];
+const RING: [f64; 6] = [0.3, -0.4, 0.2, 0.5, 0.1, -0.3];
+const SPHERE: SphereForm = SphereForm { gamma: 1.3 };
+
+fn order<S: ProperlyDegenerate, M: Method<S, f64>>(
+    system: &S,
+    method: &M,
+    q0: &[f64],
+    (time, steps): (f64, u64),
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let run = |method: &dyn Fn([f64; 2], u64) -> Result<Vec<f64>, Box<dyn core::error::Error>>,
+               steps: u64| { method([0.2, time / steps as f64], steps) };
+    let reference = run(&|clock, steps| stepped(system, &Gauss::<4>::new(), q0, clock, steps), 1024)?;
+    let mut errors = Vec::new();
+    for steps in [steps, steps * 5 / 4, steps * 3 / 2, 2 * steps] {
+        let found = run(&|clock, steps| stepped(system, method, q0, clock, steps), steps)?;
+        errors.push((time / steps as f64, apart(&found, &reference)));
+    }
+    convergence_order(&errors).ok_or_else(|| "no slope".into())
+}
+
+/// Against Gauss collocation of order eight on q' = X(q), which knows nothing of the class.
+#[test]
+fn schemes_have_their_orders() -> Outcome {
+    fn check<S: ProperlyDegenerate>(system: &S, q0: &[f64], of_order_eight: u64) -> Outcome {
+        for (method, steps) in [
+            (OneStep::scheme_a(), 256),
+            (OneStep::scheme_b(), 256),
+            (OneStep::midpoint(), 64),
+            (OneStep::trapezoid(), 64),
+        ] {
+            let (found, expected) = (order(system, &method, q0, (1.0, steps))?, method.order() as f64);
+            assert!((found - expected).abs() < 0.1, "{}, {method:?}: {found}", S::REPORT.system);
+        }
+        for (found, expected) in [
+            (order(system, &OneStepGauss::<1>::new(), q0, (1.0, 64))?, 2.0),
+            (order(system, &OneStepGauss::<2>::new(), q0, (1.0, 16))?, 4.0),
+            (order(system, &OneStepGauss::<3>::new(), q0, (2.0, 12))?, 6.0),
+            (order(system, &OneStepGauss::<4>::new(), q0, (4.0, of_order_eight))?, 8.0),
+        ] {
+            assert!(
+                (found - expected).abs() < 0.5,
+                "{}, Gauss of order {expected}: {found}",
+                S::REPORT.system
+            );
+        }
+        for (method, steps) in [
+            (Composition::suzuki(OneStep::midpoint()), 8),
+            (Composition::kahan_li_6(OneStep::midpoint()), 6),
+            (Composition::suzuki(OneStep::trapezoid()), 8),
+        ] {
+            let (found, expected) = (order(system, &method, q0, (1.0, steps))?, method.order() as f64);
+            assert!((found - expected).abs() < 0.5, "{}, {}: {found}", S::REPORT.system, method.name());
+        }
+        Ok(())
+    }
+    check(&PREY, &[1.0, 1.0], 32)?;
+    check(&SPHERE, &[0.4, 0.3], 6)?;
+    check(&Mixed, &MIXED, 16)?;
+    check(&Ring { n: 3 }, &RING, 16)
+}
+
+/// The matrix of the derivative of a function of q, by dual numbers.
+fn jacobian(
+    q: &[f64],
+    rows: usize,
+    f: impl Fn(&[Dual64]) -> Result<Vec<Dual64>, Box<dyn core::error::Error>>,
+) -> Result<DMatrix<f64>, Box<dyn core::error::Error>> {
+    let mut matrix = DMatrix::zeros(rows, q.len());
+    for column in 0..q.len() {
+        let seeded = q.iter().enumerate().map(|(i, &x)| Dual64::new(x, if i == column { 1.0 } else { 0.0 }));
+        let image = f(&seeded.collect::<Vec<_>>())?;
+        for row in 0..rows {
+            matrix[(row, column)] = image[row].eps;
+        }
+    }
+    Ok(matrix)
+}
+
+/// Σᵢ dpᵢ ∧ dxᵢ of the functions p and x + shift · x' of q, along the coordinates x, as a matrix.
+fn form<S: ProperlyDegenerate<Dual64>>(
+    system: &S,
+    q: &[f64],
+    t: f64,
+    shift: f64,
+) -> Result<DMatrix<f64>, Box<dyn core::error::Error>> {
+    let n = q.len();
+    let xs: Vec<usize> = (0..n).filter(|&i| 2 * system.place(i) < n).collect();
+    let functions = jacobian(q, n, |q| {
+        let (time, mut point) = (Dual64::from_re(t), system.space().vector());
+        point.copy_from_slice(q);
+        let (mut form, mut rates) = (point.clone(), point.clone());
+        system.one_form(&point, time, &mut form);
+        let mut field = dvi_core::mechanics::VectorField::new(system, &point, time)?;
+        field.evaluate(system, &point, time, &mut rates, &mut Statistics::default())?;
+        let moved = |i: usize| q[i] + rates[i] * shift;
+        Ok(xs.iter().map(|&i| form[i]).chain(xs.iter().map(|&i| moved(i))).collect())
+    })?;
+    let (p, x) = (functions.rows(0, n / 2), functions.rows(n / 2, n / 2));
+    Ok(p.transpose() * x - x.transpose() * p)
+}
+
+/// By how much some steps change the form, relative to its size.
+fn defect<S, M>(
+    system: &S,
+    method: &M,
+    q0: &[f64],
+    h: f64,
+    shift: f64,
+) -> Result<f64, Box<dyn core::error::Error>>
+where
+    S: ProperlyDegenerate<Dual64> + ProperlyDegenerate<f64>,
+    M: Method<S, Dual64> + Method<S, f64>,
+{
+    let (t, steps) = (0.2, 20);
+    let tangent = jacobian(q0, q0.len(), |q| stepped(system, method, q, [t, h], steps))?;
+    let end = stepped(system, method, q0, [t, h], steps)?;
+    let before = form(system, q0, t, shift)?;
+    let after = form(system, &end, t + steps as f64 * h, shift)?;
+    Ok((tangent.transpose() * after * &tangent - &before).amax() / (before.amax() * tangent.amax().powi(2)))
+}
+
+#[test]
+fn schemes_preserve_their_forms() -> Outcome {
+    fn check<S>(system: &S, q0: &[f64], steps: &[f64]) -> Outcome
+    where
+        S: ProperlyDegenerate<Dual64> + ProperlyDegenerate<f64>,
+    {
+        for &h in steps {
+            for (method, shift) in [
+                (OneStep::scheme_a(), -h),
+                (OneStep::scheme_b(), h),
+                (OneStep::midpoint(), 0.0),
+                (OneStep::trapezoid(), 0.0),
+            ] {
+                let defect = defect(system, &method, q0, h, shift)?;
+                assert!(defect < 1e-13, "{}, {method:?}, h = {h}: {defect:e}", S::REPORT.system);
+            }
+            for defect in [
+                defect(system, &OneStepGauss::<1>::new(), q0, h, 0.0)?,
+                defect(system, &OneStepGauss::<2>::new(), q0, h, 0.0)?,
+                defect(system, &OneStepGauss::<3>::new(), q0, h, 0.0)?,
+                defect(system, &OneStepGauss::<4>::new(), q0, h, 0.0)?,
+            ] {
+                assert!(defect < 1e-13, "{}, Gauss, h = {h}: {defect:e}", S::REPORT.system);
+            }
+        }
+        Ok(())
+    }
+    // A step of 0.5 of the first-order schemes is too long for the prey; equations of the others have solutions.
+    check(&PREY, &[1.0, 1.0], &[0.05, 0.1])?;
+    for method in [OneStep::midpoint(), OneStep::trapezoid()] {
+        let defect = defect(&PREY, &method, &[1.0, 1.0], 0.3, 0.0)?;
+        assert!(defect < 1e-13, "{method:?}: {defect:e}");
+    }
+    check(&SPHERE, &[0.4, 0.3], &[0.05, 0.1, 0.5])?;
+    check(&Mixed, &MIXED, &[0.05, 0.1, 0.5])?;
+    check(&Ring { n: 3 }, &RING, &[0.05, 0.1, 0.5])?;
+    // What is not preserved is seen: A does not preserve Ω, nor does Runge–Kutta.
+    let lost = defect(&Mixed, &OneStep::scheme_a(), &MIXED, 0.1, 0.0)?;
+    assert!(lost > 1e-4, "{lost:e}");
+    let lost = defect(&Mixed, &RungeKutta::midpoint(), &MIXED, 0.1, 0.0)?;
+    assert!(lost > 1e-6, "{lost:e}");
+    Ok(())
+}
+
+#[test]
+fn symmetric_schemes_go_back() -> Outcome {
+    for method in [OneStep::midpoint(), OneStep::trapezoid()] {
+        let there = stepped(&Mixed, &method, &MIXED, [0.2, 0.1], 200)?;
+        let back = stepped(&Mixed, &method, &there, [20.2, -0.1], 200)?;
+        assert!(apart(&back, &MIXED) < 1e-10, "{method:?}: {back:?}");
+    }
+    Ok(())
+}
+
+/// σ = ½ with an affine α is the midpoint rule too: for α = y dx the two schemes are the same map.
+#[test]
+fn midpoint_is_sigma_one_half_where_the_form_is_affine() -> Outcome {
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = y * d(x),
+        hamiltonian = y * y / 2.0 - x.cos() + (x * y).sin() / 8.0,
+    )]
+    struct Canonical;
+    let q0 = [0.7, -0.4];
+    let one = stepped(&Canonical, &OneStep::midpoint(), &q0, [0.0, 0.1], 500)?;
+    let other = stepped(&Canonical, &Sigma::midpoint(), &q0, [0.0, 0.1], 500)?;
+    assert!(apart(&one, &other) < 1e-11, "{one:?} and {other:?}");
+    Ok(())
+}
+
+/// The places of the halves, for blocks of every kind.
+#[test]
+fn places_count_the_half_with_components_first() {
+    let places = |system: &dyn Fn(usize) -> usize, n: usize| -> Vec<usize> { (0..n).map(system).collect() };
+    assert_eq!(places(&|i| ProperlyDegenerate::<f64>::place(&Mixed, i), 4), [2, 0, 3, 1]);
+    let ring = Ring { n: 3 };
+    assert_eq!(places(&|i| ProperlyDegenerate::<f64>::place(&ring, i), 6), [0, 1, 2, 3, 4, 5]);
+    assert_eq!(places(&|i| ProperlyDegenerate::<f64>::place(&PREY, i), 2), [0, 1]);
+}
+
+#[test]
+fn failures_are_values() -> Outcome {
+    // Prey beyond zero has no logarithm.
+    let start = OneSidedState { x: 1e-3, y: 30.0 };
+    let mut run = Integrator::new(&PREY, OneStep::midpoint(), 2.0, start)?;
+    let error = run.take_steps(1000).err().ok_or("no error")?;
+    assert!(run.state().x > 0.0 && run.state().y > 0.0, "{error}");
+    assert_eq!(run.steps(), error.step);
+    let again = run.take_steps(1).err().ok_or("no error")?;
+    assert_eq!(format!("{:?}", again.failure), format!("{:?}", error.failure));
+    // −γ z dφ: ∂ϑ/∂z is zero for γ = 0.
+    let none = SphereForm { gamma: 0.0 };
+    let start = SphereFormState { phi: 0.4, z: 0.3 };
+    let error = Integrator::new(&none, OneStep::midpoint(), 0.1, start).err();
+    assert!(matches!(error, Some(StartError::Starter(StepFailure::Singular { .. }))), "{error:?}");
+    Ok(())
+}
