@@ -165,7 +165,11 @@ impl MassMatrix {
             true => "L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.",
             false => "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
         };
-        vec![form, step.to_string(), degree.to_string()]
+        let begin = match self.separable {
+            true => "Begin with `Variational::trapezoid()`.",
+            false => "Begin with `Variational::midpoint()`.",
+        };
+        vec![form, step.to_string(), degree.to_string(), begin.to_string()]
     }
 }
 
