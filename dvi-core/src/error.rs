@@ -57,7 +57,7 @@ pub enum StartError {
         reason: &'static str,
     },
     /// A coordinate or velocity of the initial state is infinite or not a number.
-    #[error("{entry} = {value} in the initial state")]
+    #[error("{entry} = {value} in the state")]
     NotFinite {
         /// Its name.
         entry: Name,
@@ -177,7 +177,7 @@ pub enum StepFailure {
     },
     /// A matrix that must be solved with is singular to working precision.
     #[error(
-        "singular matrix: pivot {pivot:e} in column {column}; the discrete Lagrangian is degenerate here"
+        "singular matrix: pivot {pivot:e} in column {column}; Ω, the mass matrix, or the discrete Lagrangian is degenerate here"
     )]
     Singular {
         /// The column without a usable pivot.

@@ -173,8 +173,9 @@ fn compensated_sums_round_as_little_as_it_is_said() {
         (1000.0 * ratio).ceil() / 10.0
     };
     assert_said(&[format!(
-        "after 10⁸ steps of length 0.1 the energy error of an oscillator is then at most {:.1} % of that with plain sums \
-         for σ = ½, and {:.1} % for Verlet's method.",
+        "after 10⁸ steps of length 0.1 the rounding errors in the energy that the method conserves on an oscillator, \
+         root mean square over four runs, are then at most {:.1} % of those with plain sums for σ = ½, and {:.1} % for \
+         Verlet's method.",
         percent("oscillator, σ = ½"),
         percent("oscillator, Verlet")
     )]);

@@ -5,6 +5,7 @@
 
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
+use syn::ext::IdentExt as _;
 use syn::{Fields, Ident, ItemStruct, Path};
 
 use crate::errors::Errors;
@@ -79,7 +80,7 @@ impl Model {
             sizes: Vec::new(),
             parameters,
             functions: std::mem::take(&mut attribute.functions),
-            momenta: attribute.momenta.iter().map(|momentum| momentum.name.to_string()).collect(),
+            momenta: attribute.momenta.iter().map(|momentum| momentum.name.unraw().to_string()).collect(),
             derives: std::mem::take(&mut attribute.derives),
             crate_path,
             lost_coordinates: attribute.lost_coordinates,

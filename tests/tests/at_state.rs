@@ -137,6 +137,14 @@ fn entries_have_flat_names() -> Outcome {
     assert_eq!(names(&mut chain.names()), ["q[0]", "q[1]", "wall", "dot_q[0]", "dot_q[1]", "dot_wall"]);
     let state = RunTimeChainState { q: vec![1.0, 2.0], wall: 3.0, dot_q: vec![4.0, 5.0], dot_wall: 6.0 };
     assert_eq!(entries(&chain, &state)?, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    #[lagrangian(
+        coordinates(r#type, r#fn[2]),
+        lagrangian = dot(r#type).powi(2) + dot(r#fn[0]).powi(2) + dot(r#fn[1]).powi(2),
+        momenta(r#impl = dot(r#type)),
+    )]
+    struct Raw;
+    assert_eq!(names(&mut Raw.names()), ["type", "fn[0]", "fn[1]", "dot_type", "dot_fn[0]", "dot_fn[1]"]);
+    assert_eq!(Raw::REPORT.momenta, ["impl"]);
     let short = RunTimeChainState { q: vec![1.0], ..state };
     assert!(chain.values(&short).is_err());
     Ok(())

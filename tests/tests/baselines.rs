@@ -192,3 +192,61 @@ fn velocities_are_those_of_the_momenta() -> Outcome {
     assert!(speed < 1.0 && speed > 0.1);
     Ok(())
 }
+
+/// a x x' is the derivative of a function of x: the motion is cos t, and the momentum is v + a x.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0 + a * x * dot(x))]
+struct Gauge {
+    a: f64,
+}
+
+/// Stages are consistent where forces depend on velocities, and velocities that cancel in the momentum have their rounding.
+#[test]
+fn terms_linear_in_the_velocity_do_not_matter() -> Outcome {
+    let start: GaugeState = GaugeState { x: 1.0, dot_x: 0.0 };
+    // The energy does not drift, however small a drift per step.
+    let system = Gauge { a: 1.0 };
+    let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;
+    run.take_steps(200_000)?;
+    let off = run.energy() - 0.5;
+    assert!(off.abs() < 1e-12, "{off:e}");
+    for (a, h, bound) in [(1.0, 0.01, 1e-13), (100.0, 0.01, 1e-11), (1e3, 0.1, 1e-9), (1e4, 0.01, 1e-9)] {
+        let system = Gauge { a };
+        let mut run = Integrator::new(&system, Gauss::<3>::new(), h, start)?;
+        run.take_steps((1.0 / h) as u64)?;
+        let off = run.state().x - run.time().cos();
+        assert!(off.abs() < bound, "a = {a}, h = {h}: {off:e}");
+    }
+    // With a tolerance, the midpoint rule on the oscillator turns by 2 atan(h/2) a step.
+    let mut method = Gauss::<1>::new();
+    method.stopping.tolerance = 1e-10;
+    let system = Gauge { a: 1e6 };
+    let mut run = Integrator::new(&system, method, 0.1, start)?;
+    run.take_steps(20)?;
+    let off = run.state().x - (40.0 * 0.05_f64.atan()).cos();
+    assert!(off.abs() < 1e-7, "{off:e}");
+    Ok(())
+}
+
+/// ∂L/∂v = v³ − v has three branches, and the motion ends where one of them does.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(4) / 4.0 - dot(x).powi(2) / 2.0 - k * x * x / 2.0)]
+struct Branches {
+    k: f64,
+}
+
+#[test]
+fn no_step_changes_the_branch_of_the_velocity() -> Outcome {
+    fn ends<M: Method<Branches, f64>>(method: M, k: f64, v: f64, h: f64) -> Outcome {
+        let start: BranchesState = BranchesState { x: 0.1, dot_x: v };
+        let system = Branches { k };
+        let mut run = Integrator::new(&system, method, h, start)?;
+        let energy = run.energy();
+        let error = run.take_steps(400).err().ok_or("no error")?;
+        let off = (run.energy() - energy).abs();
+        assert!(off < 0.02 && run.state().dot_x > 0.57, "{error}: {off}");
+        Ok(())
+    }
+    ends(Gauss::<2>::new(), 1.0, 0.62, 0.05)?;
+    ends(Gauss::<1>::new(), 0.1, 2.0, 0.2)?;
+    ends(Gauss::<2>::new(), 0.1, 2.0, 0.2)?;
+    ends(RungeKutta::classical(), 0.1, 2.0, 0.2)
+}

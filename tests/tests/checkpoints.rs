@@ -138,6 +138,22 @@ fn controlled_runs_go_on() -> Outcome {
     check_controlled(fitted, Osculating::new(1e-3, 0.01), start)
 }
 
+/// The density that a run carries is not the one that it would begin with: near the centre that is not even positive.
+#[test]
+fn controlled_runs_go_on_from_everywhere() -> Outcome {
+    let start = KeplerState { x: 1.95, y: 0.0, dot_x: 0.0, dot_y: (0.05_f64 / 1.95).sqrt() };
+    let control = Reversible { start: Some(1.95_f64.powf(-1.5)), ..Reversible::power(0.02, 1.5) };
+    let mut run = ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), control, start)?;
+    for step in 0..600 {
+        run.advance()?;
+        let mut again =
+            ControlledIntegrator::resume(&KEPLER, Variational::trapezoid(), control, &run.checkpoint())
+                .map_err(|error| format!("after step {step}: {error}"))?;
+        again.advance()?;
+    }
+    Ok(())
+}
+
 /// The step of a run is halved on the way: its time goes on, and its energy stays where a run of such steps has it.
 #[test]
 fn a_run_goes_on_with_another_step() -> Outcome {

@@ -36,7 +36,7 @@ fn a_start_that_is_not_finite_is_refused() {
     start.y[1] = f64::INFINITY;
     let error = Integrator::new(&system, RungeKutta::classical(), 0.1, start).err();
     let message = error.map(|error| error.to_string());
-    assert_eq!(message.as_deref(), Some("y[1] = inf in the initial state"));
+    assert_eq!(message.as_deref(), Some("y[1] = inf in the state"));
     let error = Integrator::new_at(&system, Sigma::midpoint(), f64::INFINITY, 0.1, quasi_periodic().1).err();
     assert_eq!(error, Some(StartError::Parameter { name: "t", value: f64::INFINITY, range: "finite" }));
 }

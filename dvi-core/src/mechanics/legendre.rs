@@ -84,6 +84,22 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         })
     }
 
+    /// The size of M⁻¹p with the mass matrix M at (q, v): velocities are found to its rounding, which is more than theirs
+    /// where L has large terms linear in v.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] where M is.
+    pub(crate) fn of_momentum_alone(
+        &mut self,
+        system: &S,
+        points: [&[T]; 3],
+        t: T,
+    ) -> Result<T, StepFailure> {
+        let Self { solver, next, l_q, .. } = self;
+        solver.solve(&mut Momentum(Equations { system, points, t, l_q }), next)?;
+        Ok(norm::largest(next))
+    }
+
     /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began; returns the size
     /// of its correction.
     fn improve(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<T, StepFailure> {
@@ -134,6 +150,17 @@ impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
         for (b, &p) in b.iter_mut().zip(p) {
             *b -= p;
         }
+        Ok(())
+    }
+}
+
+/// ∂²L/∂v∂v w = p
+struct Momentum<'a, S, T>(Equations<'a, S, T>);
+
+impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Momentum<'_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        self.0.evaluate(b, sink)?;
+        b.copy_from_slice(self.0.points[2]);
         Ok(())
     }
 }

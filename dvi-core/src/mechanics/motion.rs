@@ -122,6 +122,20 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         out: &mut Vector<S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
+    /// Whether the force depends on velocities, so that it is evaluated again where these have converged.
+    fn has_velocity_forces() -> bool {
+        false
+    }
+    /// The size of the velocities whose difference the velocity at (`q`, p, `t`) is: rounding is relative to it.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate).
+    fn cancelling(
+        equations: &mut Self::Equations,
+        system: &S,
+        y: &Self::Point,
+        t: T,
+    ) -> Result<T, StepFailure>;
     /// Whether Ω has kept its orientation at a point within a step.
     ///
     /// # Errors

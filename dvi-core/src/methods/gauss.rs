@@ -120,9 +120,15 @@ impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: 
         S::Kind::gather(&mut memory.equations, q, &mut memory.y);
         memory.guess();
         let speed = memory.slopes.iter().fold(T::lift(0.0), |m: T, slope| m.max(norm::largest(&slope[0])));
+        let GaussMemory { equations, y, .. } = &mut *memory;
+        let speed = norm::larger(speed, S::Kind::cancelling(equations, system, y, t)?);
         let scale = norm::largest(q) + Scalar::abs(h) * speed;
         let convergence = Convergence::fixed_point(self.stopping, scale, q, self.stopping.max_iterations);
         iterate(convergence, statistics, |statistics| memory.iterate(system, t, h, statistics))?;
+        if S::Kind::has_velocity_forces() {
+            // Those of the last iteration belong to the velocities before it.
+            memory.evaluate_part(1, system, t, h, statistics)?;
+        }
         let GaussMemory { equations, tableau, slopes, completed, y, stage, .. } = memory;
         combine::<STAGES, S, T>(y, h, &tableau.b, slopes, stage);
         S::Kind::arrive(equations, system, stage, q, t + h)?;
@@ -163,22 +169,37 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         }
     }
 
+    /// Evaluates one part of the slopes of all stages; `updated` has those before.
+    #[inline]
+    fn evaluate_part(
+        &mut self,
+        part: usize,
+        system: &S,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { equations, tableau, slopes, updated, y, stage, .. } = self;
+        for i in 0..STAGES {
+            combine::<STAGES, S, T>(y, h, &tableau.a[i], slopes, stage);
+            let time = t + T::lift(tableau.c[i]) * h;
+            let (from, to) = (&slopes[i], &mut updated[i][part]);
+            S::Kind::evaluate_part(equations, system, part, stage, time, from, to, statistics)?;
+        }
+        for (slope, updated) in slopes.iter_mut().zip(updated.iter_mut()) {
+            core::mem::swap(&mut slope[part], &mut updated[part]);
+        }
+        Ok(())
+    }
+
     /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity: the
     /// momenta follow from the velocities.
     #[inline]
     fn iterate(&mut self, system: &S, t: T, h: T, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { equations, tableau, slopes, updated, y, stage, .. } = self;
-        for part in (0..y.len()).rev() {
-            for i in 0..STAGES {
-                combine::<STAGES, S, T>(y, h, &tableau.a[i], slopes, stage);
-                let time = t + T::lift(tableau.c[i]) * h;
-                let (from, to) = (&slopes[i], &mut updated[i][part]);
-                S::Kind::evaluate_part(equations, system, part, stage, time, from, to, statistics)?;
-            }
-            for (slope, updated) in slopes.iter_mut().zip(updated.iter_mut()) {
-                core::mem::swap(&mut slope[part], &mut updated[part]);
-            }
+        for part in (0..self.y.len()).rev() {
+            self.evaluate_part(part, system, t, h, statistics)?;
         }
+        let Self { slopes, updated, .. } = self;
         let changes =
             slopes.iter().zip(updated.iter()).map(|(now, before)| norm::distance(&now[0], &before[0]));
         Ok(Scalar::abs(h) * changes.fold(T::lift(0.0), |m: T, change| m.max(change)))

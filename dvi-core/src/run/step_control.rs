@@ -39,6 +39,14 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Debug {
     /// what the system does not have, [`StartError::Starter`] if its formulas fail at the start.
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError>;
 
+    /// Prepares the control of a run that goes on from a checkpoint, for a memory that is [loaded](Memory::load) next.
+    ///
+    /// # Errors
+    /// As [`begin`](Self::begin).
+    fn begin_again(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<Self::Memory, StartError> {
+        self.begin(system, q, v, t).map(|(memory, _)| memory)
+    }
+
     /// Takes `run` one step on from time `t`, without allocation, and returns the length of the step.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ mod kepler_long;
 mod kepler_steps;
 mod kepler_work;
 mod leapfrogging;
+mod lotka_volterra;
 mod momenta;
 mod order;
 mod oscillator;
@@ -42,4 +43,5 @@ pub const ALL: &[Experiment] = &[
     barnes::EXPERIMENT,
     double_pendulum::EXPERIMENT,
     round_off::EXPERIMENT,
+    lotka_volterra::EXPERIMENT,
 ];

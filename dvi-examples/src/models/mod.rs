@@ -3,9 +3,11 @@
 mod double_pendulum;
 mod kepler;
 mod oscillators;
+mod predators;
 mod vortices;
 
 pub use double_pendulum::*;
 pub use kepler::*;
 pub use oscillators::*;
+pub use predators::*;
 pub use vortices::*;

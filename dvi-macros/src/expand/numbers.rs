@@ -1,6 +1,7 @@
 //! The name of the type of numbers in generated code, which users read in messages and documentation.
 
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use syn::ext::IdentExt as _;
 
 /// As the stages write it: nobody else's.
 const INTERNAL: &str = "__T";
@@ -16,7 +17,7 @@ pub(super) fn name<'a>(inputs: impl IntoIterator<Item = &'a TokenStream> + Clone
 
 fn mentions(tokens: &TokenStream, name: &str) -> bool {
     tokens.clone().into_iter().any(|token| match token {
-        TokenTree::Ident(ident) => ident == name,
+        TokenTree::Ident(ident) => ident.unraw() == name,
         TokenTree::Group(group) => mentions(&group.stream(), name),
         TokenTree::Punct(_) | TokenTree::Literal(_) => false,
     })

@@ -2,6 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
+use syn::ext::IdentExt as _;
 
 use crate::emit::Emitter;
 use crate::operations::Operations;
@@ -68,7 +69,7 @@ impl Account {
         let system = emitter.model.item.ident.to_string();
         let blocks = emitter.model.blocks.iter().map(|block| {
             let (name, size) =
-                (block.name.to_string(), block.array.as_ref().map_or("", |(_, text)| text.as_str()));
+                (block.name.unraw().to_string(), block.array.as_ref().map_or("", |(_, text)| text.as_str()));
             quote!(#krate::CoordinateBlock { name: #name, size: #size })
         });
         let lines = formulas.iter().map(|(name, text)| quote!(#krate::Formula { name: #name, text: #text }));

@@ -66,6 +66,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         equations.field.evaluate(system, &y.0[0], t, out, statistics)
     }
     #[inline(always)]
+    fn cancelling(
+        _equations: &mut FlowOnQ<S, T>,
+        _system: &S,
+        _y: &Self::Point,
+        _t: T,
+    ) -> Result<T, StepFailure> {
+        Ok(T::lift(0.0))
+    }
+    #[inline(always)]
     fn compare(equations: &mut FlowOnQ<S, T>, system: &S, y: &Self::Point, t: T) -> Result<(), StepFailure> {
         equations.orientation.compare(system, &y.0[0], t).map(drop)
     }

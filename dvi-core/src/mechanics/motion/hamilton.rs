@@ -39,10 +39,12 @@ enum Velocities<S: System, T: Real> {
 struct Transform<S: System, T: Real> {
     legendre: Legendre<S, T>,
     orientation: MassOrientation<S, T>,
-    /// The last velocity of the last step, from which the first of the next is sought.
-    guess: Vector<S, T>,
-    /// The last velocity.
+    /// The velocity at the present point, from which the first of a step is sought.
+    velocity: Vector<S, T>,
+    /// The last velocity within a step.
     latest: Vector<S, T>,
+    /// Between the velocities at the ends of a step.
+    between: Vector<S, T>,
 }
 
 impl<S: RegularLagrangian<T>, T: Real> Velocities<S, T> {
@@ -52,7 +54,7 @@ impl<S: RegularLagrangian<T>, T: Real> Velocities<S, T> {
         match self {
             Self::Constant(mass) => mass.solve(p, v),
             Self::Varying(Transform { legendre, latest, .. }) => {
-                legendre.solve_near(system, q, p, t, v)?;
+                legendre.solve(system, q, p, t, v, S::QUADRATIC)?;
                 latest.copy_from_slice(v);
             }
         }
@@ -86,7 +88,7 @@ impl<S: System, T: Real> Memory<T> for Velocities<S, T> {
 }
 
 impl<S: System, T: Real> Memory<T> for Transform<S, T> {
-    lasting!(T; part orientation, numbers guess);
+    lasting!(T; part orientation, numbers velocity);
 }
 
 impl<S: System, T: Real> Motion<S, T> for Regular {
@@ -100,16 +102,16 @@ impl<S: System, T: Real> Motion<S, T> for Regular {
 
 impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<HamiltonsEquations<S, T>, StartError> {
-        let [mut force, mut p, mut guess, latest]: [Vector<S, T>; 4] =
+        let [mut force, mut p, mut velocity, latest, between]: [Vector<S, T>; 5] =
             core::array::from_fn(|_| system.space().vector());
         system.gradient(q, v, t, &mut force, &mut p);
-        guess.copy_from_slice(v);
+        velocity.copy_from_slice(v);
         let inverse = if S::SEPARABLE {
             Velocities::Constant(Mass::new(system, q, t).map_err(StartError::Starter)?)
         } else {
             let orientation = MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?;
             let legendre = Legendre::new(system, q, v, t);
-            Velocities::Varying(Transform { legendre, orientation, guess, latest })
+            Velocities::Varying(Transform { legendre, orientation, velocity, latest, between })
         };
         Ok(HamiltonsEquations { p, inverse })
     }
@@ -118,8 +120,8 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         let [coordinates, momenta] = &mut y.0;
         coordinates.copy_from_slice(q);
         momenta.copy_from_slice(&equations.p);
-        if let Velocities::Varying(Transform { guess, latest, .. }) = &mut equations.inverse {
-            latest.copy_from_slice(guess);
+        if let Velocities::Varying(Transform { velocity, latest, .. }) = &mut equations.inverse {
+            latest.copy_from_slice(velocity);
         }
     }
     #[inline(always)]
@@ -160,6 +162,23 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         statistics.gradients += 1;
         Ok(())
     }
+    fn has_velocity_forces() -> bool {
+        !S::SEPARABLE
+    }
+    #[inline(always)]
+    fn cancelling(
+        equations: &mut HamiltonsEquations<S, T>,
+        system: &S,
+        y: &Self::Point,
+        t: T,
+    ) -> Result<T, StepFailure> {
+        match &mut equations.inverse {
+            Velocities::Constant(_) => Ok(T::lift(0.0)),
+            Velocities::Varying(Transform { legendre, velocity, .. }) => {
+                legendre.of_momentum_alone(system, [&y.0[0], velocity, &y.0[1]], t)
+            }
+        }
+    }
     #[inline(always)]
     fn compare(
         _equations: &mut HamiltonsEquations<S, T>,
@@ -179,9 +198,18 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     ) -> Result<(), StepFailure> {
         let [arrival, momentum] = &y.0;
         norm::finite(arrival).and(norm::finite(momentum))?;
-        if let Velocities::Varying(Transform { orientation, guess, latest, .. }) = &mut equations.inverse {
+        if let Velocities::Varying(Transform { legendre, orientation, velocity, latest, between }) =
+            &mut equations.inverse
+        {
+            // The velocity of the last stage leads to the one that belongs to the new momentum, if there is one.
+            legendre.solve(system, arrival, momentum, t, latest, S::QUADRATIC)?;
+            // Between two branches of ∂L/∂v(v) = p the mass matrix changes its sign.
+            for ((between, &from), &to) in between.iter_mut().zip(velocity.iter()).zip(latest.iter()) {
+                *between = T::lift(0.5) * (from + to);
+            }
+            orientation.check(system, arrival, between, t)?;
             orientation.check(system, arrival, latest, t)?;
-            guess.copy_from_slice(latest);
+            velocity.copy_from_slice(latest);
         }
         equations.p.copy_from_slice(momentum);
         q.copy_from_slice(arrival);
@@ -189,9 +217,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     }
     fn velocity(
         equations: &HamiltonsEquations<S, T>,
-        system: &S,
-        q: &Vector<S, T>,
-        t: T,
+        _system: &S,
+        _q: &Vector<S, T>,
+        _t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         match &equations.inverse {
@@ -199,9 +227,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
                 mass.solve(&equations.p, v);
                 Ok(())
             }
-            Velocities::Varying(Transform { guess, .. }) => {
-                v.copy_from_slice(guess);
-                Legendre::new(system, q, v, t).solve_near(system, q, &equations.p, t, v)
+            Velocities::Varying(Transform { velocity, .. }) => {
+                v.copy_from_slice(velocity);
+                Ok(())
             }
         }
     }

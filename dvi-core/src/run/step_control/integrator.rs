@@ -79,7 +79,7 @@ where
         validate(system, t)?;
         let [q, v] = checkpoint.point(system)?;
         let v = &v[..velocities(system)];
-        let (mut control_memory, _) = control.begin(system, &q, v, t)?;
+        let mut control_memory = control.begin_again(system, &q, v, t)?;
         let begin = |method: &M, q: &Vector<S, T>| method.begin_again(system, q, v, t, h);
         let mut controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
         let mut clock = VariableClock::new(t);

@@ -115,10 +115,8 @@ impl<S: RegularLagrangian<T>, T: Real> Memory<T> for ReversibleMemory<S, T> {
     lasting!(T; number density; is_sound);
 }
 
-impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
-    type Memory = ReversibleMemory<S, T>;
-
-    fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
+impl<D> Reversible<D> {
+    fn validate(&self) -> Result<(), StartError> {
         let parameter = |name, value, range| Err(StartError::Parameter { name, value, range });
         if !self.epsilon.is_finite() || self.epsilon == 0.0 {
             return parameter("epsilon", self.epsilon, "finite and different from zero");
@@ -128,6 +126,15 @@ impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reve
         {
             return parameter("start", start, "positive and finite");
         }
+        Ok(())
+    }
+}
+
+impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
+    type Memory = ReversibleMemory<S, T>;
+
+    fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
+        self.validate()?;
         let density = self.start.map_or_else(|| self.density.value(q), T::lift);
         let half = T::lift(0.5 * self.epsilon) * self.density.growth(q, v);
         let first = density + half;
@@ -138,6 +145,12 @@ impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reve
         }
         let memory = ReversibleMemory { density: density - half, v: system.space().vector() };
         Ok((memory, T::lift(self.epsilon) / first))
+    }
+
+    // The density is that of the run, whatever a first step from here would have.
+    fn begin_again(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Result<Self::Memory, StartError> {
+        self.validate()?;
+        Ok(ReversibleMemory { density: T::lift(1.0), v: system.space().vector() })
     }
 
     #[inline]

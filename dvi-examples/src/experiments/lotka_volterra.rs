@@ -1,0 +1,170 @@
+//! Predators and prey: one-step schemes where the two-step scheme fails.
+//!
+//! The one-form is not affine. With a component along one coordinate only it is in the class of one-step schemes; in the
+//! symmetric form of the same motion it is not, and the two-step midpoint scheme loses it to its parasitic mode.
+
+use anyhow::Result;
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+
+use crate::claim::{BEYOND, Bound, Check, Claim, larger};
+use crate::figure::{
+    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
+};
+use crate::gallery::{Experiment, Outcome};
+use crate::job::Job;
+use crate::models::{OneSidedPredators, OneSidedPredatorsState, SymmetricPredators, SymmetricPredatorsState};
+use crate::output::{Table, number};
+
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "lotka-volterra",
+    title: "Predators and prey, in one step and in two",
+    share: 2.0,
+    run,
+};
+
+const START: [f64; 2] = [2.0, 1.0];
+const H: f64 = 0.1;
+/// Steps of the beginning, with which the whole is compared.
+const EARLY: u64 = 1000;
+
+/// What one run leaves.
+struct Series {
+    name: &'static str,
+    error: Envelope,
+    path: Vec<[f64; 2]>,
+    largest: f64,
+    largest_early: f64,
+    /// The step that failed.
+    ended: Option<u64>,
+}
+
+fn run(job: &Job<'_>) -> Result<Outcome> {
+    let steps = job.choose(1_000_000, 20_000);
+    job.expect(3 * steps + 2 * EARLY + 2 * steps);
+    let one_sided = OneSidedPredators {};
+    let [x, y] = START;
+    let start = OneSidedPredatorsState { x, y };
+    let one_step = series(job, "one step, midpoint", &one_sided, OneStep::midpoint(), start, (H, steps))?;
+    let gauss =
+        series(job, "one step, Gauss of order 4", &one_sided, OneStepGauss::<2>::new(), start, (H, steps))?;
+    let runge_kutta = series(job, "RK4", &one_sided, RungeKutta::classical(), start, (H, steps))?;
+    let half = series(job, "", &one_sided, OneStep::midpoint(), start, (H / 2.0, 2 * steps))?;
+
+    let symmetric = SymmetricPredators {};
+    let start = SymmetricPredatorsState { x, y };
+    let unwatched = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
+    let two_step = series(job, "two steps, σ = ½", &symmetric, unwatched, start, (H, EARLY))?;
+    let watched = series(job, "", &symmetric, Sigma::midpoint(), start, (H, EARLY))?;
+
+    let all = [one_step, gauss, runge_kutta, two_step];
+    let outcome = Outcome {
+        claims: claims(&all, &watched),
+        references: vec![
+            Check::new("one step, midpoint, h = 0.1: max|ΔH|", all[0].largest, Bound::Near(1.04e-2, 5e-5)),
+            Check::new("one step, midpoint, h = 0.05: max|ΔH|", half.largest, Bound::Near(2.56e-3, 5e-6)),
+        ],
+        notes: vec![],
+    };
+    job.publish(EXPERIMENT.name, figure(&all, steps as f64 * H), table(&all)?)?;
+    Ok(outcome)
+}
+
+fn series<S: DegenerateLagrangian, M: Method<S, f64>>(
+    job: &Job<'_>,
+    name: &'static str,
+    system: &S,
+    method: M,
+    start: S::State<f64>,
+    (h, steps): (f64, u64),
+) -> Result<Series> {
+    let mut run = Integrator::new(system, method, h, start)?;
+    let energy = run.energy();
+    let mut series = Series {
+        name,
+        error: Envelope::new(steps as f64 * h, 400),
+        path: vec![START],
+        largest: 0.0,
+        largest_early: 0.0,
+        ended: None,
+    };
+    let lost = job.repeat_until_lost(steps, || {
+        run.advance()?;
+        let error = run.energy() - energy;
+        series.error.push(run.time(), error);
+        series.largest = larger(series.largest, error.abs());
+        if run.steps() <= EARLY {
+            series.largest_early = series.largest;
+            series.path.push([run.q()[0], run.q()[1]]);
+        }
+        Ok(())
+    });
+    series.ended = lost.map(|error| error.step);
+    Ok(series)
+}
+
+fn claims([one_step, gauss, runge_kutta, two_step]: &[Series; 4], watched: &Series) -> Vec<Claim> {
+    let growth = |series: &Series| series.largest / series.largest_early;
+    let flat = Claim::new(
+        BEYOND,
+        "the energy error of one-step schemes is no larger in the whole run than in its beginning",
+    )
+    .check("midpoint: max|ΔH| over all / over 1000 steps", growth(one_step), Bound::AtMost(1.001))
+    .check("Gauss of order 4: max|ΔH| over all / over 1000 steps", growth(gauss), Bound::AtMost(1.001))
+    .check("RK4: max|ΔH| over all / over 1000 steps", growth(runge_kutta), Bound::AtLeast(5.0));
+    let number = |step: Option<u64>| step.map_or(f64::INFINITY, |step| step as f64);
+    let fails = Claim::new(
+        BEYOND,
+        "the two-step midpoint fails in the symmetric one-form, and its parasitic mode is seen before",
+    )
+    .check("steps until no step is found", number(two_step.ended), Bound::AtMost(118.0))
+    .check(
+        "steps between the error of the parasitic mode and that",
+        number(two_step.ended) - number(watched.ended),
+        Bound::AtLeast(1.0),
+    );
+    vec![flat, fails]
+}
+
+fn figure(all: &[Series; 4], end: f64) -> Figure {
+    let [one_step, gauss, runge_kutta, two_step] = all;
+    let coordinate = |label| Axis::linear(label).within(0.0, 4.2);
+    let paths = Panel::new("Path", coordinate("*x*"), coordinate("*y*"))
+        .equal()
+        .line(two_step.path.clone(), Stroke::solid(VERMILLION).width(1.0))
+        .labelled(two_step.name)
+        .line(one_step.path.clone(), Stroke::solid(BLUE).width(1.5))
+        .labelled(one_step.name);
+    let time = Axis::linear("time *t*").within(0.0, end);
+    let energy =
+        Panel::new("Error of the energy", time, Axis::logarithmic("largest |*H* − *H*(0)| of each interval"))
+            .weight(1.35)
+            .line(one_step.error.magnitude(), Stroke::solid(BLUE))
+            .labelled(one_step.name)
+            .line(gauss.error.magnitude(), Stroke::solid(GREEN))
+            .labelled(gauss.name)
+            .line(runge_kutta.error.magnitude(), Stroke::dashed(SLATE))
+            .labelled(runge_kutta.name);
+    let steps = two_step.ended.map_or("1000".to_owned(), |step| step.to_string());
+    Figure::new(
+        "Predators and prey: one step and two, and the energy errors of three methods",
+        format!("From (2, 1), *h* = {H}; two steps with the symmetric one-form end after {steps} of them"),
+    )
+    .row(470.0, vec![paths.legend_at(Corner::TopRight), energy.legend_at(Corner::BottomRight)])
+    .footer(format!(
+        "Largest |Δ*H*| of one step: midpoint {}, Gauss {}. RK4 at the end: {}.",
+        at_most(one_step.largest),
+        at_most(gauss.largest),
+        scientific(runge_kutta.largest)
+    ))
+}
+
+fn table(all: &[Series; 4]) -> Result<Table> {
+    let mut table = Table::new(&["method", "t", "lowest", "mean", "highest"])?;
+    for Series { name, error, .. } in all {
+        for row in error.rows() {
+            table.row([(*name).to_owned()].into_iter().chain(row.map(number)))?;
+        }
+    }
+    Ok(table)
+}
