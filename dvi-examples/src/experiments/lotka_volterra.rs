@@ -128,23 +128,26 @@ fn claims([one_step, gauss, runge_kutta, two_step]: &[Series; 4], watched: &Seri
 
 fn figure(all: &[Series; 4], end: f64) -> Figure {
     let [one_step, gauss, runge_kutta, two_step] = all;
-    let coordinate = |label| Axis::linear(label).within(0.0, 4.2);
+    let coordinate = |label| Axis::linear(label).within(0.0, 4.5);
     let paths = Panel::new("Path", coordinate("*x*"), coordinate("*y*"))
         .equal()
+        .line(one_step.path.clone(), Stroke::solid(BLUE).width(2.5))
+        .labelled(one_step.name)
         .line(two_step.path.clone(), Stroke::solid(VERMILLION).width(1.0))
-        .labelled(two_step.name)
-        .line(one_step.path.clone(), Stroke::solid(BLUE).width(1.5))
-        .labelled(one_step.name);
+        .labelled(two_step.name);
     let time = Axis::linear("time *t*").within(0.0, end);
-    let energy =
-        Panel::new("Error of the energy", time, Axis::logarithmic("largest |*H* − *H*(0)| of each interval"))
-            .weight(1.35)
-            .line(one_step.error.magnitude(), Stroke::solid(BLUE))
-            .labelled(one_step.name)
-            .line(gauss.error.magnitude(), Stroke::solid(GREEN))
-            .labelled(gauss.name)
-            .line(runge_kutta.error.magnitude(), Stroke::dashed(SLATE))
-            .labelled(runge_kutta.name);
+    let energy = Panel::new(
+        "Error of the energy",
+        time,
+        Axis::logarithmic("largest |*H* − *H*(0)| of each interval").within(1e-6, 1.0),
+    )
+    .weight(1.35)
+    .line(one_step.error.magnitude(), Stroke::solid(BLUE))
+    .labelled(one_step.name)
+    .line(gauss.error.magnitude(), Stroke::solid(GREEN))
+    .labelled(gauss.name)
+    .line(runge_kutta.error.magnitude(), Stroke::dashed(SLATE))
+    .labelled(runge_kutta.name);
     let steps = two_step.ended.map_or("1000".to_owned(), |step| step.to_string());
     Figure::new(
         "Predators and prey: one step and two, and the energy errors of three methods",
