@@ -1,7 +1,8 @@
 //! The methods, and what one is to a run.
 //!
-//! For degenerate systems: [`Sigma`], and [`Gauss`] and [`RungeKutta`] on q' = X(q). For regular systems: [`Variational`],
-//! [`Galerkin`], [`Newmark`]. Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that
+//! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it. For regular systems:
+//! [`Variational`], [`Galerkin`], [`Newmark`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
+//! motion. Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that
 //! has no method, as [`Symmetrised`] has none.
 
 mod collocation;

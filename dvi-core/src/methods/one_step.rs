@@ -27,7 +27,7 @@ use crate::state::memory::{Memory, lasting};
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
 pub use gauss::{OneStepGauss, OneStepGaussMemory};
 use split::Split;
-use stage::{Node, Stage};
+use stage::{Node, Stage, Step};
 
 /// A one-step scheme for degenerate systems in class: [`ProperlyDegenerate`].
 ///
@@ -188,9 +188,10 @@ impl OneStep {
         memory.guess(q, h, half);
         let OneStepMemory { p, split, stage, next, .. } = memory;
         stage.momentum.copy_from_slice(p);
-        stage.solve(system, split, q, [t, h], nodes, self.stopping, statistics)?;
+        let step = Step { system, split, q, t, h, nodes, stopping: self.stopping };
+        stage.solve(&step, statistics)?;
         // p1 = p0 + h Σ w f_x, from the nodes at the solution.
-        stage.kick(system, split, q, [t, h], nodes, statistics);
+        stage.kick(&step, statistics);
         for i in 0..q.len() {
             let is_x = split.is_x(i);
             // From ȳ on, as far again.
@@ -236,7 +237,8 @@ impl OneStep {
             }
             t
         };
-        stage.solve(system, split, next, [begin, h], &[node], self.stopping, statistics)?;
+        let step = Step { system, split, q: next, t: begin, h, nodes: &[node], stopping: self.stopping };
+        stage.solve(&step, statistics)?;
         for i in 0..q.len() {
             if split.is_x(i) {
                 stage.rates[i] = stage.unknown[i] / h;

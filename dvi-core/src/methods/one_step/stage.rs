@@ -29,6 +29,18 @@ impl Node {
     pub(super) const ENDS: [Self; 2] = [Self { c: 0.0, weight: 0.5 }, Self { c: 1.0, weight: 0.5 }];
 }
 
+/// A step from x in `q` at `t`.
+#[derive(Debug)]
+pub(super) struct Step<'a, S: System, T: Real> {
+    pub(super) system: &'a S,
+    pub(super) split: &'a Split<S, T>,
+    pub(super) q: &'a [T],
+    pub(super) t: T,
+    pub(super) h: T,
+    pub(super) nodes: &'a [Node],
+    pub(super) stopping: Stopping,
+}
+
 /// The unknowns, with the storage that solving for them needs.
 #[derive(Debug)]
 pub(super) struct Stage<S: System, T: Real> {
@@ -64,51 +76,35 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         }
     }
 
-    /// Improves the guess `unknown` until the equations hold for `momentum`, from x in `q`; begins again from rest where
-    /// that does not lead to a solution.
+    /// Improves the guess `unknown` until the equations hold for `momentum`; begins again from rest where that does not lead
+    /// to a solution.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
-    #[allow(clippy::too_many_arguments)]
     pub(super) fn solve(
         &mut self,
-        system: &S,
-        split: &Split<S, T>,
-        q: &[T],
-        [t, h]: [T; 2],
-        nodes: &[Node],
-        stopping: Stopping,
+        step: &Step<'_, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.improve(system, split, q, [t, h], nodes, stopping, statistics).or_else(|_| {
+        self.improve(step, statistics).or_else(|_| {
             // Where steps are long, extrapolation is off.
             for (i, unknown) in self.unknown.iter_mut().enumerate() {
-                *unknown = if split.is_x(i) { T::lift(0.0) } else { q[i] };
+                *unknown = if step.split.is_x(i) { T::lift(0.0) } else { step.q[i] };
             }
-            self.improve(system, split, q, [t, h], nodes, stopping, statistics)
+            self.improve(step, statistics)
         })
     }
 
-    #[allow(clippy::too_many_arguments)]
-    fn improve(
-        &mut self,
-        system: &S,
-        split: &Split<S, T>,
-        q: &[T],
-        [t, h]: [T; 2],
-        nodes: &[Node],
-        stopping: Stopping,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn improve(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { unknown, momentum, gradient, one_form, solver, point, velocity, correction, .. } = self;
+        let Step { q, stopping, nodes, .. } = *step;
         let scale = norm::larger(norm::largest(q), norm::largest(unknown));
         let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
         iterate(convergence, statistics, |statistics| {
             statistics.linearizations += nodes.len() as u64;
             statistics.factorisations += 1;
-            let place = Place { split, q, unknown: &*unknown, h };
             let work = [&mut **point, &mut **velocity, &mut **gradient, &mut **one_form];
-            let mut equations = Equations { system, place, t, nodes, momentum: &*momentum, work };
+            let mut equations = Equations { step, unknown: &*unknown, momentum: &*momentum, work };
             solver.solve(&mut equations, correction)?;
             norm::finite(correction)?;
             for (unknown, &change) in unknown.iter_mut().zip(correction.iter()) {
@@ -119,57 +115,38 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     }
 
     /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`.
-    pub(super) fn kick(
-        &mut self,
-        system: &S,
-        split: &Split<S, T>,
-        q: &[T],
-        [t, h]: [T; 2],
-        nodes: &[Node],
-        statistics: &mut Statistics,
-    ) {
+    pub(super) fn kick(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) {
         let Self { unknown, momentum, gradient, one_form, point, velocity, .. } = self;
-        let place = Place { split, q, unknown, h };
-        for node in nodes {
-            place.at(node, point, velocity);
-            system.gradient(point, velocity, t + T::lift(node.c) * h, gradient, one_form);
+        for node in step.nodes {
+            let time = step.place(unknown, node, point, velocity);
+            step.system.gradient(point, velocity, time, gradient, one_form);
             statistics.gradients += 1;
-            let weight = h * T::lift(node.weight);
-            for i in (0..q.len()).filter(|&i| split.is_x(i)) {
+            let weight = step.h * T::lift(node.weight);
+            for i in (0..momentum.len()).filter(|&i| step.split.is_x(i)) {
                 momentum[i] += weight * gradient[i];
             }
         }
     }
 }
 
-/// Where the nodes are.
-#[derive(Clone, Copy)]
-struct Place<'a, S: System, T: Real> {
-    split: &'a Split<S, T>,
-    q: &'a [T],
-    unknown: &'a [T],
-    h: T,
-}
-
-impl<S: ProperlyDegenerate<T>, T: Real> Place<'_, S, T> {
-    /// Sets `point` and `velocity` to those of `node`.
-    fn at(&self, node: &Node, point: &mut [T], velocity: &mut [T]) {
+impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
+    /// Sets `point` and `velocity` to those of `node`, and returns its time.
+    fn place(&self, unknown: &[T], node: &Node, point: &mut [T], velocity: &mut [T]) -> T {
         let (c, per_h) = (T::lift(node.c), T::lift(1.0) / self.h);
-        for i in 0..self.q.len() {
+        for i in 0..unknown.len() {
             [point[i], velocity[i]] = if self.split.is_x(i) {
-                [self.q[i] + c * self.unknown[i], per_h * self.unknown[i]]
+                [self.q[i] + c * unknown[i], per_h * unknown[i]]
             } else {
-                [self.unknown[i], T::lift(0.0)]
+                [unknown[i], T::lift(0.0)]
             };
         }
+        self.t + c * self.h
     }
 }
 
 struct Equations<'a, S: System, T: Real> {
-    system: &'a S,
-    place: Place<'a, S, T>,
-    t: T,
-    nodes: &'a [Node],
+    step: &'a Step<'a, S, T>,
+    unknown: &'a [T],
     momentum: &'a [T],
     /// A point, a velocity, and the first derivatives of L there.
     work: [&'a mut [T]; 4],
@@ -177,16 +154,15 @@ struct Equations<'a, S: System, T: Real> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let Self { system, place, t, nodes, momentum, work: [point, velocity, gradient, one_form] } = self;
-        let (split, h) = (place.split, place.h);
+        let Self { step, unknown, momentum, work: [point, velocity, gradient, one_form] } = self;
+        let Step { system, split, h, nodes, .. } = **step;
         let half = T::lift(0.5);
         for (i, b) in b.iter_mut().enumerate() {
             *b = -momentum[i];
         }
-        for node in *nodes {
+        for node in nodes {
             let (weight, c) = (T::lift(node.weight), T::lift(node.c));
-            place.at(node, point, velocity);
-            let time = *t + c * h;
+            let time = step.place(unknown, node, point, velocity);
             let row = |row: usize| weight * if split.is_x(row) { T::lift(1.0) - c } else { half };
             let column = |column: usize| if split.is_x(column) { c } else { T::lift(1.0) };
             let zero = T::lift(0.0);
