@@ -31,21 +31,33 @@ use stage::{Node, Stage, Step};
 
 /// A one-step scheme for degenerate systems in class: [`ProperlyDegenerate`].
 ///
-/// There α = ϑ(x, y)·dx has components along one half x of the coordinates only. The schemes couple two points, and not three
-/// as [`Sigma`](crate::methods::Sigma) does, so that they have no parasitic mode. With f = ∂L/∂q and v = Δ/h, Δ = x1 − x0:
+/// In class, α = ϑ(x, y)·dx has components along one half x of the coordinates only. The schemes couple two points, and not three
+/// as [`Sigma`](crate::methods::Sigma) does, so that they have no parasitic mode. With f = ∂L/∂q, v = Δ/h and Δ = x1 − x0 they
+/// are
 ///
-/// | scheme | equations | order | preserves |
+/// ```math
+/// \begin{aligned}
+/// \text{midpoint:} && \vartheta(\tilde q) &= p_0 + \tfrac h2 f_x(\tilde q, v), & f_y(\tilde q, v) &= 0,
+///     & p_1 &= p_0 + h f_x(\tilde q, v) \\
+/// \text{trapezoid:} && \tfrac12(\vartheta^- + \vartheta^+) &= p_0 + \tfrac h2 f_x^-, & f_y^- + f_y^+ &= 0,
+///     & p_1 &= p_0 + \tfrac h2 (f_x^- + f_x^+) \\
+/// \text{A:} && \vartheta(q_1) &= p_0 + h f_x(q_0, v(q_0)), & x_1 &= x_0 + h v(q_1) \\
+/// \text{B:} && \vartheta(q_1) &= p_0 + h f_x(q_1, v(q_1)), & x_1 &= x_0 + h v(q_0)
+/// \end{aligned}
+/// ```
+///
+/// where p = ϑ(q), v(q) is the velocity of x at q, and q̃ = (x0 + ½Δ, ȳ); the signs − and + stand for values at (x0, ȳ) and
+/// (x1, ȳ). The first two schemes end with ϑ(q1) = p1.
+///
+/// | scheme | order | symmetric | preserves |
 /// |---|---|---|---|
-/// | [`midpoint`](Self::midpoint) | ϑ(q̃) = p0 + ½h f_x(q̃, v), f_y(q̃, v) = 0 at q̃ = (x0 + ½Δ, ȳ); p1 = p0 + h f_x(q̃, v) | 2 | Ω |
-/// | [`trapezoid`](Self::trapezoid) | the same with the mean of both ends, (x0, ȳ) and (x1, ȳ) | 2 | Ω |
-/// | [`scheme_b`](Self::scheme_b) | x1 = x0 + h v(q0); ϑ(q1) = p0 + h f_x(q1, v(q1)) | 1 | dϑ ∧ d(x + h v(q)) |
-/// | [`scheme_a`](Self::scheme_a), its adjoint | ϑ(q1) = p0 + h f_x(q0, v(q0)); x1 = x0 + h v(q1) | 1 | dϑ ∧ d(x − h v(q)) |
+/// | [`midpoint`](Self::midpoint) | 2 | yes | Ω |
+/// | [`trapezoid`](Self::trapezoid) | 2 | yes | Ω |
+/// | [`scheme_a`](Self::scheme_a) | 1 | no; B is its adjoint | dϑ ∧ d(x − h v(q)) |
+/// | [`scheme_b`](Self::scheme_b) | 1 | no; A is its adjoint | dϑ ∧ d(x + h v(q)) |
 ///
-/// where p = ϑ(q), and v(q) is the velocity of x at q. The first two are symmetric, and end with ϑ(q1) = p1. A step is solved
-/// by Newton's method with all second derivatives of L.
-///
-/// A system that is not in class has no such scheme, and using one is a compile error: out of class their equations converge
-/// to a wrong motion.
+/// A step is solved by Newton's method with all second derivatives of L. A system that is not in class has no such scheme, and
+/// using one is a compile error: out of class their equations converge to a wrong motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneStep {
     rule: Rule,
