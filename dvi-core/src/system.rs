@@ -219,6 +219,11 @@ pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = D
 ///
 /// The attribute implements it where the formula of α shows that. The class is a property of the formula: α and α + dF have
 /// the same motion, and one may be in the class and the other not.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a degenerate system, and one-step schemes are for systems with `#[degenerate_lagrangian]`",
+    label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
+)]
 pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
     /// The place of a coordinate, below the dimension n, in the order (x, y): below n/2 if α has a component along it.
     fn place(&self, coordinate: usize) -> usize;
@@ -229,7 +234,7 @@ pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
-    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `Gauss` or `RungeKutta`"
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Gauss` or `RungeKutta`"
 )]
 pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regular> {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no

@@ -280,3 +280,42 @@ fn failures_are_values() -> Outcome {
     assert!(matches!(error, Some(StartError::Starter(StepFailure::Singular { .. }))), "{error:?}");
     Ok(())
 }
+
+/// The class is seen wherever the indices of an array of literal size can be enumerated.
+#[test]
+fn the_class_is_seen_in_arrays() {
+    fn places<S: ProperlyDegenerate>(system: &S) -> Vec<usize> {
+        (0..system.space().dimension()).map(|i| system.place(i)).collect()
+    }
+    macro_rules! check {
+        ($($name:ident: $form:expr => $places:expr),+ $(,)?) => {$({
+            #[degenerate_lagrangian(coordinates(z[4]), one_form = $form, hamiltonian = z[0] * z[1] + z[2] * z[3])]
+            struct $name;
+            assert_eq!(places(&$name), $places, stringify!($name));
+        })+};
+    }
+    check!(
+        Ahead: sum(0..2, |j| z[j].powi(3) * d(z[j + 2])) => [2, 3, 0, 1],
+        Behind: sum(2..4, |j| z[j - 2].powi(3) * d(z[j])) => [2, 3, 0, 1],
+        Even: sum(0..2, |j| z[2 * j].powi(3) * d(z[2 * j + 1])) => [2, 0, 3, 1],
+        Around: sum(0..2, |j| z[j + 2].powi(3) * d(z[(j + 1) % 2])) => [0, 1, 2, 3],
+        Pairs: sum_pairs(0..2, |j, k| z[j + 2].powi(3) * d(z[j]) + z[k + 2].powi(3) * d(z[k])) => [0, 1, 2, 3],
+    );
+}
+
+/// What reports say of the ends of the σ-family.
+#[test]
+fn reports_say_where_the_ends_cannot_be_used() {
+    macro_rules! structure {
+        ($form:expr) => {{
+            #[degenerate_lagrangian(coordinates(x, y), one_form = $form, hamiltonian = x * x + y * y)]
+            struct Any;
+            Any::REPORT.structure.join("\n")
+        }};
+    }
+    for cannot in [structure!(y * d(x)), structure!(y * d(x) + d(y)), structure!(y * d(x) + y * d(y))] {
+        assert!(cannot.contains("σ = 0 and σ = 1 cannot be used"), "{cannot}");
+    }
+    let can = structure!(x * d(y) - y * d(x));
+    assert!(can.contains("σ = 0 and σ = 1 are explicit"), "{can}");
+}

@@ -20,7 +20,7 @@ use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::Stopping;
+use crate::solve::{Guess, Stopping};
 use crate::state::Statistics;
 use crate::state::history::{History, is_similar};
 use crate::state::memory::{Memory, lasting};
@@ -56,7 +56,9 @@ use stage::{Node, Stage, Step};
 /// | [`scheme_a`](Self::scheme_a) | 1 | no; B is its adjoint | dϑ ∧ d(x − h v(q)) |
 /// | [`scheme_b`](Self::scheme_b) | 1 | no; A is its adjoint | dϑ ∧ d(x + h v(q)) |
 ///
-/// A step is solved by Newton's method with all second derivatives of L. A system that is not in class has no such scheme, and
+/// A step is solved by Newton's method with all second derivatives of L. If Ω does not couple the coordinates in pairs, ϑ = p is
+/// solved by full elimination of n/2 rows. A step that would lead to another branch of ϑ(x, y) = p ends with
+/// [`StepFailure::Orientation`](crate::error::StepFailure::Orientation), as far as Ω has another sign halfway. A system that is not in class has no such scheme, and
 /// using one is a compile error: out of class their equations converge to a wrong motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneStep {
@@ -170,14 +172,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        match self.rule {
-            Rule::Midpoint => self.variational(system, memory, q, [t, h], &[Node::CENTRE], statistics)?,
-            Rule::Trapezoid => self.variational(system, memory, q, [t, h], &Node::ENDS, statistics)?,
-            Rule::A => self.first_order(system, memory, q, [t, h], Node::END, statistics)?,
-            Rule::B => self.first_order(system, memory, q, [t, h], Node::BEGIN, statistics)?,
-        }
-        norm::finite(&memory.next)?;
-        memory.orientation.check(system, &memory.next, t + h)?;
+        // Where steps are long, extrapolation is off, or leads to another branch.
+        self.attempt(system, memory, q, [t, h], Guess::Extrapolated, statistics)
+            .or_else(|_| self.attempt(system, memory, q, [t, h], Guess::Zero, statistics))?;
         memory.arrive(q, h);
         Ok(())
     }
@@ -186,6 +183,36 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
 impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {}
 
 impl OneStep {
+    /// Sets `next` to q1, if it is on the branch of ϑ(x, y) = p that q0 is on.
+    fn attempt<S: ProperlyDegenerate<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut OneStepMemory<S, T>,
+        q: &Vector<S, T>,
+        [t, h]: [T; 2],
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let half = T::lift(0.5);
+        match self.rule {
+            Rule::Midpoint | Rule::Trapezoid => memory.guess(q, h, half, guess),
+            Rule::A | Rule::B => memory.guess(q, h, T::lift(1.0), guess),
+        }
+        match self.rule {
+            Rule::Midpoint => self.variational(system, memory, q, [t, h], &[Node::CENTRE], statistics)?,
+            Rule::Trapezoid => self.variational(system, memory, q, [t, h], &Node::ENDS, statistics)?,
+            Rule::A => self.first_order(system, memory, q, [t, h], Node::END, statistics)?,
+            Rule::B => self.first_order(system, memory, q, [t, h], Node::BEGIN, statistics)?,
+        }
+        norm::finite(&memory.next)?;
+        let OneStepMemory { orientation, stage, next, .. } = memory;
+        // Between two branches Ω changes its sign.
+        orientation.compare(system, &stage.point, t + half * h)?;
+        stage.set_between(q, next);
+        orientation.compare(system, &stage.point, t + half * h)?;
+        orientation.check(system, next, t + h)
+    }
+
     /// Sets `next` to q1 of a symmetric scheme, `stage.impulse` to p1, and `stage.rates` to the rates of change.
     fn variational<S: ProperlyDegenerate<T>, T: Real>(
         &self,
@@ -197,7 +224,6 @@ impl OneStep {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let half = T::lift(0.5);
-        memory.guess(q, h, half);
         let OneStepMemory { p, split, stage, next, .. } = memory;
         stage.momentum.copy_from_slice(p);
         let step = Step { system, split, q, t, h, nodes, stopping: self.stopping };
@@ -231,7 +257,6 @@ impl OneStep {
         node: Node,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        memory.guess(q, h, T::lift(1.0));
         let OneStepMemory { p, velocity, split, stage, next, .. } = memory;
         stage.momentum.copy_from_slice(p);
         let is_b = node == Node::BEGIN;
@@ -269,13 +294,16 @@ impl OneStep {
 
 impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
     /// Sets `stage.unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
-    fn guess(&mut self, q: &[T], h: T, c: T) {
-        if !is_similar(h, self.last_step) {
-            self.history.clear();
-        }
-        self.history.extrapolate(&mut self.stage.unknown);
-        for (i, unknown) in self.stage.unknown.iter_mut().enumerate() {
-            *unknown = if self.split.is_x(i) { h * *unknown } else { q[i] + c * h * *unknown };
+    fn guess(&mut self, q: &[T], h: T, c: T, guess: Guess) {
+        let Self { history, last_step, split, stage, .. } = self;
+        guess.begin(&mut stage.unknown, |rates| {
+            match is_similar(h, *last_step) || *last_step == T::lift(0.0) {
+                true => history.extrapolate(rates),
+                false => rates.fill(T::lift(0.0)),
+            }
+        });
+        for (i, unknown) in stage.unknown.iter_mut().enumerate() {
+            *unknown = if split.is_x(i) { h * *unknown } else { q[i] + c * h * *unknown };
         }
     }
 
@@ -285,6 +313,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
         q.copy_from_slice(next);
         p.copy_from_slice(&stage.momentum);
         split.copy_x(&stage.rates, velocity);
+        if !is_similar(h, *last_step) {
+            history.clear();
+        }
         *last_step = h;
         history.push(&stage.rates);
     }

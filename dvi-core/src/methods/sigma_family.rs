@@ -155,7 +155,8 @@ impl<T: Real> Sigma<T> {
 
     /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
     fn go_with<S: DegenerateLagrangian<T>>(&self, system: &S, q: &[T], t: T) -> Result<(), StartError> {
-        if !self.is_end() {
+        // The matrix of σ = 1 is that of the end of a step.
+        if !self.is_end() || (self.sigma == T::lift(1.0) && !S::AFFINE) {
             return Ok(());
         }
         let (zero, mut sizes): (T, Vector<S, T>) = (T::lift(0.0), system.space().vector());
@@ -165,8 +166,8 @@ impl<T: Real> Sigma<T> {
         system.one_form_jacobian(q, t, T::lift(1.0), zero, &mut sink);
         if sizes.contains(&zero) {
             let reason = "the one-form has no component along some coordinate, or one that is constant at the start, so \
-                          that the equations are singular; take `Sigma::midpoint()`, `OneStep`, or a one-form such as \
-                          (p dq - q dp) / 2 in place of p dq";
+                          that the equations are singular; take `Sigma::midpoint()`, `OneStep` if the system is in its class, or a \
+                          one-form such as (p dq - q dp) / 2 in place of p dq";
             return Err(StartError::Unsupported { option: "sigma = 0 or 1", reason });
         }
         Ok(())

@@ -64,6 +64,22 @@ impl Stopping {
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
 const FLOOR: f64 = 32.0;
 
+impl StepFailure {
+    /// Whether an iteration that did not converge has ended in rounding errors of numbers of size `scale`, which is larger than
+    /// that of the unknowns where they are differences of these: then it has a solution.
+    ///
+    /// # Errors
+    /// This failure, if it has not.
+    pub(crate) fn unless_rounding<T: Real>(
+        self,
+        scale: impl FnOnce() -> Result<T, Self>,
+    ) -> Result<(), Self> {
+        let Self::NotConverged { correction, .. } = self else { return Err(self) };
+        let floor = FLOOR * reported(T::default_epsilon()) * scale().map_or(0.0, reported);
+        if correction <= floor { Ok(()) } else { Err(self) }
+    }
+}
+
 /// What to do with an iterate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {

@@ -5,7 +5,7 @@
 
 use crate::model::Model;
 use crate::program::{Variable, variable};
-use crate::symbolic::{Expr, Graph, Index, Loop};
+use crate::symbolic::{Atom, Coordinate, Expr, Graph, Index, Loop};
 
 /// Along which coordinates of a block the one-form has components.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,35 +25,40 @@ pub(crate) struct Class {
     pub(crate) is_proper: bool,
 }
 
+/// Takes note of a coordinate that is touched in some loops.
+fn touch(touched: &mut [Components], model: &Model, coordinate: &Coordinate, loops: &[Loop]) {
+    let block = coordinate.block as usize;
+    let size = model.block_size(block).as_literal().filter(|_| model.blocks[block].array.is_some());
+    let indices = size.and_then(|size| {
+        let indices = visited(&coordinate.index, loops)?;
+        indices.iter().all(|index| (0..size).contains(index)).then_some((size as usize, indices))
+    });
+    let known = &mut touched[block];
+    match (indices, &mut *known) {
+        (_, Components::Block(true)) => {}
+        (Some((_, indices)), Components::Entries(entries)) => {
+            indices.into_iter().for_each(|index| entries[index as usize] = true);
+        }
+        (Some((size, indices)), Components::Block(false)) => {
+            let entries = (0..size).map(|index| indices.contains(&(index as i64)));
+            *known = Components::Entries(entries.collect());
+        }
+        (None, _) => *known = Components::Block(true),
+    }
+    if let Components::Entries(entries) = known
+        && entries.iter().all(|&entry| entry)
+    {
+        *known = Components::Block(true);
+    }
+}
+
 impl Class {
     /// From α·v.
     pub(crate) fn new(graph: &mut Graph, model: &Model, one_form: Expr) -> Self {
         let mut components: Vec<Components> = vec![Components::Block(false); model.blocks.len()];
         for contribution in graph.gradient(one_form, &[]) {
-            let (Variable::Velocity, coordinate) = variable(graph, contribution.target) else { continue };
-            let block = coordinate.block as usize;
-            let size = model.block_size(block).as_literal().filter(|_| model.blocks[block].array.is_some());
-            let indices = size.and_then(|size| {
-                let indices = visited(&coordinate.index, &contribution.loops)?;
-                indices.iter().all(|&index| (0..size).contains(&index)).then_some((size as usize, indices))
-            });
-            match (indices, &mut components[block]) {
-                (_, Components::Block(true)) => {}
-                (Some((_, indices)), Components::Entries(entries)) => {
-                    indices.into_iter().for_each(|index| entries[index as usize] = true);
-                }
-                (Some((size, indices)), whole) => {
-                    let entries = (0..size).map(|index| indices.contains(&(index as i64)));
-                    *whole = Components::Entries(entries.collect());
-                }
-                (None, whole) => *whole = Components::Block(true),
-            }
-        }
-        for known in &mut components {
-            if let Components::Entries(entries) = known
-                && entries.iter().all(|&entry| entry)
-            {
-                *known = Components::Block(true);
+            if let (Variable::Velocity, coordinate) = variable(graph, contribution.target) {
+                touch(&mut components, model, &coordinate, &contribution.loops);
             }
         }
         let mut class = Self { components, is_proper: false };
@@ -61,9 +66,24 @@ impl Class {
         class
     }
 
-    /// Whether α has no component along some coordinate.
-    pub(crate) fn lacks_components(&self) -> bool {
-        self.components.iter().any(|known| *known != Components::Block(true))
+    /// Whether a matrix with entries at these places has a row or a column without one.
+    pub(crate) fn lacks_row_or_column<'a>(
+        model: &Model,
+        places: impl Iterator<Item = (&'a Coordinate, &'a Coordinate, &'a [Loop])>,
+    ) -> bool {
+        let none = || vec![Components::Block(false); model.blocks.len()];
+        let (mut rows, mut columns) = (none(), none());
+        for (row, column, loops) in places {
+            touch(&mut rows, model, row, loops);
+            touch(&mut columns, model, column, loops);
+        }
+        rows.iter().chain(&columns).any(|known| *known != Components::Block(true))
+    }
+
+    /// Whether α has components along less than half of the coordinates, so that Ω has no inverse.
+    pub(crate) fn is_too_small(&self, model: &Model) -> bool {
+        let [with, without] = [true, false].map(|with| self.size(model, with).as_literal());
+        matches!((with, without), (Some(with), Some(without)) if with < without)
     }
 
     /// The number of coordinates of a block with components, or without.
@@ -111,12 +131,39 @@ impl Class {
     }
 }
 
-/// The values of an index, where they are literal.
+/// More values of an index than these are not enumerated.
+const MOST: usize = 4096;
+
+/// The values of an index in its loops, where all bounds are literal.
 fn visited(index: &Index, loops: &[Loop]) -> Option<Vec<i64>> {
-    if let Some(index) = index.as_literal() {
-        return Some(vec![index]);
+    let mut found = Vec::new();
+    visit(index, loops, &mut Vec::new(), &mut found)?;
+    Some(found)
+}
+
+fn visit(index: &Index, loops: &[Loop], open: &mut Vec<(u32, i64)>, found: &mut Vec<i64>) -> Option<()> {
+    let Some((outer, inner)) = loops.split_first() else {
+        found.push(value(index, open)?);
+        return (found.len() <= MOST).then_some(());
+    };
+    let (lower, upper) = (value(&outer.range.lower, open)?, value(&outer.range.upper, open)?);
+    let left_out = outer.range.left_out().map(|index| value(index, open)).collect::<Option<Vec<i64>>>()?;
+    for at in (lower..upper).filter(|at| !left_out.contains(at)) {
+        open.push((outer.depth, at));
+        visit(index, inner, open, found)?;
+        open.pop();
     }
-    let only = loops.iter().find(|only| *index == Index::open(only.depth))?;
-    let (lower, upper) = (only.range.lower.as_literal()?, only.range.upper.as_literal()?);
-    (upper - lower <= 64 && only.range.left_out().next().is_none()).then(|| (lower..upper).collect())
+    Some(())
+}
+
+/// The value of an index where those of the loops are known.
+fn value(index: &Index, open: &[(u32, i64)]) -> Option<i64> {
+    index.terms.iter().try_fold(index.constant, |sum, (atom, coefficient)| {
+        let value = match atom {
+            Atom::Open(depth) => open.iter().find(|(known, _)| known == depth)?.1,
+            Atom::Remainder(of, modulus) => value(of, open)?.checked_rem_euclid(value(modulus, open)?)?,
+            Atom::Bound(_) | Atom::Size(_) => return None,
+        };
+        sum.checked_add(value.checked_mul(*coefficient)?)
+    })
 }

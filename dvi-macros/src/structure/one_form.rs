@@ -18,6 +18,8 @@ pub(crate) struct OneForm {
     pub(crate) conjugates: Vec<usize>,
     /// Whether one-step schemes can be used.
     pub(crate) class: Class,
+    /// Whether Dα has a row or a column of zeros.
+    singular_ends: bool,
     /// Blocks that Ω does not involve.
     untouched: Vec<usize>,
     /// Whether the places of Ω that are not zero leave room for an inverse.
@@ -117,7 +119,10 @@ impl OneForm {
             omega.iter().map(|entry| [entry.row.block as usize, entry.column.block as usize]).collect();
         let invertible = has_matching(model, &places);
         let class = Class::new(graph, model, one_form);
-        Self { linear, matching, canonical, conjugates, class, untouched, invertible }
+        let jacobian = dalpha(graph, entries);
+        let jacobian = jacobian.iter().map(|(i, j, entry)| (i, j, entry.loops.as_slice()));
+        let singular_ends = Class::lacks_row_or_column(model, jacobian);
+        Self { linear, matching, canonical, conjugates, class, singular_ends, untouched, invertible }
     }
 
     /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
@@ -136,6 +141,18 @@ impl OneForm {
         {
             let message = "Ω = -dα is zero here, so nothing determines the motion; the one-form needs a term such as \
                            `p * d(q)` that is not the differential of a function";
+            errors.push(at, message);
+            return;
+        }
+        if self.untouched.is_empty()
+            && self.class.is_too_small(model)
+            && let Some(at) = at
+        {
+            let message = format!(
+                "Ω = -dα is singular for all parameters: α has components along {} only, less than half of the \
+                 coordinates",
+                self.class.names(model, true).join(", ")
+            );
             errors.push(at, message);
             return;
         }
@@ -164,17 +181,21 @@ impl OneForm {
             true => "α is affine in q with constant coefficients: Ω is constant.",
             false => "α is nonlinear in q or depends on t.",
         });
-        let lacks = self.class.lacks_components();
-        sentences.push(match (lacks, self.linear, self.matching) {
-            (true, ..) => {
-                "σ = 0 and σ = 1 cannot be used: α has no component along some coordinate, so their equations are singular."
-            }
+        sentences.push(match (self.singular_ends, self.linear, self.matching) {
+            (true, ..) => "σ = 0 and σ = 1 cannot be used: Dα has a row or a column of zeros.",
             (_, true, true) => {
-                "σ = 0 and σ = 1 are explicit: one gradient of H a step, no iteration, no factorisation."
+                "σ = 0 and σ = 1 are explicit where Dα is regular: one gradient of H a step, no iteration, no \
+                 factorisation."
             }
-            (_, true, false) => "σ = 0 and σ = 1 are explicit up to one factorisation for the whole run.",
-            (_, false, true) => "σ = 0 is explicit: no iteration, no factorisation. σ = 1 is implicit.",
-            (_, false, false) => "σ = 0 solves one linear system a step, without iteration. σ = 1 is implicit.",
+            (_, true, false) => {
+                "σ = 0 and σ = 1 are explicit where Dα is regular, up to one factorisation for the whole run."
+            }
+            (_, false, true) => {
+                "σ = 0 is explicit where Dα is regular: no iteration, no factorisation. σ = 1 is implicit."
+            }
+            (_, false, false) => {
+                "σ = 0 solves one linear system a step where Dα is regular, without iteration. σ = 1 is implicit."
+            }
         });
         sentences.push("0 < σ < 1 is implicit.");
         sentences.push(match self.canonical {

@@ -169,11 +169,34 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.newton(system, q, [t, h], stopping, Guess::Extrapolated, statistics)
-            .or_else(|_| self.newton(system, q, [t, h], stopping, Guess::Zero, statistics))?;
+        // Where steps are long, extrapolation is off, or leads to another branch.
+        self.attempt(system, q, [t, h], stopping, Guess::Extrapolated, statistics)
+            .or_else(|_| self.attempt(system, q, [t, h], stopping, Guess::Zero, statistics))?;
+        q.copy_from_slice(&self.work.next);
+        self.p.copy_from_slice(&self.work.momentum);
+        for (completed, increment) in self.completed.iter_mut().zip(&self.increments) {
+            for (v, &w) in completed.iter_mut().zip(increment.iter()) {
+                *v = w / h;
+            }
+        }
+        self.last_step = h;
+        Ok(())
+    }
+
+    /// Sets `work.next` to q1 and `work.momentum` to p1, if q1 and the stages are on the branch of ϑ(x, y) = p that q0 is on.
+    fn attempt(
+        &mut self,
+        system: &S,
+        q: &Vector<S, T>,
+        [t, h]: [T; 2],
+        stopping: Stopping,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.newton(system, q, [t, h], stopping, guess, statistics)?;
         self.differentiate(system, q, [t, h], statistics);
         let Self { p, orientation, tableau, split, increments, forces, work, .. } = &mut *self;
-        let Work { next, momentum, .. } = work;
+        let Work { point, next, momentum, .. } = work;
         place(&tableau.b, q, increments, next);
         for (i, (momentum, &p)) in momentum.iter_mut().zip(p.iter()).enumerate() {
             let impulse = tableau.b.iter().zip(forces.iter()).map(|(&b, f)| T::lift(b) * f[i]);
@@ -182,16 +205,17 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
         }
         split.solve_y(system, next, t + h, momentum, stopping, statistics)?;
         norm::finite(next)?;
-        orientation.check(system, next, t + h)?;
-        q.copy_from_slice(next);
-        p.copy_from_slice(momentum);
-        for (completed, increment) in self.completed.iter_mut().zip(&self.increments) {
-            for (v, &w) in completed.iter_mut().zip(increment.iter()) {
-                *v = w / h;
-            }
+        // Between two branches Ω changes its sign.
+        for (row, &c) in tableau.a.iter().zip(&tableau.c) {
+            place(row, q, increments, point);
+            orientation.compare(system, point, t + T::lift(c) * h)?;
         }
-        self.last_step = h;
-        Ok(())
+        let half = T::lift(0.5);
+        for ((between, &from), &to) in point.iter_mut().zip(q.iter()).zip(next.iter()) {
+            *between = half * (from + to);
+        }
+        orientation.compare(system, point, t + half * h)?;
+        orientation.check(system, next, t + h)
     }
 
     /// Solves for the increments.
@@ -208,7 +232,7 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
         let size = self.increments.iter().fold(T::lift(0.0), |m, w| norm::larger(m, norm::largest(w)));
         let scale = norm::largest(q) + size;
         let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| {
+        let solved = iterate(convergence, statistics, |statistics| {
             self.differentiate(system, q, [t, h], statistics);
             self.residuals[1..].iter().try_for_each(|residual| norm::finite(residual))?;
             statistics.linearizations += STAGES as u64;
@@ -224,8 +248,19 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
                 correction = norm::larger(correction, norm::largest(change));
             }
             Ok(correction)
-        })?;
+        });
+        solved.or_else(|failure| failure.unless_rounding(|| self.of_momentum(system, q, [t, h])))?;
         self.increments.iter().try_for_each(|increment| norm::finite(increment))
+    }
+
+    /// What a relative error of the momentum makes of the increments.
+    fn of_momentum(&mut self, system: &S, q: &Vector<S, T>, [t, h]: [T; 2]) -> Result<T, StepFailure> {
+        let Self { p, tableau, increments, residuals, solver, work, .. } = self;
+        residuals.iter_mut().for_each(|residual| residual.copy_from_slice(p));
+        let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
+        solver.solve(&mut matrix, residuals)?;
+        let sizes = residuals[1..].iter().map(|residual| norm::largest(residual));
+        Ok(sizes.fold(T::lift(0.0), norm::larger))
     }
 
     /// Sets `forces` to F and `residuals` to r.

@@ -57,25 +57,44 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let convergence = Convergence::new(stopping, norm::largest(q), q, stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| {
+        let half = self.places.len() / 2;
+        let solved = iterate(convergence, statistics, |statistics| {
             system.one_form(q, t, &mut self.form);
             for (form, &p) in self.form.iter_mut().zip(p) {
                 *form -= p;
             }
-            let half = self.places.len() / 2;
-            if S::CANONICAL {
-                self.divide(system, q, t)?;
-            } else {
-                self.eliminate(system, q, t, half, statistics)?;
-            }
-            norm::finite(&self.change[..half])?;
+            self.solve_once(system, q, t, statistics)?;
             for (i, q) in q.iter_mut().enumerate() {
                 if let Some(y) = self.places[i].checked_sub(half) {
                     *q -= self.change[y];
                 }
             }
             Ok(norm::largest(&self.change[..half]))
+        });
+        solved.or_else(|failure| {
+            failure.unless_rounding(|| {
+                self.form.copy_from_slice(p);
+                self.solve_once(system, q, t, statistics)?;
+                Ok(norm::largest(&self.change[..half]))
+            })
         })
+    }
+
+    /// Sets `change` to (∂ϑ/∂y)⁻¹`form`.
+    fn solve_once(
+        &mut self,
+        system: &S,
+        q: &[T],
+        t: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let half = self.places.len() / 2;
+        if S::CANONICAL {
+            self.divide(system, q, t)?;
+        } else {
+            self.eliminate(system, q, t, half, statistics)?;
+        }
+        norm::finite(&self.change[..half])
     }
 
     /// Sets `change` to (∂ϑ/∂y)⁻¹`form` where each row has one entry.

@@ -53,8 +53,9 @@ pub(super) struct Stage<S: System, T: Real> {
     /// f and α at a node.
     pub(super) gradient: Vector<S, T>,
     pub(super) one_form: Vector<S, T>,
+    /// The last node.
+    pub(super) point: Vector<S, T>,
     solver: Linear<S, T>,
-    point: Vector<S, T>,
     velocity: Vector<S, T>,
     correction: Vector<S, T>,
 }
@@ -76,8 +77,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         }
     }
 
-    /// Improves the guess `unknown` until the equations hold for `momentum`; begins again from rest where that does not lead
-    /// to a solution.
+    /// Improves the guess `unknown` until the equations hold for `momentum`.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
@@ -86,21 +86,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         step: &Step<'_, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.improve(step, statistics).or_else(|_| {
-            // Where steps are long, extrapolation is off.
-            for (i, unknown) in self.unknown.iter_mut().enumerate() {
-                *unknown = if step.split.is_x(i) { T::lift(0.0) } else { step.q[i] };
-            }
-            self.improve(step, statistics)
-        })
-    }
-
-    fn improve(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { unknown, momentum, gradient, one_form, solver, point, velocity, correction, .. } = self;
         let Step { q, stopping, nodes, .. } = *step;
         let scale = norm::larger(norm::largest(q), norm::largest(unknown));
         let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| {
+        let solved = iterate(convergence, statistics, |statistics| {
             statistics.linearizations += nodes.len() as u64;
             statistics.factorisations += 1;
             let work = [&mut **point, &mut **velocity, &mut **gradient, &mut **one_form];
@@ -111,7 +101,22 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
                 *unknown -= change;
             }
             Ok(norm::largest(correction))
+        });
+        solved.or_else(|failure| {
+            failure.unless_rounding(|| {
+                let work = [&mut **point, &mut **velocity, &mut **gradient, &mut **one_form];
+                let equations = Equations { step, unknown: &*unknown, momentum: &*momentum, work };
+                solver.solve(&mut OfMomentum(equations), correction)?;
+                Ok(norm::largest(correction))
+            })
         })
+    }
+
+    /// Sets `point` to the mean of two points.
+    pub(super) fn set_between(&mut self, a: &[T], b: &[T]) {
+        for ((between, &a), &b) in self.point.iter_mut().zip(a).zip(b) {
+            *between = T::lift(0.5) * (a + b);
+        }
     }
 
     /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`.
@@ -185,6 +190,17 @@ impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, 
                 b[i] += weight * one_form[i] - h * row(i) * gradient[i];
             }
         }
+        Ok(())
+    }
+}
+
+/// The same matrix, and the momentum on the right: what a relative error of the momentum makes of the unknowns.
+struct OfMomentum<'a, S: System, T: Real>(Equations<'a, S, T>);
+
+impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for OfMomentum<'_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        self.0.evaluate(b, sink)?;
+        b.copy_from_slice(self.0.momentum);
         Ok(())
     }
 }
