@@ -354,11 +354,12 @@ structure
   L = ½ v·M v − V(q, t) with a constant diagonal mass matrix M.
   The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no factorisation.
   L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.
+  Begin with `Variational::trapezoid()`.
   Checked when compiled: at 2 points, every generated function agrees with the formulas as written, to 1e-15 of the sum of the absolute terms.
 operations of the residual
-  once: 1 additions, 7 multiplications, 1 divisions, 1 calls
+  once: 1 addition, 7 multiplications, 1 division, 1 call
 operations of residual and Jacobian
-  once: 3 additions, 16 multiplications, 1 divisions, 1 calls
+  once: 3 additions, 16 multiplications, 1 division, 1 call
 entries of the Jacobian
   (x, x)
   (x, y)
@@ -379,6 +380,7 @@ fn reports_say_what_the_mass_matrix_is_like() {
         ),
         (DoublePendulum::REPORT, "The full mass matrix depends on q."),
         (DoublePendulum::REPORT, "The trapezoidal step is implicit in general."),
+        (DoublePendulum::REPORT, "Begin with `Variational::midpoint()`."),
         (Relativistic::REPORT, "The full mass matrix depends on v."),
         (
             Relativistic::REPORT,
