@@ -245,8 +245,10 @@ pub enum StepFailure {
         /// The step, perhaps not finite.
         h: f64,
     },
-    /// A coordinate became infinite or not a number: a collision, or a formula left its domain.
-    #[error("coordinate {coordinate} became {value}: a collision, or a formula left its domain")]
+    /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.
+    #[error(
+        "coordinate {coordinate} became {value}: a collision, a formula that left its domain, or a step that is too long"
+    )]
     NotFinite {
         /// The flat index of the coordinate.
         coordinate: usize,

@@ -1,8 +1,8 @@
 //! Variational integrators from Lagrangians, generated at compile time.
 //!
 //! You declare the Lagrangian of a mechanical system in an attribute on a struct, choose a [method](methods), and get a run:
-//! an iterator over states. The attribute differentiates the formula symbolically and generates the equations of a step
-//! with their exact Jacobian.
+//! an iterator over results, each of them a state or the error that ended the run. The attribute differentiates the formula
+//! symbolically and generates the equations of a step with their exact Jacobian.
 //!
 //! ```
 //! use dvi_core::prelude::*;

@@ -173,9 +173,8 @@ fn compensated_sums_round_as_little_as_it_is_said() {
         (1000.0 * ratio).ceil() / 10.0
     };
     assert_said(&[format!(
-        "after 10⁸ steps of length 0.1 the rounding errors in the energy that the method conserves on an oscillator, \
-         root mean square over four runs, are then at most {:.1} % of those with plain sums for σ = ½, and {:.1} % for \
-         Verlet's method.",
+        "After 10⁸ steps on an oscillator the rounding error of the conserved energy is then at most {:.1} % of that with \
+         plain sums for σ = ½, and {:.1} % for Verlet's method.",
         percent("oscillator, σ = ½"),
         percent("oscillator, Verlet")
     )]);
