@@ -96,6 +96,18 @@ fn no_step_changes_the_branch() -> Outcome {
     check(OneStepGauss::<4>::new())
 }
 
+/// The two-step midpoint has the same rounding, and its run lasts as long as without the constant.
+#[test]
+fn rounding_of_momenta_ends_no_run_of_the_two_step_midpoint() -> Outcome {
+    for c in [0.0, 10.0, 100.0, 1000.0, 1e6] {
+        let start: ShiftedState = ShiftedState { x: 0.3, y: 0.4 };
+        let system = Shifted { c };
+        let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
+        run.take_steps(400).map_err(|error| format!("c = {c}: {error}"))?;
+    }
+    Ok(())
+}
+
 /// A constant added to ϑ changes no motion, but momenta are then rounded more than coordinates.
 #[degenerate_lagrangian(
     coordinates(x, y),

@@ -106,7 +106,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         inverse.prepare(step.system, &l_d.work.point, step.node_time(), combination, trial, statistics)?;
         let scale = norm::largest(q) + norm::largest(increment);
         let convergence = Convergence::fixed_point(step.method.stopping, scale, q, *budget);
-        iterate(convergence, statistics, |statistics| {
+        let solved = iterate(convergence, statistics, |statistics| {
             residual.copy_from_slice(p0);
             let ends = Ends { q0: q, delta: increment };
             l_d.derivatives(
@@ -120,6 +120,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
                 *delta += correction;
             }
             Ok(norm::largest(trial))
+        });
+        solved.or_else(|failure| {
+            failure.unless_rounding(|| {
+                inverse.solve(step.system, p0, trial);
+                Ok(norm::largest(trial))
+            })
         })?;
         norm::finite(increment)
     }
