@@ -207,13 +207,12 @@ impl OneStep {
         norm::finite(&memory.next)?;
         let OneStepMemory { orientation, stage, next, .. } = memory;
         // Between two branches Ω changes its sign.
-        orientation.compare(system, &stage.point, t + half * h)?;
-        stage.set_between(q, next);
+        norm::mean(q, next, &mut stage.point);
         orientation.compare(system, &stage.point, t + half * h)?;
         orientation.check(system, next, t + h)
     }
 
-    /// Sets `next` to q1 of a symmetric scheme, `stage.impulse` to p1, and `stage.rates` to the rates of change.
+    /// Sets `next` to q1 of a symmetric scheme, `stage.momentum` to p1, and `stage.rates` to the rates of change.
     fn variational<S: ProperlyDegenerate<T>, T: Real>(
         &self,
         system: &S,
@@ -224,12 +223,14 @@ impl OneStep {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let half = T::lift(0.5);
-        let OneStepMemory { p, split, stage, next, .. } = memory;
+        let OneStepMemory { p, orientation, split, stage, next, .. } = memory;
         stage.momentum.copy_from_slice(p);
         let step = Step { system, split, q, t, h, nodes, stopping: self.stopping };
         stage.solve(&step, statistics)?;
         // p1 = p0 + h Σ w f_x, from the nodes at the solution.
-        stage.kick(&step, statistics);
+        let time = stage.kick(&step, statistics);
+        // Between two branches Ω changes its sign.
+        orientation.compare(system, &stage.point, time)?;
         for i in 0..q.len() {
             let is_x = split.is_x(i);
             // From ȳ on, as far again.

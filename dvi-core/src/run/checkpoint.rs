@@ -5,10 +5,9 @@ use alloc::vec::Vec;
 use crate::error::{CheckpointError, StartError};
 use crate::methods::{Carries, Clock, Method};
 use crate::run::Stepper;
-use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, Reader, Record};
-use crate::system::start::{not_finite, velocities};
+use crate::system::start::{finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
 
 /// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) and
@@ -88,11 +87,7 @@ impl<T: Real> Checkpoint<T> {
         if found != 0 && found != expected {
             return Err(CheckpointError::Velocities { expected, found }.into());
         }
-        for (coordinate, x) in self.q.iter().chain(&self.v).enumerate() {
-            if !x.is_finite() {
-                return Err(not_finite(system, coordinate, reported(*x)));
-            }
-        }
+        finite(system, self.q.iter().chain(&self.v).copied())?;
         let Statistics { steps, iterations, gradients, linearizations, factorisations } = self.statistics;
         let counts = [steps, iterations, gradients, linearizations, factorisations];
         if counts.iter().any(|&count| count > BEYOND) || !self.record.is_finite() {

@@ -85,7 +85,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
         &self.stepper
     }
 
-    /// Takes `count` steps, as so many calls of [`advance`](Run::advance) would. It is faster than these where a method can keep its state in registers.
+    /// Takes `count` steps, as so many calls of [`advance`](Run::advance) would. It is faster than
+    /// these where a method can keep its state in registers.
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);

@@ -14,6 +14,14 @@ pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)))
 }
 
+/// Sets `mean` to (a + b)/2.
+#[inline(always)]
+pub(crate) fn mean<T: Real>(a: &[T], b: &[T], mean: &mut [T]) {
+    for ((mean, &a), &b) in mean.iter_mut().zip(a).zip(b) {
+        *mean = T::lift(0.5) * (a + b);
+    }
+}
+
 /// 1/`pivot`, for a pivot of a matrix: an error if that is not a finite number.
 #[inline(always)]
 pub(crate) fn reciprocal<T: Real>(pivot: T, column: usize) -> Result<T, StepFailure> {

@@ -1,7 +1,6 @@
 //! What is checked and laid out before a run begins.
 
 use crate::error::StartError;
-use crate::name::Name;
 use crate::scalar::norm::reported;
 use crate::{Lagrangian, Real, Space, State, System, Vector};
 
@@ -46,10 +45,15 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     Err(StartError::Undefined { quantity, coordinate: None, value: reported(energy) })
 }
 
-/// The entry of a state, counted from 0 through coordinates and velocities, that is no number.
-pub(crate) fn not_finite<S: System>(system: &S, entry: usize, value: f64) -> StartError {
-    let unnamed = Name { block: "?", is_velocity: false, index: Some(entry) };
-    StartError::NotFinite { entry: system.names().nth(entry).unwrap_or(unnamed), value }
+/// Checks that the entries of a state, in the order of [`System::names`], are finite.
+pub(crate) fn finite<S: System, T: Real>(
+    system: &S,
+    entries: impl Iterator<Item = T>,
+) -> Result<(), StartError> {
+    match system.names().zip(entries).find(|(_, x)| !x.is_finite()) {
+        Some((entry, value)) => Err(StartError::NotFinite { entry, value: reported(value) }),
+        None => Ok(()),
+    }
 }
 
 /// The number of velocities that a state carries.
@@ -64,11 +68,6 @@ pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
 ) -> Result<[Vector<S, T>; 2], StartError> {
     let (mut q, mut v) = (system.space().vector(), system.space().vector());
     state.write(|block| system.block_len(block), &mut q, &mut v)?;
-    match q.iter().chain(v.iter()).position(|x| !x.is_finite()) {
-        Some(coordinate) => {
-            let value = if coordinate < q.len() { q[coordinate] } else { v[coordinate - q.len()] };
-            Err(not_finite(system, coordinate, reported(value)))
-        }
-        None => Ok([q, v]),
-    }
+    finite(system, q.iter().chain(v.iter()).copied())?;
+    Ok([q, v])
 }

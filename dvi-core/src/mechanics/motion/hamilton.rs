@@ -204,9 +204,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             // The velocity of the last stage leads to the one that belongs to the new momentum, if there is one.
             legendre.solve(system, arrival, momentum, t, latest, S::QUADRATIC)?;
             // Between two branches of ∂L/∂v(v) = p the mass matrix changes its sign.
-            for ((between, &from), &to) in between.iter_mut().zip(velocity.iter()).zip(latest.iter()) {
-                *between = T::lift(0.5) * (from + to);
-            }
+            norm::mean(velocity, latest, between);
             orientation.check(system, arrival, between, t)?;
             orientation.check(system, arrival, latest, t)?;
             velocity.copy_from_slice(latest);

@@ -210,11 +210,8 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             place(row, q, increments, point);
             orientation.compare(system, point, t + T::lift(c) * h)?;
         }
-        let half = T::lift(0.5);
-        for ((between, &from), &to) in point.iter_mut().zip(q.iter()).zip(next.iter()) {
-            *between = half * (from + to);
-        }
-        orientation.compare(system, point, t + half * h)?;
+        norm::mean(q, next, point);
+        orientation.compare(system, point, t + T::lift(0.5) * h)?;
         orientation.check(system, next, t + h)
     }
 

@@ -112,18 +112,12 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         })
     }
 
-    /// Sets `point` to the mean of two points.
-    pub(super) fn set_between(&mut self, a: &[T], b: &[T]) {
-        for ((between, &a), &b) in self.point.iter_mut().zip(a).zip(b) {
-            *between = T::lift(0.5) * (a + b);
-        }
-    }
-
-    /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`.
-    pub(super) fn kick(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) {
+    /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`, and returns the time of `point`.
+    pub(super) fn kick(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> T {
         let Self { unknown, momentum, gradient, one_form, point, velocity, .. } = self;
+        let mut time = step.t;
         for node in step.nodes {
-            let time = step.place(unknown, node, point, velocity);
+            time = step.place(unknown, node, point, velocity);
             step.system.gradient(point, velocity, time, gradient, one_form);
             statistics.gradients += 1;
             let weight = step.h * T::lift(node.weight);
@@ -131,6 +125,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
                 momentum[i] += weight * gradient[i];
             }
         }
+        time
     }
 }
 
