@@ -67,8 +67,10 @@ use proc_macro::TokenStream;
 /// | `one_form = …` | α, linear in `d(x)`; or its components `[a, b]`, with `\|i\| …` for an array |
 /// | `hamiltonian = …` | H |
 /// | `lagrangian = …` | instead of these two: L, affine in the velocities `dot(x)` |
+/// | `gauge = F` | F(q, t), whose dF/dt is added to L: α becomes α + ∂F/∂q and H becomes H − ∂F/∂t, with the same motion |
+/// | `gauge = auto` | an F is sought that leaves α no component along one half of the coordinates |
 /// | `momenta(name = …)` | conserved quantities to watch |
-/// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
+/// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, and a third one where it stands in a gauge, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
 /// | `derive(Trait, …)` | what the state derives beside `Clone`, `Debug`, `PartialEq` and, without `Vec`s, `Copy`: `serde::Serialize` for instance, which does not know arrays of const-generic size |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
@@ -95,6 +97,19 @@ use proc_macro::TokenStream;
 /// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without the remainder, so
 /// `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient. A constant of the user's and a field of a field, whose types
 /// are not known, are taken for integers there.
+///
+/// # Gauges
+///
+/// One-step schemes need an α without a component along one half of the coordinates, and α + dF may be of that kind where α is
+/// not. With a gauge, components of α + dF are added up and multiplied out, so that what cancels is seen.
+///
+/// `gauge = auto` looks for an F for each half of the coordinates that is made of whole blocks, and takes the one with the
+/// shortest α. It integrates the components along that half term by term: powers, roots, logarithms, exponentials,
+/// trigonometric and hyperbolic functions of what is linear in a coordinate, by substitution, by parts and in both branches of
+/// an `if`. The report prints what it has found, and the self-check holds the generated functions against it as if it had been
+/// written. A search that ends without an answer is an error that says what could not be integrated. An F with the logarithm of
+/// a coordinate is written as `x.ln()` if a formula takes the logarithm or the root of that coordinate, else as
+/// `0.5 * x.powi(2).ln()`.
 ///
 /// # Sizes
 ///

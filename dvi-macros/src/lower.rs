@@ -34,6 +34,7 @@ pub(crate) enum Role {
     OneForm,
     Component,
     Hamiltonian,
+    Gauge,
     Lagrangian,
     Momentum,
 }
@@ -44,6 +45,7 @@ impl Role {
             Self::OneForm => "the one-form",
             Self::Component => "a component of the one-form",
             Self::Hamiltonian => "the Hamiltonian",
+            Self::Gauge => "the gauge",
             Self::Lagrangian => "the Lagrangian",
             Self::Momentum => "a momentum",
         }

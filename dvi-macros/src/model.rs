@@ -172,6 +172,11 @@ impl Model {
         (0..self.blocks.len()).fold(Index::default(), |sum, block| sum.plus(&self.block_size(block), 1))
     }
 
+    /// Whether a function of the user's was declared with three derivatives, as a gauge needs them.
+    pub(crate) fn has_third_derivative(&self, function: u32) -> bool {
+        self.functions[function as usize].derivatives.len() > 3
+    }
+
     /// Whether the compiler knows the size of a block.
     pub(crate) fn is_constant(&self, block: usize) -> bool {
         self.block_size(block).terms.iter().all(|(atom, _)| match atom {
@@ -200,6 +205,14 @@ impl Names for Model {
     }
     fn function(&self, function: u32) -> String {
         self.functions[function as usize].name.to_string()
+    }
+    fn is_taken(&self, name: &str) -> bool {
+        let parts =
+            |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == name);
+        self.blocks.iter().any(|block| block.name == name)
+            || self.parameters.iter().any(|parameter| parts(&parameter.text))
+            || self.sizes.iter().any(|size| parts(&size.text))
+            || self.functions.iter().any(|function| function.name == name)
     }
 }
 

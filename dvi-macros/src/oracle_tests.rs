@@ -21,6 +21,7 @@ mod generate;
 mod jet;
 mod parts;
 mod random;
+mod rate;
 mod read;
 mod rust;
 mod shrink;
@@ -71,18 +72,31 @@ fn random_systems_of_odd_number() {
     random_systems(1);
 }
 
-fn grammar() -> Vec<formula::Formula> {
-    exhaustive::all(setting("DVI_NODES", 6) as usize)
+/// All formulas of the grammar, of fewer nodes than elsewhere by this number.
+fn grammar(fewer: usize) -> Vec<formula::Formula> {
+    exhaustive::all(setting("DVI_NODES", 6) as usize - fewer)
 }
 
 #[test]
 fn every_small_formula_as_hamiltonian() {
     on_large_stack(|| {
         let mut summary = Summary::default();
-        for (number, formula) in grammar().into_iter().enumerate() {
+        for (number, formula) in grammar(0).into_iter().enumerate() {
             summary.examine(&exhaustive::as_hamiltonian(number, formula), number as u64);
         }
         summary.conclude("Hamiltonians of the grammar");
+    });
+}
+
+/// A gauge is differentiated three times, which takes longer.
+#[test]
+fn every_small_formula_as_gauge() {
+    on_large_stack(|| {
+        let mut summary = Summary::default();
+        for (number, formula) in grammar(1).into_iter().enumerate() {
+            summary.examine(&exhaustive::as_gauge(number, formula), number as u64);
+        }
+        summary.conclude("gauges of the grammar");
     });
 }
 
@@ -90,7 +104,7 @@ fn every_small_formula_as_hamiltonian() {
 fn every_small_formula_as_kinetic_energy() {
     on_large_stack(|| {
         let mut summary = Summary::default();
-        for (number, formula) in grammar().into_iter().enumerate() {
+        for (number, formula) in grammar(0).into_iter().enumerate() {
             summary.examine(&exhaustive::as_kinetic_energy(number, formula), number as u64);
         }
         summary.conclude("kinetic energies of the grammar");

@@ -4,6 +4,7 @@
 use crate::model::Model;
 
 mod class;
+pub(crate) mod gauge;
 mod mass;
 mod one_form;
 mod singular;

@@ -38,11 +38,19 @@ pub(crate) struct Momentum {
     pub(crate) formula: Expr,
 }
 
-/// `f = [path, path_of_derivative, …]` in `functions(...)`.
+/// `f = [path, path_of_derivative, …]` in `functions(...)`, with two derivatives or three.
 #[derive(Debug)]
 pub(crate) struct Function {
     pub(crate) name: Ident,
     pub(crate) derivatives: Vec<Path>,
+}
+
+/// `gauge = F`, or `gauge = auto`.
+#[derive(Debug)]
+pub(crate) enum Gauge {
+    Formula(Expr),
+    /// The compiler is to find one; the word.
+    Auto(Ident),
 }
 
 /// The arguments as written; what was not given is empty.
@@ -52,6 +60,7 @@ pub(crate) struct Attribute {
     pub(crate) coordinates: Vec<Declaration>,
     pub(crate) one_form: Option<Expr>,
     pub(crate) hamiltonian: Option<Expr>,
+    pub(crate) gauge: Option<Gauge>,
     pub(crate) lagrangian: Option<Expr>,
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
@@ -66,10 +75,11 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 8] = [
+const ARGUMENTS: [(&str, &str); 9] = [
     ("coordinates", "coordinates(x, y[n])"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
+    ("gauge",       "gauge = F(q)"),
     ("lagrangian",  "lagrangian = …"),
     ("momenta",     "momenta(p = …)"),
     ("functions",   "functions(f = [f, df, d2f])"),
@@ -78,7 +88,7 @@ const ARGUMENTS: [(&str, &str); 8] = [
 ];
 
 /// The arguments that a regular system does not have.
-const DEGENERATE_ONLY: [&str; 2] = ["one_form", "hamiltonian"];
+const DEGENERATE_ONLY: [&str; 3] = ["one_form", "hamiltonian", "gauge"];
 
 impl Kind {
     /// The attribute as it is written.
@@ -145,7 +155,7 @@ impl Parse for Function {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let name: Ident = input.parse()?;
         let advice = format!(
-            "a function is declared by its path and those of its first two derivatives: write `{name} = [f, df, d2f]`"
+            "a function is declared by its path and those of its first two derivatives, or three: write `{name} = [f, df, d2f]`"
         );
         let at_fault = |at: Span| syn::Error::new(at, &advice);
         if !input.peek(Token![=]) {
@@ -159,7 +169,7 @@ impl Parse for Function {
         let bracket = syn::bracketed!(content in input);
         let derivatives = Punctuated::<Path, Token![,]>::parse_terminated(&content)
             .map_err(|error| at_fault(error.span()))?;
-        if derivatives.len() != 3 {
+        if !(3..=4).contains(&derivatives.len()) {
             return Err(at_fault(bracket.span.join()));
         }
         Ok(Self { name, derivatives: derivatives.into_iter().collect() })
@@ -233,9 +243,18 @@ impl Attribute {
         self.one_form.as_ref().or(self.lagrangian.as_ref())
     }
 
+    /// The function whose differential is added to α.
+    pub(crate) fn gauge(&self) -> Option<&Expr> {
+        match &self.gauge {
+            Some(Gauge::Formula(formula)) => Some(formula),
+            Some(Gauge::Auto(_)) | None => None,
+        }
+    }
+
     /// All formulas as they were written.
     pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expr> {
-        let dynamics = [&self.one_form, &self.hamiltonian, &self.lagrangian];
+        let dynamics =
+            [self.one_form.as_ref(), self.hamiltonian.as_ref(), self.lagrangian.as_ref(), self.gauge()];
         dynamics.into_iter().flatten().chain(self.momenta.iter().map(|momentum| &momentum.formula))
     }
 
@@ -245,8 +264,9 @@ impl Attribute {
         match (keyword.as_str(), value) {
             (other, _) if !self.kind.takes(other) => {
                 let message = format!(
-                    "`{}` takes all of L as `lagrangian = …`; `one_form` and `hamiltonian` are arguments of `{}`",
+                    "`{}` takes all of L as `lagrangian = …`; {} are arguments of `{}`",
                     self.kind.attribute(),
+                    listed(DEGENERATE_ONLY),
                     Kind::Degenerate.attribute()
                 );
                 errors.push_once("arguments of the other attribute", &name, message);
@@ -259,6 +279,12 @@ impl Attribute {
                 self.functions = list(tokens, errors, &mut self.lost_functions);
             }
             ("derive", Value::List(tokens)) => self.derives = list(tokens, errors, &mut false),
+            ("gauge", Value::Assigned(tokens)) => {
+                self.gauge = value_of(&name, tokens, errors).map(|formula| match auto(&formula) {
+                    Some(word) => Gauge::Auto(word),
+                    None => Gauge::Formula(formula),
+                });
+            }
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),
@@ -282,6 +308,14 @@ impl Attribute {
                 errors.push(&name, format!("unknown argument `{keyword}`; {hint}"));
             }
         }
+    }
+}
+
+/// The word `auto`.
+fn auto(formula: &Expr) -> Option<Ident> {
+    match formula {
+        Expr::Path(path) => path.path.get_ident().filter(|word| *word == "auto").cloned(),
+        _ => None,
     }
 }
 

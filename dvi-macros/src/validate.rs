@@ -157,10 +157,7 @@ impl Check<'_> {
 
     /// The same points for the same formulas.
     fn seed(&self) -> u64 {
-        let attribute = self.system.attribute;
-        let formulas = [&attribute.lagrangian, &attribute.one_form, &attribute.hamiltonian];
-        let momenta = attribute.momenta.iter().map(|momentum| &momentum.formula);
-        let formulas = formulas.into_iter().flatten().chain(momenta);
+        let formulas = self.system.attribute.formulas();
         formulas.fold(2002, |seed, formula| mix_text(seed, &formula.to_token_stream().to_string()))
     }
 

@@ -5,8 +5,9 @@ use syn::Expr as Syntax;
 use super::Stages;
 use crate::lower::{Lowering, Role};
 use crate::program::{DegenerateFormulas, RegularFormulas};
+use crate::structure::gauge::{self, Search};
 use crate::symbolic::{Expr, Graph, Node};
-use crate::syntax::Attribute;
+use crate::syntax::{Attribute, Gauge};
 
 impl Stages {
     /// α·v, H and the momenta.
@@ -15,8 +16,71 @@ impl Stages {
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
         let pair = one_form_and_hamiltonian(&self.attribute, &mut lowering, clean);
         let momenta = momenta(&self.attribute, &mut lowering);
-        let (one_form, hamiltonian) = pair?;
-        Some(DegenerateFormulas { one_form, hamiltonian, momenta: momenta? })
+        let gauge = self.gauge(pair.map(|(one_form, _)| one_form));
+        let (declared, momenta, gauge) = (pair?, momenta?, gauge?);
+        let (one_form, hamiltonian) = match gauge {
+            Some(gauge) => self.with_gauge(declared, gauge),
+            None => declared,
+        };
+        Some(DegenerateFormulas { one_form, hamiltonian, gauge, momenta })
+    }
+
+    /// F, written or found; `None` inside if there is none.
+    fn gauge(&mut self, one_form: Option<Expr>) -> Option<Option<Expr>> {
+        match &self.attribute.gauge {
+            None => return Some(None),
+            Some(Gauge::Formula(_)) => {}
+            Some(Gauge::Auto(word)) => {
+                let word = word.clone();
+                if !self.errors.is_empty() {
+                    return None;
+                }
+                match gauge::search(&self.graph, &self.model, one_form?) {
+                    Search::NotNeeded => return Some(None),
+                    Search::Found(found) => self.attribute.gauge = Some(Gauge::Formula(found.formula)),
+                    Search::None(reason) => {
+                        let message = format!(
+                            "no gauge was found that brings the one-form into the class of one-step schemes: {reason}; \
+                             write `gauge = F` with a function of your own, or leave it out and take `Gauss`"
+                        );
+                        self.errors.push(word, message);
+                        return None;
+                    }
+                }
+            }
+        }
+        let Some(Gauge::Formula(formula)) = &self.attribute.gauge else { return Some(None) };
+        let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
+        let gauge = lowering.formula(formula, Role::Gauge)?;
+        if !lowering.graph.depends(gauge.node, |node| matches!(node, Node::Coordinate(_))) {
+            let message = "a gauge without coordinates in it changes nothing: write a function of the coordinates, or \
+                           leave it out";
+            lowering.errors.push(formula, message);
+            return None;
+        }
+        for (number, function) in lowering.model.functions.iter().enumerate() {
+            let calls = |node: &Node| matches!(node, Node::Call(known, ..) if *known as usize == number);
+            if !lowering.model.has_third_derivative(number as u32)
+                && lowering.graph.depends(gauge.node, calls)
+            {
+                let name = &function.name;
+                let message = format!(
+                    "a gauge is differentiated three times, and the function `{name}` stands in it: declare its third \
+                     derivative too, as in `{name} = [f, df, d2f, d3f]`"
+                );
+                lowering.errors.push(formula, message);
+                return None;
+            }
+        }
+        Some(Some(gauge))
+    }
+
+    /// α + ∂F/∂q and H − ∂F/∂t: L with dF/dt added to it.
+    fn with_gauge(&mut self, (one_form, hamiltonian): (Expr, Expr), gauge: Expr) -> (Expr, Expr) {
+        let graph = &mut self.graph;
+        let time = graph.intern(Node::Time);
+        let rate = graph.derivative(gauge, time);
+        (graph.with_differential(one_form, gauge), graph.subtract(hamiltonian, rate))
     }
 
     /// L and the momenta.

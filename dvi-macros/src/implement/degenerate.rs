@@ -37,13 +37,17 @@ fn account(
     structure: &OneForm,
     checked: &Checked,
 ) -> Account {
-    let declared = [("α", formulas.one_form), ("H", formulas.hamiltonian)];
+    let dynamics = [("α", formulas.one_form), ("H", formulas.hamiltonian)].into_iter();
+    let declared = dynamics.chain(formulas.gauge.map(|gauge| ("F", gauge)));
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account = Account::new(
         "L(q, v, t) = α(q, t)·v − H(q, t) with",
-        declared.to_vec(),
+        declared.collect(),
         structure.sentences(emitter.model),
     );
+    if formulas.gauge.is_some() {
+        account.sentence("α and H contain the gauge F: dF/dt is added to L.".to_string());
+    }
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
@@ -132,6 +136,14 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
          has components along {components}",
         model.item.ident
     );
+    let advice = class.advice().map_or_else(
+        || {
+            "the motion is the same for α + dF with any function F, written `gauge = F`: choose F such that the \
+             components along one half of the coordinates vanish, as in ½ (x dy - y dx) + d(½ x y) = x dy"
+                .to_string()
+        },
+        |advice| format!("the motion is the same with the differential of a function added to the one-form: {advice}"),
+    );
     let (name, allow) = (&model.item.ident, super::allow());
     let lacking = format_ident!("{name}InClass");
     let mut generics = over_numbers(emitter);
@@ -142,8 +154,7 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
         #[diagnostic::on_unimplemented(
             message = #message,
             label = "takes systems of that class only",
-            note = "the motion is the same for α + dF with any function F: choose F such that the components along one half \
-                    of the coordinates vanish, as in ½ (x dy - y dx) + d(½ x y) = x dy",
+            note = #advice,
             note = "`Gauss` and `Sigma` step any degenerate system"
         )]
         trait #lacking {}

@@ -5,7 +5,7 @@ use super::formula::Formula;
 use super::random::Random;
 use super::read::Reader;
 use super::summary::describe;
-use super::system::{Block, Container, Dynamics, Field, Size, SizeKind, System};
+use super::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
 
 const CONJUGATE: &str = "u * d(w) + sum(0..N, |j| x[j] * d(y[j]))";
 
@@ -100,7 +100,14 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
     if matches!(dynamics, Dynamics::Regular(_)) {
         blocks.retain(|block| ["u", "x"].contains(&block.name));
     }
-    System { sizes: vec![Size { kind, value: 3 }], fields, blocks, dynamics, momenta: vec![Formula::Time] }
+    System {
+        sizes: vec![Size { kind, value: 3 }],
+        fields,
+        blocks,
+        dynamics,
+        gauge: Gauge::None,
+        momenta: vec![Formula::Time],
+    }
 }
 
 /// The systems with a literal size, a const generic, and a size that the run knows.

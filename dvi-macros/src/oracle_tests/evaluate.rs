@@ -3,7 +3,8 @@
 use super::formula::{Condition, Formula, Index, Loops, Relation};
 use super::functions::own;
 use super::jet::Jet;
-use super::system::{Dynamics, System};
+use super::rate;
+use super::system::{Dynamics, Gauge, System};
 
 /// Where a formula is evaluated.
 #[derive(Clone, Debug)]
@@ -43,8 +44,17 @@ impl<'a> Oracle<'a> {
         2 * self.system.dimension() + 1
     }
 
-    /// L = α·v − H, or L itself.
+    /// L with dF/dt of a gauge F.
     pub(super) fn lagrangian(&mut self) -> Result<Jet, Outside> {
+        let declared = self.declared()?;
+        match &self.system.gauge {
+            Gauge::Formula(gauge) => Ok(declared.plus(&rate::rate(self.system, gauge, self.point)?)),
+            Gauge::None | Gauge::Auto => Ok(declared),
+        }
+    }
+
+    /// α·v − H, or L itself.
+    fn declared(&mut self) -> Result<Jet, Outside> {
         let system = self.system;
         match &system.dynamics {
             Dynamics::Affine(lagrangian) | Dynamics::Regular(lagrangian) => self.value(lagrangian),

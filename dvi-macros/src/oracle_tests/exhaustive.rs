@@ -9,7 +9,7 @@
 //! Of operands that may be exchanged one order is kept.
 
 use super::formula::{Atom, Formula, Index, Loops};
-use super::system::{Block, Dynamics, Size, SizeKind, System};
+use super::system::{Block, Dynamics, Gauge, Size, SizeKind, System};
 
 /// The sums that a formula may still hold.
 const SUMS: usize = 2;
@@ -89,7 +89,20 @@ pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
     let one_form = over_all(Formula::Coordinate(0, entry()).times(Formula::Velocity(2, entry())))
         .plus(Formula::Coordinate(1, None).times(Formula::Velocity(3, None)));
     let dynamics = Dynamics::OneForm(one_form, formula);
-    System { sizes: sizes(number), fields: Vec::new(), blocks, dynamics, momenta: Vec::new() }
+    System {
+        sizes: sizes(number),
+        fields: Vec::new(),
+        blocks,
+        dynamics,
+        gauge: Gauge::None,
+        momenta: Vec::new(),
+    }
+}
+
+/// A formula as the gauge of a canonical system in x, y and u, w.
+pub(super) fn as_gauge(number: usize, formula: Formula) -> System {
+    let hamiltonian = Formula::Coordinate(1, None).times(Formula::Coordinate(3, None));
+    System { gauge: Gauge::Formula(formula), ..as_hamiltonian(number, hamiltonian) }
 }
 
 /// A formula as a kinetic energy: of the velocities of x, and of u or its velocity.
@@ -100,7 +113,14 @@ pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
         .plus(Formula::Velocity(1, None).power(2));
     let dynamics = Dynamics::Regular(squares.plus(in_velocities(formula, moving)));
     let blocks = vec![block("x", Some(0)), block("u", None)];
-    System { sizes: sizes(number), fields: Vec::new(), blocks, dynamics, momenta: Vec::new() }
+    System {
+        sizes: sizes(number),
+        fields: Vec::new(),
+        blocks,
+        dynamics,
+        gauge: Gauge::None,
+        momenta: Vec::new(),
+    }
 }
 
 fn in_velocities(mut formula: Formula, moving: bool) -> Formula {

@@ -125,8 +125,13 @@ pub(super) const UNARY: &[UnaryFunction] = &[
 ];
 
 /// The functions that the systems declare as their own: name, and the paths of its derivatives.
-pub(super) const OWN: &[(&str, [&str; 3])] =
-    &[("f", ["f", "df", "d2f"]), ("g", ["own::g", "own::dg", "own::d2g"])];
+pub(super) const OWN: &[(&str, &[&str])] =
+    &[("f", &["f", "df", "d2f"]), ("g", &["own::g", "own::dg", "own::d2g", "own::d3g"])];
+
+/// The third derivative of the second one.
+pub(super) fn own_third(x: f64) -> f64 {
+    -8.0 * (2.0 * x).cos() + 2.0
+}
 
 /// x/(1 + x²), and sin 2x + x³/3.
 pub(super) fn own(function: usize, x: f64) -> Derivatives {

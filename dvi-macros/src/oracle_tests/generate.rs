@@ -10,7 +10,7 @@ mod values;
 
 use super::formula::{Formula, Index};
 use super::random::Random;
-use super::system::{Dynamics, System};
+use super::system::{Dynamics, Gauge, System};
 use indices::Scope;
 
 /// Whether velocities may stand in a formula.
@@ -40,6 +40,12 @@ pub(super) fn system(random: &mut Random) -> System {
         Generator { random, system, velocities: Velocities::None, budget, written: Vec::new() };
     let dynamics = if regular { generator.regular() } else { generator.degenerate() };
     generator.system.dynamics = dynamics;
+    if !regular && generator.random.chance(40) {
+        generator.system.gauge = match generator.random.below(3) {
+            0 => Gauge::Auto,
+            _ => Gauge::Formula(generator.gauge()),
+        };
+    }
     for _ in 0..generator.random.below(3) {
         generator.budget = 8;
         generator.velocities = if regular { Velocities::Any } else { Velocities::None };

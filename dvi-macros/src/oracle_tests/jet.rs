@@ -60,6 +60,17 @@ impl Jet {
         Self { value: Sized::new(value), active: vec![number], variables, gradient, hessian }
     }
 
+    /// From all of its derivatives.
+    pub(super) fn from_derivatives(
+        value: Sized,
+        variables: usize,
+        first: impl Fn(usize) -> Sized,
+        second: impl Fn(usize, usize) -> Sized,
+    ) -> Self {
+        let all = Self { active: (0..variables).collect(), variables, ..Self::constant(0.0) };
+        Self::from_parts(value, (&all, &all), first, second)
+    }
+
     pub(super) fn gradient(&self, i: usize) -> Sized {
         self.gradient.get(i).copied().unwrap_or_default()
     }

@@ -1,7 +1,7 @@
 //! The smallest system that still fails, by removing one part after the other.
 
 use super::formula::{Formula, Loops};
-use super::system::System;
+use super::system::{Gauge, System};
 
 /// The smallest system that `fails` and that single removals reach.
 pub(super) fn smallest(system: &System, fails: impl Fn(&System) -> bool) -> System {
@@ -22,6 +22,9 @@ fn smaller_systems(system: &System) -> Vec<System> {
         smaller
     };
     let mut candidates: Vec<System> = (0..system.momenta.len()).map(without).collect();
+    if system.gauge != Gauge::None {
+        candidates.push(System { gauge: Gauge::None, ..system.clone() });
+    }
     let mut copy = system.clone();
     let formulas: Vec<Formula> = copy.formulas_mut().into_iter().map(|formula| formula.clone()).collect();
     for (place, formula) in formulas.iter().enumerate() {

@@ -67,12 +67,22 @@ pub(super) enum Dynamics {
     Regular(Formula),
 }
 
+/// What is added to α.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Gauge {
+    None,
+    Formula(Formula),
+    /// Whatever the compiler finds.
+    Auto,
+}
+
 #[derive(Clone, Debug)]
 pub(super) struct System {
     pub(super) sizes: Vec<Size>,
     pub(super) fields: Vec<Field>,
     pub(super) blocks: Vec<Block>,
     pub(super) dynamics: Dynamics,
+    pub(super) gauge: Gauge,
     pub(super) momenta: Vec<Formula>,
 }
 
@@ -111,6 +121,9 @@ impl System {
             }
             Dynamics::Affine(lagrangian) | Dynamics::Regular(lagrangian) => vec![lagrangian],
         };
+        if let Gauge::Formula(gauge) = &mut self.gauge {
+            formulas.push(gauge);
+        }
         formulas.extend(&mut self.momenta);
         formulas
     }

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
 use super::functions::{BinaryFunction, OWN};
-use super::system::{Container, Dynamics, Field, SizeKind, System};
+use super::system::{Container, Dynamics, Field, Gauge, SizeKind, System};
 
 const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
 
@@ -63,6 +63,11 @@ impl System {
             Dynamics::Affine(lagrangian) | Dynamics::Regular(lagrangian) => {
                 format!(", lagrangian = {}", dot.text(lagrangian))
             }
+        };
+        text += &match &self.gauge {
+            Gauge::None => String::new(),
+            Gauge::Formula(gauge) => format!(", gauge = {}", d.text(gauge)),
+            Gauge::Auto => ", gauge = auto".to_string(),
         };
         let momenta = self.momenta.iter().enumerate();
         let momenta: Vec<String> = momenta.map(|(n, value)| format!("p{n} = {}", dot.text(value))).collect();

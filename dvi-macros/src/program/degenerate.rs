@@ -10,9 +10,11 @@ use crate::symbolic::{Coordinate, Expr, Graph, SecondContribution, Weight};
 /// The formulas of a degenerate system.
 #[derive(Clone, Debug)]
 pub(crate) struct DegenerateFormulas {
-    /// α·v
+    /// α·v, with the differential of the gauge.
     pub(crate) one_form: Expr,
     pub(crate) hamiltonian: Expr,
+    /// F, if there is one.
+    pub(crate) gauge: Option<Expr>,
     pub(crate) momenta: Vec<Expr>,
 }
 

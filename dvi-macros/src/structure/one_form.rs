@@ -118,7 +118,7 @@ impl OneForm {
         let places: Vec<[usize; 2]> =
             omega.iter().map(|entry| [entry.row.block as usize, entry.column.block as usize]).collect();
         let invertible = has_matching(model, &places);
-        let class = Class::new(graph, model, one_form);
+        let class = Class::new(graph, model, one_form).with_gauge(graph, model, one_form);
         let jacobian = dalpha(graph, entries);
         let jacobian = jacobian.iter().map(|(i, j, entry)| (i, j, entry.loops.as_slice()));
         let singular_ends = Class::lacks_row_or_column(model, jacobian);
@@ -208,6 +208,9 @@ impl OneForm {
         sentences.push(self.class.sentence(model));
         sentences.push(
             match (self.linear, self.class.is_proper) {
+                (false, false) if self.class.gauge.is_some() => {
+                    "Begin with `gauge = auto` and `OneStep::midpoint()`: it has no parasitic mode and preserves Ω."
+                }
                 (true, _) => "Begin with `Sigma::midpoint()`: α is affine, so it is the implicit midpoint rule.",
                 (false, true) => "Begin with `OneStep::midpoint()`: it has no parasitic mode and preserves Ω.",
                 (false, false) => {

@@ -25,7 +25,15 @@ impl Graph {
 
     /// How often `whole` asks for `part`; 1 where it always does, whatever the number.
     pub(super) fn asked(&mut self, whole: Id, part: Id) -> Expr {
-        let mut known = HashMap::default();
+        // No sum is opened in search of what does not stand in it.
+        let mut known: HashMap<Id, Expr> = HashMap::default();
+        for id in self.reachable([whole]) {
+            let leads_there =
+                |operand: &Id| *operand == part || (*operand > part && !known.contains_key(operand));
+            if id != part && !self.node(id).operands().iter().any(leads_there) {
+                known.insert(id, Expr::ZERO);
+            }
+        }
         self.count_asked(whole, part, &mut known)
     }
 

@@ -111,6 +111,11 @@ impl Unary {
         self.row().name
     }
 
+    /// Whether a formula may use it.
+    pub(super) fn is_written(self) -> bool {
+        !self.has(Property::Internal)
+    }
+
     pub(super) fn has(self, property: Property) -> bool {
         self.row().properties.contains(&property)
     }
@@ -194,7 +199,7 @@ impl Graph {
 
 /// Those that a formula may use.
 fn written() -> impl Iterator<Item = &'static Row> {
-    UNARY.iter().filter(|row| !row.function.has(Property::Internal))
+    UNARY.iter().filter(|row| row.function.is_written())
 }
 
 pub(crate) fn unary_by_name(name: &str) -> Option<Unary> {

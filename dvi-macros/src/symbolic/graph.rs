@@ -110,7 +110,7 @@ pub(crate) enum Fold {
     Product,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
     /// The indices on which each node depends.
@@ -264,23 +264,31 @@ impl Graph {
 
     /// The nodes that the roots depend on, in id order.
     pub(crate) fn reachable(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
-        let mut seen = vec![false; self.nodes.len()];
-        for root in roots {
-            seen[root.0 as usize] = true;
+        let mut seen: HashSet<Id> = HashSet::default();
+        let mut found: Vec<Id> = roots.into_iter().filter(|root| seen.insert(*root)).collect();
+        let mut next = 0;
+        while let Some(id) = found.get(next) {
+            let operands = self.node(*id).operands();
+            found.extend(operands.into_iter().filter(|operand| seen.insert(*operand)));
+            next += 1;
         }
-        for position in (0..seen.len()).rev() {
-            if seen[position] {
-                for operand in self.nodes[position].operands() {
-                    seen[operand.0 as usize] = true;
-                }
-            }
-        }
-        (0..seen.len()).filter(|position| seen[*position]).map(|position| Id(position as u32)).collect()
+        found.sort_unstable();
+        found
     }
 
     /// Whether any node below `root` (itself included) has the property.
     pub(crate) fn depends(&self, root: Id, property: impl Fn(&Node) -> bool) -> bool {
         self.reachable([root]).into_iter().any(|id| property(self.node(id)))
+    }
+
+    /// Whether `node` stands below `root`, or is it.
+    pub(super) fn depends_on(&self, root: Id, node: Id) -> bool {
+        root >= node && self.reachable([root]).contains(&node)
+    }
+
+    /// The id that the next new node gets.
+    pub(crate) fn next(&self) -> Id {
+        Id(self.nodes.len() as u32)
     }
 
     /// Rebuilds `root` with some nodes replaced, everything else through the constructors.

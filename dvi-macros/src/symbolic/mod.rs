@@ -3,14 +3,17 @@
 //! Pure: no tokens, no spans, no errors. Formulas enter through the constructors of [`Graph`] and
 //! leave as statements of a [`program`](crate::program); everything in between is arithmetic on ids.
 
+mod antiderivative;
 mod asked;
 mod bind;
 mod derivative;
+mod differential;
 mod energy;
 mod functions;
 mod graph;
 mod index;
 mod limits;
+mod polynomial;
 mod powers;
 mod print;
 mod rules;
@@ -22,6 +25,6 @@ pub(crate) use derivative::{Contribution, SecondContribution};
 pub(crate) use functions::{Unary, unary_by_name, unary_names};
 pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Weight};
 pub(crate) use index::{Atom, Free, Index, Loop, Range, Renaming, Size};
-pub(crate) use print::{Names, print_coordinate, print_expr, print_loops, print_velocity};
+pub(crate) use print::{Names, print_coordinate, print_expr, print_loops, print_velocity, write_expr};
 pub(crate) use rules::{binary_by_name, binary_names};
 pub(crate) use simplify::signed_exponent;

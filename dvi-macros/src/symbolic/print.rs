@@ -1,8 +1,8 @@
-//! Formulas as text, for documentation and reports.
+//! Formulas as text: as on paper, for documentation and reports, or in the language of the attribute.
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::graph::{Coordinate, Expr, Fold, Graph, Id, Node, Relation, Weight};
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation, Weight};
 use super::index::{Atom, Index, Loop, Range};
 use crate::internal::internal;
 
@@ -15,6 +15,16 @@ pub(crate) trait Names {
     fn parameter(&self, field: u32) -> &str;
     fn size(&self, size: u32) -> &str;
     fn function(&self, function: u32) -> String;
+    /// Whether something is called so.
+    fn is_taken(&self, name: &str) -> bool;
+}
+
+/// How a formula is written.
+#[derive(Clone, Copy, PartialEq)]
+enum Notation {
+    Paper,
+    /// As the attribute reads it.
+    Language,
 }
 
 /// How tightly the text of an expression holds together.
@@ -32,6 +42,15 @@ fn letter(number: usize) -> String {
     }
 }
 
+/// The letter, or with underscores that which nothing else is called.
+fn free_letter(number: usize, names: &dyn Names) -> String {
+    let mut name = letter(number);
+    while names.is_taken(&name) {
+        name.push('_');
+    }
+    name
+}
+
 /// The letters of the indices: open ones by depth, then those of the sums around a place.
 #[derive(Clone)]
 struct Letters<'a> {
@@ -39,6 +58,7 @@ struct Letters<'a> {
     depth: usize,
     /// Heights of the sums around, from the outside.
     sums: Vec<u32>,
+    notation: Notation,
 }
 
 impl Letters<'_> {
@@ -47,18 +67,39 @@ impl Letters<'_> {
         Self { sums, ..self.clone() }
     }
 
+    fn letter(&self, number: usize) -> String {
+        match self.notation {
+            Notation::Paper => letter(number),
+            Notation::Language => free_letter(number, self.names),
+        }
+    }
+
+    fn times(&self) -> &'static str {
+        match self.notation {
+            Notation::Paper => "·",
+            Notation::Language => " * ",
+        }
+    }
+
     fn index(&self, index: &Index) -> String {
-        let mut text = String::new();
+        // An index of the language begins with what is added.
+        let begins_negative = index.counted_terms().next().is_some_and(|(_, coefficient)| *coefficient < 0);
+        let leads = begins_negative && self.notation == Notation::Language;
+        let mut text = if leads { index.constant.to_string() } else { String::new() };
         for (atom, coefficient) in index.counted_terms() {
             let name = match atom {
-                Atom::Open(depth) => letter(*depth as usize),
+                Atom::Open(depth) => self.letter(*depth as usize),
                 Atom::Bound(height) => match self.sums.iter().rposition(|known| known == height) {
-                    Some(position) => letter(self.depth + position),
+                    Some(position) => self.letter(self.depth + position),
                     None => internal("an index outside of its sum"),
                 },
                 Atom::Size(size) => self.names.size(size.0).to_string(),
                 Atom::Remainder(value, modulus) => {
-                    format!("({}) % {}", self.index(value), self.index(modulus))
+                    let [value, modulus] = [value, modulus].map(|index| self.index(index));
+                    match self.notation {
+                        Notation::Paper => format!("({value}) % {modulus}"),
+                        Notation::Language => format!("(({value}) % ({modulus}))"),
+                    }
                 }
             };
             let sign = match (*coefficient < 0, text.is_empty()) {
@@ -69,11 +110,11 @@ impl Letters<'_> {
             };
             text += sign;
             if coefficient.abs() != 1 {
-                text += &format!("{}·", coefficient.abs());
+                text += &format!("{}{}", coefficient.abs(), self.times());
             }
             text += &name;
         }
-        match (index.constant, text.is_empty()) {
+        match (if leads { 0 } else { index.constant }, text.is_empty()) {
             (constant, true) => constant.to_string(),
             (0, false) => text,
             (constant, false) if constant < 0 => format!("{text} - {}", -constant),
@@ -99,7 +140,7 @@ impl Letters<'_> {
 
 /// The letters outside of all sums.
 fn open_letters(names: &dyn Names) -> Letters<'_> {
-    Letters { names, depth: 0, sums: Vec::new() }
+    Letters { names, depth: 0, sums: Vec::new(), notation: Notation::Paper }
 }
 
 pub(crate) fn print_loops(loops: &[Loop], names: &dyn Names) -> String {
@@ -130,6 +171,24 @@ pub(crate) fn print_expr(graph: &Graph, expr: Expr, depth: usize, names: &dyn Na
     Printer { graph, letters }.expr(expr, Strength::Sum)
 }
 
+/// The text of an expression in the language of the attribute, unless it is too long or something stands in it that has no
+/// word there.
+pub(crate) fn write_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> Option<String> {
+    let can_be_written = |id: Id| match graph.node(id) {
+        Node::Velocity(_) | Node::Weight(_) => false,
+        Node::Unary(function, _) => function.is_written(),
+        Node::Binary(function, ..) => *function != Binary::OverRoot,
+        Node::Call(_, order, _) => *order == 0,
+        Node::Choose { relation, .. } => *relation != Relation::HasMore,
+        Node::Reduce { range, .. } => range.left_out().next().is_none(),
+        _ => true,
+    };
+    let all = graph.reachable([expr.node]).into_iter().all(can_be_written);
+    let letters = Letters { notation: Notation::Language, ..open_letters(names) };
+    (all && written_out(graph, expr.node) <= LONGEST)
+        .then(|| Printer { graph, letters }.expr(expr, Strength::Sum))
+}
+
 /// The number of nodes of an expression as a tree.
 fn written_out(graph: &Graph, root: Id) -> u64 {
     let mut sizes: HashMap<Id, u64> = HashMap::default();
@@ -155,7 +214,7 @@ impl Printer<'_> {
 
     fn signed(&self, expr: Expr) -> (String, Strength) {
         if let Some(value) = expr.as_number() {
-            return (number(value), Strength::Atom);
+            return (self.number(value), Strength::Atom);
         }
         if expr.scale == 1.0 {
             return self.node(expr.node);
@@ -164,14 +223,32 @@ impl Printer<'_> {
             return (format!("-{}", self.expr(expr.node.into(), Strength::Product)), Strength::Product);
         }
         let body = self.expr(expr.node.into(), Strength::Product);
-        (format!("{}·{body}", number(expr.scale)), Strength::Product)
+        (format!("{}{}{body}", self.number(expr.scale), self.letters.times()), Strength::Product)
+    }
+
+    fn number(&self, value: f64) -> String {
+        match self.letters.notation {
+            Notation::Paper => number(value),
+            Notation::Language => format!("{value:?}"),
+        }
+    }
+
+    /// f(a), or a.f() as the language has it.
+    fn call(&self, name: &str, arguments: &[Expr]) -> (String, Strength) {
+        let listed = |arguments: &[Expr]| {
+            let arguments: Vec<String> = arguments.iter().map(|a| self.expr(*a, Strength::Sum)).collect();
+            arguments.join(", ")
+        };
+        let text = match (self.letters.notation, arguments) {
+            (Notation::Language, [receiver, rest @ ..]) => {
+                format!("{}.{name}({})", self.expr(*receiver, Strength::Atom), listed(rest))
+            }
+            _ => format!("{name}({})", listed(arguments)),
+        };
+        (text, Strength::Atom)
     }
 
     fn node(&self, id: Id) -> (String, Strength) {
-        let call = |name: &str, arguments: &[Expr]| {
-            let arguments: Vec<String> = arguments.iter().map(|a| self.expr(*a, Strength::Sum)).collect();
-            (format!("{name}({})", arguments.join(", ")), Strength::Atom)
-        };
         match self.graph.node(id) {
             Node::One => ("1".into(), Strength::Atom),
             Node::Coordinate(c) => (self.letters.coordinate(c), Strength::Atom),
@@ -185,17 +262,25 @@ impl Printer<'_> {
                     p.indices.iter().map(|index| format!("[{}]", self.letters.index(index))).collect();
                 (format!("{}{indices}", self.letters.names.parameter(p.field)), Strength::Atom)
             }
-            Node::Count(index) => (format!("({})", self.letters.index(index)), Strength::Atom),
+            Node::Count(index) => {
+                let index = self.letters.index(index);
+                let text = match self.letters.notation {
+                    Notation::Paper => format!("({index})"),
+                    Notation::Language => format!("(({index}) as f64)"),
+                };
+                (text, Strength::Atom)
+            }
             Node::Weight(weight) => (weight_name(*weight).into(), Strength::Atom),
             Node::Sum(terms) => (self.sum(terms), Strength::Sum),
             Node::Product(factors) => (self.quotient(factors), Strength::Product),
             Node::Reciprocal(_) => (self.quotient(&[(id, 1)]), Strength::Product),
-            Node::Unary(function, u) => call(function.name(), &[*u]),
-            Node::Binary(function, a, b) => call(function.name(), &[*a, *b]),
-            Node::Call(function, order, u) => call(
-                &format!("{}{}", self.letters.names.function(*function), "'".repeat(*order as usize)),
-                &[*u],
-            ),
+            Node::Unary(function, u) => self.call(function.name(), &[*u]),
+            Node::Binary(function, a, b) => self.call(function.name(), &[*a, *b]),
+            Node::Call(function, order, u) => {
+                let name =
+                    format!("{}{}", self.letters.names.function(*function), "'".repeat(*order as usize));
+                (format!("{name}({})", self.expr(*u, Strength::Sum)), Strength::Atom)
+            }
             Node::Choose { left, relation, right, then, otherwise } => {
                 let sign = match relation {
                     Relation::Less => "<",
@@ -208,13 +293,22 @@ impl Printer<'_> {
                 (format!("(if {left} {sign} {right} {{ {then} }} else {{ {otherwise} }})"), Strength::Atom)
             }
             Node::Reduce { fold, height, range, body } => {
-                let own = letter(self.letters.depth + self.letters.sums.len());
+                let own = self.letters.letter(self.letters.depth + self.letters.sums.len());
+                let inside = Printer { graph: self.graph, letters: self.letters.inside(*height) };
+                if self.letters.notation == Notation::Language {
+                    let [lower, upper] = [&range.lower, &range.upper].map(|index| self.letters.index(index));
+                    let word = match fold {
+                        Fold::Sum => "sum",
+                        Fold::Product => "product",
+                    };
+                    let body = inside.expr(*body, Strength::Sum);
+                    return (format!("{word}({lower}..{upper}, |{own}| {body})"), Strength::Atom);
+                }
                 let range = self.letters.range(&own, range);
                 let sign = match fold {
                     Fold::Sum => "Σ",
                     Fold::Product => "Π",
                 };
-                let inside = Printer { graph: self.graph, letters: self.letters.inside(*height) };
                 (format!("{sign}({range}) {}", inside.expr(*body, Strength::Product)), Strength::Product)
             }
         }
@@ -240,7 +334,11 @@ impl Printer<'_> {
     fn quotient(&self, factors: &[(Id, u32)]) -> String {
         let power = |id: Id, exponent: u32| {
             let base = self.expr(id.into(), Strength::Atom);
-            if exponent == 1 { base } else { format!("{base}^{exponent}") }
+            match (exponent, self.letters.notation) {
+                (1, _) => base,
+                (_, Notation::Paper) => format!("{base}^{exponent}"),
+                (_, Notation::Language) => format!("{base}.powi({exponent})"),
+            }
         };
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (factor, exponent) in factors {
@@ -249,11 +347,12 @@ impl Printer<'_> {
                 _ => above.push(power(*factor, *exponent)),
             }
         }
-        let above = if above.is_empty() { "1".into() } else { above.join("·") };
+        let times = self.letters.times();
+        let above = if above.is_empty() { "1".into() } else { above.join(times) };
         match below.as_slice() {
             [] => above,
             [single] => format!("{above}/{single}"),
-            several => format!("{above}/({})", several.join("·")),
+            several => format!("{above}/({})", several.join(times)),
         }
     }
 }

@@ -65,6 +65,8 @@ pub(super) struct Evaluation<'a> {
     pub(super) directions: Directions,
     /// Velocities are zero, and no direction changes them.
     pub(super) is_still: bool,
+    /// Positions move with their velocities, and the time with 1.
+    pub(super) moves: bool,
     /// Operations that may still be carried out.
     pub(super) budget: u64,
     pub(super) sides: Sides,
@@ -94,6 +96,7 @@ impl<'a> Evaluation<'a> {
             point,
             directions,
             is_still: false,
+            moves: false,
             budget,
             sides: Sides::default(),
             is_delicate: false,
@@ -121,6 +124,19 @@ impl<'a> Evaluation<'a> {
             }
         }
         Ok(total)
+    }
+
+    /// dF/dt of a gauge F, and what is left of it at v = 0.
+    pub(super) fn rates(&mut self, gauge: &Expr) -> Value<[Jet; 2]> {
+        self.moves = true;
+        let moving = self.number(gauge)?;
+        self.is_still = true;
+        let still = self.number(gauge)?;
+        (self.moves, self.is_still) = (false, false);
+        // Where F has no value, its rate has none, even if it does not change.
+        let rate =
+            |function: Jet| if function.is_moderate() { function.rate() } else { Jet::number(f64::NAN) };
+        Ok([rate(moving), rate(still)])
     }
 
     pub(super) fn number(&mut self, syntax: &Expr) -> Value<Jet> {
@@ -233,7 +249,10 @@ impl<'a> Evaluation<'a> {
             return Ok(Jet::number(value));
         }
         match &*text {
-            "t" => Ok(Jet::variable(self.point.time(), [0.0, 0.0, 1.0, 0.0], [0.0; 2])),
+            "t" => {
+                let time = Jet::variable(self.point.time(), [0.0, 0.0, 1.0, 0.0], [0.0; 2]);
+                Ok(if self.moves { time.moving(Jet::number(1.0)) } else { time })
+            }
             _ => unknown(syntax),
         }
     }
@@ -300,7 +319,14 @@ impl<'a> Evaluation<'a> {
         let a = self.point.direction(self.directions.first, false, block, index);
         let b = self.point.direction(self.directions.second, true, block, index);
         Ok(match kind {
-            Variable::Position => Jet::variable(value, [a, 0.0, 0.0, 0.0], [b, 0.0]),
+            Variable::Position => {
+                let position = Jet::variable(value, [a, 0.0, 0.0, 0.0], [b, 0.0]);
+                if self.moves {
+                    position.moving(self.variable(Variable::Velocity, block, index)?)
+                } else {
+                    position
+                }
+            }
             Variable::Velocity => Jet::variable(value, [0.0, a, 0.0, value], [0.0, b]),
         })
     }

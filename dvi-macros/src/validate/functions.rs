@@ -1,4 +1,4 @@
-//! The functions of the language with their first three derivatives, written out for the self-check
+//! The functions of the language with their first four derivatives, written out for the self-check
 //! alone: it shares no rule with the compiler that it checks.
 
 use std::f64::consts::{LN_2, LN_10, PI};
@@ -11,30 +11,30 @@ use crate::internal::internal;
 fn taylor(name: &str, x: f64) -> Option<Taylor> {
     let squared = x * x;
     let value = match name {
-        "sqrt"   => { let f = x.sqrt(); [f, 0.5 / f, -0.25 / (f * x), 0.375 / (f * squared)] }
-        "cbrt"   => { let f = x.cbrt(); [f, f / (3.0 * x), -2.0 * f / (9.0 * squared), 10.0 * f / (27.0 * squared * x)] }
-        "exp"    => [x.exp(); 4],
-        "exp2"   => { let f = x.exp2(); [f, LN_2 * f, LN_2 * LN_2 * f, LN_2 * LN_2 * LN_2 * f] }
-        "exp_m1" => { let f = x.exp(); [x.exp_m1(), f, f, f] }
+        "sqrt"   => { let f = x.sqrt(); [f, 0.5 / f, -0.25 / (f * x), 0.375 / (f * squared), -0.9375 / (f * squared * x)] }
+        "cbrt"   => { let f = x.cbrt(); [f, f / (3.0 * x), -2.0 * f / (9.0 * squared), 10.0 * f / (27.0 * squared * x), -80.0 * f / (81.0 * squared * squared)] }
+        "exp"    => [x.exp(); 5],
+        "exp2"   => [0, 1, 2, 3, 4].map(|order| LN_2.powi(order) * x.exp2()),
+        "exp_m1" => { let f = x.exp(); [x.exp_m1(), f, f, f, f] }
         "ln"     => logarithm(x.ln(), x, 1.0),
         "ln_1p"  => logarithm(x.ln_1p(), 1.0 + x, 1.0),
         "log2"   => logarithm(x.log2(), x, LN_2),
         "log10"  => logarithm(x.log10(), x, LN_10),
-        "sin"    => { let (s, c) = x.sin_cos(); [s, c, -s, -c] }
-        "cos"    => { let (s, c) = x.sin_cos(); [c, -s, -c, s] }
-        "tan"    => { let f = x.tan(); let d = 1.0 + f * f; [f, d, 2.0 * f * d, 2.0 * d * (1.0 + 3.0 * f * f)] }
-        "asin"   => { let d = inverse_sine(x); [x.asin(), d[0], d[1], d[2]] }
-        "acos"   => { let d = inverse_sine(x); [x.acos(), -d[0], -d[1], -d[2]] }
-        "atan"   => { let d = 1.0 / (1.0 + squared); [x.atan(), d, -2.0 * x * d * d, (6.0 * squared - 2.0) * d * d * d] }
-        "sinh"   => { let (s, c) = (x.sinh(), x.cosh()); [s, c, s, c] }
-        "cosh"   => { let (s, c) = (x.sinh(), x.cosh()); [c, s, c, s] }
-        "tanh"   => { let (f, c) = (x.tanh(), x.cosh()); let d = 1.0 / (c * c); [f, d, -2.0 * f * d, d * (4.0 * f * f - 2.0 * d)] }
-        "asinh"  => { let r = 1.0 / (squared + 1.0).sqrt(); [x.asinh(), r, -x * r * r * r, (2.0 * squared - 1.0) * r.powi(5)] }
-        "acosh"  => { let r = 1.0 / (squared - 1.0).sqrt(); [x.acosh(), r, -x * r * r * r, (2.0 * squared + 1.0) * r.powi(5)] }
-        "atanh"  => { let d = 1.0 / (1.0 - squared); [x.atanh(), d, 2.0 * x * d * d, (2.0 + 6.0 * squared) * d * d * d] }
-        "abs"    => [x.abs(), if x == 0.0 { 0.0 } else { x.signum() }, 0.0, 0.0],
-        "signum" => [x.signum(), 0.0, 0.0, 0.0],
-        "erf"    => { let d = 2.0 / PI.sqrt() * (-squared).exp(); [error_function(x), d, -2.0 * x * d, (4.0 * squared - 2.0) * d] }
+        "sin"    => { let (s, c) = x.sin_cos(); [s, c, -s, -c, s] }
+        "cos"    => { let (s, c) = x.sin_cos(); [c, -s, -c, s, c] }
+        "tan"    => { let f = x.tan(); let d = 1.0 + f * f; [f, d, 2.0 * f * d, 2.0 * d * (1.0 + 3.0 * f * f), 8.0 * f * d * (2.0 + 3.0 * f * f)] }
+        "asin"   => { let d = inverse_sine(x); [x.asin(), d[0], d[1], d[2], d[3]] }
+        "acos"   => { let d = inverse_sine(x); [x.acos(), -d[0], -d[1], -d[2], -d[3]] }
+        "atan"   => { let d = 1.0 / (1.0 + squared); [x.atan(), d, -2.0 * x * d * d, (6.0 * squared - 2.0) * d.powi(3), 24.0 * x * (1.0 - squared) * d.powi(4)] }
+        "sinh"   => { let (s, c) = (x.sinh(), x.cosh()); [s, c, s, c, s] }
+        "cosh"   => { let (s, c) = (x.sinh(), x.cosh()); [c, s, c, s, c] }
+        "tanh"   => { let (f, c) = (x.tanh(), x.cosh()); let d = 1.0 / (c * c); [f, d, -2.0 * f * d, d * (4.0 * f * f - 2.0 * d), d * f * (16.0 * d - 8.0 * f * f)] }
+        "asinh"  => { let r = 1.0 / (squared + 1.0).sqrt(); [x.asinh(), r, -x * r.powi(3), (2.0 * squared - 1.0) * r.powi(5), x * (9.0 - 6.0 * squared) * r.powi(7)] }
+        "acosh"  => { let r = 1.0 / (squared - 1.0).sqrt(); [x.acosh(), r, -x * r.powi(3), (2.0 * squared + 1.0) * r.powi(5), -x * (9.0 + 6.0 * squared) * r.powi(7)] }
+        "atanh"  => { let d = 1.0 / (1.0 - squared); [x.atanh(), d, 2.0 * x * d * d, (2.0 + 6.0 * squared) * d.powi(3), 24.0 * x * (1.0 + squared) * d.powi(4)] }
+        "abs"    => [x.abs(), if x == 0.0 { 0.0 } else { x.signum() }, 0.0, 0.0, 0.0],
+        "signum" => [x.signum(), 0.0, 0.0, 0.0, 0.0],
+        "erf"    => { let d = 2.0 / PI.sqrt() * (-squared).exp(); [error_function(x), d, -2.0 * x * d, (4.0 * squared - 2.0) * d, x * (12.0 - 8.0 * squared) * d] }
         "sinc"   => sinc(x),
         _ => return None,
     };
@@ -47,9 +47,10 @@ fn sinc(x: f64) -> Taylor {
         let f = x.sin() / x;
         let first = (x.cos() - f) / x;
         let second = -f - 2.0 * first / x;
-        return [f, first, second, -first - 2.0 * second / x + 2.0 * first / (x * x)];
+        let third = -first - 2.0 * second / x + 2.0 * first / (x * x);
+        return [f, first, second, third, -second - (4.0 * third + 2.0 * first) / x];
     }
-    let mut sums = [0.0; 4];
+    let mut sums = [0.0; 5];
     // (−1)ᵏ/(2k + 1)!
     let mut coefficient = 1.0;
     for k in 0..16 {
@@ -69,7 +70,7 @@ fn sinc(x: f64) -> Taylor {
 /// −f′/x of the sinc function, and the same of that: by their power series, or from the derivatives.
 fn sinc_slope(order: u32, x: f64) -> f64 {
     if x.abs() > 2.0 {
-        let [_, first, second, _] = sinc(x);
+        let [_, first, second, ..] = sinc(x);
         return if order == 1 { -first / x } else { (second - first / x) / (x * x) };
     }
     // (−1)ᵏ/(2k + 1)!, times −2k and then −(2k − 2), for x to the power 2k − 2 or 2k − 4.
@@ -101,13 +102,14 @@ fn error_function(x: f64) -> f64 {
 /// A logarithm whose derivative is 1/(base · argument).
 fn logarithm(value: f64, argument: f64, base: f64) -> Taylor {
     let d = 1.0 / (base * argument);
-    [value, d, -d / argument, 2.0 * d / (argument * argument)]
+    let square = argument * argument;
+    [value, d, -d / argument, 2.0 * d / square, -6.0 * d / (square * argument)]
 }
 
 /// The derivatives of arcsin.
-fn inverse_sine(x: f64) -> [f64; 3] {
+fn inverse_sine(x: f64) -> [f64; 4] {
     let r = 1.0 / ((1.0 - x) * (1.0 + x)).sqrt();
-    [r, x * r.powi(3), (1.0 + 2.0 * x * x) * r.powi(5)]
+    [r, x * r.powi(3), (1.0 + 2.0 * x * x) * r.powi(5), x * (9.0 + 6.0 * x * x) * r.powi(7)]
 }
 
 /// f(x) for a function of one number.
@@ -184,5 +186,5 @@ pub(super) fn stand_in(number: usize, order: u32, x: f64) -> f64 {
 
 pub(super) fn own(number: usize, x: &Jet) -> Jet {
     let at = x.value().value;
-    x.through([0, 1, 2, 3].map(|order| stand_in(number, order, at)))
+    x.through([0, 1, 2, 3, 4].map(|order| stand_in(number, order, at)))
 }

@@ -4,6 +4,9 @@
 //! A jet is the value of a function of (q, v, t), its derivatives along four first directions and two
 //! second ones, and the mixed second derivatives that a check needs. The derivatives along a random
 //! direction speak for all entries of a gradient at once, so the cost does not grow with their number.
+//!
+//! A jet may have a *rate*: its derivative along one more direction, which is a jet itself. A gauge enters L as dF/dt,
+//! the rate of F where positions move with their velocities and the time with 1.
 
 /// First directions: q along a, v along a, t, and v along itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,10 +75,11 @@ struct Parts {
     is_empty_sum: bool,
     /// Whether there is a sum without terms in it: if it is zero, its sign is that of no sum as written.
     holds_empty_sum: bool,
+    rate: Option<Jet>,
 }
 
-/// The value and the first three derivatives of a function of one number.
-pub(super) type Taylor = [f64; 4];
+/// The value and the first four derivatives of a function of one number.
+pub(super) type Taylor = [f64; 5];
 
 fn mixed(first: usize, second: usize) -> usize {
     1 + FIRST + SECOND + first * SECOND + second
@@ -83,8 +87,13 @@ fn mixed(first: usize, second: usize) -> usize {
 
 impl Jet {
     pub(super) fn number(value: f64) -> Self {
-        let mut parts =
-            Parts { value: [0.0; PARTS], size: [0.0; PARTS], is_empty_sum: false, holds_empty_sum: false };
+        let mut parts = Parts {
+            value: [0.0; PARTS],
+            size: [0.0; PARTS],
+            is_empty_sum: false,
+            holds_empty_sum: false,
+            rate: None,
+        };
         parts.value[0] = value;
         parts.size[0] = value.abs();
         Self(Box::new(parts))
@@ -105,6 +114,17 @@ impl Jet {
         jet.0.value[1 + FIRST..1 + FIRST + SECOND].copy_from_slice(&second);
         jet.0.size = jet.0.value.map(f64::abs);
         jet
+    }
+
+    /// The same with this rate.
+    pub(super) fn moving(mut self, rate: Self) -> Self {
+        self.0.rate = Some(rate);
+        self
+    }
+
+    /// Its rate; that of a constant is zero.
+    pub(super) fn rate(&self) -> Self {
+        self.0.rate.clone().unwrap_or_else(|| Self::number(0.0))
     }
 
     fn part(&self, at: usize) -> Sized {
@@ -152,16 +172,18 @@ impl Jet {
     /// Whether all parts are finite, and far from overflow.
     pub(super) fn is_moderate(&self) -> bool {
         self.0.size.iter().chain(&self.0.value).all(|part| part.abs() < HUGE)
+            && self.0.rate.as_ref().is_none_or(Self::is_moderate)
     }
 
     /// Whether a number of another order of operations may overflow.
     pub(super) fn is_huge(&self) -> bool {
-        self.0.value.iter().any(|part| part.abs() >= HUGE)
+        self.0.value.iter().any(|part| part.abs() >= HUGE) || self.0.rate.as_ref().is_some_and(Self::is_huge)
     }
 
     pub(super) fn scaled(mut self, factor: f64) -> Self {
         self.0.value.iter_mut().for_each(|value| *value *= factor);
         self.0.size.iter_mut().for_each(|size| *size *= factor.abs());
+        self.0.rate = self.0.rate.take().map(|rate| rate.scaled(factor));
         self
     }
 
@@ -172,6 +194,10 @@ impl Jet {
         }
         self.0.is_empty_sum &= other.0.is_empty_sum;
         self.0.holds_empty_sum |= other.0.holds_empty_sum;
+        self.0.rate = match (self.0.rate.take(), &other.0.rate) {
+            (Some(one), Some(two)) => Some(one.plus(two)),
+            (one, two) => one.or_else(|| two.clone()),
+        };
         self
     }
 
@@ -180,6 +206,18 @@ impl Jet {
     }
 
     pub(super) fn times(&self, other: &Self) -> Self {
+        let mut product = self.times_at_rest(other);
+        let one = self.0.rate.as_ref().map(|rate| rate.times_at_rest(other));
+        let two = other.0.rate.as_ref().map(|rate| self.times_at_rest(rate));
+        product.0.rate = match (one, two) {
+            (Some(one), Some(two)) => Some(one.plus(&two)),
+            (one, two) => one.or(two),
+        };
+        product
+    }
+
+    /// The product without its rate.
+    fn times_at_rest(&self, other: &Self) -> Self {
         // The sign of a zero counts: `signum` sees it.
         let mut product = Self::number(-0.0);
         product.0.holds_empty_sum = self.0.holds_empty_sum || other.0.holds_empty_sum;
@@ -211,6 +249,16 @@ impl Jet {
 
     /// f(self) from the derivatives of f at its value.
     pub(super) fn through(&self, f: Taylor) -> Self {
+        let [value, d1, d2, d3, d4] = f;
+        let mut result = self.through_at_rest([value, d1, d2, d3]);
+        if let (Some(rate), false) = (&self.0.rate, self.0.is_empty_sum) {
+            result.0.rate = Some(self.through_at_rest([d1, d2, d3, d4]).times_at_rest(rate));
+        }
+        result
+    }
+
+    /// The same without its rate, which needs one derivative less.
+    fn through_at_rest(&self, f: [f64; 4]) -> Self {
         let [value, d1, d2, d3] = f;
         let mut result = Self::number(value);
         result.0.holds_empty_sum = self.0.holds_empty_sum;
@@ -248,7 +296,8 @@ impl Jet {
     pub(super) fn reciprocal(&self) -> Self {
         let inverse = 1.0 / self.0.value[0];
         let square = inverse * inverse;
-        self.through([inverse, -square, 2.0 * square * inverse, -6.0 * square * square])
+        let cube = square * inverse;
+        self.through([inverse, -square, 2.0 * cube, -6.0 * square * square, 24.0 * square * cube])
     }
 
     /// self to an integer power.
@@ -262,6 +311,7 @@ impl Jet {
             term(n, exponent - 1),
             term(n * (n - 1.0), exponent - 2),
             term(n * (n - 1.0) * (n - 2.0), exponent - 3),
+            term(n * (n - 1.0) * (n - 2.0) * (n - 3.0), exponent - 4),
         ])
     }
 }

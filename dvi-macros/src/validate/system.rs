@@ -113,6 +113,13 @@ impl System<'_> {
             }
             (None, None) => internal("no dynamics"),
         };
+        let (lagrangian, form, hamiltonian) = match attribute.gauge() {
+            None => (lagrangian, form, hamiltonian),
+            Some(gauge) => {
+                let [moving, still] = evaluation.rates(gauge)?;
+                (lagrangian.plus(&moving), form.plus(&moving).minus(still.clone()), hamiltonian.minus(still))
+            }
+        };
         let momenta = attribute
             .momenta
             .iter()

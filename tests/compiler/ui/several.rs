@@ -9,7 +9,7 @@ mod in_every_argument {
         one_form = x * d(w) + a,
         hamiltonian = x.sine() + omga * y + x % y,
         momenta(p = x * d(x), q = unknown, r = x.powi(y)),
-        gauge = x,
+        symmetry = x,
     )]
     pub struct System {
         pub omega: f64,

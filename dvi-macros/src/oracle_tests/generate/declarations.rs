@@ -2,7 +2,7 @@
 
 use crate::oracle_tests::formula::Formula;
 use crate::oracle_tests::random::Random;
-use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Size, SizeKind, System};
+use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
 
 /// How sizes are written.
 #[derive(Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
     let fields = fields(random, &sizes);
     let blocks = blocks(random, regular);
     let dynamics = Dynamics::Regular(Formula::Time);
-    System { sizes, fields, blocks, dynamics, momenta: Vec::new() }
+    System { sizes, fields, blocks, dynamics, gauge: Gauge::None, momenta: Vec::new() }
 }
 
 /// Two sizes that are different from each other, and that of the field `g`.

@@ -74,6 +74,26 @@ impl Generator<'_> {
         pairs.into_iter().fold(form, |form, (x, y)| form.plus(self.conjugate(x, y)))
     }
 
+    /// A function of the coordinates, most often with c Σ xⱼ yⱼ in it, which may cancel in the one-form.
+    pub(super) fn gauge(&mut self) -> Formula {
+        self.budget = self.budget.max(8);
+        self.velocities = Velocities::None;
+        let value = self.value(&Scope::outside(), 5);
+        let (x, y) = (0, 1);
+        if self.system.blocks[x].size != self.system.blocks[y].size || self.random.chance(20) {
+            return value;
+        }
+        let size = self.system.blocks[x].size;
+        let entry = |block| Formula::Coordinate(block, size.map(|_| Index::bound(0)));
+        let product = self.over(size, entry(x).times(entry(y)));
+        let product = match self.random.below(3) {
+            0 => product,
+            1 => Formula::Number("0.5").times(product),
+            _ => Formula::Negative(Box::new(product)),
+        };
+        if self.random.chance(30) { product } else { product.plus(value) }
+    }
+
     /// Σ xⱼ dyⱼ, with a factor or without.
     fn conjugate(&mut self, x: usize, y: usize) -> Formula {
         let size = self.system.blocks[x].size;

@@ -41,4 +41,10 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("symbolic/functions.rs", "graph.unary(Unary::Sin, u).negated();", "graph.unary(Unary::Sin, u);"),
     // An index takes the name of that of a sum inside.
     mistake("symbolic/graph.rs", "Node::Reduce { height, range, .. } => {\n                let rest", "Node::Reduce { height, range, .. } if *height > 9 => {\n                let rest"),
+    // A gauge: its rate has the wrong sign, two components are one, one is lost.
+    mistake("expand/formulas.rs", "graph.subtract(hamiltonian, rate)", "graph.add(hamiltonian, rate)"),
+    mistake("symbolic/differential.rs", "known.target == part.target && known.loops == part.loops", "known.target == part.target"),
+    mistake("symbolic/differential.rs", "known.value = self.add(known.value, part.value)", "known.value = part.value"),
+    // What is multiplied out loses a term, or an exponent.
+    mistake("symbolic/polynomial.rs", "sum.add(&polynomial, term.scale)?;", "sum.add(&polynomial, term.scale.abs())?;"),
 ];

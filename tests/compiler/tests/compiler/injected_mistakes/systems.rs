@@ -93,4 +93,17 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
          momenta(total = sum(0..n, |j| p[j]), product = w * sum(0..n, |j| q[j] * p[j])), functions(own = [f, df, d2f])",
         "struct Chain { n: usize, m: Vec<f64> }",
     ),
+    (
+        "degenerate",
+        "coordinates(q[n], p[n]), one_form = sum(0..n, |j| 0.5 * (p[j] * d(q[j]) - q[j] * d(p[j]))),
+         hamiltonian = sum(0..n, |j| p[j] * p[j] / (2.0 * m[j])) + sum(0..n, |j| q[j] * q[(j + 1) % n]),
+         gauge = sum(0..n, |j| 0.5 * q[j] * p[j]) + sum(1..n, |j| q[j].powi(3) * t) + (q[0] * t).sin() * sum_pairs(0..n, |j, k| q[j] * p[k])",
+        "struct Gauged { n: usize, m: Vec<f64> }",
+    ),
+    (
+        "degenerate",
+        "coordinates(x, y), one_form = y * (x * x + 1.0) * d(x) + (x * y).exp() * x.powi(2) * y * d(y) + x / y * d(y),
+         hamiltonian = x * x + y * y, gauge = auto",
+        "struct Sought {}",
+    ),
 ];

@@ -1,0 +1,84 @@
+//! The differential of a function of the coordinates, and one-forms that contain one.
+//!
+//! A one-form is an expression that is linear in the velocities: α·v. With a function F added to it as a
+//! gauge it is (α + ∂F/∂q)·v, in which components cancel that neither of the two shows by itself.
+
+use super::derivative::Contribution;
+use super::graph::{Expr, Fold, Graph, Id, Node};
+use super::index::{Atom, Loop};
+
+impl Graph {
+    /// (α + ∂F/∂q)·v from α·v and F.
+    pub(crate) fn with_differential(&mut self, one_form: Expr, function: Expr) -> Expr {
+        let components = self.components(one_form, function);
+        let terms: Vec<Expr> = components.into_iter().map(|component| self.term(component)).collect();
+        self.sum(&terms)
+    }
+
+    /// The components of α + ∂F/∂q that do not vanish, each as the value at a velocity, in loops.
+    pub(crate) fn components(&mut self, one_form: Expr, function: Expr) -> Vec<Contribution> {
+        let form = self.gradient(one_form, &[]);
+        let form = form.into_iter().filter(|part| matches!(self.node(part.target), Node::Velocity(_)));
+        let mut parts: Vec<Contribution> = form.collect();
+        for part in self.gradient(function, &[]) {
+            let target = self.velocity_of(part.target);
+            parts.push(Contribution { target, ..part });
+        }
+        let mut components: Vec<Contribution> = Vec::new();
+        for part in parts {
+            let part = self.with_inner_sums(part);
+            let same = |known: &&mut Contribution| known.target == part.target && known.loops == part.loops;
+            match components.iter_mut().find(same) {
+                Some(known) => known.value = self.add(known.value, part.value),
+                None => components.push(part),
+            }
+        }
+        components.retain_mut(|component| {
+            component.value = self.shorter(component.value);
+            !component.value.is_zero()
+        });
+        components
+    }
+
+    fn velocity_of(&mut self, position: Id) -> Id {
+        match self.node(position).clone() {
+            Node::Coordinate(coordinate) => self.intern(Node::Velocity(coordinate)),
+            _ => position,
+        }
+    }
+
+    /// Innermost loops that the target does not depend on become sums in the value.
+    fn with_inner_sums(&mut self, mut part: Contribution) -> Contribution {
+        let needed = self.free(part.target).open;
+        while let Some(inner) = part.loops.pop_if(|inner| needed & (1 << inner.depth) == 0) {
+            part.value = self.summed(part.value, inner);
+        }
+        part
+    }
+
+    /// The value as it is or multiplied out, whichever has fewer nodes.
+    fn shorter(&mut self, value: Expr) -> Expr {
+        let Some(other) = self.multiplied_out(value) else { return value };
+        let length = |expr: Expr| if expr.is_zero() { 0 } else { self.reachable([expr.node]).len() };
+        if length(other) < length(value) { other } else { value }
+    }
+
+    fn term(&mut self, component: Contribution) -> Expr {
+        let term = self.multiply(component.value, component.target.into());
+        component.loops.into_iter().rev().fold(term, |term, outer| self.summed(term, outer))
+    }
+
+    /// The sum over a loop; factors that do not change in it stay outside, where no empty range hides them.
+    pub(crate) fn summed(&mut self, term: Expr, outer: Loop) -> Expr {
+        let changes = |graph: &Self, id: Id| graph.free(id).open & (1 << outer.depth) != 0;
+        let (inside, outside): (Vec<_>, Vec<_>) =
+            self.factors(term.node).into_iter().partition(|(factor, _)| changes(self, *factor));
+        let [inside, outside] = [inside, outside].map(|factors| {
+            let powers: Vec<Expr> =
+                factors.into_iter().map(|(factor, exponent)| self.power(factor.into(), exponent)).collect();
+            self.product(&powers)
+        });
+        let sum = self.fold(Fold::Sum, Atom::Open(outer.depth), outer.range, inside);
+        self.multiply(outside, sum).scaled(term.scale)
+    }
+}

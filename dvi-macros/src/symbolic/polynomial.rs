@@ -1,0 +1,181 @@
+//! Expressions multiplied out, to see whether they vanish.
+//!
+//! The simplifier distributes nothing over a sum, so (x + y)² − x² − 2xy − y² stays as it stands. Here an
+//! expression becomes a Laurent polynomial in what is neither a sum nor a product, in which all of that
+//! cancels. What vanishes in this form is zero wherever it is a number; the converse does not hold.
+
+use std::collections::BTreeMap;
+
+use super::functions::Unary;
+use super::graph::{Expr, Fold, Graph, Id, Node};
+use super::index::Atom;
+
+/// More terms than these are not multiplied out.
+const MOST_TERMS: usize = 64;
+
+/// A coefficient is zero if it is no more than this part of what it was added up from.
+const ROUNDING: f64 = 1e-13;
+
+/// Factors in id order with exponents that are not zero.
+type Monomial = Vec<(Id, i32)>;
+
+/// Each term with its coefficient and the sum of the absolute values that were added to it.
+#[derive(Clone, Debug, Default)]
+struct Polynomial(BTreeMap<Monomial, [f64; 2]>);
+
+impl Polynomial {
+    fn term(coefficient: f64, monomial: Monomial) -> Self {
+        Self(BTreeMap::from([(monomial, [coefficient, coefficient.abs()])]))
+    }
+
+    fn add(&mut self, other: &Self, factor: f64) -> Option<()> {
+        for (monomial, [value, size]) in &other.0 {
+            let known = self.0.entry(monomial.clone()).or_default();
+            known[0] += factor * value;
+            known[1] += (factor * size).abs();
+        }
+        self.0.retain(|_, [value, size]| value.abs() > ROUNDING * *size);
+        (self.0.len() <= MOST_TERMS).then_some(())
+    }
+
+    fn times(&self, other: &Self) -> Option<Self> {
+        let mut product = Self::default();
+        for (one, [a, _]) in &self.0 {
+            for (two, [b, _]) in &other.0 {
+                product.add(&Self::term(a * b, joined(one, two)), 1.0)?;
+            }
+        }
+        Some(product)
+    }
+}
+
+fn joined(one: &[(Id, i32)], two: &[(Id, i32)]) -> Monomial {
+    let mut exponents: BTreeMap<Id, i32> = BTreeMap::new();
+    for (id, exponent) in one.iter().chain(two) {
+        *exponents.entry(*id).or_default() += exponent;
+    }
+    exponents.into_iter().filter(|(_, exponent)| *exponent != 0).collect()
+}
+
+impl Graph {
+    /// The expression multiplied out, unless it is too long for that: zero if it vanishes in this form.
+    pub(crate) fn multiplied_out(&mut self, expr: Expr) -> Option<Expr> {
+        let polynomial = self.polynomial(expr)?;
+        let terms: Vec<Expr> = polynomial
+            .0
+            .iter()
+            .map(|(monomial, [value, _])| self.monomial(monomial).scaled(*value))
+            .collect();
+        Some(self.sum(&terms))
+    }
+
+    /// The factors of a node and their exponents, those of denominators negative.
+    pub(super) fn quotient_factors(&self, node: Id) -> Vec<(Id, i32)> {
+        let mut factors = Vec::new();
+        for (factor, exponent) in self.factors(node) {
+            let exponent = exponent as i32;
+            match *self.node(factor) {
+                Node::Reciprocal(of) => {
+                    factors.extend(self.factors(of).into_iter().map(|(id, e)| (id, -exponent * e as i32)));
+                }
+                _ => factors.push((factor, exponent)),
+            }
+        }
+        joined(&factors, &[])
+    }
+
+    /// The product of these powers.
+    pub(super) fn monomial(&mut self, factors: &[(Id, i32)]) -> Expr {
+        let powers: Vec<Expr> =
+            factors.iter().map(|(id, exponent)| self.powi((*id).into(), *exponent)).collect();
+        self.product(&powers)
+    }
+
+    fn polynomial(&mut self, expr: Expr) -> Option<Polynomial> {
+        let mut scaled = Polynomial::default();
+        let polynomial = self.polynomial_of(expr.node)?;
+        scaled.add(&polynomial, expr.scale)?;
+        Some(scaled)
+    }
+
+    fn polynomial_of(&mut self, id: Id) -> Option<Polynomial> {
+        match self.node(id).clone() {
+            Node::Sum(terms) => {
+                let mut sum = Polynomial::default();
+                for term in terms {
+                    let polynomial = self.polynomial_of(term.node)?;
+                    sum.add(&polynomial, term.scale)?;
+                }
+                Some(sum)
+            }
+            Node::One | Node::Product(_) | Node::Reciprocal(_) => self.polynomial_of_product(id),
+            Node::Choose { left, relation, right, then, otherwise } => {
+                // Each term stays behind the condition: elsewhere it need not be a number.
+                let mut sum = Polynomial::default();
+                for (branch, holds) in [(then, true), (otherwise, false)] {
+                    for (monomial, [value, _]) in self.polynomial(branch)?.0 {
+                        let term = self.monomial(&monomial);
+                        let (then, otherwise) = if holds { (term, Expr::ZERO) } else { (Expr::ZERO, term) };
+                        let guarded = self.choose(left, relation, right, then, otherwise);
+                        sum.add(&Polynomial::term(value * guarded.scale, vec![(guarded.node, 1)]), 1.0)?;
+                    }
+                }
+                Some(sum)
+            }
+            Node::Reduce { fold: Fold::Sum, height, range, body } => {
+                let mut sum = Polynomial::default();
+                for (monomial, [value, _]) in self.polynomial(body)?.0 {
+                    // In a sum without terms, a factor need not be a number.
+                    let stays = |(factor, _): &(Id, i32)| {
+                        let changes = self.free(*factor).bound & (1 << height) != 0;
+                        changes || (self.has_domain(*factor) && !range.is_filled())
+                    };
+                    let (inside, outside): (Monomial, Monomial) = monomial.into_iter().partition(stays);
+                    let body = self.monomial(&inside);
+                    let fold = self.fold(Fold::Sum, Atom::Bound(height), range.clone(), body);
+                    let term = Polynomial::term(value * fold.scale, joined(&outside, &[(fold.node, 1)]));
+                    sum.add(&term, 1.0)?;
+                }
+                Some(sum)
+            }
+            _ => Some(Polynomial::term(1.0, vec![(id, 1)])),
+        }
+    }
+
+    fn polynomial_of_product(&mut self, id: Id) -> Option<Polynomial> {
+        let mut product = Polynomial::term(1.0, Vec::new());
+        for (factor, exponent) in self.without_squared_roots(id) {
+            let power = match self.node(factor.node) {
+                Node::Sum(_) | Node::Reduce { fold: Fold::Sum, .. } if exponent > 0 => {
+                    let base = self.polynomial_of(factor.node)?;
+                    (1..exponent).try_fold(base.clone(), |power, _| power.times(&base))?
+                }
+                _ => Polynomial::term(1.0, vec![(factor.node, exponent)]),
+            };
+            let scale = Polynomial::term(factor.scale.powi(exponent), Vec::new());
+            product = product.times(&power)?.times(&scale)?;
+        }
+        Some(product)
+    }
+
+    /// The factors of a quotient, with w in place of (√w)².
+    fn without_squared_roots(&self, id: Id) -> Vec<(Expr, i32)> {
+        let mut factors: Vec<(Expr, i32)> = Vec::new();
+        let mut insert =
+            |factor: Expr, exponent: i32| match factors.iter_mut().find(|(known, _)| *known == factor) {
+                Some((_, known)) => *known += exponent,
+                None => factors.push((factor, exponent)),
+            };
+        for (factor, exponent) in self.quotient_factors(id) {
+            match *self.node(factor) {
+                Node::Unary(Unary::Sqrt, of) if exponent.abs() > 1 => {
+                    insert(of, exponent / 2);
+                    insert(factor.into(), exponent % 2);
+                }
+                _ => insert(factor.into(), exponent),
+            }
+        }
+        factors.retain(|(_, exponent)| *exponent != 0);
+        factors
+    }
+}

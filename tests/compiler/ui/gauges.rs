@@ -1,0 +1,99 @@
+//! Gauges that cannot be, and one-forms for which none is found.
+
+use dvi_core::prelude::*;
+
+mod without_value {
+    use super::*;
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge =)]
+    pub struct System;
+}
+
+mod without_coordinates {
+    use super::*;
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = 2.0 * t)]
+    pub struct System;
+}
+
+mod with_a_velocity {
+    use super::*;
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * d(y))]
+    pub struct System;
+}
+
+mod with_an_unknown_name {
+    use super::*;
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * z)]
+    pub struct System;
+}
+
+mod as_a_list {
+    use super::*;
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge(x * y))]
+    pub struct System;
+}
+
+mod with_two_derivatives {
+    use super::*;
+    fn f<T: dvi_core::Scalar>(x: T) -> T {
+        x
+    }
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = x * d(y),
+        hamiltonian = x * y,
+        gauge = x * f(y),
+        functions(f = [f, f, f]),
+    )]
+    pub struct System;
+}
+
+mod of_a_regular_system {
+    use super::*;
+    #[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0, gauge = x)]
+    pub struct System;
+}
+
+mod not_found_without_a_half_that_omega_leaves_alone {
+    use super::*;
+    #[degenerate_lagrangian(
+        coordinates(x, y, u, w),
+        one_form = x * x * w * d(y) + (u * w).exp() * d(x) - u * d(w) + (y * u).sin() * x * d(u) + y * w * d(x),
+        hamiltonian = x * y,
+        gauge = auto,
+    )]
+    pub struct System;
+}
+
+mod not_found_without_an_antiderivative {
+    use super::*;
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = (x * (y * y).sin() + y) * d(x) + (x * y * y + 1.0).sin() * d(y) + (x * x * y).exp() * d(x),
+        hamiltonian = x * y,
+        gauge = auto,
+    )]
+    pub struct System;
+}
+
+mod not_found_in_halves_of_an_array {
+    use super::*;
+    #[degenerate_lagrangian(
+        coordinates(z[4]),
+        one_form = sum(0..4, |j| z[(j + 1) % 4] * d(z[j])),
+        hamiltonian = z[0] * z[1],
+        gauge = auto,
+    )]
+    pub struct System;
+}
+
+mod none_needed {
+    use super::*;
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = auto)]
+    pub struct System;
+    pub fn run() {
+        let state: SystemState = SystemState { x: 1.0, y: 0.0 };
+        let _ = Integrator::new(&System, OneStep::midpoint(), 0.1, state);
+    }
+}
+
+fn main() {}

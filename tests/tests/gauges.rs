@@ -1,0 +1,221 @@
+//! One-forms with the differential of a function added: what `gauge = F` and `gauge = auto` make of them.
+
+use dvi_core::prelude::*;
+use dvi_core::space::sink::Dense;
+use dvi_core::{ProperlyDegenerate, Space};
+use dvi_tests::larger;
+use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// Points in the first quadrant, with logarithms and roots.
+const POINTS: [[f64; 6]; 3] =
+    [[0.7, 1.3, 0.4, 0.9, 1.6, 0.5], [1.1, 0.3, 0.8, 1.4, 0.6, 1.2], [0.2, 0.9, 1.5, 0.5, 1.3, 0.8]];
+
+/// The matrix a Dα + b (Dα)ᵀ, row by row.
+fn jacobian<S: DegenerateLagrangian<f64>>(system: &S, q: &[f64], t: f64, [a, b]: [f64; 2]) -> Vec<f64> {
+    let mut entries = vec![0.0; q.len() * q.len()];
+    system.one_form_jacobian(q, t, a, b, &mut Dense::new(&mut entries, q.len()));
+    entries
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs() / (1.0 + a.abs())).fold(0.0, larger)
+}
+
+/// Two one-forms of the same motion: the same Ω and the same ∇H + ∂α/∂t, and no component of the second along its half.
+fn have_the_same_motion<S: DegenerateLagrangian<f64>, G: ProperlyDegenerate<f64>>(declared: &S, gauged: &G) {
+    let n = declared.space().dimension();
+    for point in POINTS {
+        let (q, t) = (&point[..n], 0.3);
+        let (one, other) = (jacobian(declared, q, t, [1.0, -1.0]), jacobian(gauged, q, t, [1.0, -1.0]));
+        assert!(apart(&one, &other) < 1e-12, "Ω of {}: {one:?} and {other:?}", G::REPORT.system);
+        let source = |f: &dyn Fn(&mut [f64])| {
+            let mut source = vec![0.0; n];
+            f(&mut source);
+            source
+        };
+        let one = source(&|to| declared.flow_source(q, t, to));
+        let other = source(&|to| gauged.flow_source(q, t, to));
+        assert!(apart(&one, &other) < 1e-12, "∇H of {}: {one:?} and {other:?}", G::REPORT.system);
+        let form = source(&|to| gauged.one_form(q, t, to));
+        for i in (0..n).filter(|&i| 2 * gauged.place(i) >= n) {
+            assert_eq!(form[i], 0.0, "{}, component {i}", G::REPORT.system);
+        }
+    }
+}
+
+#[test]
+fn a_gauge_is_found_for_twenty_systems() {
+    macro_rules! check {
+        ($($name:ident($($coordinates:tt)*): $form:expr, $hamiltonian:expr;)+) => {$({
+            let declared = {
+                #[degenerate_lagrangian(coordinates($($coordinates)*), one_form = $form, hamiltonian = $hamiltonian)]
+                #[allow(dead_code, reason = "not every system has both")]
+                struct $name { k: f64, g: [f64; 3] }
+                $name { k: 0.7, g: [1.0, -2.0, 0.5] }
+            };
+            #[degenerate_lagrangian(
+                coordinates($($coordinates)*),
+                one_form = $form,
+                hamiltonian = $hamiltonian,
+                gauge = auto,
+            )]
+            #[allow(dead_code, reason = "not every system has both")]
+            struct $name { k: f64, g: [f64; 3] }
+            let gauged = $name { k: declared.k, g: declared.g };
+            have_the_same_motion(&declared, &gauged);
+            assert!($name::REPORT.formulas.iter().any(|formula| formula.name == "F"), "{}", stringify!($name));
+        })+};
+    }
+    check!(
+        Vortex(x, y): k / 2.0 * (x * d(y) - y * d(x)), g[0] * x * y;
+        Vortices(x[3], y[3]): sum(0..3, |j| g[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))), k * x[0] * y[1];
+        Prey(x, y): y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y), k * x + g[0] * y;
+        PreyShifted(x, y): (y + y.ln() / x) * d(x) + x * d(y), k * x + g[0] * y;
+        PreySymmetric(x, y): (y + y.ln() / (2.0 * x)) * d(x) + (x - x.ln() / (2.0 * y)) * d(y), k * x + g[0] * y;
+        Reciprocal(x, y): (x + 1.0 / y) * d(y) - k * y * d(x), x * y + g[0];
+        Polynomial(x, y): (x * y.powi(3) + x.powi(2) * y) * d(y) + x * y * d(x), k * x + g[0] * y;
+        Exponential(x, y): x * (k * y).exp() * d(y) + x.exp() * y * d(x), x * y + g[0];
+        Gaussian(x, y): (x + x * y * (-y * y).exp()) * d(y) - y * x * d(x), k * x + g[0] * y;
+        Wave(x, y): x * y * y.cos() * d(y) + x.cos() * y * d(x), k * x + g[0] * y;
+        Pendulum(angle, p): p * d(angle) - angle * d(p), k * p * p - g[0] * angle.cos();
+        Root(x, y): x * (1.0 + y * y).sqrt() * y * d(y) + y.powi(2) * d(x), k * x + g[0] * y;
+        Powers(x, y): x * y.powf(1.5) * d(y) - y.sqrt() * d(x), k * x + g[0] * y;
+        Field(x, y): -k * y / (1.0 + x * x) * d(x) + k * x * (y / 2.0).sinh() * d(y), x * y + g[0];
+        Branches(x, y): x * (if x > 1.0 { y } else { 2.0 * y + 1.0 }) * d(y) + y * d(x), k * x + g[0] * y;
+        Driven(x, y): (1.0 + t / 2.0) * (x * d(y) - y * d(x)), k * x * x + g[0] * y * y * t;
+        Four(x, y, u, w): (y * y + w * x + y * w.sin()) * d(x) + (w + y * u + 2.0 * u * y.exp()) * d(u)
+            + (x * w.sin() + u * u * y.exp()) * d(y) + x * y * w.cos() * d(w), k * x * u + g[0] * y * w;
+        Rotor(x, px, angle, l): 0.5 * (px * d(x) - x * d(px)) + (l - k * x) * d(angle) - k * angle * d(x),
+            px * px / 2.0 + l * l / (2.0 * x * x) + g[0] * x;
+        Lattice(u[3], w[3]): sum(0..3, |j| (w[j] + u[j] * u[(j + 1) % 3]) * d(u[j]) - u[j] * d(w[j])),
+            k * u[0] * w[1] + g[0] * u[2];
+        Pairs(x[3], y[3]): sum(0..3, |j| y[j] * d(x[j])) + sum_pairs(0..3, |i, j| x[i] * x[j] * (d(y[i]) + d(y[j]))),
+            k * x[0] * y[1] + g[0] * x[2];
+        Errors(x, y): x * (y / 2.0).erf() * d(y) + y.powi(3) * x * d(x), k * x + g[0] * y;
+        Shear(x, y): x * (2.0 * y + 1.0).ln() * d(y) + (y + x * x).sin() * d(x), k * x + g[0] * y;
+    );
+}
+
+/// The symmetric gauge of Lotka–Volterra, brought into class along y and along x.
+mod prey {
+    use dvi_core::prelude::*;
+
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form    = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
+        hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
+        gauge       = auto,
+    )]
+    pub(crate) struct Found;
+
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form    = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
+        hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
+        gauge       = -x.ln() * y.ln() / 2.0,
+    )]
+    pub(crate) struct AlongX;
+
+    /// The symmetric gauge + d(xy).
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        lagrangian = (y + y.ln() / (2.0 * x)) * dot(x) + (x - x.ln() / (2.0 * y)) * dot(y)
+            - (x + y - x.ln() - 2.0 * y.ln()),
+        gauge      = x.ln() * y.ln() / 2.0 - x * y,
+    )]
+    pub(crate) struct Shifted;
+}
+
+fn last<S: ProperlyDegenerate>(system: &S, start: S::State<f64>, h: f64, steps: u64) -> [f64; 2] {
+    let mut run = Integrator::new(system, OneStep::midpoint(), h, start).expect("a start in the domain");
+    run.take_steps(steps).expect("steps in the domain");
+    let values: Vec<f64> = system.values(&run.state()).expect("two coordinates").collect();
+    [values[0], values[1]]
+}
+
+/// Gauges that end in the same one-form give the same steps; (ln y/x, 0) and (0, −ln x/y) differ by the order of the scheme.
+#[test]
+fn gauges_of_the_same_system_have_the_same_trajectory() -> Outcome {
+    let declared = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    let state = || (2.0, 1.0);
+    let (x, y) = state();
+    let mut differences = Vec::new();
+    for steps in [200, 400, 800] {
+        let h = 20.0 / steps as f64;
+        let reference = last(&declared, OneSidedState { x, y }, h, steps);
+        let found = last(&prey::Found, prey::FoundState { x, y }, h, steps);
+        let shifted = last(&prey::Shifted, prey::ShiftedState { x, y }, h, steps);
+        assert!(apart(&reference, &found) < 1e-12, "{reference:?} and {found:?}");
+        assert!(apart(&reference, &shifted) < 1e-12, "{reference:?} and {shifted:?}");
+        let other = last(&prey::AlongX, prey::AlongXState { x, y }, h, steps);
+        differences.push((h, apart(&reference, &other)));
+    }
+    let order = convergence_order(&differences).ok_or("no slope")?;
+    assert!((order - 2.0).abs() < 0.1, "{differences:?}");
+    Ok(())
+}
+
+/// F(q, t) adds its rate to −H: the energy becomes another one, and the motion stays.
+#[test]
+fn a_gauge_may_depend_on_time() {
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form    = (1.0 + t / 2.0) * (x * d(y) - y * d(x)),
+        hamiltonian = x * x + y * y * t,
+    )]
+    struct Symmetric;
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form    = (1.0 + t / 2.0) * (x * d(y) - y * d(x)),
+        hamiltonian = x * x + y * y * t,
+        gauge       = (1.0 + t / 2.0) * x * y,
+    )]
+    struct OneSided;
+    have_the_same_motion(&Symmetric, &OneSided);
+    for [x, y, ..] in POINTS {
+        let energies = [Symmetric.hamiltonian(&[x, y], 0.3), OneSided.hamiltonian(&[x, y], 0.3)];
+        assert!((energies[0] - energies[1] - x * y / 2.0).abs() < 1e-14, "{energies:?}");
+    }
+}
+
+/// A function of one's own in a gauge brings its third derivative.
+#[test]
+fn functions_of_the_user_stand_in_gauges() {
+    fn f<T: dvi_core::Scalar>(y: T) -> T {
+        (y * T::lift(2.0)).sin()
+    }
+    fn df<T: dvi_core::Scalar>(y: T) -> T {
+        (y * T::lift(2.0)).cos() * T::lift(2.0)
+    }
+    fn d2f<T: dvi_core::Scalar>(y: T) -> T {
+        -(y * T::lift(2.0)).sin() * T::lift(4.0)
+    }
+    fn d3f<T: dvi_core::Scalar>(y: T) -> T {
+        -(y * T::lift(2.0)).cos() * T::lift(8.0)
+    }
+    macro_rules! by_function {
+        ($($gauge:tt)*) => {{
+            #[degenerate_lagrangian(
+                coordinates(x, y),
+                one_form    = x * d(y) + f(x) * d(y),
+                hamiltonian = x * x + y * y,
+                functions(f = [f, df, d2f, d3f]),
+                $($gauge)*
+            )]
+            struct Any;
+            Any
+        }};
+    }
+    let declared = by_function!();
+    for point in POINTS {
+        let q = &point[..2];
+        let expected = [(2.0 * q[0]).cos() * -2.0 * q[1] - q[1], 0.0];
+        let gauged = by_function!(gauge = -f(x) * y - x * y);
+        let mut form = [0.0; 2];
+        gauged.one_form(q, 0.0, &mut form);
+        assert!(apart(&expected, &form) < 1e-14, "{form:?}");
+        have_the_same_motion(&declared, &gauged);
+    }
+}
