@@ -1,5 +1,6 @@
 //! Systems shared by the tests.
 
+pub mod steps;
 pub mod systems;
 pub mod zoo;
 

@@ -107,11 +107,13 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         one_sided_start,
         OneStep::midpoint(),
         OneStep::scheme_b(),
-        OneStepGauss::<3>::new()
+        OneStepGauss::<3>::new(),
+        Projected::symmetric()
     );
     let ring = Borne { n: 3 };
     let ring_start = BorneState { x: vec![0.3, -0.4, 0.2], y: vec![0.5, 0.1, -0.3] };
     assert_none!(ring, ring_start, OneStep::trapezoid(), OneStep::scheme_a(), OneStepGauss::<2>::new());
+    assert_none!(ring, ring_start, Projected::standard(), Projected::symmetric());
 
     // Of variable length, on the stack and on the heap, with steps that are undone.
     let fitted = || Variational::simpson().phase_fitted(Radial(Reading::Averaged));

@@ -93,6 +93,7 @@ fn degenerate_runs_go_on() -> Outcome {
         check(&prey, method, OneSidedState { x: 1.2, y: 0.9 })?;
     }
     check(&prey, OneStepGauss::<3>::new(), OneSidedState { x: 1.2, y: 0.9 })?;
+    check(&prey, Projected::symmetric(), OneSidedState { x: 1.2, y: 0.9 })?;
     check(&vortices, General::new(Sigma::midpoint()), start)?;
     check(&vortices, EnergyLimit { method: Sigma::midpoint(), limit: 1.0 }, start)?;
     // The parasitic mode is watched on as it was.

@@ -3,8 +3,8 @@
 use dvi_core::methods::{Composition, Method, Scheme};
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
-use dvi_core::{ProperlyDegenerate, Real, Space};
-use dvi_tests::larger;
+use dvi_core::{ProperlyDegenerate, Space};
+use dvi_tests::steps::{apart, jacobian, stepped};
 use dvi_tests::systems::{SphereForm, SphereFormState};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use nalgebra::DMatrix;
@@ -36,29 +36,6 @@ struct Mixed;
 #[derive(Clone, Debug)]
 struct Ring {
     n: usize,
-}
-
-/// The flat coordinates after steps of length `h` from `t` on.
-fn stepped<S: Lagrangian<T>, T: Real, M: Method<S, T>>(
-    system: &S,
-    method: &M,
-    q0: &[T],
-    [t, h]: [f64; 2],
-    steps: u64,
-) -> Result<Vec<T>, Box<dyn core::error::Error>> {
-    let mut q = system.space().vector();
-    q.copy_from_slice(q0);
-    let mut memory = method.begin(system, &q, &[], T::lift(t), T::lift(h))?;
-    let mut statistics = Statistics::default();
-    for step in 0..steps {
-        let now = T::lift(t + step as f64 * h);
-        method.step(system, &mut memory, &mut q, now, T::lift(h), &mut statistics)?;
-    }
-    Ok(q.to_vec())
-}
-
-fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
 const MIXED: [f64; 4] = [0.4, 0.3, -0.5, 0.7];
@@ -121,23 +98,6 @@ fn schemes_have_their_orders() -> Outcome {
     check(&SPHERE, &[0.4, 0.3], 6)?;
     check(&Mixed, &MIXED, 16)?;
     check(&Ring { n: 3 }, &RING, 16)
-}
-
-/// The matrix of the derivative of a function of q, by dual numbers.
-fn jacobian(
-    q: &[f64],
-    rows: usize,
-    f: impl Fn(&[Dual64]) -> Result<Vec<Dual64>, Box<dyn core::error::Error>>,
-) -> Result<DMatrix<f64>, Box<dyn core::error::Error>> {
-    let mut matrix = DMatrix::zeros(rows, q.len());
-    for column in 0..q.len() {
-        let seeded = q.iter().enumerate().map(|(i, &x)| Dual64::new(x, if i == column { 1.0 } else { 0.0 }));
-        let image = f(&seeded.collect::<Vec<_>>())?;
-        for row in 0..rows {
-            matrix[(row, column)] = image[row].eps;
-        }
-    }
-    Ok(matrix)
 }
 
 /// Σᵢ dpᵢ ∧ dxᵢ of the functions p and x + shift · x' of q, along the coordinates x, as a matrix.

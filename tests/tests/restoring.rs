@@ -68,6 +68,7 @@ fn degenerate_runs_go_on_from_a_copy() -> Outcome {
         check(&prey, method, &[1.2, 0.9], &[])?;
     }
     check(&prey, OneStepGauss::<2>::new(), &[1.2, 0.9], &[])?;
+    check(&prey, Projected::standard(), &[1.2, 0.9], &[])?;
     let compensated = Sigma { summation: Summation::Compensated, ..Sigma::midpoint() };
     check(&vortices, compensated, &start, &[])?;
     check(&vortices, EnergyLimit { method: Sigma::leapfrog(), limit: 1.0 }, &start, &[])

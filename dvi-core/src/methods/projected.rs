@@ -1,0 +1,379 @@
+//! The variational midpoint scheme of a degenerate Lagrangian, projected onto p = α(q) (Kraus 2017).
+//!
+//! The scheme σ = ½ leaves the surface p = α(q), on which the motion is: that is its parasitic mode. A projection moves both
+//! ends of a step by a vector λ along the directions that Ω makes of the constraint,
+//!
+//! (q̃0, p̃0) = (q0 + aλ, α(q0) + a Dα(q0)ᵀλ),   (q̃1, p̃1) = (q1 + bλ, α(q1) + b Dα(q1)ᵀλ),
+//!
+//! between which stand the equations p̃0 = −D₁L_d(q̃0, q̃1) and p̃1 = D₂L_d(q̃0, q̃1) for q1 and λ: 2n unknowns. The symmetric
+//! projection has a = b = 1, since the midpoint scheme reverses what is off the surface; the standard one has a = 0, b = −1.
+
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::VectorField;
+use crate::mechanics::orientation::FormOrientation;
+use crate::mechanics::pattern::coupled_by_second_derivatives;
+use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::scalar::norm;
+use crate::solve::{Convergence, Guess, Stopping, iterate};
+use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
+use crate::state::Statistics;
+use crate::state::history::{History, is_similar};
+use crate::state::memory::{Memory, lasting};
+use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights};
+
+/// The variational midpoint scheme with a projection onto p = α(q), for any degenerate system.
+///
+/// ```math
+/// \begin{aligned}
+/// \alpha(q_0) + a\, D\alpha(q_0)^T \lambda &= -D_1 L_d(\tilde q_0, \tilde q_1), & \tilde q_0 &= q_0 + a \lambda \\
+/// \alpha(q_1) + b\, D\alpha(q_1)^T \lambda &= D_2 L_d(\tilde q_0, \tilde q_1), & \tilde q_1 &= q_1 + b \lambda
+/// \end{aligned}
+/// ```
+///
+/// | projection | a, b | order | symmetric |
+/// |---|---|---|---|
+/// | [`symmetric`](Self::symmetric) | 1, 1 | 2 | yes |
+/// | [`standard`](Self::standard) | 0, −1 | 2 | no |
+///
+/// The schemes are for one-forms that no gauge brings into the class of [`OneStep`](super::OneStep), which is to be preferred
+/// where it can be used. They couple two points and have no parasitic mode. Where α is affine, λ = 0 and both are the implicit midpoint rule,
+/// which preserves Ω. Elsewhere they do not preserve Ω exactly: with ζ = Σᵢⱼ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + a² dζ at
+/// q0 the form dα + b² dζ at q1. As λ is of the order h², the symmetric projection changes Ω by terms of the order h⁵ in a step,
+/// the standard one by h⁴. The energy of the standard projection drifts.
+/// Source: Kraus 2017, *Projected variational integrators for degenerate Lagrangian systems*, sections 4 and 5, with the
+/// midpoint rule.
+///
+/// A step is solved by Newton's method for 2n unknowns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projected {
+    projection: Projection,
+    /// The criterion by which a step counts as solved. Default: to rounding errors.
+    pub stopping: Stopping,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Projection {
+    Standard,
+    Symmetric,
+}
+
+impl Projected {
+    /// Order 2, symmetric: both ends are moved.
+    pub fn symmetric() -> Self {
+        Self { projection: Projection::Symmetric, stopping: Stopping::default() }
+    }
+
+    /// Order 2, not symmetric: the end is moved.
+    pub fn standard() -> Self {
+        Self { projection: Projection::Standard, stopping: Stopping::default() }
+    }
+
+    /// a and b.
+    fn factors<T: Real>(self) -> [T; 2] {
+        match self.projection {
+            Projection::Symmetric => [1.0, 1.0],
+            Projection::Standard => [0.0, -1.0],
+        }
+        .map(T::lift)
+    }
+}
+
+impl Scheme for Projected {
+    fn order(&self) -> usize {
+        2
+    }
+    fn is_symmetric(&self) -> bool {
+        self.projection == Projection::Symmetric
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        PreservedForm::OmegaIfAffine
+    }
+}
+
+/// What a run of a projected scheme carries.
+#[derive(Debug)]
+pub struct ProjectedMemory<S: System, T: Real> {
+    /// α at the current point.
+    p: Vector<S, T>,
+    /// The mean rates of change of the last steps.
+    history: History<S, T>,
+    last_step: T,
+    orientation: FormOrientation<S, T>,
+    solver: Coupled<NODES, S, T>,
+    /// Δ = q1 − q0 and λ.
+    unknowns: [Vector<S, T>; 2],
+    /// The residuals from 1, and then the corrections.
+    residuals: [Vector<S, T>; NODES],
+    work: Work<S, T>,
+}
+
+/// The points q0, (q̃0 + q̃1)/2 and q1, at which second derivatives are taken. The equations are as many as unknown vectors, one
+/// less.
+const NODES: usize = 3;
+
+#[derive(Debug)]
+struct Work<S: System, T: Real> {
+    /// (q̃0 + q̃1)/2, q̃1 − q̃0 over h, and q1.
+    middle: Vector<S, T>,
+    velocity: Vector<S, T>,
+    end: Vector<S, T>,
+    gradient: Vector<S, T>,
+    one_form: Vector<S, T>,
+    /// Dα(q)ᵀλ, and a gradient of H.
+    lifted: Vector<S, T>,
+    force: Vector<S, T>,
+    rest: Vector<S, T>,
+}
+
+impl<S: System, T: Real> Memory<T> for ProjectedMemory<S, T> {
+    lasting!(T; numbers p, part history, number last_step, part orientation);
+}
+
+impl<S: System, T: Real> Carries<S, T> for Projected {
+    type Memory = ProjectedMemory<S, T>;
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+        self.stopping.validate()?;
+        let vector = || system.space().vector();
+        let [mut p, mut rates]: [Vector<S, T>; 2] = [vector(), vector()];
+        system.one_form(q, t, &mut p);
+        let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
+        field.evaluate(system, q, t, &mut rates, &mut Statistics::default()).map_err(StartError::Starter)?;
+        let rest: Vector<S, T> = vector();
+        Ok(ProjectedMemory {
+            p,
+            history: History::new(system, Some(rates)),
+            last_step: T::lift(0.0),
+            orientation: FormOrientation::new(system, q, t),
+            solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
+            unknowns: core::array::from_fn(|_| vector()),
+            residuals: core::array::from_fn(|_| vector()),
+            work: Work {
+                middle: vector(),
+                velocity: vector(),
+                end: vector(),
+                gradient: vector(),
+                one_form: vector(),
+                lifted: vector(),
+                force: vector(),
+                rest,
+            },
+        })
+    }
+
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let [a, b] = self.factors();
+        let step = Step { system, q, t, h, a, b };
+        // Where steps are long, extrapolation is off, or leads to another branch.
+        memory
+            .attempt(&step, self.stopping, Guess::Extrapolated, statistics)
+            .or_else(|_| memory.attempt(&step, self.stopping, Guess::Zero, statistics))?;
+        memory.arrive(q, h);
+        Ok(())
+    }
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {}
+
+/// A step from `q` at `t`.
+struct Step<'a, S, T> {
+    system: &'a S,
+    q: &'a [T],
+    t: T,
+    h: T,
+    a: T,
+    b: T,
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> Step<'_, S, T> {
+    /// (q̃0 + q̃1)/2 = q0 + Δ/2 + (a + b)λ/2 and q̃1 − q̃0 = Δ + (b − a)λ, as the factors of λ.
+    fn lambda(&self) -> [T; 2] {
+        [T::lift(0.5) * (self.a + self.b), self.b - self.a]
+    }
+
+    /// Sets the points and the velocity.
+    fn place(&self, [delta, lambda]: &[Vector<S, T>; 2], work: &mut Work<S, T>) {
+        let [in_middle, in_velocity] = self.lambda();
+        for i in 0..self.q.len() {
+            work.middle[i] = self.q[i] + T::lift(0.5) * delta[i] + in_middle * lambda[i];
+            work.velocity[i] = (delta[i] + in_velocity * lambda[i]) / self.h;
+            work.end[i] = self.q[i] + delta[i];
+        }
+    }
+
+    /// The time in the middle and at the end.
+    fn times(&self) -> [T; 2] {
+        [self.t + T::lift(0.5) * self.h, self.t + self.h]
+    }
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
+    /// Sets `work.end` to q1 and `work.one_form` to α there, if it is on the branch that q0 is on.
+    fn attempt(
+        &mut self,
+        step: &Step<'_, S, T>,
+        stopping: Stopping,
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.guess(step.h, guess);
+        let scale = norm::largest(step.q) + norm::largest(&self.unknowns[0]);
+        let convergence = Convergence::new(stopping, scale, step.q, stopping.max_iterations);
+        let solved = iterate(convergence, statistics, |statistics| {
+            self.differentiate(step, statistics);
+            self.residuals[1..].iter().try_for_each(|residual| norm::finite(residual))?;
+            statistics.linearizations += NODES as u64;
+            statistics.factorisations += 1;
+            self.solve(step)?;
+            let mut correction = T::lift(0.0);
+            for (unknown, change) in self.unknowns.iter_mut().zip(&self.residuals[1..]) {
+                for (unknown, &change) in unknown.iter_mut().zip(change.iter()) {
+                    *unknown -= change;
+                }
+                correction = norm::larger(correction, norm::largest(change));
+            }
+            Ok(correction)
+        });
+        solved.or_else(|failure| {
+            failure.unless_rounding(|| {
+                // What a relative error of the momentum makes of the unknowns.
+                let Self { residuals, p, .. } = &mut *self;
+                residuals.iter_mut().for_each(|residual| residual.copy_from_slice(p));
+                self.solve(step)?;
+                let sizes = self.residuals[1..].iter().map(|residual| norm::largest(residual));
+                Ok(sizes.fold(T::lift(0.0), norm::larger))
+            })
+        })?;
+        step.place(&self.unknowns, &mut self.work);
+        let Self { orientation, work: Work { middle, end, one_form, .. }, .. } = self;
+        norm::finite(end)?;
+        let [centre, after] = step.times();
+        step.system.one_form(end, after, one_form);
+        // Between two branches Ω changes its sign.
+        orientation.compare(step.system, middle, centre)?;
+        orientation.check(step.system, end, after)
+    }
+
+    /// Sets Δ to what the last steps let expect, and λ to zero: it is smaller than the error of Δ.
+    fn guess(&mut self, h: T, guess: Guess) {
+        let Self { history, last_step, unknowns: [delta, lambda], .. } = self;
+        guess.begin(delta, |rates| match is_similar(h, *last_step) || *last_step == T::lift(0.0) {
+            true => history.extrapolate(rates),
+            false => rates.fill(T::lift(0.0)),
+        });
+        delta.iter_mut().for_each(|delta| *delta *= h);
+        lambda.fill(T::lift(0.0));
+    }
+
+    /// Sets the residuals:
+    ///
+    /// r₁ = α(q0) + a Dα(q0)ᵀλ − α(q̃) + ½h ∂L/∂q(q̃, ṽ)      r₂ = α(q̃) + ½h ∂L/∂q(q̃, ṽ) − α(q1) − b Dα(q1)ᵀλ
+    fn differentiate(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) {
+        step.place(&self.unknowns, &mut self.work);
+        let Self { p, unknowns: [_, lambda], residuals: [_, r1, r2], work, .. } = self;
+        let Work { middle, velocity, end, gradient, one_form, lifted, force, .. } = work;
+        let Step { system, q, t, h, a, b } = *step;
+        let [centre, after] = step.times();
+        let half = T::lift(0.5) * h;
+        system.gradient(middle, velocity, centre, gradient, one_form);
+        for i in 0..q.len() {
+            r1[i] = p[i] - one_form[i] + half * gradient[i];
+            r2[i] = one_form[i] + half * gradient[i];
+        }
+        for (row, factor, point, time) in [(&mut *r1, a, q, t), (&mut *r2, -b, &**end, after)] {
+            // ∂L/∂q = Dαᵀv − ∇H
+            system.gradient(point, lambda, time, lifted, one_form);
+            system.hamiltonian_gradient(point, time, force);
+            for i in 0..q.len() {
+                row[i] += factor * (lifted[i] + force[i]);
+            }
+        }
+        for (r2, &form) in r2.iter_mut().zip(one_form.iter()) {
+            *r2 -= form;
+        }
+        statistics.gradients += NODES as u64;
+    }
+
+    /// Overwrites the residuals with the corrections.
+    fn solve(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
+        let Self { unknowns, residuals, solver, work, .. } = self;
+        let mut matrix = Linearized { step, lambda: &unknowns[1], node: 0, work };
+        solver.solve(&mut matrix, residuals)
+    }
+
+    fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {
+        let Self { p, history, last_step, unknowns: [delta, _], work, .. } = self;
+        q.copy_from_slice(&work.end);
+        p.copy_from_slice(&work.one_form);
+        if !is_similar(h, *last_step) {
+            history.clear();
+        }
+        *last_step = h;
+        delta.iter_mut().for_each(|delta| *delta /= h);
+        history.push(delta);
+    }
+}
+
+/// The derivatives of r₁ and r₂ by Δ and λ. L_qq of node 2, at q1, stands for the second derivative of α·λ.
+struct Linearized<'a, S: System, T: Real> {
+    step: &'a Step<'a, S, T>,
+    lambda: &'a [T],
+    node: usize,
+    work: &'a mut Work<S, T>,
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S, T> {
+    fn place(&mut self, j: usize) {
+        self.node = j;
+    }
+
+    fn weights(&self, r: usize, k: usize) -> Weights<T> {
+        let Step { h, a, b, .. } = *self.step;
+        let [in_middle, in_velocity] = self.step.lambda();
+        let (zero, one, half) = (T::lift(0.0), T::lift(1.0), T::lift(0.5));
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        match (self.node, r, k) {
+            (0, 1, 2) => Weights { qv: a, ..none },
+            (1, r, k) => {
+                // What the unknown does to q̃ and to hṽ; α(q̃) stands in r₁ and r₂ with opposite signs.
+                let [point, motion] = if k == 1 { [half, one] } else { [in_middle, in_velocity] };
+                let sign = if r == 1 { -one } else { one };
+                Weights { qq: half * h * point, qv: half * motion, vq: sign * point, vv: zero }
+            }
+            (2, 2, 1) => Weights { qq: -b, vq: -one, ..none },
+            (2, 2, 2) => Weights { qv: -b, ..none },
+            _ => none,
+        }
+    }
+
+    fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
+        let Work { middle, velocity, end, gradient, one_form, rest, .. } = &mut *self.work;
+        let Step { system, q, t, .. } = *self.step;
+        let [centre, after] = self.step.times();
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let (point, time): (&[T], T) = [(q, t), (&**middle, centre), (&**end, after)][self.node];
+        system.linearize(point, rest, time, Weights { qv: one, ..none }, gradient, one_form, qv);
+        match self.node {
+            1 => system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq),
+            2 => {
+                // L_qq at (q, λ) without that at (q, 0), which is of H.
+                let w = Weights { qq: one, ..none };
+                system.linearize(point, self.lambda, time, w, gradient, one_form, qq);
+                let w = Weights { qq: -one, ..none };
+                system.linearize(point, rest, time, w, gradient, one_form, qq);
+            }
+            _ => {}
+        }
+    }
+}

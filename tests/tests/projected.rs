@@ -1,0 +1,273 @@
+//! Projected schemes: orders, what becomes of Ω, reversal, and the scheme that they are where α is affine.
+
+use dvi_core::Real;
+use dvi_core::methods::{Composition, Method, Scheme};
+use dvi_core::prelude::*;
+use dvi_core::space::sink::Dense;
+use dvi_tests::steps::{apart, jacobian, stepped};
+use dvi_tests::systems::{LotkaVolterra, SphereForm, SphereFormState};
+use nalgebra::DMatrix;
+use num_dual::Dual64;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// The guiding centre of a particle in a magnetic mirror, B = curl A with A = ½(1 + 0.3 z²)(−y, x, 0), and an electric
+/// potential. Ω couples all pairs but (x, u) and (y, u) on the axis, so that no gauge brings it into class.
+#[degenerate_lagrangian(
+    coordinates(x, y, z, u),
+    one_form = {
+        let bx = -0.3 * x * z;
+        let by = -0.3 * y * z;
+        let bz = 1.0 + 0.3 * z * z;
+        let b = (bx * bx + by * by + bz * bz).sqrt();
+        (x * d(y) - y * d(x)) * bz / 2.0 + u * (bx * d(x) + by * d(y) + bz * d(z)) / b
+    },
+    hamiltonian = {
+        let bx = -0.3 * x * z;
+        let by = -0.3 * y * z;
+        let bz = 1.0 + 0.3 * z * z;
+        u * u / 2.0 + 0.5 * (bx * bx + by * by + bz * bz).sqrt() + 0.05 * x * x
+    },
+)]
+#[derive(Clone, Debug)]
+struct Mirror;
+
+/// A form that depends on time, of two bodies whose number is known at run time only.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| ((1.0 + t / 4.0) * y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % n] / 8.0) * d(x[j])
+        + 0.2 * x[j].sin() * y[(j + 1) % n] * d(y[j])),
+    hamiltonian = sum(0..n, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0 + (x[(j + 1) % n] - x[j]).powi(4) / 4.0)
+        + x[0] * t.sin(),
+)]
+#[derive(Clone, Debug)]
+struct Ring {
+    n: usize,
+}
+
+const MIRROR: [f64; 4] = [0.4, 0.3, 0.2, 0.5];
+const RING: [f64; 4] = [0.3, -0.4, 0.5, 0.1];
+const PREY: LotkaVolterra = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
+
+fn order<S: DegenerateLagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: &M,
+    q0: &[f64],
+    steps: u64,
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let reference = stepped(system, &Gauss::<4>::new(), q0, [0.2, 1.0 / 512.0], 512)?;
+    let mut errors = Vec::new();
+    for steps in [steps, steps * 3 / 2, 2 * steps] {
+        let h = 1.0 / steps as f64;
+        errors.push((h, apart(&stepped(system, method, q0, [0.2, h], steps)?, &reference)));
+    }
+    convergence_order(&errors).ok_or_else(|| "no slope".into())
+}
+
+/// Against Gauss collocation of order eight on q' = X(q).
+#[test]
+fn schemes_have_their_orders() -> Outcome {
+    fn check<S: DegenerateLagrangian>(system: &S, q0: &[f64]) -> Outcome {
+        for method in [Projected::symmetric(), Projected::standard()] {
+            let found = order(system, &method, q0, 64)?;
+            assert!((found - 2.0).abs() < 0.1, "{}, {method:?}: {found}", S::REPORT.system);
+        }
+        let method = Composition::suzuki(Projected::symmetric());
+        let found = order(system, &method, q0, 8)?;
+        assert!((found - method.order() as f64).abs() < 0.5, "{}, composition: {found}", S::REPORT.system);
+        Ok(())
+    }
+    check(&PREY, &[1.0, 1.0])?;
+    check(&SphereForm { gamma: 1.3 }, &[0.4, 0.3])?;
+    check(&Mirror, &MIRROR)?;
+    check(&Ring { n: 2 }, &RING)
+}
+
+/// a Dα + b (Dα)ᵀ
+fn combined<S: DegenerateLagrangian<T>, T: Real>(system: &S, q: &[T], t: f64, [a, b]: [f64; 2]) -> Vec<T> {
+    let n = q.len();
+    let mut entries = vec![T::lift(0.0); n * n];
+    let [time, a, b] = [t, a, b].map(T::lift);
+    system.one_form_jacobian(q, time, a, b, &mut Dense::new(&mut entries, n));
+    entries
+}
+
+/// (Dα)ᵀ − Dα, the matrix of dα.
+fn omega<S: DegenerateLagrangian<f64>>(system: &S, q: &[f64], t: f64) -> DMatrix<f64> {
+    DMatrix::from_row_slice(q.len(), q.len(), &combined(system, q, t, [-1.0, 1.0]))
+}
+
+/// By how much one step, or some, change Ω.
+fn defect<S, M>(
+    system: &S,
+    method: &M,
+    q0: &[f64],
+    h: f64,
+    steps: u64,
+) -> Result<f64, Box<dyn core::error::Error>>
+where
+    S: DegenerateLagrangian<Dual64> + DegenerateLagrangian<f64>,
+    M: Method<S, Dual64> + Method<S, f64>,
+{
+    let t = 0.2;
+    let tangent = jacobian(q0, q0.len(), |q| stepped(system, method, q, [t, h], steps))?;
+    let end = stepped(system, method, q0, [t, h], steps)?;
+    let after = omega(system, &end, t + steps as f64 * h);
+    Ok((tangent.transpose() * after * &tangent - omega(system, q0, t)).amax())
+}
+
+/// The defect of a step is of order h λ², five for the symmetric projection, and λ² of the standard one, four.
+#[test]
+fn omega_is_nearly_preserved() -> Outcome {
+    let steps = [0.2, 0.1, 0.05];
+    let slope = |method: Projected, count: &dyn Fn(f64) -> u64| {
+        let mut defects = Vec::new();
+        for h in steps {
+            defects.push((h, defect(&Mirror, &method, &MIRROR, h, count(h))?));
+        }
+        convergence_order(&defects).ok_or_else(|| Box::<dyn core::error::Error>::from("no slope"))
+    };
+    let (one, until_two) = (|_: f64| 1, |h: f64| (2.0 / h).round() as u64);
+    for (method, of_step, of_time) in [(Projected::symmetric(), 5.0, 4.0), (Projected::standard(), 4.0, 3.0)]
+    {
+        let found = [slope(method, &one)?, slope(method, &until_two)?];
+        assert!(
+            (found[0] - of_step).abs() < 0.2 && (found[1] - of_time).abs() < 0.2,
+            "{method:?}: {found:?}"
+        );
+    }
+    // Gauss collocation with as many evaluations changes Ω a thousand times more.
+    let projected = defect(&Mirror, &Projected::symmetric(), &MIRROR, 0.1, 20)?;
+    let gauss = defect(&Mirror, &Gauss::<1>::new(), &MIRROR, 0.1, 20)?;
+    assert!(1e3 * projected < gauss, "{projected:e} and {gauss:e}");
+    Ok(())
+}
+
+/// λ of the step from q0 to q1, from the sum or the second of its equations.
+fn lambda<S: DegenerateLagrangian<Dual64>>(
+    system: &S,
+    symmetric: bool,
+    [q0, q1]: [&[Dual64]; 2],
+    [t, h]: [f64; 2],
+) -> Vec<Dual64> {
+    let n = q0.len();
+    let mut lambda = vec![Dual64::from_re(0.0); n];
+    let half = Dual64::from_re(0.5);
+    let form = |q: &[Dual64], t: f64| {
+        let mut form = vec![Dual64::from_re(0.0); n];
+        system.one_form(q, Dual64::from_re(t), &mut form);
+        form
+    };
+    let lifted = |q: &[Dual64], t: f64, lambda: &[Dual64]| {
+        let entries = combined(system, q, t, [0.0, 1.0]);
+        let row = |i: usize| (0..n).fold(Dual64::from_re(0.0), |sum, j| sum + entries[i * n + j] * lambda[j]);
+        (0..n).map(row).collect::<Vec<_>>()
+    };
+    // Ω λ ≈ defect, by a fixed point: λ is small.
+    let inverse = {
+        let entries = combined(system, q0, t, [-1.0, 1.0]);
+        DMatrix::from_fn(n, n, |i, j| entries[i * n + j].re).try_inverse().expect("Ω is regular")
+    };
+    for _ in 0..60 {
+        let residual: Vec<Dual64> = if symmetric {
+            // α(q0) + α(q1) − 2α(q̃) + (Dα(q0) + Dα(q1))ᵀλ = 0
+            let middle: Vec<Dual64> = (0..n).map(|i| (q0[i] + q1[i]) * half + lambda[i]).collect();
+            let (start, end, centre) = (form(q0, t), form(q1, t + h), form(&middle, t + h / 2.0));
+            let (one, two) = (lifted(q0, t, &lambda), lifted(q1, t + h, &lambda));
+            (0..n).map(|i| (start[i] + end[i] - centre[i] - centre[i] + one[i] + two[i]) * half).collect()
+        } else {
+            // α(q0) + α(q1) − 2α(q̃) − Dα(q1)ᵀλ = 0
+            let middle: Vec<Dual64> = (0..n).map(|i| (q0[i] + q1[i] - lambda[i]) * half).collect();
+            let (start, end, centre) = (form(q0, t), form(q1, t + h), form(&middle, t + h / 2.0));
+            let two = lifted(q1, t + h, &lambda);
+            (0..n).map(|i| centre[i] + centre[i] - start[i] - end[i] + two[i]).collect()
+        };
+        for i in 0..n {
+            let change = (0..n).fold(Dual64::from_re(0.0), |sum, j| sum + residual[j] * inverse[(i, j)]);
+            lambda[i] -= change;
+        }
+    }
+    lambda
+}
+
+/// With ζ = Σ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + a² dζ at q0 the same with b at q1, to rounding errors.
+#[test]
+fn a_step_preserves_the_form_of_its_ends() -> Outcome {
+    let (t, n) = (0.2, MIRROR.len());
+    for (method, symmetric, a, b) in
+        [(Projected::symmetric(), true, 1.0, 1.0), (Projected::standard(), false, 0.0, -1.0)]
+    {
+        for h in [0.05, 0.1, 0.5] {
+            let functions = jacobian(&MIRROR, 4 * n, |q0| {
+                let q1 = stepped(&Mirror, &method, q0, [t, h], 1)?;
+                let lambda = lambda(&Mirror, symmetric, [q0, &q1], [t, h]);
+                let zeta = |q: &[Dual64], t: f64| {
+                    let entries = combined(&Mirror, q, t, [0.0, 1.0]);
+                    (0..n)
+                        .map(|i| {
+                            (0..n).fold(Dual64::from_re(0.0), |sum, j| sum + entries[i * n + j] * lambda[j])
+                        })
+                        .collect::<Vec<_>>()
+                };
+                let (before, after) = (zeta(q0, t), zeta(&q1, t + h));
+                Ok([q1, lambda, before, after].concat())
+            })?;
+            let part = |k: usize| functions.rows(k * n, n).into_owned();
+            let [tangent, lambda, before, after] = [0, 1, 2, 3].map(part);
+            // dζ of ζᵢ dλⁱ.
+            let d = |zeta: &DMatrix<f64>| zeta.transpose() * &lambda - lambda.transpose() * zeta;
+            let end = stepped(&Mirror, &method, &MIRROR, [t, h], 1)?;
+            let at_start = omega(&Mirror, &MIRROR, t) + d(&before) * (a * a);
+            let at_end = tangent.transpose() * omega(&Mirror, &end, t + h) * &tangent + d(&after) * (b * b);
+            let (lost, without) = ((&at_end - &at_start).amax(), defect(&Mirror, &method, &MIRROR, h, 1)?);
+            assert!(lost < 1e-13, "{method:?}, h = {h}: {lost:e}, and {without:e} of Ω");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_symmetric_projection_goes_back() -> Outcome {
+    let there = stepped(&Mirror, &Projected::symmetric(), &MIRROR, [0.2, 0.1], 200)?;
+    let back = stepped(&Mirror, &Projected::symmetric(), &there, [20.2, -0.1], 200)?;
+    assert!(apart(&back, &MIRROR) < 1e-12, "{back:?}");
+    let there = stepped(&Mirror, &Projected::standard(), &MIRROR, [0.2, 0.1], 200)?;
+    let back = stepped(&Mirror, &Projected::standard(), &there, [20.2, -0.1], 200)?;
+    assert!(apart(&back, &MIRROR) > 1e-6, "the standard one does not: {back:?}");
+    Ok(())
+}
+
+/// Where α is affine, λ = 0, and both are the implicit midpoint rule.
+#[test]
+fn projections_are_the_midpoint_rule_where_the_form_is_affine() -> Outcome {
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = 0.5 * (x * d(y) - y * d(x)) + x * d(x),
+        hamiltonian = y * y / 2.0 - x.cos() + (x * y).sin() / 8.0,
+    )]
+    struct Affine;
+    let q0 = [0.7, -0.4];
+    let rule = stepped(&Affine, &Gauss::<1>::new(), &q0, [0.0, 0.1], 500)?;
+    for method in [Projected::symmetric(), Projected::standard()] {
+        let found = stepped(&Affine, &method, &q0, [0.0, 0.1], 500)?;
+        assert!(apart(&found, &rule) < 1e-11, "{method:?}: {found:?} and {rule:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn failures_are_values() -> Outcome {
+    // Ω is zero for γ = 0.
+    let none = SphereForm { gamma: 0.0 };
+    let start = SphereFormState { phi: 0.4, z: 0.3 };
+    let error = Integrator::new(&none, Projected::symmetric(), 0.1, start).err();
+    assert!(matches!(error, Some(StartError::Starter(StepFailure::Singular { .. }))), "{error:?}");
+    // Prey beyond zero has no logarithm; the last good state is kept.
+    let q0 = [1e-3, 30.0];
+    let start = dvi_tests::systems::LotkaVolterraState { x: q0[0], y: q0[1] };
+    let mut run = Integrator::new(&PREY, Projected::symmetric(), 2.0, start)?;
+    let error = run.take_steps(1000).err().ok_or("no error")?;
+    assert!(run.state().x > 0.0 && run.state().y > 0.0, "{error}");
+    assert_eq!(run.steps(), error.step);
+    Ok(())
+}
