@@ -1,6 +1,7 @@
 //! The methods, and what one is to a run.
 //!
-//! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it. For regular systems:
+//! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it, and
+//! [`Projected`] where it does not. For regular systems:
 //! [`Variational`], [`Galerkin`], [`Newmark`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
 //! motion. Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that
 //! has no method, as [`Symmetrised`] has none.

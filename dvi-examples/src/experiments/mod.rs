@@ -4,6 +4,7 @@ mod barnes;
 mod chaotic;
 mod double_pendulum;
 mod energy;
+mod guiding_centre;
 mod kepler;
 mod kepler_frequency;
 mod kepler_long;
@@ -44,4 +45,5 @@ pub const ALL: &[Experiment] = &[
     double_pendulum::EXPERIMENT,
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
+    guiding_centre::EXPERIMENT,
 ];

@@ -4,10 +4,12 @@ mod double_pendulum;
 mod kepler;
 mod oscillators;
 mod predators;
+mod tokamak;
 mod vortices;
 
 pub use double_pendulum::*;
 pub use kepler::*;
 pub use oscillators::*;
 pub use predators::*;
+pub use tokamak::*;
 pub use vortices::*;

@@ -2,11 +2,12 @@
 
 use dvi_core::prelude::*;
 
-/// Lotka–Volterra with a one-form along x only: in the class of one-step schemes.
+/// Lotka–Volterra with a gauge that leaves a one-form along x only: in the class of one-step schemes.
 #[degenerate_lagrangian(
     coordinates(x, y),
-    one_form    = y.ln() / x * d(x),
+    one_form    = (y.ln() / x * d(x) - x.ln() / y * d(y)) / 2.0,
     hamiltonian = x - x.ln() + y - 2.0 * y.ln(),
+    gauge       = auto,
 )]
 #[derive(Clone, Debug)]
 pub struct OneSidedPredators {}

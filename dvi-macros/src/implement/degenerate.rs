@@ -155,7 +155,7 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
             message = #message,
             label = "takes systems of that class only",
             note = #advice,
-            note = "`Gauss` and `Sigma` step any degenerate system"
+            note = "`Gauss` and `Projected` step any degenerate system"
         )]
         trait #lacking {}
         #allow
