@@ -1,4 +1,4 @@
-//! The generated steps beside the same schemes by hand: four vortices, and Kepler's problem.
+//! The generated steps beside the same schemes by hand: four vortices, Kepler's problem, predators and prey.
 //!
 //! `cargo bench -p dvi-benches --bench steps`; the times of a pair are to be compared with each
 //! other, in one run.

@@ -26,7 +26,7 @@ use crate::state::history::{History, is_similar};
 use crate::state::memory::{Memory, lasting};
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
 pub use gauss::{OneStepGauss, OneStepGaussMemory};
-use split::Split;
+use split::{Split, copy_x, is_x};
 use stage::{Node, Stage, Step};
 
 /// A one-step scheme for degenerate systems in class: [`ProperlyDegenerate`].
@@ -149,7 +149,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
         system.one_form(q, t, &mut p);
         let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
         field.evaluate(system, q, t, &mut rates, &mut Statistics::default()).map_err(StartError::Starter)?;
-        split.copy_x(&rates, &mut velocity);
+        copy_x(system, &rates, &mut velocity);
         Ok(OneStepMemory {
             p,
             velocity,
@@ -175,7 +175,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
         // Where steps are long, extrapolation is off, or leads to another branch.
         self.attempt(system, memory, q, [t, h], Guess::Extrapolated, statistics)
             .or_else(|_| self.attempt(system, memory, q, [t, h], Guess::Zero, statistics))?;
-        memory.arrive(q, h);
+        memory.arrive(system, q, h);
         Ok(())
     }
 }
@@ -195,8 +195,8 @@ impl OneStep {
     ) -> Result<(), StepFailure> {
         let half = T::lift(0.5);
         match self.rule {
-            Rule::Midpoint | Rule::Trapezoid => memory.guess(q, h, half, guess),
-            Rule::A | Rule::B => memory.guess(q, h, T::lift(1.0), guess),
+            Rule::Midpoint | Rule::Trapezoid => memory.guess(system, q, h, half, guess),
+            Rule::A | Rule::B => memory.guess(system, q, h, T::lift(1.0), guess),
         }
         match self.rule {
             Rule::Midpoint => self.variational(system, memory, q, [t, h], &[Node::CENTRE], statistics)?,
@@ -225,14 +225,14 @@ impl OneStep {
         let half = T::lift(0.5);
         let OneStepMemory { p, orientation, split, stage, next, .. } = memory;
         stage.momentum.copy_from_slice(p);
-        let step = Step { system, split, q, t, h, nodes, stopping: self.stopping };
+        let step = Step { system, q, t, h, nodes, stopping: self.stopping };
         stage.solve(&step, statistics)?;
         // p1 = p0 + h Σ w f_x, from the nodes at the solution.
         let time = stage.kick(&step, statistics);
         // Between two branches Ω changes its sign.
         orientation.compare(system, &stage.point, time)?;
         for i in 0..q.len() {
-            let is_x = split.is_x(i);
+            let is_x = is_x(system, i);
             // From ȳ on, as far again.
             next[i] =
                 if is_x { q[i] + stage.unknown[i] } else { stage.unknown[i] + (stage.unknown[i] - q[i]) };
@@ -241,7 +241,7 @@ impl OneStep {
         let end = t + h;
         split.solve_y(system, next, end, &stage.momentum, self.stopping, statistics).or_else(|_| {
             // From where y was, if as far again is too far.
-            for i in (0..q.len()).filter(|&i| !split.is_x(i)) {
+            for i in (0..q.len()).filter(|&i| !is_x(system, i)) {
                 next[i] = stage.unknown[i];
             }
             split.solve_y(system, next, end, &stage.momentum, self.stopping, statistics)
@@ -258,7 +258,7 @@ impl OneStep {
         node: Node,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let OneStepMemory { p, velocity, split, stage, next, .. } = memory;
+        let OneStepMemory { p, velocity, stage, next, .. } = memory;
         stage.momentum.copy_from_slice(p);
         let is_b = node == Node::BEGIN;
         next.copy_from_slice(q);
@@ -270,15 +270,15 @@ impl OneStep {
         } else {
             system.gradient(q, velocity, t, &mut stage.gradient, &mut stage.one_form);
             statistics.gradients += 1;
-            for i in (0..q.len()).filter(|&i| split.is_x(i)) {
+            for i in (0..q.len()).filter(|&i| is_x(system, i)) {
                 stage.momentum[i] += h * stage.gradient[i];
             }
             t
         };
-        let step = Step { system, split, q: next, t: begin, h, nodes: &[node], stopping: self.stopping };
+        let step = Step { system, q: next, t: begin, h, nodes: &[node], stopping: self.stopping };
         stage.solve(&step, statistics)?;
         for i in 0..q.len() {
-            if split.is_x(i) {
+            if is_x(system, i) {
                 stage.rates[i] = stage.unknown[i] / h;
                 if !is_b {
                     next[i] = q[i] + stage.unknown[i];
@@ -295,8 +295,8 @@ impl OneStep {
 
 impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
     /// Sets `stage.unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
-    fn guess(&mut self, q: &[T], h: T, c: T, guess: Guess) {
-        let Self { history, last_step, split, stage, .. } = self;
+    fn guess(&mut self, system: &S, q: &Vector<S, T>, h: T, c: T, guess: Guess) {
+        let Self { history, last_step, stage, .. } = self;
         guess.begin(&mut stage.unknown, |rates| {
             match is_similar(h, *last_step) || *last_step == T::lift(0.0) {
                 true => history.extrapolate(rates),
@@ -304,16 +304,16 @@ impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
             }
         });
         for (i, unknown) in stage.unknown.iter_mut().enumerate() {
-            *unknown = if split.is_x(i) { h * *unknown } else { q[i] + c * h * *unknown };
+            *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
         }
     }
 
     /// Moves to `next`, with the momentum and the rates of the stage.
-    fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {
-        let Self { p, velocity, history, last_step, split, stage, next, .. } = self;
+    fn arrive(&mut self, system: &S, q: &mut Vector<S, T>, h: T) {
+        let Self { p, velocity, history, last_step, stage, next, .. } = self;
         q.copy_from_slice(next);
         p.copy_from_slice(&stage.momentum);
-        split.copy_x(&stage.rates, velocity);
+        copy_x(system, &stage.rates, velocity);
         if !is_similar(h, *last_step) {
             history.clear();
         }

@@ -1,6 +1,7 @@
 //! The steps that are measured: generated, and beside each the same scheme by hand.
 
 mod kepler_by_hand;
+mod predators_by_hand;
 mod vortices_by_hand;
 
 use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
@@ -9,11 +10,12 @@ use dvi_core::state::Statistics;
 use dvi_core::{Space, Vector};
 use dvi_tests::configurations;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
+use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 9] = [
+pub(crate) const KERNELS: [[&str; 2]; 10] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["explicit, parasitic mode limited/generated", "explicit, parasitic mode limited/by hand"],
@@ -23,6 +25,7 @@ pub(crate) const KERNELS: [[&str; 2]; 9] = [
     ["Kepler, Verlet/generated", "Kepler, Verlet/by hand"],
     ["Kepler, Simpson fitted to √(|a|÷|q|)/generated", "Kepler, Simpson fitted to √(|a|÷|q|)/by hand"],
     ["Kepler, Simpson fitted to r^(−3÷2)/generated", "Kepler, Simpson fitted to r^(−3÷2)/by hand"],
+    ["predators, one step/generated", "predators, one step/by hand"],
 ];
 
 const H: f64 = 0.1;
@@ -74,6 +77,12 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
             midpoint.z[0]
         }
         "Kepler, Verlet/generated" => verlet(steps),
+        "predators, one step/generated" => one_step(steps),
+        "predators, one step/by hand" => {
+            let mut scheme = predators_by_hand::OneStepMidpoint::new(H, black_box([2.0, 1.0]));
+            (0..steps).for_each(|_| scheme.step());
+            scheme.q[0]
+        }
         "Kepler, Simpson fitted to √(|a|÷|q|)/generated" => {
             fitted_simpson(Radial(Reading::Averaged), steps)
         }
@@ -139,6 +148,20 @@ fn implicit(solver: Solver) -> Sigma {
 
 fn stopping() -> Stopping {
     Stopping { tolerance: 1e-12, ..Stopping::default() }
+}
+
+#[inline(never)]
+fn one_step(steps: u64) -> f64 {
+    let system = black_box(OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] });
+    let mut method = OneStep::midpoint();
+    method.stopping = stopping();
+    let Ok(mut run) = Integrator::new(&system, method, H, OneSidedState { x: 2.0, y: 1.0 }) else {
+        return f64::NAN;
+    };
+    match run.take_steps(steps) {
+        Ok(()) => run.q()[0],
+        Err(_) => f64::NAN,
+    }
 }
 
 /// e = 0.2, 200 steps a period.

@@ -7,7 +7,7 @@
 //!
 //! As A is regular and α has no component along y, the rows of y say that F vanishes along y at each stage.
 
-use super::split::Split;
+use super::split::{Split, is_x};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -201,7 +201,7 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
         for (i, (momentum, &p)) in momentum.iter_mut().zip(p.iter()).enumerate() {
             let impulse = tableau.b.iter().zip(forces.iter()).map(|(&b, f)| T::lift(b) * f[i]);
             let impulse = impulse.fold(T::lift(0.0), |sum, term| sum + term);
-            *momentum = if split.is_x(i) { p + h * impulse } else { T::lift(0.0) };
+            *momentum = if is_x(system, i) { p + h * impulse } else { T::lift(0.0) };
         }
         split.solve_y(system, next, t + h, momentum, stopping, statistics)?;
         norm::finite(next)?;

@@ -20,6 +20,20 @@ pub(super) struct Split<S: System, T: Real> {
     change: Vector<S, T>,
 }
 
+/// Whether α has a component along coordinate `i`: the compiler knows it where sizes are literals.
+#[inline(always)]
+pub(super) fn is_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, i: usize) -> bool {
+    2 * system.place(i) < system.space().dimension()
+}
+
+/// Sets `to` to `from` along x, and to zero along y.
+#[inline(always)]
+pub(super) fn copy_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, from: &[T], to: &mut [T]) {
+    for (i, (&from, to)) in from.iter().zip(to).enumerate() {
+        *to = if is_x(system, i) { from } else { T::lift(0.0) };
+    }
+}
+
 impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
@@ -28,19 +42,6 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
             *place = system.place(coordinate);
         }
         Self { places, block: space.matrix(), form: space.vector(), change: space.vector() }
-    }
-
-    /// Whether α has a component along coordinate `i`.
-    #[inline(always)]
-    pub(super) fn is_x(&self, i: usize) -> bool {
-        2 * self.places[i] < self.places.len()
-    }
-
-    /// Sets `to` to `from` along x, and to zero along y.
-    pub(super) fn copy_x(&self, from: &[T], to: &mut [T]) {
-        for (i, (&from, to)) in from.iter().zip(to).enumerate() {
-            *to = if self.is_x(i) { from } else { T::lift(0.0) };
-        }
     }
 
     /// Improves y in `q` until ϑ(q, t) = `p`.

@@ -5,7 +5,7 @@
 //! at the points (x0 + cⱼΔ, ȳ) with the velocity Δ/h along x. With R = 1 − cⱼ in rows of x and ½ in rows of y, and C = cⱼ in
 //! columns of Δ and 1 in those of ȳ, the matrix is Σⱼ wⱼ(C L_vq − R L_qv − h R C L_qq).
 
-use super::split::Split;
+use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
@@ -33,8 +33,7 @@ impl Node {
 #[derive(Debug)]
 pub(super) struct Step<'a, S: System, T: Real> {
     pub(super) system: &'a S,
-    pub(super) split: &'a Split<S, T>,
-    pub(super) q: &'a [T],
+    pub(super) q: &'a Vector<S, T>,
     pub(super) t: T,
     pub(super) h: T,
     pub(super) nodes: &'a [Node],
@@ -93,7 +92,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         let solved = iterate(convergence, statistics, |statistics| {
             statistics.linearizations += nodes.len() as u64;
             statistics.factorisations += 1;
-            let work = [&mut **point, &mut **velocity, &mut **gradient, &mut **one_form];
+            let work = [&mut *point, &mut *velocity, &mut *gradient, &mut *one_form];
             let mut equations = Equations { step, unknown: &*unknown, momentum: &*momentum, work };
             solver.solve(&mut equations, correction)?;
             norm::finite(correction)?;
@@ -104,7 +103,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         });
         solved.or_else(|failure| {
             failure.unless_rounding(|| {
-                let work = [&mut **point, &mut **velocity, &mut **gradient, &mut **one_form];
+                let work = [&mut *point, &mut *velocity, &mut *gradient, &mut *one_form];
                 let equations = Equations { step, unknown: &*unknown, momentum: &*momentum, work };
                 solver.solve(&mut OfMomentum(equations), correction)?;
                 Ok(norm::largest(correction))
@@ -121,7 +120,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
             step.system.gradient(point, velocity, time, gradient, one_form);
             statistics.gradients += 1;
             let weight = step.h * T::lift(node.weight);
-            for i in (0..momentum.len()).filter(|&i| step.split.is_x(i)) {
+            for i in (0..momentum.len()).filter(|&i| is_x(step.system, i)) {
                 momentum[i] += weight * gradient[i];
             }
         }
@@ -131,10 +130,17 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
     /// Sets `point` and `velocity` to those of `node`, and returns its time.
-    fn place(&self, unknown: &[T], node: &Node, point: &mut [T], velocity: &mut [T]) -> T {
+    #[inline(always)]
+    fn place(
+        &self,
+        unknown: &Vector<S, T>,
+        node: &Node,
+        point: &mut Vector<S, T>,
+        velocity: &mut Vector<S, T>,
+    ) -> T {
         let (c, per_h) = (T::lift(node.c), T::lift(1.0) / self.h);
         for i in 0..unknown.len() {
-            [point[i], velocity[i]] = if self.split.is_x(i) {
+            [point[i], velocity[i]] = if is_x(self.system, i) {
                 [self.q[i] + c * unknown[i], per_h * unknown[i]]
             } else {
                 [unknown[i], T::lift(0.0)]
@@ -146,16 +152,17 @@ impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
 
 struct Equations<'a, S: System, T: Real> {
     step: &'a Step<'a, S, T>,
-    unknown: &'a [T],
-    momentum: &'a [T],
+    unknown: &'a Vector<S, T>,
+    momentum: &'a Vector<S, T>,
     /// A point, a velocity, and the first derivatives of L there.
-    work: [&'a mut [T]; 4],
+    work: [&'a mut Vector<S, T>; 4],
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
+    #[inline(always)]
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { step, unknown, momentum, work: [point, velocity, gradient, one_form] } = self;
-        let Step { system, split, h, nodes, .. } = **step;
+        let Step { system, h, nodes, .. } = **step;
         let half = T::lift(0.5);
         for (i, b) in b.iter_mut().enumerate() {
             *b = -momentum[i];
@@ -163,14 +170,14 @@ impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, 
         for node in nodes {
             let (weight, c) = (T::lift(node.weight), T::lift(node.c));
             let time = step.place(unknown, node, point, velocity);
-            let row = |row: usize| weight * if split.is_x(row) { T::lift(1.0) - c } else { half };
-            let column = |column: usize| if split.is_x(column) { c } else { T::lift(1.0) };
+            let row = |row: usize| weight * if is_x(system, row) { T::lift(1.0) - c } else { half };
+            let column = |column: usize| if is_x(system, column) { c } else { T::lift(1.0) };
             let zero = T::lift(0.0);
             let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
             if *node == Node::CENTRE {
                 // Of this node, R is ½ in all rows.
                 let w = Weights { qq: -half * half * h, qv: -half, vq: half, vv: zero };
-                let factor = |_: usize, column: usize| T::lift(if split.is_x(column) { 1.0 } else { 2.0 });
+                let factor = |_: usize, column: usize| T::lift(if is_x(system, column) { 1.0 } else { 2.0 });
                 system.linearize(point, velocity, time, w, gradient, one_form, &mut Scaled { sink, factor });
             } else {
                 let mut add = |w: Weights<T>, factor: &dyn Fn(usize, usize) -> T| {
