@@ -28,7 +28,13 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         let formulas = stages.degenerate_formulas()?;
         stages.barrier()?;
         let form_entries = stages.graph.hessian(formulas.one_form);
-        let structure = OneForm::new(&mut stages.graph, &stages.model, formulas.one_form, &form_entries);
+        let structure = OneForm::new(
+            &mut stages.graph,
+            &stages.model,
+            formulas.one_form,
+            &form_entries,
+            formulas.declared,
+        );
         structure.check(&stages.model, stages.attribute.symplectic_part(), &mut stages.errors);
         stages.barrier()?;
         let canonical = structure.canonical;

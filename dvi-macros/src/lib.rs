@@ -101,15 +101,20 @@ use proc_macro::TokenStream;
 /// # Gauges
 ///
 /// One-step schemes need an α without a component along one half of the coordinates, and α + dF may be of that kind where α is
-/// not. With a gauge, components of α + dF are added up and multiplied out, so that what cancels is seen.
+/// not. With a gauge, components of α + dF are added up and multiplied out, unless that is too long, so that what cancels is
+/// seen.
 ///
 /// `gauge = auto` looks for an F for each half of the coordinates that is made of whole blocks, and takes the one with the
-/// shortest α. It integrates the components along that half term by term: powers, roots, logarithms, exponentials,
-/// trigonometric and hyperbolic functions of what is linear in a coordinate, by substitution, by parts and in both branches of
-/// an `if`. The report prints what it has found, and the self-check holds the generated functions against it as if it had been
-/// written. A search that ends without an answer is an error that says what could not be integrated. An F with the logarithm of
-/// a coordinate is written as `x.ln()` if a formula takes the logarithm or the root of that coordinate, else as
-/// `0.5 * x.powi(2).ln()`.
+/// shortest α, without the time in F if there is a choice. It integrates the components along that half term by term: powers,
+/// and the exponential, logarithm, sine, cosine, their hyperbolic relatives and `erf` of what is linear in a coordinate;
+/// products f(w)·w' by substitution; polynomials times exponentials, sines and cosines by parts; and both branches of an `if`
+/// whose condition does not depend on the coordinate. Many other functions have an antiderivative that it does not know. The report
+/// prints what it has found, and the self-check holds the generated functions against it as if it had been written. A search
+/// that ends without an answer is an error with the reason.
+///
+/// Coordinates and the time stand in no denominator of F that has none in α. Parameters do if nothing else is found, as in
+/// `x * (k * y).cos() / k`, and the report says so: F is no number where such a parameter is 0. The integral of 1/x is `x.ln()`
+/// if α takes the logarithm or the root of x, else `0.5 * x.powi(2).ln()`.
 ///
 /// # Sizes
 ///

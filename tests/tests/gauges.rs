@@ -9,8 +9,11 @@ use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Points in the first quadrant, with logarithms and roots.
-const POINTS: [[f64; 6]; 3] =
-    [[0.7, 1.3, 0.4, 0.9, 1.6, 0.5], [1.1, 0.3, 0.8, 1.4, 0.6, 1.2], [0.2, 0.9, 1.5, 0.5, 1.3, 0.8]];
+const POINTS: [[f64; 10]; 3] = [
+    [0.7, 1.3, 0.4, 0.9, 1.6, 0.5, 0.3, 1.2, 0.8, 0.6],
+    [1.1, 0.3, 0.8, 1.4, 0.6, 1.2, 0.5, 0.9, 1.3, 0.4],
+    [0.2, 0.9, 1.5, 0.5, 1.3, 0.8, 1.1, 0.6, 0.7, 1.4],
+];
 
 /// The matrix a Dα + b (Dα)ᵀ, row by row.
 fn jacobian<S: DegenerateLagrangian<f64>>(system: &S, q: &[f64], t: f64, [a, b]: [f64; 2]) -> Vec<f64> {
@@ -95,6 +98,11 @@ fn a_gauge_is_found_for_twenty_systems() {
             k * x[0] * y[1] + g[0] * x[2];
         Errors(x, y): x * (y / 2.0).erf() * d(y) + y.powi(3) * x * d(x), k * x + g[0] * y;
         Shear(x, y): x * (2.0 * y + 1.0).ln() * d(y) + (y + x * x).sin() * d(x), k * x + g[0] * y;
+        Step(x, y): x * y.tanh() * d(y) + (x * x * y).exp() * d(x), k * x + g[0] * y;
+        Fraction(x, y): x * y.powf(0.1) * d(y) + (x * x * y).exp() * d(x), k * x + g[0] * y;
+        Powers4(a, b, p, q): a * d(p) + b * d(q) + (a + b + p + q).powi(6) * (d(a) + d(b) + d(p) + d(q)), k * a * p + g[0] * b;
+        Pairs5(x0, p0, x1, p1, x2, p2, x3, p3, x4, p4): (p0 * d(x0) - x0 * d(p0) + p1 * d(x1) - x1 * d(p1) + p2 * d(x2)
+            - x2 * d(p2) + p3 * d(x3) - x3 * d(p3) + p4 * d(x4) - x4 * d(p4)) / 2.0, k * x0 + g[0] * p4 * x2;
     );
 }
 
@@ -218,4 +226,25 @@ fn functions_of_the_user_stand_in_gauges() {
         assert!(apart(&expected, &form) < 1e-14, "{form:?}");
         have_the_same_motion(&declared, &gauged);
     }
+}
+
+/// Where there is a choice, no parameter is divided by, so that it may be zero; where there is none, the report says so.
+#[test]
+fn parameters_stand_in_denominators_as_a_last_resort() {
+    macro_rules! sentences {
+        ($form:expr) => {{
+            #[degenerate_lagrangian(coordinates(x, y), one_form = $form, hamiltonian = x * x + y * y, gauge = auto)]
+            struct Any {
+                k: f64,
+            }
+            let mut form = [0.0_f64; 2];
+            Any { k: 0.0 }.one_form(&[0.7, 0.4], 0.0, &mut form);
+            let said = Any::REPORT.structure.iter().any(|sentence| sentence.contains("F is divided by `k`"));
+            (form.iter().all(|form| form.is_finite()), said)
+        }};
+    }
+    let root = sentences!((x * (1.0 + k * y).sqrt() * d(y) - y * d(x)) / 2.0);
+    let cube = sentences!((x * (1.0 + k * y).powi(3) * d(y) - y * d(x)) / 2.0);
+    let cosine = sentences!(x * (k * y).sin() * d(y) + (x * x * y).exp() * d(x));
+    assert_eq!([root, cube, cosine], [(true, false), (true, false), (false, true)]);
 }

@@ -5,7 +5,7 @@ use syn::Expr as Syntax;
 use super::Stages;
 use crate::lower::{Lowering, Role};
 use crate::program::{DegenerateFormulas, RegularFormulas};
-use crate::structure::gauge::{self, Search};
+use crate::structure::gauge::{self, Effort, Search};
 use crate::symbolic::{Expr, Graph, Node};
 use crate::syntax::{Attribute, Gauge};
 
@@ -22,7 +22,7 @@ impl Stages {
             Some(gauge) => self.with_gauge(declared, gauge),
             None => declared,
         };
-        Some(DegenerateFormulas { one_form, hamiltonian, gauge, momenta })
+        Some(DegenerateFormulas { one_form, hamiltonian, gauge, declared: declared.0, momenta })
     }
 
     /// F, written or found; `None` inside if there is none.
@@ -35,7 +35,11 @@ impl Stages {
                 if !self.errors.is_empty() {
                     return None;
                 }
-                match gauge::search(&self.graph, &self.model, one_form?) {
+                // What is wrong with an odd number of coordinates is said elsewhere.
+                if self.model.dimension().as_literal().is_some_and(|dimension| dimension % 2 != 0) {
+                    return Some(None);
+                }
+                match gauge::search(&self.graph, &self.model, one_form?, Effort::Asked) {
                     Search::NotNeeded => return Some(None),
                     Search::Found(found) => self.attribute.gauge = Some(Gauge::Formula(found.formula)),
                     Search::None(reason) => {

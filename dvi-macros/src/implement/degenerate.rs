@@ -6,9 +6,10 @@ use quote::{format_ident, quote};
 use super::document::{Account, quantity};
 use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
+use crate::errors::listed;
 use crate::program::{DegenerateFormulas, DegeneratePrograms};
 use crate::structure::{Class, Components, OneForm};
-use crate::symbolic::{Index, print_coordinate};
+use crate::symbolic::{Expr, Index, Node, print_coordinate};
 use crate::validate::Checked;
 
 pub(crate) fn degenerate(
@@ -48,6 +49,13 @@ fn account(
     if formulas.gauge.is_some() {
         account.sentence("α and H contain the gauge F: dF/dt is added to L.".to_string());
     }
+    let divisors = formulas.gauge.map_or_else(Vec::new, |gauge| divisors(emitter, gauge));
+    if !divisors.is_empty() {
+        account.sentence(format!(
+            "F is divided by {}: it is no number where that is 0, and loses digits where that is small.",
+            listed(divisors.iter().map(String::as_str))
+        ));
+    }
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
@@ -56,6 +64,28 @@ fn account(
         format!("∂H/∂{}", coordinate(entry))
     });
     account
+}
+
+/// The parameters in denominators of a function in which neither coordinates stand nor the time.
+fn divisors(emitter: &Emitter<'_>, function: Expr) -> Vec<String> {
+    let graph = emitter.graph;
+    let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Time);
+    let mut names = Vec::new();
+    for id in graph.reachable([function.node]) {
+        let Node::Reciprocal(of) = *graph.node(id) else { continue };
+        if graph.depends(of, varies) {
+            continue;
+        }
+        for below in graph.reachable([of]) {
+            if let Node::Parameter(parameter) = graph.node(below) {
+                let name = emitter.model.parameters[parameter.field as usize].text.clone();
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+        }
+    }
+    names
 }
 
 /// The implementation of `DegenerateLagrangian`.
@@ -136,7 +166,7 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
          has components along {components}",
         model.item.ident
     );
-    let advice = class.advice().map_or_else(
+    let advice = class.advice.as_ref().map_or_else(
         || {
             "the motion is the same for α + dF with any function F, written `gauge = F`: choose F such that the \
              components along one half of the coordinates vanish, as in ½ (x dy - y dx) + d(½ x y) = x dy"

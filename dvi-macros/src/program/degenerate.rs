@@ -15,6 +15,8 @@ pub(crate) struct DegenerateFormulas {
     pub(crate) hamiltonian: Expr,
     /// F, if there is one.
     pub(crate) gauge: Option<Expr>,
+    /// α·v without it.
+    pub(crate) declared: Expr,
     pub(crate) momenta: Vec<Expr>,
 }
 

@@ -3,7 +3,7 @@
 //! With α = ϑ(x, y)·dx the discrete equations of such schemes couple two points and not three (Ellison et al. 2018). It is
 //! a property of the one-form as it is written: α and α + dF have the same motion.
 
-use super::gauge::{self, Found, Search};
+use super::gauge::{self, Effort, Found, Search};
 use crate::model::Model;
 use crate::program::{Variable, variable};
 use crate::symbolic::{Atom, Coordinate, Expr, Graph, Index, Loop};
@@ -24,8 +24,8 @@ pub(crate) struct Class {
     pub(crate) components: Vec<Components>,
     /// Whether the coordinates without a component are half of all.
     pub(crate) is_proper: bool,
-    /// Out of class, a gauge that would bring α into it, if one is known.
-    pub(crate) gauge: Option<Found>,
+    /// Out of class, what is said of the gauge that would help, if one is known.
+    pub(crate) advice: Option<String>,
 }
 
 /// Takes note of a coordinate that is touched in some loops.
@@ -64,23 +64,30 @@ impl Class {
                 touch(&mut components, model, &coordinate, &contribution.loops);
             }
         }
-        let mut class = Self { components, is_proper: false, gauge: None };
+        let mut class = Self { components, is_proper: false, advice: None };
         class.is_proper = class.size(model, true) == class.size(model, false);
         class
     }
 
-    /// The same with a gauge, where α is out of class and one is found.
-    pub(crate) fn with_gauge(mut self, graph: &Graph, model: &Model, one_form: Expr) -> Self {
-        if let Search::Found(found) = gauge::search(graph, model, one_form) {
-            self.gauge = Some(found);
+    /// The same with advice, where α is out of class and a gauge would help in place of that which there is, if any.
+    pub(crate) fn with_advice(
+        mut self,
+        graph: &Graph,
+        model: &Model,
+        declared: Expr,
+        has_gauge: bool,
+    ) -> Self {
+        if !self.is_proper {
+            self.advice = match gauge::search(graph, model, declared, Effort::Advice) {
+                Search::Found(Found { text, without, .. }) => {
+                    let instead = if has_gauge { " in place of the gauge that is written" } else { "" };
+                    Some(format!("`gauge = {text}`{instead} would leave none along {}", without.join(", ")))
+                }
+                Search::NotNeeded => Some("`gauge` left out would leave it in class".to_string()),
+                Search::None(_) => None,
+            };
         }
         self
-    }
-
-    /// What is said of the gauge that would help.
-    pub(crate) fn advice(&self) -> Option<String> {
-        let Found { text, without, .. } = self.gauge.as_ref()?;
-        Some(format!("`gauge = {text}` would leave none along {}", without.join(", ")))
     }
 
     /// Whether a matrix with entries at these places has a row or a column without one.
@@ -139,7 +146,7 @@ impl Class {
     /// What is said of the class in reports.
     pub(crate) fn sentence(&self, model: &Model) -> String {
         let [with, without] = [true, false].map(|with| self.names(model, with).join(", "));
-        let advice = self.advice().map_or_else(String::new, |advice| format!(" {advice}."));
+        let advice = self.advice.as_ref().map_or_else(String::new, |advice| format!(" {advice}."));
         match self.is_proper {
             true => format!("α has no component along {without}: one-step schemes can be used."),
             false => format!(

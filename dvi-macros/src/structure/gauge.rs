@@ -9,16 +9,38 @@
 use syn::Expr as Syntax;
 
 use super::Class;
+use super::one_form::omega;
 use crate::errors::listed;
 use crate::model::Model;
-use crate::symbolic::{Contribution, Expr, Graph, Id, Index, Node, print_expr, print_loops, write_expr};
+use crate::symbolic::{
+    Contribution, Expr, Graph, Id, Index, Node, Terms, print_expr, print_loops, write_expr,
+};
 
 /// A one-form of more nodes than these is not searched.
 const LONGEST: usize = 400;
-/// A search that has made so many nodes ends without an answer.
-const MOST_NODES: u32 = 6000;
 /// So many halves are tried.
 const MOST_HALVES: usize = 70;
+/// Halves of more blocks are not listed.
+const MOST_BLOCKS: usize = 16;
+
+/// What a search may cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Effort {
+    /// The user asks for the best gauge.
+    Asked,
+    /// The first one is good advice, if it is found at once.
+    Advice,
+}
+
+impl Effort {
+    /// A search that has made so many nodes ends without an answer.
+    fn most_nodes(self) -> u32 {
+        match self {
+            Self::Asked => 6000,
+            Self::Advice => 1500,
+        }
+    }
+}
 
 /// What a search has come to.
 pub(crate) enum Search {
@@ -43,11 +65,13 @@ enum Lacking {
     Antiderivative(Contribution),
     Gradient,
     Words,
+    /// This function of the user's has no third derivative.
+    ThirdDerivative(u32),
     /// The search has become too long.
     Room,
 }
 
-pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr) -> Search {
+pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effort) -> Search {
     let mut graph = graph.clone();
     if Class::new(&mut graph, model, one_form).is_proper {
         return Search::NotNeeded;
@@ -55,64 +79,112 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr) -> Search {
     if graph.reachable([one_form.node]).len() > LONGEST {
         return Search::None("the one-form is too long for the search".to_string());
     }
-    let halves = halves(model);
+    if model.blocks.len() > MOST_BLOCKS {
+        return Search::None(format!("the search takes at most {MOST_BLOCKS} blocks of coordinates"));
+    }
+    let coupled = coupled(&mut graph, model, one_form);
+    let (all, halves) = halves(model, &coupled);
     if halves.is_empty() {
-        let reason =
-            "no blocks of coordinates together are half of all, and the search takes a block as a whole";
+        let reason = match all {
+            0 => "no blocks of coordinates together are half of all, and the search takes a block as a whole",
+            _ => "Ω couples coordinates of every half to each other",
+        };
         return Search::None(reason.to_string());
     }
-    let written = graph.next();
+    let components = graph.components(one_form, Expr::ZERO);
+    let positive = graph.positive(components.iter().map(|part| part.value.node));
     let mut reasons = Vec::new();
-    let mut best: Option<(usize, Found)> = None;
-    for half in halves.into_iter().take(MOST_HALVES) {
-        let attempt = clear(&mut graph, model, one_form, &half, written).and_then(|function| {
-            let form = graph.with_differential(one_form, function);
-            let found = found(&mut graph, model, form, function).ok_or(Lacking::Words)?;
-            Ok((graph.reachable([form.node]).len(), found))
-        });
-        match attempt {
-            Ok((length, found)) if best.as_ref().is_none_or(|(known, _)| length < *known) => {
-                best = Some((length, found));
+    let mut best: Option<((bool, usize), Found)> = None;
+    // Denominators with parameters in them are a last resort.
+    for may_divide in [false, true] {
+        let last = Id(graph.next().0 + effort.most_nodes());
+        let terms = Terms { positive: &positive, may_divide, last };
+        for half in halves.iter().take(MOST_HALVES) {
+            let attempt = clear(&mut graph, model, one_form, half, terms).and_then(|function| {
+                let form = graph.with_differential(one_form, function);
+                let found = found(&mut graph, model, form, function)?;
+                let depends_on_time = graph.depends(function.node, |node| matches!(node, Node::Time));
+                Ok(((depends_on_time, graph.reachable([form.node]).len()), found))
+            });
+            match attempt {
+                Ok((cost, found)) if best.as_ref().is_none_or(|(known, _)| cost < *known) => {
+                    best = Some((cost, found));
+                }
+                Ok(_) => {}
+                Err(lacking) => reasons.push(lacking.sentence(&graph, model, half)),
             }
-            Ok(_) => {}
-            Err(lacking) => reasons.push(lacking.sentence(&graph, model, &half)),
+            if best.is_some() && effort == Effort::Advice {
+                break;
+            }
+        }
+        if best.is_some() || effort == Effort::Advice {
+            break;
         }
     }
     match best {
         Some((_, found)) => Search::Found(found),
         None => {
-            reasons.dedup();
-            reasons.truncate(2);
-            Search::None(reasons.join("; "))
+            let mut said: Vec<String> = Vec::new();
+            for reason in reasons {
+                if !said.contains(&reason) {
+                    said.push(reason);
+                }
+            }
+            said.truncate(2);
+            Search::None(said.join("; "))
         }
     }
 }
 
 /// F as text, if α + dF is in class.
-fn found(graph: &mut Graph, model: &Model, form: Expr, function: Expr) -> Option<Found> {
+fn found(graph: &mut Graph, model: &Model, form: Expr, function: Expr) -> Result<Found, Lacking> {
     let class = Class::new(graph, model, form);
-    let is_known =
-        |node: &Node| !matches!(node, Node::Call(number, ..) if !model.has_third_derivative(*number));
-    if !graph.reachable([function.node]).into_iter().all(|id| is_known(graph.node(id))) {
-        return None;
+    let below = graph.reachable([function.node]);
+    let lacking = below.into_iter().find_map(|id| match graph.node(id) {
+        Node::Call(number, ..) if !model.has_third_derivative(*number) => Some(*number),
+        _ => None,
+    });
+    if let Some(number) = lacking {
+        return Err(Lacking::ThirdDerivative(number));
     }
-    let text = write_expr(graph, function, model)?;
-    let formula = syn::parse_str(&text).ok()?;
-    class.is_proper.then(|| Found { text, formula, without: class.names(model, false) })
+    let text = write_expr(graph, function, model).ok_or(Lacking::Words)?;
+    let formula = syn::parse_str(&text).map_err(|_| Lacking::Words)?;
+    if !class.is_proper {
+        return Err(Lacking::Gradient);
+    }
+    Ok(Found { text, formula, without: class.names(model, false) })
 }
 
-/// The sets of blocks that make half of the coordinates, those of later blocks first.
-fn halves(model: &Model) -> Vec<Vec<usize>> {
-    const MOST_BLOCKS: usize = 12;
-    let blocks = model.blocks.len();
-    if blocks > MOST_BLOCKS {
-        return Vec::new();
+/// The pairs of single coordinates that Ω couples for certain: no gauge removes the components along both.
+fn coupled(graph: &mut Graph, model: &Model, one_form: Expr) -> Vec<[usize; 2]> {
+    let entries = graph.hessian(one_form);
+    let mut coupled = Vec::new();
+    for entry in omega(graph, &entries) {
+        let pair = [entry.row.block as usize, entry.column.block as usize];
+        let are_single = pair.iter().all(|&block| model.blocks[block].array.is_none());
+        let rest = graph.multiplied_out(entry.value);
+        if are_single && rest.is_some_and(|rest| !rest.is_zero()) && !graph.vanishes(entry.value) {
+            coupled.push(pair);
+        }
     }
-    let members = |set: u32| (0..blocks).filter(move |block| set & (1 << block) != 0);
-    let size =
-        |set: u32| members(set).fold(Index::default(), |sum, block| sum.plus(&model.block_size(block), 1));
-    let all = (1_u32 << blocks) - 1;
-    (1..all).rev().filter(|set| size(*set) == size(all & !set)).map(|set| members(set).collect()).collect()
+    coupled
+}
+
+/// How many sets of blocks make half of the coordinates, and those among them that Ω does not couple to themselves, sets of
+/// later blocks first.
+fn halves(model: &Model, coupled: &[[usize; 2]]) -> (usize, Vec<Vec<usize>>) {
+    let sizes: Vec<Index> = (0..model.blocks.len()).map(|block| model.block_size(block)).collect();
+    let members = |set: u32| (0..sizes.len()).filter(move |block| set & (1 << block) != 0);
+    let are_single = model.blocks.iter().all(|block| block.array.is_none());
+    let size = |set: u32| members(set).fold(Index::default(), |sum, block| sum.plus(&sizes[block], 1));
+    let all = (1_u32 << sizes.len()) - 1;
+    let is_half = |set: &u32| match are_single {
+        true => 2 * set.count_ones() as usize == sizes.len(),
+        false => size(*set) == size(all & !*set),
+    };
+    let halves: Vec<u32> = (1..all).rev().filter(is_half).collect();
+    let is_free = |set: &&u32| !coupled.iter().any(|pair| pair.iter().all(|block| **set & (1 << block) != 0));
+    (halves.len(), halves.iter().filter(is_free).map(|set| members(*set).collect()).collect())
 }
 
 /// A function F such that α + dF has no component along these blocks.
@@ -121,20 +193,19 @@ fn clear(
     model: &Model,
     one_form: Expr,
     half: &[usize],
-    written: Id,
+    terms: Terms<'_>,
 ) -> Result<Expr, Lacking> {
     let mut function = Expr::ZERO;
-    let is_long = |graph: &Graph| graph.next().0 > written.0 + MOST_NODES;
     let mut components = graph.components(one_form, function);
     let rounds = 2 * components.len() + 2 * model.blocks.len();
     for _ in 0..rounds {
-        if is_long(graph) {
+        if graph.next() > terms.last {
             return Err(Lacking::Room);
         }
         let left = components.into_iter().find(|part| half.contains(&block_of(graph, part.target)));
         let Some(part) = left else { return Ok(function) };
         let position = position_of(graph, part.target);
-        let Some(integral) = graph.antiderivative(part.value, position, written) else {
+        let Some(integral) = graph.antiderivative(part.value, position, terms) else {
             return Err(Lacking::Antiderivative(part));
         };
         let term = part.loops.into_iter().rev().fold(integral, |term, outer| graph.summed(term, outer));
@@ -176,6 +247,10 @@ impl Lacking {
                 format!("no function was found with the gradient of the components along {names}")
             }
             Self::Room => format!("the search for what removes the components along {names} became too long"),
+            Self::ThirdDerivative(number) => {
+                let name = &model.functions[*number as usize].name;
+                format!("what removes the components along {names} needs the third derivative of `{name}`")
+            }
             Self::Words => {
                 format!("the function that removes the components along {names} cannot be written")
             }

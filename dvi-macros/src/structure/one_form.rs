@@ -27,15 +27,15 @@ pub(crate) struct OneForm {
 }
 
 /// An entry of Ω = (Dα)ᵀ − Dα above its diagonal.
-struct FormEntry {
-    row: Coordinate,
-    column: Coordinate,
+pub(super) struct FormEntry {
+    pub(super) row: Coordinate,
+    pub(super) column: Coordinate,
     loops: Vec<Loop>,
-    value: Expr,
+    pub(super) value: Expr,
 }
 
 /// Ω entry by entry: what (i, j) and (j, i) of Dα contribute, cancelled where they are the same formula.
-fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<FormEntry> {
+pub(super) fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<FormEntry> {
     let mut omega: Vec<FormEntry> = Vec::new();
     for (i, j, entry) in dalpha(graph, entries) {
         if i == j {
@@ -91,12 +91,13 @@ fn covers(model: &Model, row: usize, column: usize, entry: &FormEntry) -> bool {
 }
 
 impl OneForm {
-    /// From α·v and its second derivative.
+    /// From α·v, its second derivative, and α·v as it was declared, without a gauge.
     pub(crate) fn new(
         graph: &mut Graph,
         model: &Model,
         one_form: Expr,
         entries: &[SecondContribution],
+        declared: Expr,
     ) -> Self {
         let varies = |node: &Node| matches!(node, Node::Coordinate(_));
         let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, varies))
@@ -118,7 +119,8 @@ impl OneForm {
         let places: Vec<[usize; 2]> =
             omega.iter().map(|entry| [entry.row.block as usize, entry.column.block as usize]).collect();
         let invertible = has_matching(model, &places);
-        let class = Class::new(graph, model, one_form).with_gauge(graph, model, one_form);
+        let class =
+            Class::new(graph, model, one_form).with_advice(graph, model, declared, declared != one_form);
         let jacobian = dalpha(graph, entries);
         let jacobian = jacobian.iter().map(|(i, j, entry)| (i, j, entry.loops.as_slice()));
         let singular_ends = Class::lacks_row_or_column(model, jacobian);
@@ -208,7 +210,7 @@ impl OneForm {
         sentences.push(self.class.sentence(model));
         sentences.push(
             match (self.linear, self.class.is_proper) {
-                (false, false) if self.class.gauge.is_some() => {
+                (false, false) if self.class.advice.is_some() => {
                     "Begin with `gauge = auto` and `OneStep::midpoint()`: it has no parasitic mode and preserves Ω."
                 }
                 (true, _) => "Begin with `Sigma::midpoint()`: α is affine, so it is the implicit midpoint rule.",

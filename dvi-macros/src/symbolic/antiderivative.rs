@@ -25,20 +25,29 @@ enum Outer {
     Own(u32, u32),
 }
 
+/// What is asked of an antiderivative.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Terms<'a> {
+    /// What is positive where the formulas have a value, as they take its logarithm or its root.
+    pub(crate) positive: &'a [Id],
+    /// Whether parameters may stand in new denominators: where they are zero, the antiderivative is no number.
+    pub(crate) may_divide: bool,
+    /// There is no answer once the graph has come to this node.
+    pub(crate) last: Id,
+}
+
 struct Integral<'a> {
     graph: &'a mut Graph,
     by: Id,
-    /// Nodes before this one belong to the formulas as they were written.
-    written: Id,
+    terms: Terms<'a>,
     depth: u32,
     rules: u32,
 }
 
 impl Graph {
-    /// A function whose derivative along the node `by` is `of`. Logarithms are those of arguments that are positive where
-    /// a formula before the node `written` takes the logarithm of them, or their root.
-    pub(crate) fn antiderivative(&mut self, of: Expr, by: Id, written: Id) -> Option<Expr> {
-        Integral { graph: self, by, written, depth: 0, rules: 0 }.of(of)
+    /// A function whose derivative along the node `by` is `of`.
+    pub(crate) fn antiderivative(&mut self, of: Expr, by: Id, terms: Terms<'_>) -> Option<Expr> {
+        Integral { graph: self, by, terms, depth: 0, rules: 0 }.of(of)
     }
 }
 
@@ -48,7 +57,8 @@ impl Integral<'_> {
     }
 
     fn of(&mut self, of: Expr) -> Option<Expr> {
-        if self.depth == DEEPEST || self.rules == MOST_RULES {
+        let is_long = self.rules == MOST_RULES || self.graph.next() > self.terms.last;
+        if self.depth == DEEPEST || is_long {
             return None;
         }
         self.rules += 1;
@@ -128,10 +138,15 @@ impl Integral<'_> {
         None
     }
 
-    /// Whether there are coordinates or the time in a denominator of `ratio` that stand in none of the factors: the
-    /// antiderivative would be singular where the integrand is not.
+    /// Whether there is something in a denominator of `ratio` that stands in none of the factors: the antiderivative would be
+    /// singular where the integrand is not.
     fn divides_by_more(&self, ratio: Expr, factors: &[(Id, i32)]) -> bool {
-        let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time);
+        let may_divide = self.terms.may_divide;
+        let varies = |node: &Node| match node {
+            Node::Coordinate(_) | Node::Velocity(_) | Node::Time => true,
+            Node::Parameter(_) => !may_divide,
+            _ => false,
+        };
         let denominators = |id: Id| -> Vec<Id> {
             let below = self.graph.quotient_factors(id).into_iter().filter(|(_, exponent)| *exponent < 0);
             below.map(|(id, _)| id).collect()
@@ -205,14 +220,10 @@ impl Integral<'_> {
         (p.abs() < MOST).then(|| graph.binary(Binary::Powf, w, Expr::number(p)))
     }
 
-    /// ln w where a formula as written takes a logarithm or a root of w, else ½ ln w².
+    /// ln w for positive w, else ½ ln w².
     fn logarithm(&mut self, w: Expr) -> Expr {
-        let taken = |function: Unary| {
-            let known = self.graph.find(&Node::Unary(function, Expr::from(w.node)));
-            known.is_some_and(|id| id < self.written)
-        };
         let w = Expr::from(w.node);
-        if [Unary::Ln, Unary::Log2, Unary::Log10, Unary::Sqrt].into_iter().any(taken) {
+        if self.terms.positive.contains(&w.node) {
             return self.graph.unary(Unary::Ln, w);
         }
         let square = self.graph.power(w, 2);

@@ -4,6 +4,7 @@
 //! gauge it is (α + ∂F/∂q)·v, in which components cancel that neither of the two shows by itself.
 
 use super::derivative::Contribution;
+use super::functions::Unary;
 use super::graph::{Expr, Fold, Graph, Id, Node};
 use super::index::{Atom, Loop};
 
@@ -35,7 +36,7 @@ impl Graph {
         }
         components.retain_mut(|component| {
             component.value = self.shorter(component.value);
-            !component.value.is_zero()
+            !component.value.is_zero() && !self.vanishes(component.value)
         });
         components
     }
@@ -80,5 +81,27 @@ impl Graph {
         });
         let sum = self.fold(Fold::Sum, Atom::Open(outer.depth), outer.range, inside);
         self.multiply(outside, sum).scaled(term.scale)
+    }
+
+    /// What is positive where these expressions have a value: they take its logarithm or its root, and not in one branch of a
+    /// choice only.
+    pub(crate) fn positive(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
+        let mut seen: Vec<Id> = roots.into_iter().collect();
+        let (mut next, mut found) = (0, Vec::new());
+        while let Some(&id) = seen.get(next) {
+            next += 1;
+            if let Node::Unary(Unary::Ln | Unary::Log2 | Unary::Log10 | Unary::Sqrt, w) = self.node(id)
+                && w.scale > 0.0
+            {
+                found.push(w.node);
+            }
+            if !matches!(self.node(id), Node::Choose { .. }) {
+                let operands = self.node(id).operands();
+                seen.extend(
+                    operands.into_iter().filter(|operand| !seen.contains(operand)).collect::<Vec<_>>(),
+                );
+            }
+        }
+        found
     }
 }

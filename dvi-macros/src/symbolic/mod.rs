@@ -21,6 +21,7 @@ mod simplify;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use antiderivative::Terms;
 pub(crate) use derivative::{Contribution, SecondContribution};
 pub(crate) use functions::{Unary, unary_by_name, unary_names};
 pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Weight};

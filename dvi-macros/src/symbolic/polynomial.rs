@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::functions::Unary;
-use super::graph::{Expr, Fold, Graph, Id, Node};
+use super::graph::{Binary, Expr, Fold, Graph, Id, Node};
 use super::index::Atom;
 
 /// More terms than these are not multiplied out.
@@ -58,9 +58,14 @@ fn joined(one: &[(Id, i32)], two: &[(Id, i32)]) -> Monomial {
 }
 
 impl Graph {
-    /// The expression multiplied out, unless it is too long for that: zero if it vanishes in this form.
+    /// Whether it is zero wherever it is a number, as far as multiplying out shows it, with exponents up to rounding.
+    pub(crate) fn vanishes(&mut self, expr: Expr) -> bool {
+        self.polynomial(expr, true).is_some_and(|polynomial| polynomial.0.is_empty())
+    }
+
+    /// The expression multiplied out, unless it is too long for that.
     pub(crate) fn multiplied_out(&mut self, expr: Expr) -> Option<Expr> {
-        let polynomial = self.polynomial(expr)?;
+        let polynomial = self.polynomial(expr, false)?;
         let terms: Vec<Expr> = polynomial
             .0
             .iter()
@@ -91,29 +96,29 @@ impl Graph {
         self.product(&powers)
     }
 
-    fn polynomial(&mut self, expr: Expr) -> Option<Polynomial> {
+    fn polynomial(&mut self, expr: Expr, loose: bool) -> Option<Polynomial> {
         let mut scaled = Polynomial::default();
-        let polynomial = self.polynomial_of(expr.node)?;
+        let polynomial = self.polynomial_of(expr.node, loose)?;
         scaled.add(&polynomial, expr.scale)?;
         Some(scaled)
     }
 
-    fn polynomial_of(&mut self, id: Id) -> Option<Polynomial> {
+    fn polynomial_of(&mut self, id: Id, loose: bool) -> Option<Polynomial> {
         match self.node(id).clone() {
             Node::Sum(terms) => {
                 let mut sum = Polynomial::default();
                 for term in terms {
-                    let polynomial = self.polynomial_of(term.node)?;
+                    let polynomial = self.polynomial_of(term.node, loose)?;
                     sum.add(&polynomial, term.scale)?;
                 }
                 Some(sum)
             }
-            Node::One | Node::Product(_) | Node::Reciprocal(_) => self.polynomial_of_product(id),
+            Node::One | Node::Product(_) | Node::Reciprocal(_) => self.polynomial_of_product(id, loose),
             Node::Choose { left, relation, right, then, otherwise } => {
                 // Each term stays behind the condition: elsewhere it need not be a number.
                 let mut sum = Polynomial::default();
                 for (branch, holds) in [(then, true), (otherwise, false)] {
-                    for (monomial, [value, _]) in self.polynomial(branch)?.0 {
+                    for (monomial, [value, _]) in self.polynomial(branch, loose)?.0 {
                         let term = self.monomial(&monomial);
                         let (then, otherwise) = if holds { (term, Expr::ZERO) } else { (Expr::ZERO, term) };
                         let guarded = self.choose(left, relation, right, then, otherwise);
@@ -124,7 +129,7 @@ impl Graph {
             }
             Node::Reduce { fold: Fold::Sum, height, range, body } => {
                 let mut sum = Polynomial::default();
-                for (monomial, [value, _]) in self.polynomial(body)?.0 {
+                for (monomial, [value, _]) in self.polynomial(body, loose)?.0 {
                     // In a sum without terms, a factor need not be a number.
                     let stays = |(factor, _): &(Id, i32)| {
                         let changes = self.free(*factor).bound & (1 << height) != 0;
@@ -138,24 +143,58 @@ impl Graph {
                 }
                 Some(sum)
             }
+            _ if loose => {
+                self.in_other_functions(id, 1).or_else(|| Some(Polynomial::term(1.0, vec![(id, 1)])))
+            }
             _ => Some(Polynomial::term(1.0, vec![(id, 1)])),
         }
     }
 
-    fn polynomial_of_product(&mut self, id: Id) -> Option<Polynomial> {
+    fn polynomial_of_product(&mut self, id: Id, loose: bool) -> Option<Polynomial> {
         let mut product = Polynomial::term(1.0, Vec::new());
         for (factor, exponent) in self.without_squared_roots(id) {
+            let one = Polynomial::term(1.0, vec![(factor.node, exponent)]);
             let power = match self.node(factor.node) {
                 Node::Sum(_) | Node::Reduce { fold: Fold::Sum, .. } if exponent > 0 => {
-                    let base = self.polynomial_of(factor.node)?;
-                    (1..exponent).try_fold(base.clone(), |power, _| power.times(&base))?
+                    self.polynomial_of_power(factor.node, exponent, loose)
                 }
-                _ => Polynomial::term(1.0, vec![(factor.node, exponent)]),
+                _ if loose => self.in_other_functions(factor.node, exponent),
+                _ => None,
             };
-            let scale = Polynomial::term(factor.scale.powi(exponent), Vec::new());
-            product = product.times(&power)?.times(&scale)?;
+            // What is too long stays one factor.
+            product = match power.and_then(|power| product.times(&power)) {
+                Some(product) => product,
+                None => product.times(&one)?,
+            };
+            product = product.times(&Polynomial::term(factor.scale.powi(exponent), Vec::new()))?;
         }
         Some(product)
+    }
+
+    fn polynomial_of_power(&mut self, base: Id, exponent: i32, loose: bool) -> Option<Polynomial> {
+        let base = self.polynomial_of(base, loose)?;
+        (1..exponent).try_fold(base.clone(), |power, _| power.times(&base))
+    }
+
+    /// tanh as sinh/cosh, and a power with a broken exponent as a whole power times one with an exponent below 1, rounded.
+    fn in_other_functions(&mut self, factor: Id, exponent: i32) -> Option<Polynomial> {
+        /// Of exponents, 40 bits are compared.
+        const GRID: f64 = (1_u64 << 40) as f64;
+        match *self.node(factor) {
+            Node::Unary(Unary::Tanh, w) => {
+                let [sinh, cosh] = [Unary::Sinh, Unary::Cosh].map(|function| self.unary(function, w));
+                let factors = joined(&[(sinh.node, exponent)], &[(cosh.node, -exponent)]);
+                Some(Polynomial::term(sinh.scale.powi(exponent), factors))
+            }
+            Node::Binary(Binary::Powf, w, power) if w.scale == 1.0 => {
+                let power = (power.as_number()? * GRID).round() / GRID;
+                let whole = power.floor();
+                let broken = self.binary(Binary::Powf, w, Expr::number(power - whole));
+                let factors = joined(&[(broken.node, exponent)], &[(w.node, exponent * whole as i32)]);
+                Some(Polynomial::term(broken.scale.powi(exponent), factors))
+            }
+            _ => None,
+        }
     }
 
     /// The factors of a quotient, with w in place of (√w)².
