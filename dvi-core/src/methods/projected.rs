@@ -39,9 +39,9 @@ use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights}
 /// where it can be used. They couple two points and have no parasitic mode. Where α is affine, λ = 0 and both are the implicit midpoint rule,
 /// which preserves Ω. Elsewhere they do not preserve Ω exactly: with ζ = Σᵢⱼ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + a² dζ at
 /// q0 the form dα + b² dζ at q1. As λ is of the order h², the symmetric projection changes Ω by terms of the order h⁵ in a step,
-/// the standard one by h⁴. The energy of the standard projection drifts.
-/// Source: Kraus 2017, *Projected variational integrators for degenerate Lagrangian systems*, sections 4 and 5, with the
-/// midpoint rule.
+/// the standard one by h⁴. On the guiding centre in a magnetic mirror the energy error of the symmetric projection is no larger
+/// after 2·10⁵ steps than after a tenth of them; that of the standard one has grown in proportion. Source: Kraus 2017, *Projected
+/// variational integrators for degenerate Lagrangian systems*, with the midpoint rule.
 ///
 /// A step is solved by Newton's method for 2n unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
