@@ -22,7 +22,7 @@ use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Guess, Stopping};
 use crate::state::Statistics;
-use crate::state::history::{History, is_similar};
+use crate::state::history::Rates;
 use crate::state::memory::{Memory, lasting};
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
 pub use gauss::{OneStepGauss, OneStepGaussMemory};
@@ -124,8 +124,7 @@ pub struct OneStepMemory<S: System, T: Real> {
     /// The velocity of x at the current point, and zero along y, for the schemes A and B.
     velocity: Vector<S, T>,
     /// The mean rates of change of the last steps, that of y to where it stands in the equations.
-    history: History<S, T>,
-    last_step: T,
+    rates: Rates<S, T>,
     orientation: FormOrientation<S, T>,
     split: Split<S, T>,
     stage: Stage<S, T>,
@@ -133,7 +132,7 @@ pub struct OneStepMemory<S: System, T: Real> {
 }
 
 impl<S: System, T: Real> Memory<T> for OneStepMemory<S, T> {
-    lasting!(T; numbers p, numbers velocity, part history, number last_step, part orientation);
+    lasting!(T; numbers p, numbers velocity, part rates, part orientation);
 }
 
 impl<S: System, T: Real> Carries<S, T> for OneStep {
@@ -153,8 +152,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
         Ok(OneStepMemory {
             p,
             velocity,
-            history: History::new(system, Some(rates)),
-            last_step: T::lift(0.0),
+            rates: Rates::new(system, rates),
             orientation: FormOrientation::new(system, q, t),
             stage: Stage::new(system, q, t),
             split,
@@ -296,13 +294,8 @@ impl OneStep {
 impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
     /// Sets `stage.unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
     fn guess(&mut self, system: &S, q: &Vector<S, T>, h: T, c: T, guess: Guess) {
-        let Self { history, last_step, stage, .. } = self;
-        guess.begin(&mut stage.unknown, |rates| {
-            match is_similar(h, *last_step) || *last_step == T::lift(0.0) {
-                true => history.extrapolate(rates),
-                false => rates.fill(T::lift(0.0)),
-            }
-        });
+        let Self { rates, stage, .. } = self;
+        rates.guess(h, guess, &mut stage.unknown);
         for (i, unknown) in stage.unknown.iter_mut().enumerate() {
             *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
         }
@@ -310,14 +303,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
 
     /// Moves to `next`, with the momentum and the rates of the stage.
     fn arrive(&mut self, system: &S, q: &mut Vector<S, T>, h: T) {
-        let Self { p, velocity, history, last_step, stage, next, .. } = self;
+        let Self { p, velocity, rates, stage, next, .. } = self;
         q.copy_from_slice(next);
         p.copy_from_slice(&stage.momentum);
         copy_x(system, &stage.rates, velocity);
-        if !is_similar(h, *last_step) {
-            history.clear();
-        }
-        *last_step = h;
-        history.push(&stage.rates);
+        rates.push(h, &stage.rates);
     }
 }

@@ -17,7 +17,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Stopping, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
-use crate::state::history::{History, is_similar};
+use crate::state::history::Rates;
 use crate::state::memory::{Memory, lasting};
 use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights};
 
@@ -95,9 +95,7 @@ impl Scheme for Projected {
 pub struct ProjectedMemory<S: System, T: Real> {
     /// α at the current point.
     p: Vector<S, T>,
-    /// The mean rates of change of the last steps.
-    history: History<S, T>,
-    last_step: T,
+    rates: Rates<S, T>,
     orientation: FormOrientation<S, T>,
     solver: Coupled<NODES, S, T>,
     /// Δ = q1 − q0 and λ.
@@ -126,7 +124,7 @@ struct Work<S: System, T: Real> {
 }
 
 impl<S: System, T: Real> Memory<T> for ProjectedMemory<S, T> {
-    lasting!(T; numbers p, part history, number last_step, part orientation);
+    lasting!(T; numbers p, part rates, part orientation);
 }
 
 impl<S: System, T: Real> Carries<S, T> for Projected {
@@ -144,8 +142,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
         let rest: Vector<S, T> = vector();
         Ok(ProjectedMemory {
             p,
-            history: History::new(system, Some(rates)),
-            last_step: T::lift(0.0),
+            rates: Rates::new(system, rates),
             orientation: FormOrientation::new(system, q, t),
             solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
             unknowns: core::array::from_fn(|_| vector()),
@@ -266,11 +263,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 
     /// Sets Δ to what the last steps let expect, and λ to zero: it is smaller than the error of Δ.
     fn guess(&mut self, h: T, guess: Guess) {
-        let Self { history, last_step, unknowns: [delta, lambda], .. } = self;
-        guess.begin(delta, |rates| match is_similar(h, *last_step) || *last_step == T::lift(0.0) {
-            true => history.extrapolate(rates),
-            false => rates.fill(T::lift(0.0)),
-        });
+        let Self { rates, unknowns: [delta, lambda], .. } = self;
+        rates.guess(h, guess, delta);
         delta.iter_mut().for_each(|delta| *delta *= h);
         lambda.fill(T::lift(0.0));
     }
@@ -312,15 +306,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
     }
 
     fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {
-        let Self { p, history, last_step, unknowns: [delta, _], work, .. } = self;
+        let Self { p, rates, unknowns: [delta, _], work, .. } = self;
         q.copy_from_slice(&work.end);
         p.copy_from_slice(&work.one_form);
-        if !is_similar(h, *last_step) {
-            history.clear();
-        }
-        *last_step = h;
         delta.iter_mut().for_each(|delta| *delta /= h);
-        history.push(delta);
+        rates.push(h, delta);
     }
 }
 

@@ -3,6 +3,7 @@
 //! The guess is the value at the next step of the polynomial through the last m increments:
 //! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
 
+use crate::solve::Guess;
 use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
 
@@ -103,6 +104,45 @@ impl<S: System, T: Real> History<S, T> {
 
 impl<S: System, T: Real> Memory<T> for History<S, T> {
     lasting!(T; vectors ring, count len, count next, numbers seed; is_sound);
+}
+
+/// The mean rates of change of the last steps, for a method whose steps are of any length.
+#[derive(Debug)]
+pub(crate) struct Rates<S: System, T: Real> {
+    history: History<S, T>,
+    /// Zero before the first step.
+    last_step: T,
+}
+
+impl<S: System, T: Real> Rates<S, T> {
+    /// No step yet; the first guess is `seed`.
+    pub(crate) fn new(system: &S, seed: Vector<S, T>) -> Self {
+        Self { history: History::new(system, Some(seed)), last_step: T::lift(0.0) }
+    }
+
+    /// Sets `rates` to those of a step of length `h` to begin with.
+    pub(crate) fn guess(&self, h: T, guess: Guess, rates: &mut Vector<S, T>) {
+        guess.begin(rates, |rates| {
+            if is_similar(h, self.last_step) || self.last_step == T::lift(0.0) {
+                self.history.extrapolate(rates);
+            } else {
+                rates.fill(T::lift(0.0));
+            }
+        });
+    }
+
+    /// Remembers those of a completed step of length `h`.
+    pub(crate) fn push(&mut self, h: T, rates: &[T]) {
+        if !is_similar(h, self.last_step) {
+            self.history.clear();
+        }
+        self.last_step = h;
+        self.history.push(rates);
+    }
+}
+
+impl<S: System, T: Real> Memory<T> for Rates<S, T> {
+    lasting!(T; part history, number last_step);
 }
 
 /// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same
