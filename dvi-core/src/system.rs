@@ -234,7 +234,7 @@ pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
-    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Gauss` or `RungeKutta`"
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`"
 )]
 pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regular> {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no

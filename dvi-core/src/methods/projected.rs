@@ -36,12 +36,15 @@ use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights}
 /// | [`standard`](Self::standard) | 0, −1 | 2 | no |
 ///
 /// The schemes are for one-forms that no gauge brings into the class of [`OneStep`](super::OneStep), which is to be preferred
-/// where it can be used. They couple two points and have no parasitic mode. Where α is affine, λ = 0 and both are the implicit midpoint rule,
-/// which preserves Ω. Elsewhere they do not preserve Ω exactly: with ζ = Σᵢⱼ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + a² dζ at
-/// q0 the form dα + b² dζ at q1. As λ is of the order h², the symmetric projection changes Ω by terms of the order h⁵ in a step,
-/// the standard one by h⁴. On the guiding centre in a magnetic mirror the energy error of the symmetric projection is no larger
-/// after 2·10⁵ steps than after a tenth of them; that of the standard one has grown in proportion. Source: Kraus 2017, *Projected
-/// variational integrators for degenerate Lagrangian systems*, with the midpoint rule.
+/// where it can be used. They couple two points and have no parasitic mode. Where α is affine with constant coefficients, λ = 0
+/// and both are the implicit midpoint rule, which preserves Ω.
+///
+/// Elsewhere they do not preserve Ω exactly: with ζ = Σᵢⱼ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + a² dζ at q0 the form dα + b² dζ at
+/// q1. As λ is of the order h², the symmetric projection changes Ω by terms of the order h⁵ in a step, the standard one by h⁴. The
+/// energy of both drifts, by terms of the order h⁴ per unit of time for the symmetric one and h³ for the standard one. Where a
+/// motion has a reversing symmetry, as that of a guiding centre in a magnetic mirror, the symmetric one shows no drift: its energy
+/// error is no larger after 2·10⁵ steps than after a tenth of them. Source: Kraus 2017, *Projected variational integrators for
+/// degenerate Lagrangian systems*, with the midpoint rule.
 ///
 /// A step is solved by Newton's method for 2n unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,7 +120,9 @@ struct Work<S: System, T: Real> {
     end: Vector<S, T>,
     gradient: Vector<S, T>,
     one_form: Vector<S, T>,
-    /// Dα(q)ᵀλ, and a gradient of H.
+    /// λ/h.
+    slope: Vector<S, T>,
+    /// ∂L/∂q with that velocity, and a gradient of H.
     lifted: Vector<S, T>,
     force: Vector<S, T>,
     rest: Vector<S, T>,
@@ -153,6 +158,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
                 end: vector(),
                 gradient: vector(),
                 one_form: vector(),
+                slope: vector(),
                 lifted: vector(),
                 force: vector(),
                 rest,
@@ -275,7 +281,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
     fn differentiate(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) {
         step.place(&self.unknowns, &mut self.work);
         let Self { p, unknowns: [_, lambda], residuals: [_, r1, r2], work, .. } = self;
-        let Work { middle, velocity, end, gradient, one_form, lifted, force, .. } = work;
+        let Work { middle, velocity, end, gradient, one_form, slope, lifted, force, .. } = work;
         let Step { system, q, t, h, a, b } = *step;
         let [centre, after] = step.times();
         let half = T::lift(0.5) * h;
@@ -284,12 +290,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
             r1[i] = p[i] - one_form[i] + half * gradient[i];
             r2[i] = one_form[i] + half * gradient[i];
         }
+        for (slope, &lambda) in slope.iter_mut().zip(lambda.iter()) {
+            *slope = lambda / h;
+        }
         for (row, factor, point, time) in [(&mut *r1, a, q, t), (&mut *r2, -b, &**end, after)] {
-            // ∂L/∂q = Dαᵀv − ∇H
-            system.gradient(point, lambda, time, lifted, one_form);
+            // h(∂L/∂q + ∇H) = Dαᵀλ, in which what the gradients of H leave by rounding is no larger than that of a step.
+            system.gradient(point, slope, time, lifted, one_form);
             system.hamiltonian_gradient(point, time, force);
             for i in 0..q.len() {
-                row[i] += factor * (lifted[i] + force[i]);
+                row[i] += factor * h * (lifted[i] + force[i]);
             }
         }
         for (r2, &form) in r2.iter_mut().zip(one_form.iter()) {
@@ -300,8 +309,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 
     /// Overwrites the residuals with the corrections.
     fn solve(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
-        let Self { unknowns, residuals, solver, work, .. } = self;
-        let mut matrix = Linearized { step, lambda: &unknowns[1], node: 0, work };
+        let Self { residuals, solver, work, .. } = self;
+        let mut matrix = Linearized { step, node: 0, work };
         solver.solve(&mut matrix, residuals)
     }
 
@@ -317,7 +326,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 /// The derivatives of r₁ and r₂ by Δ and λ. L_qq of node 2, at q1, stands for the second derivative of α·λ.
 struct Linearized<'a, S: System, T: Real> {
     step: &'a Step<'a, S, T>,
-    lambda: &'a [T],
     node: usize,
     work: &'a mut Work<S, T>,
 }
@@ -347,8 +355,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S
     }
 
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
-        let Work { middle, velocity, end, gradient, one_form, rest, .. } = &mut *self.work;
-        let Step { system, q, t, .. } = *self.step;
+        let Work { middle, velocity, end, gradient, one_form, slope, rest, .. } = &mut *self.work;
+        let Step { system, q, t, h, .. } = *self.step;
         let [centre, after] = self.step.times();
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
@@ -357,10 +365,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S
         match self.node {
             1 => system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq),
             2 => {
-                // L_qq at (q, λ) without that at (q, 0), which is of H.
-                let w = Weights { qq: one, ..none };
-                system.linearize(point, self.lambda, time, w, gradient, one_form, qq);
-                let w = Weights { qq: -one, ..none };
+                // h L_qq at (q, λ/h) without that at (q, 0), which is of H.
+                let w = Weights { qq: h, ..none };
+                system.linearize(point, slope, time, w, gradient, one_form, qq);
+                let w = Weights { qq: -h, ..none };
                 system.linearize(point, rest, time, w, gradient, one_form, qq);
             }
             _ => {}

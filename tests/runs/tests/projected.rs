@@ -27,3 +27,34 @@ fn the_symmetric_projection_keeps_the_energy_and_the_standard_one_does_not() -> 
     assert!(all > 8.0 * early, "{early:e} and {all:e}");
     Ok(())
 }
+
+/// By order h⁴ per unit of time, where nothing reverses the motion, and by h³ for the standard projection.
+#[test]
+fn energies_drift_by_their_orders() -> Result<(), Box<dyn core::error::Error>> {
+    #[degenerate_lagrangian(
+        coordinates(phi, j, x, y),
+        one_form = (j + 0.3 * x * x + 0.2 * j * y) * d(phi) + (y + 0.1 * y.powi(3) + 0.2 * j * j * x) * d(x)
+            + 0.2 * x * y * d(y) + 0.1 * x * y * d(j),
+        hamiltonian = j * j / 2.0 + (x * x + y * y) / 2.0 + 0.1 * j * x + 0.1 * x.powi(3),
+    )]
+    struct Angle;
+    let drift = |method: Projected, h: f64| -> Result<f64, Box<dyn core::error::Error>> {
+        let steps = (8_000.0 / h) as u64;
+        let start: AngleState = AngleState { phi: 0.1, j: 0.8, x: 0.3, y: -0.2 };
+        let mut run = Integrator::new(&Angle, method, h, start)?;
+        let mut means = [0.0; 2];
+        for mean in &mut means {
+            for _ in 0..steps / 2 {
+                run.advance()?;
+                *mean += run.energy() / (steps / 2) as f64;
+            }
+        }
+        Ok((means[1] - means[0]).abs() / (0.5 * h * steps as f64))
+    };
+    for (method, order) in [(Projected::symmetric(), 4.0), (Projected::standard(), 3.0)] {
+        let drifts = [(0.2, drift(method, 0.2)?), (0.1, drift(method, 0.1)?)];
+        let found = convergence_order(&drifts).ok_or("no slope")?;
+        assert!((found - order).abs() < 0.7, "{method:?}: {drifts:?}");
+    }
+    Ok(())
+}
