@@ -98,6 +98,7 @@ fn a_gauge_is_found_for_twenty_systems() {
             k * x[0] * y[1] + g[0] * x[2];
         Errors(x, y): x * (y / 2.0).erf() * d(y) + y.powi(3) * x * d(x), k * x + g[0] * y;
         Shear(x, y): x * (2.0 * y + 1.0).ln() * d(y) + (y + x * x).sin() * d(x), k * x + g[0] * y;
+        Seventh(x, y): x * (1.0 + 1.0 / 49.0 * y).sqrt() * d(y) + (x * x * y).exp() * d(x), k * x + g[0] * y;
         Step(x, y): x * y.tanh() * d(y) + (x * x * y).exp() * d(x), k * x + g[0] * y;
         Fraction(x, y): x * y.powf(0.1) * d(y) + (x * x * y).exp() * d(x), k * x + g[0] * y;
         Powers4(a, b, p, q): a * d(p) + b * d(q) + (a + b + p + q).powi(6) * (d(a) + d(b) + d(p) + d(q)), k * a * p + g[0] * b;

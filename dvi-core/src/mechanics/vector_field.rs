@@ -4,7 +4,7 @@
 //! Bᵢⱼ = ∂ᵢαⱼ − ∂ⱼαᵢ, that is B = (Dα)ᵀ − Dα (Rowley & Marsden 2002, section 3.2). B is inverted once if α
 //! is linear, by one reciprocal per coordinate if it has canonical shape, and by elimination otherwise.
 
-use crate::error::StepFailure;
+use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse};
 use crate::state::Statistics;
 use crate::{DegenerateLagrangian, Real, Space, System, Vector};
@@ -34,6 +34,18 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         let mut inverse = Inverse::new(system, q, t, omega);
         inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default())?;
         Ok(Self { inverse, gradient: space.vector(), entries })
+    }
+
+    /// X(`q`, `t`) where a run begins.
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] if Ω is singular at `q`.
+    pub(crate) fn starting(system: &S, q: &Vector<S, T>, t: T) -> Result<Vector<S, T>, StartError> {
+        let mut velocity = system.space().vector();
+        Self::new(system, q, t)
+            .and_then(|mut field| field.evaluate(system, q, t, &mut velocity, &mut Statistics::default()))
+            .map_err(StartError::Starter)?;
+        Ok(velocity)
     }
 
     fn omega() -> Combination<T> {

@@ -143,11 +143,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let split = Split::new(system);
-        let [mut p, mut velocity, mut rates]: [Vector<S, T>; 3] =
-            core::array::from_fn(|_| system.space().vector());
+        let [mut p, mut velocity]: [Vector<S, T>; 2] = core::array::from_fn(|_| system.space().vector());
         system.one_form(q, t, &mut p);
-        let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
-        field.evaluate(system, q, t, &mut rates, &mut Statistics::default()).map_err(StartError::Starter)?;
+        let rates = VectorField::starting(system, q, t)?;
         copy_x(system, &rates, &mut velocity);
         Ok(OneStepMemory {
             p,

@@ -140,10 +140,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let vector = || system.space().vector();
-        let [mut p, mut rates]: [Vector<S, T>; 2] = [vector(), vector()];
+        let mut p: Vector<S, T> = vector();
         system.one_form(q, t, &mut p);
-        let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
-        field.evaluate(system, q, t, &mut rates, &mut Statistics::default()).map_err(StartError::Starter)?;
+        let rates = VectorField::starting(system, q, t)?;
         let rest: Vector<S, T> = vector();
         Ok(ProjectedMemory {
             p,
@@ -294,6 +293,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
             *slope = lambda / h;
         }
         for (row, factor, point, time) in [(&mut *r1, a, q, t), (&mut *r2, -b, &**end, after)] {
+            if factor == T::lift(0.0) {
+                continue;
+            }
             // h(∂L/∂q + ∇H) = Dαᵀλ, in which what the gradients of H leave by rounding is no larger than that of a step.
             system.gradient(point, slope, time, lifted, one_form);
             system.hamiltonian_gradient(point, time, force);
@@ -301,6 +303,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
                 row[i] += factor * h * (lifted[i] + force[i]);
             }
         }
+        // The last point was q1, and b is not zero.
         for (r2, &form) in r2.iter_mut().zip(one_form.iter()) {
             *r2 -= form;
         }

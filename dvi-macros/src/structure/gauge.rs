@@ -162,8 +162,8 @@ fn coupled(graph: &mut Graph, model: &Model, one_form: Expr) -> Vec<[usize; 2]> 
     for entry in omega(graph, &entries) {
         let pair = [entry.row.block as usize, entry.column.block as usize];
         let are_single = pair.iter().all(|&block| model.blocks[block].array.is_none());
-        let rest = graph.multiplied_out(entry.value);
-        if are_single && rest.is_some_and(|rest| !rest.is_zero()) && !graph.vanishes(entry.value) {
+        let rest = graph.multiplied_out(&[entry.value]);
+        if are_single && rest.is_some_and(|rest| !rest.is_zero()) && !graph.vanishes(&[entry.value]) {
             coupled.push(pair);
         }
     }

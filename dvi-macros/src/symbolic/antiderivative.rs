@@ -103,7 +103,7 @@ impl Integral<'_> {
                 Some(self.graph.multiply(constant, integral))
             })
             .or_else(|| {
-                let expanded = self.graph.multiplied_out(of.into())?;
+                let expanded = self.graph.multiplied_out(&[of.into()])?;
                 (expanded.node != of && matches!(self.graph.node(expanded.node), Node::Sum(_)))
                     .then(|| self.of(expanded))?
             })
@@ -126,7 +126,7 @@ impl Integral<'_> {
                     .collect();
                 let rest = self.graph.monomial(&rest);
                 let ratio = self.graph.divide(rest, slope);
-                let Some(ratio) = self.graph.multiplied_out(ratio) else { continue };
+                let Some(ratio) = self.graph.multiplied_out(&[ratio]) else { continue };
                 if self.depends(ratio.node) || self.divides_by_more(ratio, constant) {
                     continue;
                 }
@@ -330,7 +330,7 @@ impl Integral<'_> {
             let whole = self.graph.multiply(power, f_power);
             let slope = self.graph.derivative(f_power, self.by);
             let rest = self.graph.multiply(power, slope);
-            let rest = self.graph.multiplied_out(rest)?;
+            let rest = self.graph.multiplied_out(&[rest])?;
             let rest = self.of(rest)?;
             return Some(self.graph.subtract(whole, rest));
         }

@@ -7,6 +7,7 @@ use super::derivative::Contribution;
 use super::functions::Unary;
 use super::graph::{Expr, Fold, Graph, Id, Node};
 use super::index::{Atom, Loop};
+use crate::internal::internal;
 
 impl Graph {
     /// (α + ∂F/∂q)·v from α·v and F.
@@ -25,26 +26,34 @@ impl Graph {
             let target = self.velocity_of(part.target);
             parts.push(Contribution { target, ..part });
         }
-        let mut components: Vec<Contribution> = Vec::new();
+        // Their values stay apart until it is known what cancels: of a sum, what rounding has left cannot be told from a term.
+        let mut components: Vec<(Contribution, Vec<Expr>)> = Vec::new();
         for part in parts {
             let part = self.with_inner_sums(part);
-            let same = |known: &&mut Contribution| known.target == part.target && known.loops == part.loops;
+            let same = |(known, _): &&mut (Contribution, Vec<Expr>)| {
+                known.target == part.target && known.loops == part.loops
+            };
             match components.iter_mut().find(same) {
-                Some(known) => known.value = self.add(known.value, part.value),
-                None => components.push(part),
+                Some((_, values)) => values.push(part.value),
+                None => {
+                    let values = vec![part.value];
+                    components.push((part, values));
+                }
             }
         }
-        components.retain_mut(|component| {
-            component.value = self.shorter(component.value);
-            !component.value.is_zero() && !self.vanishes(component.value)
-        });
-        components
+        let mut found = Vec::new();
+        for (component, values) in components {
+            if !self.vanishes(&values) {
+                found.push(Contribution { value: self.shorter(&values), ..component });
+            }
+        }
+        found
     }
 
     fn velocity_of(&mut self, position: Id) -> Id {
         match self.node(position).clone() {
             Node::Coordinate(coordinate) => self.intern(Node::Velocity(coordinate)),
-            _ => position,
+            other => internal(format!("a derivative of a gauge by {other:?}")),
         }
     }
 
@@ -57,9 +66,10 @@ impl Graph {
         part
     }
 
-    /// The value as it is or multiplied out, whichever has fewer nodes.
-    fn shorter(&mut self, value: Expr) -> Expr {
-        let Some(other) = self.multiplied_out(value) else { return value };
+    /// The sum of the values as it is or multiplied out, whichever has fewer nodes.
+    fn shorter(&mut self, values: &[Expr]) -> Expr {
+        let value = self.sum(values);
+        let Some(other) = self.multiplied_out(values) else { return value };
         let length = |expr: Expr| if expr.is_zero() { 0 } else { self.reachable([expr.node]).len() };
         if length(other) < length(value) { other } else { value }
     }

@@ -58,14 +58,15 @@ fn joined(one: &[(Id, i32)], two: &[(Id, i32)]) -> Monomial {
 }
 
 impl Graph {
-    /// Whether it is zero wherever it is a number, as far as multiplying out shows it, with exponents up to rounding.
-    pub(crate) fn vanishes(&mut self, expr: Expr) -> bool {
-        self.polynomial(expr, true).is_some_and(|polynomial| polynomial.0.is_empty())
+    /// Whether the sum of these is zero wherever it is a number, as far as multiplying out shows it, with exponents up to
+    /// rounding.
+    pub(crate) fn vanishes(&mut self, values: &[Expr]) -> bool {
+        self.polynomial_of_sum(values, true).is_some_and(|polynomial| polynomial.0.is_empty())
     }
 
-    /// The expression multiplied out, unless it is too long for that.
-    pub(crate) fn multiplied_out(&mut self, expr: Expr) -> Option<Expr> {
-        let polynomial = self.polynomial(expr, false)?;
+    /// The sum of these multiplied out, unless it is too long for that.
+    pub(crate) fn multiplied_out(&mut self, values: &[Expr]) -> Option<Expr> {
+        let polynomial = self.polynomial_of_sum(values, false)?;
         let terms: Vec<Expr> = polynomial
             .0
             .iter()
@@ -96,29 +97,24 @@ impl Graph {
         self.product(&powers)
     }
 
-    fn polynomial(&mut self, expr: Expr, loose: bool) -> Option<Polynomial> {
-        let mut scaled = Polynomial::default();
-        let polynomial = self.polynomial_of(expr.node, loose)?;
-        scaled.add(&polynomial, expr.scale)?;
-        Some(scaled)
+    fn polynomial_of_sum(&mut self, terms: &[Expr], loose: bool) -> Option<Polynomial> {
+        let mut sum = Polynomial::default();
+        for term in terms {
+            let polynomial = self.polynomial_of(term.node, loose)?;
+            sum.add(&polynomial, term.scale)?;
+        }
+        Some(sum)
     }
 
     fn polynomial_of(&mut self, id: Id, loose: bool) -> Option<Polynomial> {
         match self.node(id).clone() {
-            Node::Sum(terms) => {
-                let mut sum = Polynomial::default();
-                for term in terms {
-                    let polynomial = self.polynomial_of(term.node, loose)?;
-                    sum.add(&polynomial, term.scale)?;
-                }
-                Some(sum)
-            }
+            Node::Sum(terms) => self.polynomial_of_sum(&terms, loose),
             Node::One | Node::Product(_) | Node::Reciprocal(_) => self.polynomial_of_product(id, loose),
             Node::Choose { left, relation, right, then, otherwise } => {
                 // Each term stays behind the condition: elsewhere it need not be a number.
                 let mut sum = Polynomial::default();
                 for (branch, holds) in [(then, true), (otherwise, false)] {
-                    for (monomial, [value, _]) in self.polynomial(branch, loose)?.0 {
+                    for (monomial, [value, _]) in self.polynomial_of_sum(&[branch], loose)?.0 {
                         let term = self.monomial(&monomial);
                         let (then, otherwise) = if holds { (term, Expr::ZERO) } else { (Expr::ZERO, term) };
                         let guarded = self.choose(left, relation, right, then, otherwise);
@@ -129,7 +125,7 @@ impl Graph {
             }
             Node::Reduce { fold: Fold::Sum, height, range, body } => {
                 let mut sum = Polynomial::default();
-                for (monomial, [value, _]) in self.polynomial(body, loose)?.0 {
+                for (monomial, [value, _]) in self.polynomial_of_sum(&[body], loose)?.0 {
                     // In a sum without terms, a factor need not be a number.
                     let stays = |(factor, _): &(Id, i32)| {
                         let changes = self.free(*factor).bound & (1 << height) != 0;

@@ -86,6 +86,27 @@ mod not_found_in_halves_of_an_array {
     pub struct System;
 }
 
+mod not_found_without_a_third_derivative {
+    use super::*;
+    fn f<T: dvi_core::Scalar>(x: T) -> T {
+        x
+    }
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = f(x) * d(y) - y * x.tan().tan() * d(x),
+        hamiltonian = x * y,
+        functions(f = [f, f, f]),
+        gauge = auto,
+    )]
+    pub struct System;
+}
+
+mod an_odd_number_of_coordinates {
+    use super::*;
+    #[degenerate_lagrangian(coordinates(x, y, z), one_form = x * d(y) + y * d(z), hamiltonian = x * y, gauge = auto)]
+    pub struct System;
+}
+
 mod none_needed {
     use super::*;
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = auto)]

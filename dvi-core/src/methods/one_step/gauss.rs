@@ -115,10 +115,9 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
 {
     fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StartError> {
         let space = system.space();
-        let (mut p, mut rates) = (space.vector(), space.vector());
+        let mut p = space.vector();
         system.one_form(q, t, &mut p);
-        let mut field = VectorField::new(system, q, t).map_err(StartError::Starter)?;
-        field.evaluate(system, q, t, &mut rates, &mut Statistics::default()).map_err(StartError::Starter)?;
+        let rates = VectorField::starting(system, q, t)?;
         let tableau = Collocation::gauss();
         let rest: Vector<S, T> = space.vector();
         Ok(Self {

@@ -44,7 +44,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // A gauge: its rate has the wrong sign, two components are one, one is lost.
     mistake("expand/formulas.rs", "graph.subtract(hamiltonian, rate)", "graph.add(hamiltonian, rate)"),
     mistake("symbolic/differential.rs", "known.target == part.target && known.loops == part.loops", "known.target == part.target"),
-    mistake("symbolic/differential.rs", "known.value = self.add(known.value, part.value)", "known.value = part.value"),
-    // What is multiplied out loses a term, or an exponent.
-    mistake("symbolic/polynomial.rs", "sum.add(&polynomial, term.scale)?;", "sum.add(&polynomial, term.scale.abs())?;"),
+    mistake("symbolic/differential.rs", "values.push(part.value)", "values[0] = part.value"),
+    // What is multiplied out loses its coefficients.
+    mistake("symbolic/polynomial.rs", "self.monomial(monomial).scaled(*value)", "self.monomial(monomial)"),
 ];
