@@ -78,6 +78,7 @@
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
 //! | [`solve`] | how implicit steps are solved, and when they count as solved |
 //! | [`mechanics`] | the equations of motion, and what can be asked of a system at one state |
+//! | [`field`] | functions of several variables that hold data |
 //! | [`state`] | what a run carries from step to step, compensated sums, what a run has cost |
 //! | [`space`], [`scalar`] | storage for points and matrices; numbers |
 //! | [`error`] | failures as values |
@@ -101,6 +102,7 @@ pub mod __private;
 pub mod diagnostics;
 pub mod discrete;
 pub mod error;
+pub mod field;
 pub mod guide;
 pub mod mechanics;
 pub mod methods;
@@ -116,6 +118,7 @@ pub mod system;
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError};
+pub use field::ScalarField;
 pub use scalar::{Comparison, Number, Parameter, Real, Scalar, Varied};
 pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 #[cfg(feature = "alloc")]

@@ -53,6 +53,9 @@ macro_rules! scalar {
             fn lift(value: f64) -> Self;
             /// `then` where `a` compares to `b` as asked, `otherwise` elsewhere.
             fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self;
+            /// A function of `self` that is constant between jumps, as an entry of a table is of the place where it is looked up:
+            /// `of` the value, without derivatives.
+            fn piecewise(self, of: impl Fn(f64) -> f64) -> Self;
             /// The angle of the point (`x`, `self`), in radians.
             fn atan2(self, x: Self) -> Self;
             /// √(`self`² + `y`²) without undue overflow.
@@ -109,6 +112,10 @@ macro_rules! scalar {
                     Comparison::GreaterOrEqual => a >= b,
                 };
                 if holds { then } else { otherwise }
+            }
+            #[inline(always)]
+            fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {
+                Self::lift(of(norm::reported(self)))
             }
             #[inline(always)]
             fn atan2(self, x: Self) -> Self {

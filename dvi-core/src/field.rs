@@ -1,0 +1,72 @@
+//! Functions of several variables that hold data: what a formula calls as `psi(r, z)`.
+//!
+//! A measured or computed field is known on a grid, and no formula says what it is. A struct has such a function as one of
+//! its fields, of a type that implements [`ScalarField`], and its formulas call the field by its name. The attribute
+//! differentiates through the call by the chain rule.
+
+use crate::Scalar;
+
+/// The expansion of a function of `D` variables about a point, up to the second order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expansion<const D: usize, T = f64> {
+    /// f.
+    pub value: T,
+    /// ∂f/∂xⁱ.
+    pub gradient: [T; D],
+    /// ∂²f/∂xⁱ∂xʲ, both halves of the symmetric matrix.
+    pub hessian: [[T; D]; D],
+}
+
+/// A function of `D` variables that has two continuous derivatives and may hold data.
+///
+/// One evaluation gives the value with all derivatives, so that terms of a formula that need several of them at the same
+/// point share the work. The integrators rely on the derivatives being those of the value: the energy of a run drifts
+/// where they are not.
+///
+/// ```
+/// use dvi_core::field::{Expansion, ScalarField};
+/// use dvi_core::Scalar;
+///
+/// /// f(x, y) = k x y²
+/// struct Product { k: f64 }
+///
+/// impl ScalarField<2> for Product {
+///     fn expansion<T: Scalar>(&self, [x, y]: [T; 2]) -> Expansion<2, T> {
+///         let (k, two) = (T::lift(self.k), T::lift(2.0));
+///         let mixed = two * k * y;
+///         Expansion {
+///             value: k * x * y * y,
+///             gradient: [k * y * y, mixed * x],
+///             hessian: [[T::lift(0.0), mixed], [mixed, two * k * x]],
+///         }
+///     }
+/// }
+///
+/// assert_eq!(Product { k: 0.5 }.expansion([3.0, 2.0]).gradient, [2.0, 6.0]);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a function of {D} numbers: it does not implement `ScalarField<{D}>`",
+    label = "a formula calls this with {D} arguments",
+    note = "`dvi_core::field::ScalarField` says what such a function is"
+)]
+pub trait ScalarField<const D: usize> {
+    /// The value and the derivatives at `at`. Outside of the [domain](Self::domain) the value is not a number.
+    fn expansion<T: Scalar>(&self, at: [T; D]) -> Expansion<D, T>;
+
+    /// The least and the largest value of each variable at which the function is known. A variable without an end, or one
+    /// in which the function is periodic, is known from −∞ to ∞, and so is each by default.
+    fn domain(&self) -> [(f64, f64); D] {
+        [(f64::NEG_INFINITY, f64::INFINITY); D]
+    }
+}
+
+impl<const D: usize, F: ScalarField<D>> ScalarField<D> for &F {
+    #[inline(always)]
+    fn expansion<T: Scalar>(&self, at: [T; D]) -> Expansion<D, T> {
+        (**self).expansion(at)
+    }
+
+    fn domain(&self) -> [(f64, f64); D] {
+        (**self).domain()
+    }
+}
