@@ -26,7 +26,7 @@ use crate::model::Model;
 use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
-use crate::symbolic::{Coordinate, Fold, Graph, Id, Node, Parameter, Relation, Weight};
+use crate::symbolic::{Coordinate, Fold, Graph, Id, Node, Parameter, Partial, Relation, Weight};
 
 mod indices;
 
@@ -222,6 +222,19 @@ impl Function<'_> {
                 let (name, of) = (own_function(*function as usize, *order as usize), self.signed(*of));
                 quote!(Self::#name(#of))
             }
+            Instruction::Expansion(field, at) => {
+                let name = scalar_field(*field as usize);
+                let at = at.iter().map(|argument| self.signed(*argument));
+                quote!(self.#name([#(#at),*]))
+            }
+            Instruction::Part(expansion, partial) => {
+                let expansion = self.register(*expansion);
+                match partial {
+                    Partial::Value => quote!(#expansion.value),
+                    Partial::First(axis) => quote!(#expansion.gradient[#axis]),
+                    Partial::Second(first, second) => quote!(#expansion.hessian[#first][#second]),
+                }
+            }
             Instruction::Choose(left, relation, right, then, otherwise) => {
                 let relation = match relation {
                     Relation::Less => quote!(Less),
@@ -297,6 +310,11 @@ impl Function<'_> {
 /// The function that calls the user's own: a mistake in its signature is one error, on its path.
 pub(crate) fn own_function(function: usize, order: usize) -> Ident {
     format_ident!("__function{function}_{order}")
+}
+
+/// The function that expands a function of several variables.
+pub(crate) fn scalar_field(field: usize) -> Ident {
+    format_ident!("__scalar_field{field}")
 }
 
 pub(crate) fn output_block(output: Output, block: u32) -> String {

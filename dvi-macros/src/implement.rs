@@ -16,7 +16,7 @@ use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Generics, Path, parse_quote};
 
-use crate::emit::{Emitter, local, output_block, own_function};
+use crate::emit::{Emitter, local, output_block, own_function, scalar_field};
 use crate::program::{Output, Programs};
 use crate::routine::Routine;
 use crate::symbolic::Node;
@@ -162,7 +162,7 @@ fn functions(emitter: &Emitter<'_>) -> TokenStream {
             }
         })
     });
-    let functions: Vec<TokenStream> = functions.collect();
+    let functions: Vec<TokenStream> = functions.chain(scalar_fields(emitter)).collect();
     if functions.is_empty() {
         return TokenStream::new();
     }
@@ -174,6 +174,28 @@ fn functions(emitter: &Emitter<'_>) -> TokenStream {
     }
 }
 
+/// One method for each function of several variables:
+/// ```text
+/// fn __scalar_field0<__T: Scalar>(&self, __at: [__T; 2]) -> Expansion<2, __T> {
+///     ScalarField::<2>::expansion(&self.psi, __at)
+/// }
+/// ```
+fn scalar_fields(emitter: &Emitter<'_>) -> impl Iterator<Item = TokenStream> {
+    let krate = emitter.krate();
+    emitter.model.scalar_fields.iter().enumerate().map(move |(number, field)| {
+        let (name, arity, place) = (scalar_field(number), field.arity, &field.tokens);
+        let bound = field.generic.as_ref().map(|ty| quote!(where #ty: #krate::ScalarField<#arity>));
+        // That its type is no such function is reported where it is called.
+        let value = quote_spanned!(field.span=> #krate::ScalarField::<#arity>::expansion(&#place, __at));
+        quote! {
+            #[inline(always)]
+            fn #name<__T: #krate::Scalar>(
+                &self, __at: [__T; #arity],
+            ) -> #krate::field::Expansion<#arity, __T> #bound { #value }
+        }
+    })
+}
+
 /// The generics of the system and the numbers `__T` that it is computed in: those that its parameters can be lifted to.
 fn over_numbers(emitter: &Emitter<'_>) -> Generics {
     let (krate, model) = (emitter.krate(), emitter.model);
@@ -183,6 +205,11 @@ fn over_numbers(emitter: &Emitter<'_>) -> Generics {
     let types = model.parameters.iter().enumerate().filter(|(field, _)| mentioned(*field));
     for generic in types.filter_map(|(_, parameter)| parameter.generic.as_ref()) {
         generics.make_where_clause().predicates.push(parse_quote!(#generic: #krate::Parameter<__T>));
+    }
+    for field in &model.scalar_fields {
+        if let (Some(ty), arity) = (&field.generic, field.arity) {
+            generics.make_where_clause().predicates.push(parse_quote!(#ty: #krate::ScalarField<#arity>));
+        }
     }
     generics
 }

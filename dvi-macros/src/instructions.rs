@@ -6,7 +6,7 @@
 use rustc_hash::FxHashMap as HashMap;
 
 use crate::internal::internal;
-use crate::symbolic::{Binary, Fold, Free, Id, Loop, Relation, Unary};
+use crate::symbolic::{Binary, Fold, Free, Id, Loop, Partial, Relation, Unary};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Register(pub(crate) u32);
@@ -32,6 +32,10 @@ pub(crate) enum Instruction {
     Binary(Binary, Signed, Signed),
     Power(Register, i32),
     Call(u32, u32, Signed),
+    /// Value, gradient and Hessian of a function of several variables, at once.
+    Expansion(u32, Vec<Signed>),
+    /// One of the numbers of an expansion.
+    Part(Register, Partial),
     Choose(Signed, Relation, Signed, Signed, Signed),
     Reduce(Fold, Loop, Signed),
 }
@@ -49,9 +53,9 @@ impl Instruction {
         match self {
             Self::Leaf(_) | Self::Literal(_) => Vec::new(),
             Self::Multiply(a, b) | Self::Divide(a, b) => vec![*a, *b],
-            Self::Sum(terms) => terms.iter().map(|term| term.register).collect(),
+            Self::Sum(terms) | Self::Expansion(_, terms) => terms.iter().map(|term| term.register).collect(),
             Self::Unary(_, a) | Self::Call(_, _, a) | Self::Reduce(_, _, a) => vec![a.register],
-            Self::Power(a, _) => vec![*a],
+            Self::Power(a, _) | Self::Part(a, _) => vec![*a],
             Self::Binary(_, a, b) => vec![a.register, b.register],
             Self::Choose(a, _, b, c, d) => vec![a.register, b.register, c.register, d.register],
         }

@@ -6,18 +6,18 @@
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::ext::IdentExt as _;
-use syn::{Fields, Ident, ItemStruct, Path};
+use syn::{Fields, Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
 use crate::lower::reserved;
 use crate::symbolic::{Index, Names};
-use crate::syntax::{Attribute, Declaration, Function, Kind};
+use crate::syntax::{Attribute, Declaration, Function, Kind, ScalarFieldPath};
 
 mod shape;
 mod sizes;
 
 pub(crate) use shape::Shape;
-use shape::{generic, is_integer, shape};
+use shape::{generic, is_integer, mentions_generic, shape};
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -50,6 +50,20 @@ pub(crate) struct ParameterName {
     pub(crate) generic: Option<Ident>,
 }
 
+/// A function of several variables that a formula calls: a field of the struct, or a path.
+#[derive(Debug)]
+pub(crate) struct ScalarField {
+    pub(crate) text: String,
+    /// The place in a method of the struct.
+    pub(crate) tokens: TokenStream,
+    /// The number of its arguments.
+    pub(crate) arity: usize,
+    /// Where it is called first.
+    pub(crate) span: Span,
+    /// Its type, if that is a generic one of the struct or mentions one.
+    pub(crate) generic: Option<Type>,
+}
+
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) kind: Kind,
@@ -58,6 +72,10 @@ pub(crate) struct Model {
     pub(crate) sizes: Vec<SizeName>,
     pub(crate) parameters: Vec<ParameterName>,
     pub(crate) functions: Vec<Function>,
+    /// Those that are declared by a path, whether they are called or not.
+    declared_scalar_fields: Vec<ScalarFieldPath>,
+    /// Those that are called.
+    pub(crate) scalar_fields: Vec<ScalarField>,
     /// The names of the momenta.
     pub(crate) momenta: Vec<String>,
     /// What the state derives beside what every state does.
@@ -80,6 +98,8 @@ impl Model {
             sizes: Vec::new(),
             parameters,
             functions: std::mem::take(&mut attribute.functions),
+            declared_scalar_fields: std::mem::take(&mut attribute.scalar_fields),
+            scalar_fields: Vec::new(),
             momenta: attribute.momenta.iter().map(|momentum| momentum.name.unraw().to_string()).collect(),
             derives: std::mem::take(&mut attribute.derives),
             crate_path,
@@ -89,7 +109,8 @@ impl Model {
         for declaration in &attribute.coordinates {
             model.declare(declaration, errors);
         }
-        for Function { name, .. } in &model.functions {
+        let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
+        for name in model.functions.iter().map(|function| &function.name).chain(fields) {
             if reserved().any(|reserved| name == reserved) {
                 errors.push(
                     name,
@@ -97,7 +118,8 @@ impl Model {
                 );
             }
         }
-        unique(model.functions.iter().map(|function| &function.name), "function", errors);
+        let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
+        unique(model.functions.iter().map(|function| &function.name).chain(fields), "function", errors);
         unique(attribute.momenta.iter().map(|momentum| &momentum.name), "momentum", errors);
         model
     }
@@ -163,6 +185,30 @@ impl Model {
         position as u32
     }
 
+    /// The function of several variables of this name, called with so many arguments; `None` if there is none, and another
+    /// number of arguments if it was called with that before.
+    pub(crate) fn scalar_field(&mut self, name: &Ident, arity: usize) -> Option<Result<u32, usize>> {
+        if let Some(known) = self.scalar_fields.iter().position(|field| *name == field.text) {
+            let before = self.scalar_fields[known].arity;
+            return Some(if before == arity { Ok(known as u32) } else { Err(before) });
+        }
+        let declared = self.declared_scalar_fields.iter().find(|field| field.name == *name);
+        let (tokens, generic) = match declared {
+            Some(ScalarFieldPath { path, .. }) => (quote!(#path), None),
+            None => {
+                let parameter = self.parameters.iter().find(|parameter| *name == parameter.text)?;
+                let fields = self.item.fields.iter();
+                let mut types =
+                    fields.filter(|field| field.ident.as_ref() == Some(name)).map(|field| &field.ty);
+                let ty = types.next().filter(|ty| mentions_generic(ty, &self.item.generics)).cloned();
+                (parameter.tokens.clone(), ty)
+            }
+        };
+        let field = ScalarField { text: name.to_string(), tokens, arity, span: name.span(), generic };
+        self.scalar_fields.push(field);
+        Some(Ok(self.scalar_fields.len() as u32 - 1))
+    }
+
     pub(crate) fn block_size(&self, block: usize) -> Index {
         self.blocks[block].array.as_ref().map_or_else(|| Index::literal(1), |(size, _)| size.clone())
     }
@@ -206,6 +252,9 @@ impl Names for Model {
     fn function(&self, function: u32) -> String {
         self.functions[function as usize].name.to_string()
     }
+    fn scalar_field(&self, field: u32) -> &str {
+        &self.scalar_fields[field as usize].text
+    }
     fn is_taken(&self, name: &str) -> bool {
         let parts =
             |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == name);
@@ -213,6 +262,7 @@ impl Names for Model {
             || self.parameters.iter().any(|parameter| parts(&parameter.text))
             || self.sizes.iter().any(|size| parts(&size.text))
             || self.functions.iter().any(|function| function.name == name)
+            || self.declared_scalar_fields.iter().any(|field| field.name == name)
     }
 }
 

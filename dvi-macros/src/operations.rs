@@ -36,11 +36,13 @@ fn count_operations(code: &Instructions, steps: &[Step], loops: &[Loop], counted
                 Instruction::Unary(..)
                 | Instruction::Binary(..)
                 | Instruction::Power(..)
-                | Instruction::Call(..) => {
+                | Instruction::Call(..)
+                | Instruction::Expansion(..) => {
                     here.calls += 1;
                 }
                 Instruction::Leaf(_)
                 | Instruction::Literal(_)
+                | Instruction::Part(..)
                 | Instruction::Choose(..)
                 | Instruction::Reduce(..) => {}
             },

@@ -89,6 +89,7 @@ impl Builder<'_> {
                 }
                 Node::Unary(_, of) | Node::Call(_, _, of) => self.note(of),
                 Node::Binary(_, a, b) => [a, b].into_iter().for_each(|part| self.note(part)),
+                Node::ScalarField(_, _, at) => at.into_iter().for_each(|argument| self.note(argument)),
                 Node::Choose { left, right, then, otherwise, .. } => {
                     [left, right, then, otherwise].into_iter().for_each(|part| self.note(part));
                 }
@@ -347,6 +348,11 @@ impl Builder<'_> {
             Node::Unary(function, of) => Instruction::Unary(function, self.signed(of)),
             Node::Binary(function, a, b) => Instruction::Binary(function, self.signed(a), self.signed(b)),
             Node::Call(function, order, of) => Instruction::Call(function, order, self.signed(of)),
+            Node::ScalarField(field, partial, at) => {
+                let at = at.into_iter().map(|argument| self.signed(argument)).collect();
+                let expansion = self.out.push(Instruction::Expansion(field, at));
+                Instruction::Part(expansion, partial)
+            }
             Node::Choose { left, relation, right, then, otherwise } => {
                 let [left, right, then, otherwise] =
                     [left, right, then, otherwise].map(|part| self.signed(part));

@@ -45,6 +45,20 @@ pub(crate) struct Function {
     pub(crate) derivatives: Vec<Path>,
 }
 
+/// An entry of `functions(...)`.
+#[derive(Debug)]
+enum Declared {
+    Function(Function),
+    ScalarField(ScalarFieldPath),
+}
+
+/// `psi = path`: a function of several variables that stands somewhere else than in the struct.
+#[derive(Debug)]
+pub(crate) struct ScalarFieldPath {
+    pub(crate) name: Ident,
+    pub(crate) path: Path,
+}
+
 /// `gauge = F`, or `gauge = auto`.
 #[derive(Debug)]
 pub(crate) enum Gauge {
@@ -64,6 +78,7 @@ pub(crate) struct Attribute {
     pub(crate) lagrangian: Option<Expr>,
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
+    pub(crate) scalar_fields: Vec<ScalarFieldPath>,
     /// What the state derives beside what every state does.
     pub(crate) derives: Vec<Path>,
     pub(crate) crate_path: Option<Path>,
@@ -151,11 +166,12 @@ impl Parse for Momentum {
     }
 }
 
-impl Parse for Function {
+impl Parse for Declared {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let name: Ident = input.parse()?;
         let advice = format!(
-            "a function is declared by its path and those of its first two derivatives, or three: write `{name} = [f, df, d2f]`"
+            "a function is declared by its path and those of its first two derivatives, or three: write `{name} = [f, df, d2f]`; \
+             a value that implements `ScalarField` is declared by its path alone: write `{name} = path`"
         );
         let at_fault = |at: Span| syn::Error::new(at, &advice);
         if !input.peek(Token![=]) {
@@ -163,7 +179,9 @@ impl Parse for Function {
         }
         input.parse::<Token![=]>()?;
         if !input.peek(syn::token::Bracket) {
-            return Err(at_fault(input.span()));
+            let at = input.span();
+            let path = input.parse::<Path>().map_err(|_| at_fault(at))?;
+            return Ok(Self::ScalarField(ScalarFieldPath { name, path }));
         }
         let content;
         let bracket = syn::bracketed!(content in input);
@@ -172,7 +190,7 @@ impl Parse for Function {
         if !(3..=4).contains(&derivatives.len()) {
             return Err(at_fault(bracket.span.join()));
         }
-        Ok(Self { name, derivatives: derivatives.into_iter().collect() })
+        Ok(Self::Function(Function { name, derivatives: derivatives.into_iter().collect() }))
     }
 }
 
@@ -276,7 +294,12 @@ impl Attribute {
             }
             ("momenta", Value::List(tokens)) => self.momenta = list(tokens, errors, &mut false),
             ("functions", Value::List(tokens)) => {
-                self.functions = list(tokens, errors, &mut self.lost_functions);
+                for declared in list(tokens, errors, &mut self.lost_functions) {
+                    match declared {
+                        Declared::Function(function) => self.functions.push(function),
+                        Declared::ScalarField(field) => self.scalar_fields.push(field),
+                    }
+                }
             }
             ("derive", Value::List(tokens)) => self.derives = list(tokens, errors, &mut false),
             ("gauge", Value::Assigned(tokens)) => {

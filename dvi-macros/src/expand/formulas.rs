@@ -76,6 +76,20 @@ impl Stages {
                 return None;
             }
         }
+        let below = lowering.graph.reachable([gauge.node]);
+        let field = below.into_iter().find_map(|id| match lowering.graph.node(id) {
+            Node::ScalarField(field, ..) => Some(*field),
+            _ => None,
+        });
+        if let Some(field) = field {
+            let name = lowering.model.scalar_fields[field as usize].text.clone();
+            let message = format!(
+                "a gauge is differentiated three times, and `{name}`, which stands in it, has two derivatives: no function \
+                 that implements `ScalarField` stands in a gauge"
+            );
+            lowering.errors.push(formula, message);
+            return None;
+        }
         Some(Some(gauge))
     }
 

@@ -67,7 +67,12 @@ fn measure_above(graph: &Graph, node: Id, known: &HashMap<Id, Measure>) -> Measu
     };
     let function = matches!(
         graph.node(node),
-        Node::Unary(..) | Node::Binary(..) | Node::Call(..) | Node::Reciprocal(_) | Node::Choose { .. }
+        Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Call(..)
+            | Node::ScalarField(..)
+            | Node::Reciprocal(_)
+            | Node::Choose { .. }
     );
     let depth = 1 + operands.iter().map(|operand| operand.depth).max().unwrap_or(0);
     Measure { degree, functions: deepest + u32::from(function), depth }

@@ -9,7 +9,8 @@ use super::words::{Arithmetic, Method, SUMS, VELOCITIES, callable};
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest, similar, text};
 use crate::internal::internal;
-use crate::symbolic::{Expr, Node, Relation};
+use crate::model::Shape;
+use crate::symbolic::{Expr, Node, Partial, Relation};
 use crate::syntax::Kind;
 
 impl Lowering<'_> {
@@ -139,6 +140,9 @@ impl Lowering<'_> {
 
     fn own_function(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
         let Some(function) = self.model.functions.iter().position(|function| function.name == name) else {
+            if let Some(value) = self.scalar_field(name, call) {
+                return value;
+            }
             let (receiver, arguments) = (call.args.first(), call.args.iter().skip(1).collect::<Vec<_>>());
             if Method::by_name(name).is_some() {
                 let receiver = receiver.map_or_else(|| "x".to_string(), as_receiver);
@@ -158,6 +162,38 @@ impl Lowering<'_> {
         let argument = self.expr(&call.args[0])?;
         let value = self.graph.call(function as u32, 0, argument);
         self.admitted(call, value)
+    }
+
+    /// A function of several variables, if there is one of this name; nothing inside if it is called in a wrong way.
+    fn scalar_field(&mut self, name: &str, call: &ExprCall) -> Option<Option<Expr>> {
+        let Syntax::Path(path) = &*call.func else { return None };
+        let ident = path.path.get_ident()?;
+        let parameter = self.parameter(ident);
+        if let Some(Shape::Number | Shape::Count | Shape::Array(..)) = parameter.map(|field| self.shape_of(field)) {
+            let message = format!("the field `{name}` holds numbers, it is no function: a product is written with `*`");
+            self.errors.push(&call.func, message);
+            return Some(None);
+        }
+        let arity = call.args.len();
+        let field = self.model.scalar_field(ident, arity)?;
+        let at: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
+        let field = match field {
+            Ok(_) if arity == 0 => {
+                self.errors.push(call, format!("`{name}` takes one argument or more; here are none"));
+                return Some(None);
+            }
+            Ok(field) => field,
+            Err(before) => {
+                let message = format!("`{name}` is called with {} elsewhere; here are {arity}", arguments(before));
+                self.errors.push(call, message);
+                return Some(None);
+            }
+        };
+        let at: Option<Vec<Expr>> = at.into_iter().collect();
+        Some(at.and_then(|at| {
+            let value = self.graph.scalar_field(field, Partial::Value, at);
+            self.admitted(call, value)
+        }))
     }
 
     fn unknown_function(

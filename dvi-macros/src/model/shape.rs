@@ -1,5 +1,7 @@
 //! What the type of a field says of it, as far as it is written out.
 
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::{Expr, ExprLit, GenericArgument, Generics, Ident, Lit, PathArguments, Type};
 
 /// What the type of a field says, as far as it is written out.
@@ -104,4 +106,16 @@ pub(super) fn is_integer(ty: &Type) -> bool {
         }),
         _ => false,
     }
+}
+
+/// Whether a generic type of the struct stands in a type.
+pub(super) fn mentions_generic(ty: &Type, generics: &Generics) -> bool {
+    fn any(tokens: TokenStream, generics: &Generics) -> bool {
+        tokens.into_iter().any(|token| match token {
+            TokenTree::Ident(name) => generics.type_params().any(|known| known.ident == name),
+            TokenTree::Group(group) => any(group.stream(), generics),
+            TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+        })
+    }
+    any(ty.to_token_stream(), generics)
 }

@@ -138,6 +138,10 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effor
 
 /// F as text, if α + dF is in class.
 fn found(graph: &mut Graph, model: &Model, form: Expr, function: Expr) -> Result<Found, Lacking> {
+    // Its third derivative stands in no table.
+    if graph.depends(function.node, |node| matches!(node, Node::ScalarField(..))) {
+        return Err(Lacking::Words);
+    }
     let class = Class::new(graph, model, form);
     let below = graph.reachable([function.node]);
     let lacking = below.into_iter().find_map(|id| match graph.node(id) {

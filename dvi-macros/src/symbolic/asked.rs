@@ -80,7 +80,7 @@ impl Graph {
     pub(super) fn has_domain(&self, id: Id) -> bool {
         self.depends(id, |node| match node {
             Node::Unary(function, _) => !function.has(Property::Smooth),
-            Node::Reciprocal(_) | Node::Binary(..) | Node::Call(..) => true,
+            Node::Reciprocal(_) | Node::Binary(..) | Node::Call(..) | Node::ScalarField(..) => true,
             _ => false,
         })
     }

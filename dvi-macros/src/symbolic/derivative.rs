@@ -93,6 +93,14 @@ impl Graph {
                 }
             }
             Node::Call(function, order, u) => self.chain(u, by, |graph| graph.call(function, order + 1, u)),
+            Node::ScalarField(field, partial, at) => {
+                let terms = (0..at.len()).map(|axis| {
+                    let along = |graph: &mut Self| graph.scalar_field(field, partial.along(axis), at.clone());
+                    self.chain(at[axis], by, along)
+                });
+                let terms: Vec<Expr> = terms.collect();
+                self.factored_sum(&terms)
+            }
             Node::Binary(function, a, b) => {
                 if let (Binary::Powf, Some(p)) = (function, b.as_number())
                     && let Some(derivative) = self.power_of_square(a, p, by)

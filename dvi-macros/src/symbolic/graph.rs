@@ -9,6 +9,7 @@ use std::hash::{Hash, Hasher};
 
 use super::functions::Unary;
 use super::index::{Atom, Free, Index, Range};
+use super::partial::Partial;
 use crate::internal::internal;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -84,6 +85,8 @@ pub(crate) enum Node {
     Binary(Binary, Expr, Expr),
     /// The user's own function: entry of the model's table, order of the derivative, argument.
     Call(u32, u32, Expr),
+    /// A function of several variables that holds data: entry of the model's table, derivative, arguments.
+    ScalarField(u32, Partial, Vec<Expr>),
     /// `if left ~ right { then } else { otherwise }`
     Choose {
         left: Expr,
@@ -188,6 +191,7 @@ impl Node {
             Self::Reciprocal(of) => vec![*of],
             Self::Unary(_, of) | Self::Call(_, _, of) | Self::Reduce { body: of, .. } => vec![of.node],
             Self::Binary(_, a, b) => vec![a.node, b.node],
+            Self::ScalarField(_, _, at) => at.iter().map(|argument| argument.node).collect(),
             Self::Choose { left, right, then, otherwise, .. } => {
                 vec![left.node, right.node, then.node, otherwise.node]
             }
@@ -329,6 +333,9 @@ impl Graph {
             Node::Unary(function, operand) => self.unary(function, of(&operand)),
             Node::Binary(function, a, b) => self.binary(function, of(&a), of(&b)),
             Node::Call(function, order, operand) => self.call(function, order, of(&operand)),
+            Node::ScalarField(field, partial, at) => {
+                self.scalar_field(field, partial, at.iter().map(of).collect())
+            }
             Node::Choose { left, relation, right, then, otherwise } => {
                 self.choose(of(&left), relation, of(&right), of(&then), of(&otherwise))
             }

@@ -183,6 +183,7 @@ impl Graph {
             Node::Reciprocal(_)
             | Node::Binary(..)
             | Node::Call(..)
+            | Node::ScalarField(..)
             | Node::Choose { .. }
             | Node::Reduce { fold: Fold::Product, .. } => true,
         })

@@ -4,6 +4,7 @@ use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation, Weight};
 use super::index::{Atom, Index, Loop, Range};
+use super::partial::Partial;
 use crate::internal::internal;
 
 /// The names that ids of the model stand for.
@@ -15,6 +16,7 @@ pub(crate) trait Names {
     fn parameter(&self, field: u32) -> &str;
     fn size(&self, size: u32) -> &str;
     fn function(&self, function: u32) -> String;
+    fn scalar_field(&self, field: u32) -> &str;
     /// Whether something is called so.
     fn is_taken(&self, name: &str) -> bool;
 }
@@ -179,6 +181,7 @@ pub(crate) fn write_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> Option
         Node::Unary(function, _) => function.is_written(),
         Node::Binary(function, ..) => *function != Binary::OverRoot,
         Node::Call(_, order, _) => *order == 0,
+        Node::ScalarField(_, partial, _) => *partial == Partial::Value,
         Node::Choose { relation, .. } => *relation != Relation::HasMore,
         Node::Reduce { range, .. } => range.left_out().next().is_none(),
         _ => true,
@@ -280,6 +283,11 @@ impl Printer<'_> {
                 let name =
                     format!("{}{}", self.letters.names.function(*function), "'".repeat(*order as usize));
                 (format!("{name}({})", self.expr(*u, Strength::Sum)), Strength::Atom)
+            }
+            Node::ScalarField(field, partial, at) => {
+                let name = self.letters.names.scalar_field(*field);
+                let arguments: Vec<String> = at.iter().map(|a| self.expr(*a, Strength::Sum)).collect();
+                (format!("{}{name}({})", derivatives(*partial), arguments.join(", ")), Strength::Atom)
             }
             Node::Choose { left, relation, right, then, otherwise } => {
                 let sign = match relation {
@@ -383,4 +391,14 @@ fn number(value: f64) -> String {
         }
     }
     if value == value.round() && value.abs() < 1e15 { format!("{value}") } else { format!("{value:?}") }
+}
+
+/// ∂₁∂₂ in front of the name of a function of several variables.
+fn derivatives(partial: Partial) -> String {
+    partial.axes().into_iter().map(|axis| format!("∂{}", subscript(axis + 1))).collect()
+}
+
+fn subscript(number: usize) -> String {
+    let digits = number.to_string();
+    digits.chars().filter_map(|digit| char::from_u32('₀' as u32 + digit as u32 - '0' as u32)).collect()
 }

@@ -11,6 +11,7 @@
 use super::functions::Unary;
 use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation};
 use super::index::{Atom, Index, Range};
+use super::partial::Partial;
 use super::rules;
 use crate::internal::internal;
 
@@ -209,6 +210,10 @@ impl Graph {
 
     pub(crate) fn call(&mut self, function: u32, order: u32, of: Expr) -> Expr {
         self.intern(Node::Call(function, order, of)).into()
+    }
+
+    pub(crate) fn scalar_field(&mut self, field: u32, partial: Partial, at: Vec<Expr>) -> Expr {
+        self.intern(Node::ScalarField(field, partial, at)).into()
     }
 
     /// Both branches alike: no choice.

@@ -158,6 +158,15 @@ impl Run<'_> {
             Instruction::Call(function, order, of) => {
                 functions::stand_in(*function as usize, *order, self.signed(*of))
             }
+            // Its parts are what is read.
+            Instruction::Expansion(..) => f64::NAN,
+            Instruction::Part(expansion, partial) => {
+                let Instruction::Expansion(field, at) = self.routine.code.get(*expansion) else {
+                    internal("a part of what is no expansion")
+                };
+                let at: Vec<f64> = at.iter().map(|argument| self.signed(*argument)).collect();
+                functions::scalar_field_stand_in(*field as usize, &partial.axes(), &at)
+            }
             Instruction::Choose(left, relation, right, then, otherwise) => {
                 let (left, right) = (self.signed(*left), self.signed(*right));
                 let holds = match relation {

@@ -60,6 +60,10 @@ impl Evaluation<'_> {
             let argument = self.number(&call.args[0])?;
             return Ok(functions::own(number, &argument));
         }
+        if let Some(number) = self.model.scalar_fields.iter().position(|field| field.text == *name) {
+            let at: Result<Vec<Jet>, _> = call.args.iter().map(|argument| self.number(argument)).collect();
+            return Ok(functions::scalar_field(number, &at?));
+        }
         match &*name {
             "sum" | "product" | "sum_pairs" | "sum_ordered_pairs" => self.fold(&name, call),
             "d" | "dot" => {
