@@ -28,6 +28,24 @@ pub struct IndexError {
     pub len: usize,
 }
 
+/// A function that holds data is evaluated where it is not known.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error(
+    "`{function}` is not known there: its argument {argument} is {value}, and must lie from {least} to {largest}"
+)]
+pub struct OutsideError {
+    /// The function, as the formulas call it.
+    pub function: &'static str,
+    /// Which of its arguments leaves the [domain](crate::ScalarField::domain), counted from 1.
+    pub argument: usize,
+    /// The value of that argument.
+    pub value: f64,
+    /// The least value that it may have.
+    pub least: f64,
+    /// The largest value that it may have.
+    pub largest: f64,
+}
+
 /// A run that cannot begin.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -77,6 +95,9 @@ pub enum StartError {
         /// Its value.
         value: f64,
     },
+    /// A function that holds data is not known at the initial state.
+    #[error(transparent)]
+    Outside(#[from] OutsideError),
     /// An array of the state has the wrong length.
     #[error(transparent)]
     Length(#[from] LengthError),
@@ -245,6 +266,10 @@ pub enum StepFailure {
         /// The step, perhaps not finite.
         h: f64,
     },
+    /// A function that holds data would have been evaluated outside of its table. The argument is the one at the state where the
+    /// step began or, if that lies inside, at a point that the motion reaches from there within two steps.
+    #[error("the motion leaves a table: {0}")]
+    Outside(OutsideError),
     /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.
     #[error(
         "coordinate {coordinate} became {value}: a collision, a formula that left its domain, or a step that is too long"

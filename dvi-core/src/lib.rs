@@ -117,7 +117,7 @@ pub mod system;
 
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
-pub use error::{IndexError, LengthError};
+pub use error::{IndexError, LengthError, OutsideError};
 pub use field::ScalarField;
 pub use scalar::{Comparison, Number, Parameter, Real, Scalar, Varied};
 pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};

@@ -3,7 +3,9 @@
 pub use crate::Number;
 pub use crate::system::stand_in::StandIn;
 
-use crate::error::{IndexError, LengthError};
+use crate::Real;
+use crate::error::{IndexError, LengthError, OutsideError};
+use crate::scalar::norm::reported;
 
 /// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
 #[inline]
@@ -32,6 +34,20 @@ pub fn check_index(array: &'static str, index: i64, len: usize) -> Result<(), In
         Ok(position) if position < len => Ok(()),
         _ => Err(IndexError { array, index, len }),
     }
+}
+
+/// The first argument of a function that leaves its domain.
+pub fn outside<const D: usize, T: Real>(
+    function: &'static str,
+    domain: [(f64, f64); D],
+    at: [T; D],
+) -> Option<OutsideError> {
+    let mut arguments = at.into_iter().zip(domain).zip(1..);
+    arguments.find_map(|((value, (least, largest)), argument)| {
+        let value = reported(value);
+        let is_inside = least <= value && value <= largest;
+        (!is_inside).then_some(OutsideError { function, argument, value, least, largest })
+    })
 }
 
 /// Copies a block of a state to its place in a flat slice.

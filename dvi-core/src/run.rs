@@ -3,6 +3,7 @@
 #[cfg(feature = "alloc")]
 mod checkpoint;
 mod integrator;
+mod outside;
 mod step_control;
 
 use core::fmt;
@@ -165,8 +166,9 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
     }
 
     #[cold]
-    pub(crate) fn error(&mut self, time: T, failure: StepFailure) -> StepError {
+    pub(crate) fn error(&mut self, time: T, h: T, failure: StepFailure) -> StepError {
         self.failed = true;
+        let failure = self.explained(failure, time, h);
         StepError { step: self.statistics.steps, time: reported(time), failure }
     }
 
@@ -179,7 +181,7 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
         let mut v = system.space().vector();
         match self.velocity(t, &mut v) {
             Ok(()) => Ok(S::State::read(|block| system.block_len(block), &self.q, &v)),
-            Err(failure) => Err(self.error(t, failure)),
+            Err(failure) => Err(self.error(t, T::lift(0.0), failure)),
         }
     }
 

@@ -18,9 +18,9 @@ pub(crate) mod start;
 
 use core::fmt::Debug;
 
-use crate::error::{IndexError, LengthError};
+use crate::error::{IndexError, LengthError, OutsideError};
 use crate::space::sink::Sink;
-use crate::{Scalar, Space};
+use crate::{Real, Scalar, Space};
 
 pub use crate::name::Name;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
@@ -81,6 +81,9 @@ pub trait System {
     type Kind: Kind;
     /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
     const REGULAR: bool = <Self::Kind as Kind>::REGULAR;
+
+    /// Whether functions that hold data stand in its formulas, of which some may not be known everywhere.
+    const HAS_SCALAR_FIELDS: bool = false;
 
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
@@ -166,6 +169,15 @@ pub trait Lagrangian<T: Scalar = f64>: System {
         l_v: &mut [T],
         sink: &mut K,
     );
+
+    /// Whether a function that holds data is evaluated outside of its [domain](crate::ScalarField::domain) at this point, and
+    /// which: the first one in L that is.
+    fn outside(&self, _q: &[T], _v: &[T], _t: T) -> Option<OutsideError>
+    where
+        T: Real,
+    {
+        None
+    }
 
     /// The energy E = v·∂L/∂v − L. For degenerate systems this is H(q, t), and `v` may be empty.
     fn energy(&self, q: &[T], v: &[T], t: T) -> T;

@@ -17,12 +17,12 @@
 //! addition.
 
 use proc_macro2::{Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 use syn::{Ident, Path};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
-use crate::model::Model;
+use crate::model::{Model, ScalarField};
 use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
@@ -44,6 +44,8 @@ struct Function<'a> {
     routine: &'a Routine,
     /// Registers that are written into the one expression that uses them.
     inlined: &'a [bool],
+    /// Whether the function returns where a function of several variables is not known.
+    is_guarded: bool,
 }
 
 pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
@@ -61,6 +63,16 @@ impl Emitter<'_> {
 
     /// The body of a function that carries out its statements.
     pub(crate) fn body(&self, routine: &Routine) -> TokenStream {
+        self.body_of(routine, false)
+    }
+
+    /// The body of a function that returns the first function of several variables that is not known, if there is one.
+    pub(crate) fn guarded(&self, routine: &Routine) -> TokenStream {
+        let body = self.body_of(routine, true);
+        quote!(let _: __T = { #body }; ::core::option::Option::None)
+    }
+
+    fn body_of(&self, routine: &Routine, is_guarded: bool) -> TokenStream {
         let code = &routine.code;
         let mut uses = vec![0_u32; code.len()];
         let mut elsewhere = vec![false; code.len()];
@@ -76,7 +88,7 @@ impl Emitter<'_> {
                 uses[position] == 1 && !elsewhere[position] && nesting[position] < DEEPEST_EXPRESSION;
             inlined[position] = is_short || matches!(instruction, Instruction::Literal(_));
         }
-        Function { emitter: self, routine, inlined: &inlined }.steps(&routine.steps)
+        Function { emitter: self, routine, inlined: &inlined, is_guarded }.steps(&routine.steps)
     }
 }
 
@@ -225,7 +237,21 @@ impl Function<'_> {
             Instruction::Expansion(field, at) => {
                 let name = scalar_field(*field as usize);
                 let at = at.iter().map(|argument| self.signed(*argument));
-                quote!(self.#name([#(#at),*]))
+                if !self.is_guarded {
+                    return quote!(self.#name([#(#at),*]));
+                }
+                let ScalarField { text, tokens, arity, span, .. } =
+                    &self.emitter.model.scalar_fields[*field as usize];
+                // With the span of the one above, so that a type that is no such function is one error.
+                let domain = quote_spanned!(*span=> #krate::ScalarField::<#arity>::domain(&#tokens));
+                quote! {{
+                    let __at = [#(#at),*];
+                    let __outside = #krate::__private::outside(#text, #domain, __at);
+                    if __outside.is_some() {
+                        return __outside;
+                    }
+                    self.#name(__at)
+                }}
             }
             Instruction::Part(expansion, partial) => {
                 let expansion = self.register(*expansion);

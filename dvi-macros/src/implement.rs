@@ -250,6 +250,7 @@ fn configuration(
     let lengths =
         (0..emitter.model.blocks.len()).map(|block| emitter.index(&emitter.model.block_size(block)));
     let blocks = 0..emitter.model.blocks.len();
+    let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
     let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.has_velocities()));
     quote! {
         #[automatically_derived]
@@ -259,6 +260,7 @@ fn configuration(
             type Kind = #kind;
             type State<__T: #krate::Scalar> = #type_in_trait;
             const REPORT: #krate::Report = #report;
+            const HAS_SCALAR_FIELDS: bool = #has_scalar_fields;
 
             #[inline(always)]
             fn space(&self) -> Self::Space { #space_value }
@@ -281,6 +283,19 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, energy: &TokenStream) 
     let offsets = emitter.offsets();
     // A call costs as much as a few terms of a sum.
     let always = (programs.linearize.code.len() <= SHORT).then(|| quote!((always)));
+    let outside = (!emitter.model.scalar_fields.is_empty()).then(|| {
+        let (read, body) = (emitter.read(&programs.lagrangian), emitter.guarded(&programs.lagrangian));
+        quote! {
+            fn outside(
+                &self, __q: &[__T], __v: &[__T], __t: __T,
+            ) -> ::core::option::Option<#krate::OutsideError>
+            where
+                __T: #krate::Real,
+            {
+                #read #body
+            }
+        }
+    });
     let indices = 0..programs.momenta.len();
     let momenta = programs.momenta.iter().map(|value| emitter.value(value));
     let items = quote! {
@@ -299,6 +314,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, energy: &TokenStream) 
             ) {
                 #read_all #l_q #l_v #offsets #linearize
             }
+            #outside
             #[inline]
             fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
             #[inline]

@@ -71,6 +71,7 @@ use proc_macro::TokenStream;
 /// | `gauge = auto` | an F is sought that leaves α no component along one half of the coordinates |
 /// | `momenta(name = …)` | conserved quantities to watch |
 /// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, and a third one where it stands in a gauge, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
+/// | `functions(psi = path)` | a value of a type that implements `dvi_core::ScalarField`, see below |
 /// | `derive(Trait, …)` | what the state derives beside `Clone`, `Debug`, `PartialEq` and, without `Vec`s, `Copy`: `serde::Serialize` for instance, which does not know arrays of const-generic size |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
@@ -97,6 +98,18 @@ use proc_macro::TokenStream;
 /// Numbers are real: `1/2*x` is 0.5·x, as on paper. In front of an `as` Rust would divide integers without the remainder, so
 /// `(k / 2) as f64` is refused; `(k as f64) / 2.0` is the quotient. A constant of the user's and a field of a field, whose types
 /// are not known, are taken for integers there.
+///
+/// # Functions of several variables, from data
+///
+/// A field of the struct whose type implements `dvi_core::ScalarField<D>` is a function of D numbers: `psi(r, z)` in a formula is
+/// its value, and derivatives follow by the chain rule from the gradient and the Hessian that the type gives. Terms that need
+/// several of these numbers at the same arguments share one evaluation. The type may be a generic of the struct or a reference.
+/// Instead of a field it can be a value elsewhere, with its path in `functions(psi = path)`.
+///
+/// Such a function may be known in a box only, as a table is. A run that leaves it ends with `StepFailure::Outside`, which says
+/// which argument of which function went where. The self-check puts another smooth function in the place of the user's: it
+/// checks what the compiler makes of the call, not whether gradient and Hessian are those of the value. A gauge needs third
+/// derivatives and cannot contain such a function.
 ///
 /// # Gauges
 ///
@@ -190,7 +203,7 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// | `coordinates(x, y[N])` | single coordinates and arrays, as in [`macro@degenerate_lagrangian`] |
 /// | `lagrangian = …` | L, with the velocities `dot(x)` |
 /// | `momenta(name = …)` | conserved quantities to watch; velocities may stand in them |
-/// | `functions(f = [f, df, d2f])` | functions of your own, as in [`macro@degenerate_lagrangian`] |
+/// | `functions(f = [f, df, d2f], psi = path)` | functions of your own, as in [`macro@degenerate_lagrangian`] |
 /// | `derive(Trait, …)` | what the state derives beside the usual traits |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///

@@ -1,46 +1,275 @@
-//! Functions of several variables that hold data, in formulas.
+//! Functions of several variables that hold data, in formulas: derivatives against dual numbers, how often they are
+//! evaluated, where they may come from, and what happens where they are not known.
 
+use std::cell::Cell;
+
+use dvi_core::error::OutsideError;
 use dvi_core::field::{Expansion, ScalarField};
 use dvi_core::prelude::*;
-use dvi_core::Scalar;
+use dvi_core::{Scalar, Space, Weights};
+use num_dual::HyperDual64;
 
-/// a sin(kx) e^(−y²) + x²y
+/// a sin(kx) e^(−y²) + x²y, with derivatives by hand; it counts its evaluations.
+#[derive(Debug, Default)]
 struct Hill {
     a: f64,
     k: f64,
+    evaluations: Cell<usize>,
+}
+
+impl Hill {
+    fn new(a: f64, k: f64) -> Self {
+        Self { a, k, ..Self::default() }
+    }
+
+    /// The value alone.
+    fn value<T: Scalar>(&self, x: T, y: T) -> T {
+        let (a, k) = (T::lift(self.a), T::lift(self.k));
+        a * (k * x).sin() * (-y * y).exp() + x * x * y
+    }
 }
 
 impl ScalarField<2> for Hill {
     fn expansion<T: Scalar>(&self, [x, y]: [T; 2]) -> Expansion<2, T> {
+        self.evaluations.set(self.evaluations.get() + 1);
         let (a, k, two) = (T::lift(self.a), T::lift(self.k), T::lift(2.0));
-        let (s, c) = ((k * x).sin(), (k * x).cos());
-        let e = (-y * y).exp();
+        let (s, c, e) = ((k * x).sin(), (k * x).cos(), (-y * y).exp());
         let mixed = -two * a * k * c * e * y + two * x;
+        let bend = two * a * s * e * (two * y * y - T::lift(1.0));
         Expansion {
-            value: a * s * e + x * x * y,
+            value: self.value(x, y),
             gradient: [a * k * c * e + two * x * y, -two * a * s * e * y + x * x],
-            hessian: [
-                [-a * k * k * s * e + two * y, mixed],
-                [mixed, two * a * s * e * (two * y * y - T::lift(1.0))],
-            ],
+            hessian: [[-a * k * k * s * e + two * y, mixed], [mixed, bend]],
         }
     }
 }
 
 #[degenerate_lagrangian(
     coordinates(x, y),
-    one_form = psi(x, y) * d(x),
-    hamiltonian = psi(x - y, 2.0 * y).powi(2) / 2.0 + y,
+    one_form = psi(x, y) * y * d(x),
+    hamiltonian = psi(x, y).powi(2) + psi(x - y, 2.0 * y) + x * psi(x, y),
 )]
 struct Drift<P> {
     psi: P,
 }
 
+/// L of [`Drift`] from the value of ψ alone, at (x, y, x', y').
+fn lagrangian<T: Scalar>(psi: &Hill, [x, y, dot_x, _]: [T; 4]) -> T {
+    let (here, two) = (psi.value(x, y), T::lift(2.0));
+    here * y * dot_x - (here * here + psi.value(x - y, two * y) + x * here)
+}
+
+fn assert_close(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{found:e} for {expected:e}");
+}
+
+const POINTS: [[f64; 4]; 3] = [[0.4, -0.7, 0.3, 1.1], [1.3, 0.2, -0.8, 0.5], [-2.1, 0.9, 1.4, -0.2]];
+
 #[test]
-fn it_runs() {
-    let system = Drift { psi: Hill { a: 0.3, k: 1.7 } };
-    println!("{}", Drift::<Hill>::REPORT);
-    let mut run = Integrator::new(&system, OneStep::midpoint(), 0.01, DriftState { x: 1.0, y: 0.2 }).unwrap();
-    run.take_steps(10).unwrap();
-    println!("{:?}", run.state());
+fn derivatives_are_those_of_dual_numbers() {
+    let system = Drift { psi: Hill::new(0.3, 1.7) };
+    for at in POINTS {
+        let seeded = |i: usize, j: usize| {
+            let mut numbers = at.map(HyperDual64::from);
+            numbers[i].eps1 = 1.0;
+            numbers[j].eps2 = 1.0;
+            lagrangian(&system.psi, numbers)
+        };
+        let ([q, v], mut l_q, mut l_v) = ([[at[0], at[1]], [at[2], at[3]]], [0.0; 2], [0.0; 2]);
+        let mut matrix = system.space().matrix();
+        let w = Weights { qq: 0.7, qv: -0.4, vq: 1.3, vv: 0.9 };
+        system.linearize(&q, &v, 0.0, w, &mut l_q, &mut l_v, &mut matrix);
+        assert_close(system.lagrangian(&q, &v, 0.0), seeded(0, 0).re);
+        for i in 0..2 {
+            assert_close(l_q[i], seeded(i, i).eps1);
+            assert_close(l_v[i], seeded(2 + i, 2 + i).eps1);
+            for j in 0..2 {
+                let second = |i: usize, j: usize| seeded(i, j).eps1eps2;
+                let expected = w.qq * second(i, j)
+                    + w.qv * second(i, 2 + j)
+                    + w.vq * second(2 + i, j)
+                    + w.vv * second(2 + i, 2 + j);
+                assert_close(matrix[2 * i + j], expected);
+            }
+        }
+    }
+}
+
+/// ψ stands at two points, (x, y) and (x − y, 2y), in five places of L.
+#[test]
+fn terms_at_the_same_arguments_share_an_evaluation() {
+    let system = Drift { psi: Hill::new(0.3, 1.7) };
+    let count = |call: &dyn Fn()| {
+        system.psi.evaluations.set(0);
+        call();
+        system.psi.evaluations.get()
+    };
+    let ([q, v], w) = ([[0.4, -0.7], [0.3, 1.1]], Weights { qq: 1.0, qv: 1.0, vq: 1.0, vv: 1.0 });
+    assert_eq!(count(&|| _ = system.hamiltonian(&q, 0.0)), 2);
+    assert_eq!(count(&|| system.one_form(&q, 0.0, &mut [0.0; 2])), 1);
+    assert_eq!(count(&|| system.gradient(&q, &v, 0.0, &mut [0.0; 2], &mut [0.0; 2])), 2);
+    let linearize = || {
+        let mut matrix = system.space().matrix();
+        system.linearize(&q, &v, 0.0, w, &mut [0.0; 2], &mut [0.0; 2], &mut matrix);
+    };
+    assert_eq!(count(&linearize), 2);
+}
+
+/// One function for all particles of an array, borrowed, and one whose place is a path.
+#[degenerate_lagrangian(
+    coordinates(x[N], y[N]),
+    one_form = sum(0..N, |j| (x[j] + well(x[j])) * d(y[j])),
+    hamiltonian = sum(0..N, |j| psi(x[j], y[j])) + sum_pairs(0..N, |j, k| well(x[j] - x[k])),
+    functions(well = self::WELL),
+)]
+struct Particles<'a, const N: usize> {
+    psi: &'a Hill,
+}
+
+/// x⁴/4
+#[derive(Debug)]
+struct Well;
+
+const WELL: Well = Well;
+
+impl ScalarField<1> for Well {
+    fn expansion<T: Scalar>(&self, [x]: [T; 1]) -> Expansion<1, T> {
+        let square = x * x;
+        Expansion {
+            value: square * square / T::lift(4.0),
+            gradient: [square * x],
+            hessian: [[T::lift(3.0) * square]],
+        }
+    }
+}
+
+/// The same particles, with the formulas written out.
+#[degenerate_lagrangian(
+    coordinates(x[N], y[N]),
+    one_form = sum(0..N, |j| (x[j] + x[j].powi(4) / 4.0) * d(y[j])),
+    hamiltonian = sum(0..N, |j| a * (k * x[j]).sin() * (-y[j] * y[j]).exp() + x[j] * x[j] * y[j])
+        + sum_pairs(0..N, |j, k| (x[j] - x[k]).powi(4) / 4.0),
+)]
+struct WrittenOut<const N: usize> {
+    a: f64,
+    k: f64,
+}
+
+#[test]
+fn a_run_is_that_of_the_formulas_written_out() {
+    let hill = Hill::new(0.3, 1.7);
+    let (x, y) = ([0.6, 0.9, 1.2], [0.1, -0.4, 0.3]);
+    let (called, written) = (Particles { psi: &hill }, WrittenOut { a: 0.3, k: 1.7 });
+    let mut run = Integrator::new(&called, OneStep::midpoint(), 0.01, ParticlesState { x, y }).unwrap();
+    let mut reference =
+        Integrator::new(&written, OneStep::midpoint(), 0.01, WrittenOutState { x, y }).unwrap();
+    run.take_steps(100).unwrap();
+    reference.take_steps(100).unwrap();
+    for (found, expected) in run.q().iter().zip(reference.q()) {
+        assert_close(*found, *expected);
+    }
+}
+
+/// x², known for 0 ≤ x ≤ 2 only.
+#[derive(Debug)]
+struct Table;
+
+impl ScalarField<1> for Table {
+    fn expansion<T: Scalar>(&self, [x]: [T; 1]) -> Expansion<1, T> {
+        let inside = x.piecewise(|x| if (0.0..=2.0).contains(&x) { 0.0 } else { f64::NAN });
+        let two = T::lift(2.0) + inside;
+        Expansion { value: x * x + inside, gradient: [two * x], hessian: [[two]] }
+    }
+
+    fn domain(&self) -> [(f64, f64); 1] {
+        [(0.0, 2.0)]
+    }
+}
+
+/// x decreases at the rate 1.
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = y + slope(x) / 10.0)]
+struct Drifting {
+    slope: Table,
+}
+
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - slope(x))]
+struct Falling {
+    slope: Table,
+}
+
+/// Runs until the table ends: the last good state lies in it but for rounding, and the error has the argument and the bounds.
+fn ends_at_the_edge<R: Run<Scalar = f64>>(method: &str, mut run: R) {
+    let error = run.take_steps(1000).unwrap_err();
+    let StepFailure::Outside(OutsideError { function, argument, value, least, largest }) = error.failure
+    else {
+        panic!("{method}: {error}")
+    };
+    assert_eq!((function, argument, least, largest), ("slope", 1, 0.0, 2.0), "{method}");
+    assert!((-0.5..0.0).contains(&value), "{method}: {error}");
+    assert!((-1e-15..0.2).contains(&run.q()[0]), "{method}: {:?}", run.q());
+    assert_eq!(error.step, run.steps(), "{method}");
+}
+
+macro_rules! end_at_the_edge {
+    ($system:expr, $start:expr, [$($method:expr),* $(,)?]) => {
+        $(ends_at_the_edge(
+            stringify!($method),
+            Integrator::new(&$system, $method, 0.1, $start).unwrap(),
+        );)*
+    };
+}
+
+#[test]
+fn a_run_that_leaves_the_table_ends_with_the_argument_that_did() {
+    end_at_the_edge!(
+        Drifting { slope: Table },
+        DriftingState { x: 1.0, y: 0.2 },
+        [
+            OneStep::midpoint(),
+            OneStep::trapezoid(),
+            OneStep::scheme_a(),
+            OneStep::scheme_b(),
+            OneStepGauss::<2>::new(),
+            Projected::symmetric(),
+            Sigma::midpoint(),
+            Gauss::<2>::new(),
+            RungeKutta::classical(),
+            Composition::suzuki(OneStep::midpoint()),
+        ]
+    );
+    end_at_the_edge!(
+        Falling { slope: Table },
+        FallingState { x: 1.0, dot_x: 0.2 },
+        [
+            Variational::trapezoid(),
+            Variational::midpoint(),
+            Galerkin::<3>::new(),
+            Newmark::new(0.25),
+            Gauss::<2>::new(),
+            RungeKutta::classical(),
+        ]
+    );
+}
+
+#[test]
+fn a_run_does_not_begin_outside_of_the_table() {
+    let start = DriftingState { x: 2.5, y: 0.2 };
+    let error = Integrator::new(&Drifting { slope: Table }, OneStep::midpoint(), 0.1, start).err().unwrap();
+    assert_eq!(
+        error.to_string(),
+        "`slope` is not known there: its argument 1 is 2.5, and must lie from 0 to 2"
+    );
+    let error = Drifting { slope: Table }.vector_field(&start).unwrap_err();
+    assert!(matches!(error, StartError::Outside(_)), "{error}");
+}
+
+/// A failure that has another reason keeps it, even if there are tables.
+#[test]
+fn other_failures_are_not_laid_on_the_table() {
+    let system = Falling { slope: Table };
+    let start = FallingState { x: 1.0, dot_x: 0.0 };
+    let limited = EnergyLimit { method: Variational::trapezoid(), limit: 1e-9 };
+    let mut run = Integrator::new(&system, limited, 0.1, start).unwrap();
+    let error = run.take_steps(1000).unwrap_err();
+    assert!(matches!(error.failure, StepFailure::Energy { .. }), "{error}");
 }

@@ -113,7 +113,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
     #[cold]
     fn error(&mut self, failure: StepFailure) -> StepError {
-        self.stepper.error(self.time(), failure)
+        self.stepper.error(self.time(), self.step_size(), failure)
     }
 }
 

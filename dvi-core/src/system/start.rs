@@ -15,7 +15,7 @@ pub(crate) fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T) -> Result<()
 /// Whether energy and derivatives of L are finite at the start of a run.
 ///
 /// # Errors
-/// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is −∇H for
+/// [`StartError::Outside`] where a function that holds data is not known; [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is −∇H for
 /// one, and the energy that is not.
 pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     system: &S,
@@ -24,6 +24,9 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     t: T,
 ) -> Result<(), StartError> {
     let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
+    if let Some(outside) = system.outside(q, v, t) {
+        return Err(outside.into());
+    }
     // Of a degenerate system v is zero here, and ∂L/∂q is −∇H.
     system.gradient(q, v, t, &mut l_q, &mut l_v);
     let [momentum, force] = if S::REGULAR {

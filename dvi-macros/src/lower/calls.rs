@@ -24,6 +24,11 @@ impl Lowering<'_> {
             self.errors.push(&call.method, format!("a function of your own is called as `{name}(…)`"));
             return None;
         }
+        if matches!(&*call.receiver, Syntax::Path(receiver) if receiver.path.is_ident("self")) {
+            let message = format!("what the struct holds is called by its name: write `{name}(…)`");
+            self.errors.push(call, message);
+            return None;
+        }
         if self.iterated(call) {
             return None;
         }
@@ -169,8 +174,11 @@ impl Lowering<'_> {
         let Syntax::Path(path) = &*call.func else { return None };
         let ident = path.path.get_ident()?;
         let parameter = self.parameter(ident);
-        if let Some(Shape::Number | Shape::Count | Shape::Array(..)) = parameter.map(|field| self.shape_of(field)) {
-            let message = format!("the field `{name}` holds numbers, it is no function: a product is written with `*`");
+        if let Some(Shape::Number | Shape::Count | Shape::Array(..)) =
+            parameter.map(|field| self.shape_of(field))
+        {
+            let message =
+                format!("the field `{name}` holds numbers, it is no function: a product is written with `*`");
             self.errors.push(&call.func, message);
             return Some(None);
         }
@@ -184,7 +192,8 @@ impl Lowering<'_> {
             }
             Ok(field) => field,
             Err(before) => {
-                let message = format!("`{name}` is called with {} elsewhere; here are {arity}", arguments(before));
+                let message =
+                    format!("`{name}` is called with {} elsewhere; here are {arity}", arguments(before));
                 self.errors.push(call, message);
                 return Some(None);
             }

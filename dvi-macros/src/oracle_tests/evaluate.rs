@@ -1,7 +1,7 @@
 //! The oracle: formulas evaluated on jets, as they are written.
 
 use super::formula::{Condition, Formula, Index, Loops, Relation};
-use super::functions::own;
+use super::functions::{own, scalar_field};
 use super::jet::Jet;
 use super::rate;
 use super::system::{Dynamics, Gauge, System};
@@ -125,6 +125,10 @@ impl<'a> Oracle<'a> {
             }
             Formula::MultiplyAdd(a, b, c) => self.value(a)?.times(&self.value(b)?).plus(&self.value(c)?),
             Formula::Own(function, of) => self.value(of)?.unary(&|x| own(*function, x)),
+            Formula::ScalarField(field, at) => {
+                let at: Result<Vec<Jet>, Outside> = at.iter().map(|argument| self.value(argument)).collect();
+                scalar_field(*field, &at?)
+            }
             Formula::If(condition, then, otherwise) => {
                 if self.holds(condition)? {
                     self.value(then)?

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use proc_macro2::{TokenStream, TokenTree};
 
-use super::functions::{OWN, own, own_third};
+use super::functions::{OWN, SCALAR_FIELDS, ScalarField, own, own_third, scalar_field_derivative};
 use super::rust::{Environment, Expansion, Nested};
 use super::system::{Field, SizeKind, System};
 use crate::expand::{degenerate_lagrangian, lagrangian};
@@ -61,6 +61,7 @@ const EXPECTED: &[&str] = &[
     "no gauge was found that brings the one-form into the class of one-step schemes",
     // Of the user's functions, one is declared with its third derivative.
     "declare its third derivative too",
+    "stands in a gauge",
 ];
 
 /// The expected kind of a message.
@@ -84,7 +85,7 @@ pub(super) fn environment(system: &System) -> Environment {
             SizeKind::Literal | SizeKind::Length(_) => {}
         }
     }
-    Environment { fields, constants, own: own_by_path }
+    Environment { fields, constants, own: own_by_path, scalar_field: scalar_field_by_place }
 }
 
 fn nested(system: &System, field: &Field) -> Rc<Nested> {
@@ -100,6 +101,15 @@ fn nest(values: &[f64], lengths: &[usize]) -> Rc<Nested> {
             Nested::List(rows.map(|row| nest(row, inner)).collect())
         }
     })
+}
+
+fn scalar_field_by_place(place: &str, axes: &[usize], at: &[f64]) -> f64 {
+    let is_it = |field: &ScalarField| match field.path {
+        Some(path) => path == place,
+        None => place.strip_prefix("self.") == Some(field.name),
+    };
+    let field = SCALAR_FIELDS.iter().position(is_it).unwrap_or_else(|| panic!("no function {place}"));
+    scalar_field_derivative(field, axes, at)
 }
 
 fn own_by_path(path: &str, x: f64) -> f64 {

@@ -75,6 +75,8 @@ pub(super) enum Formula {
     MultiplyAdd(Box<Formula>, Box<Formula>, Box<Formula>),
     /// A function of the user's.
     Own(usize, Box<Formula>),
+    /// A function of several variables.
+    ScalarField(usize, Vec<Formula>),
     If(Box<Condition>, Box<Formula>, Box<Formula>),
     /// `{ let name = …; … }`
     Let(usize, Box<Formula>, Box<Formula>),

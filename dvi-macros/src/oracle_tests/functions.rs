@@ -4,6 +4,8 @@
 
 use std::f64::consts::{LN_2, LN_10, PI};
 
+use super::jet::Jet;
+
 /// Value, first and second derivative.
 pub(super) type Derivatives = [f64; 3];
 
@@ -143,6 +145,44 @@ pub(super) fn own(function: usize, x: f64) -> Derivatives {
             2.0 * (2.0 * x).cos() + x * x,
             -4.0 * (2.0 * x).sin() + 2.0 * x,
         ],
+    }
+}
+
+/// A function of several variables that the systems call.
+#[derive(Debug)]
+pub(super) struct ScalarField {
+    pub(super) name: &'static str,
+    pub(super) arity: usize,
+    /// The path that it is declared by; without one it is a field of the struct.
+    pub(super) path: Option<&'static str>,
+}
+
+pub(super) const SCALAR_FIELDS: &[ScalarField] = &[
+    ScalarField { name: "phi", arity: 2, path: None },
+    ScalarField { name: "u_of", arity: 3, path: Some("own::U") },
+];
+
+/// sin(x + 2y) + x y², and z cos(x − y) + x z².
+pub(super) fn scalar_field(field: usize, at: &[Jet]) -> Jet {
+    let wave = |angle: &Jet, shift: f64| {
+        angle.unary(&|x| [(x + shift).sin(), (x + shift).cos(), -(x + shift).sin()])
+    };
+    match (field, at) {
+        (0, [x, y]) => wave(&x.plus(&y.scaled(2.0)), 0.0).plus(&x.times(&y.times(y))),
+        (1, [x, y, z]) => z.times(&wave(&x.plus(&y.scaled(-1.0)), PI / 2.0)).plus(&x.times(&z.times(z))),
+        _ => panic!("no function {field} of {} variables", at.len()),
+    }
+}
+
+/// Its derivative along these axes.
+pub(super) fn scalar_field_derivative(field: usize, axes: &[usize], at: &[f64]) -> f64 {
+    let variables = at.iter().enumerate().map(|(axis, x)| Jet::variable(*x, axis, at.len()));
+    let expansion = scalar_field(field, &variables.collect::<Vec<_>>());
+    match axes {
+        [] => expansion.value.value,
+        [i] => expansion.gradient(*i).value,
+        [i, j] => expansion.hessian(*i, *j).value,
+        _ => panic!("functions of several variables have two derivatives"),
     }
 }
 

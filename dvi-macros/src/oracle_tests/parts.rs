@@ -26,6 +26,7 @@ impl Formula {
             | Self::Binary(_, a, b)
             | Self::Let(_, a, b) => vec![a, b],
             Self::MultiplyAdd(a, b, c) => vec![a, b, c],
+            Self::ScalarField(_, at) => at.iter().collect(),
             Self::If(condition, a, b) => condition.parts().into_iter().chain([&**a, &**b]).collect(),
         }
     }
@@ -52,6 +53,7 @@ impl Formula {
             | Self::Binary(_, a, b)
             | Self::Let(_, a, b) => vec![a, b],
             Self::MultiplyAdd(a, b, c) => vec![a, b, c],
+            Self::ScalarField(_, at) => at.iter_mut().collect(),
             Self::If(condition, a, b) => {
                 condition.parts_mut().into_iter().chain([&mut **a, &mut **b]).collect()
             }
@@ -73,6 +75,12 @@ impl Formula {
     pub(super) fn calls(&self, function: usize) -> bool {
         matches!(self, Self::Own(own, _) if *own == function)
             || self.parts().into_iter().any(|part| part.calls(function))
+    }
+
+    /// Whether it calls this function of several variables.
+    pub(super) fn evaluates(&self, field: usize) -> bool {
+        matches!(self, Self::ScalarField(known, _) if *known == field)
+            || self.parts().into_iter().any(|part| part.evaluates(field))
     }
 
     pub(super) fn has_velocities(&self) -> bool {

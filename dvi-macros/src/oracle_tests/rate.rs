@@ -1,8 +1,8 @@
 //! dF/dt of a gauge F along (v, 1), as a jet.
 //!
 //! The first derivatives of dF/dt are second ones of F, which its jet has. Of the third ones, only those along (v, 1) are
-//! asked for: the second derivatives of F are differenced along that line, to the eighth order, and the difference from the
-//! sixth order bounds the error.
+//! asked for: the second derivatives of F are differenced along that line, to the eighth order, and ten times the difference
+//! from the sixth order is taken for the error.
 
 use super::evaluate::{Oracle, Outside, Point};
 use super::formula::Formula;
@@ -13,6 +13,9 @@ const STEP: f64 = 4e-3;
 /// Of the difference of the values k steps before and behind; for both orders.
 const EIGHTH: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 const SIXTH: [f64; 4] = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0, 0.0];
+
+/// Where the derivatives of F grow fast, the eighth order is not much better than the sixth.
+const SAFETY: f64 = 10.0;
 
 /// An error above this part of the terms is too much to tell anything.
 const COARSE: f64 = 1e-6;
@@ -62,7 +65,11 @@ pub(super) fn rate(system: &System, gauge: &Formula, point: &Point) -> Result<Je
             parts.sum::<f64>()
         };
         let (value, coarser) = (difference(EIGHTH), difference(SIXTH));
-        Third { value, error: (value - coarser).abs(), size: value.abs() + here.hessian(i, j).size * speed }
+        Third {
+            value,
+            error: SAFETY * (value - coarser).abs(),
+            size: value.abs() + here.hessian(i, j).size * speed,
+        }
     };
     let positions = || (0..n).chain([2 * n]);
     if positions().any(|i| positions().any(|j| third(i, j).is_coarse())) {

@@ -108,6 +108,10 @@ impl System {
         matches!(self.dynamics, Dynamics::Regular(_))
     }
 
+    pub(super) fn evaluates(&self, field: usize) -> bool {
+        self.clone().formulas_mut().into_iter().any(|formula| formula.evaluates(field))
+    }
+
     pub(super) fn calls(&self, function: usize) -> bool {
         self.clone().formulas_mut().into_iter().any(|formula| formula.calls(function))
     }

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
-use super::functions::{BinaryFunction, OWN};
+use super::functions::{BinaryFunction, OWN, SCALAR_FIELDS};
 use super::system::{Container, Dynamics, Field, Gauge, SizeKind, System};
 
 const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
@@ -75,7 +75,10 @@ impl System {
             text += &format!(", momenta({})", momenta.join(", "));
         }
         let used = OWN.iter().enumerate().filter(|(number, _)| self.calls(*number)).map(|(_, row)| row);
-        let own: Vec<String> = used.map(|(name, paths)| format!("{name} = [{}]", paths.join(", "))).collect();
+        let used = used.map(|(name, paths)| format!("{name} = [{}]", paths.join(", ")));
+        let fields = SCALAR_FIELDS.iter().enumerate().filter(|(number, _)| self.evaluates(*number));
+        let fields = fields.filter_map(|(_, field)| Some(format!("{} = {}", field.name, field.path?)));
+        let own: Vec<String> = used.chain(fields).collect();
         if own.is_empty() { text } else { text + &format!(", functions({})", own.join(", ")) }
     }
 
@@ -94,7 +97,11 @@ impl System {
             _ => None,
         });
         let fields = self.fields.iter().map(|field| format!("{}: {}", field.name, self.type_text(field)));
-        format!("struct System{generics} {{ {} }}", fields.chain(counts).collect::<Vec<_>>().join(", "))
+        let data = SCALAR_FIELDS.iter().enumerate();
+        let data = data.filter(|(number, field)| field.path.is_none() && self.evaluates(*number));
+        let data = data.map(|(_, field)| format!("{}: Data", field.name));
+        let fields: Vec<String> = fields.chain(counts).chain(data).collect();
+        format!("struct System{generics} {{ {} }}", fields.join(", "))
     }
 
     fn type_text(&self, field: &Field) -> String {
@@ -189,6 +196,10 @@ impl<'a> Writer<'a> {
                 method(a, "mul_add", format!("{}, {}", self.text(b), self.text(c)))
             }
             Formula::Own(function, of) => postfix(format!("{}({})", OWN[*function].0, self.text(of))),
+            Formula::ScalarField(field, at) => {
+                let at: Vec<String> = at.iter().map(|argument| self.text(argument)).collect();
+                postfix(format!("{}({})", SCALAR_FIELDS[*field].name, at.join(", ")))
+            }
             Formula::If(condition, then, otherwise) => {
                 let (then, otherwise) = (self.text(then), self.text(otherwise));
                 (format!("if {} {{ {then} }} else {{ {otherwise} }}", self.condition(condition)), Block)

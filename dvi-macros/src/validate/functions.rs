@@ -210,9 +210,8 @@ impl Waves {
 /// A partial derivative of the function that stands for number `number`.
 pub(super) fn scalar_field_stand_in(number: usize, axes: &[usize], at: &[f64]) -> f64 {
     let Waves { phase } = Waves::of(number);
-    let angle = |wave: usize| {
-        at.iter().enumerate().fold(phase, |sum, (axis, x)| sum + Waves::slopes(axis)[wave] * x)
-    };
+    let angle =
+        |wave: usize| at.iter().enumerate().fold(phase, |sum, (axis, x)| sum + Waves::slopes(axis)[wave] * x);
     let factor = |wave: usize| axes.iter().map(|axis| Waves::slopes(*axis)[wave]).product::<f64>();
     // Each derivative shifts a wave by a quarter of its period.
     let shift = axes.len() as f64 * PI / 2.0;

@@ -114,7 +114,7 @@ where
                 self.controlled.stepper.statistics.steps += 1;
                 Ok(())
             }
-            Err(failure) => Err(self.controlled.stepper.error(t, failure)),
+            Err(failure) => Err(self.controlled.stepper.error(t, self.h, failure)),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::indices::Scope;
 use super::{Generator, Velocities};
 use crate::oracle_tests::formula::{Condition, Formula, Loops, Relation};
-use crate::oracle_tests::functions::{BinaryFunction, OWN, UNARY, UnaryFunction};
+use crate::oracle_tests::functions::{BinaryFunction, OWN, SCALAR_FIELDS, UNARY, UnaryFunction};
 
 const NUMBERS: [&str; 9] = ["2.0", "0.5", "3", "1.5", "0.25", "1", "4.0", "0.1", "2"];
 
@@ -59,7 +59,12 @@ impl Generator<'_> {
                 let (a, b) = (self.value(scope, less), self.value(scope, less));
                 self.binary(a, b)
             }
-            75..=77 => {
+            75 => {
+                let field = self.random.below(SCALAR_FIELDS.len());
+                let at = (0..SCALAR_FIELDS[field].arity).map(|_| self.value(scope, less.min(2))).collect();
+                Formula::ScalarField(field, at)
+            }
+            76..=77 => {
                 let function = self.random.below(OWN.len());
                 Formula::Own(function, Box::new(self.value(scope, less)))
             }

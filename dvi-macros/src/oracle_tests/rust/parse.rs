@@ -17,7 +17,12 @@ pub(crate) struct Expansion {
     pub(crate) constants: HashMap<String, bool>,
     /// The paths of the user's functions by the names that formulas call them by.
     pub(super) own: HashMap<String, String>,
+    /// The places of their functions of several variables, likewise.
+    pub(super) scalar_fields: HashMap<String, String>,
 }
+
+/// Functions that are not interpreted.
+const UNREAD: [&str; 2] = ["space", "outside"];
 
 const TRAITS: [&str; 4] = ["System", "Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
 
@@ -68,6 +73,14 @@ impl Expansion {
             let path = init.expr.to_token_stream().to_string().replace(' ', "");
             self.own.insert(function.sig.ident.to_string(), path);
         }
+        // `fn __scalar_field0<T>(&self, at: [T; 2]) -> … { ScalarField::<2>::expansion(&self.psi, at) }`
+        if let ImplItem::Fn(function) = item
+            && let Some(Stmt::Expr(Expr::Call(call), None)) = function.block.stmts.first()
+            && let Some(Expr::Reference(place)) = call.args.first()
+        {
+            let place = place.expr.to_token_stream().to_string().replace(' ', "");
+            self.scalar_fields.insert(function.sig.ident.to_string(), place);
+        }
     }
 
     fn member(&mut self, item: &ImplItem) {
@@ -80,7 +93,8 @@ impl Expansion {
                 }
             }
             // The shape of the configuration space is a type; dimensions are compared by `block_len`.
-            ImplItem::Fn(function) if function.sig.ident != "space" => {
+            // What is said of a point outside of a table is text.
+            ImplItem::Fn(function) if !UNREAD.contains(&function.sig.ident.to_string().as_str()) => {
                 self.functions.insert(function.sig.ident.to_string(), Parser::function(function));
             }
             _ => {}
@@ -184,6 +198,7 @@ impl Parser {
             }
             Expr::Cast(cast) => Code::Cast(self.boxed(&cast.expr), kind(&cast.ty)),
             Expr::Tuple(tuple) if tuple.elems.is_empty() => Code::Value(Value::Unit),
+            Expr::Array(array) => Code::Tuple(array.elems.iter().map(|element| self.expr(element)).collect()),
             Expr::Tuple(tuple) => Code::Tuple(tuple.elems.iter().map(|element| self.expr(element)).collect()),
             Expr::If(choice) => {
                 let (condition, then) = (self.boxed(&choice.cond), self.block(&choice.then_branch));

@@ -17,6 +17,8 @@ pub(crate) struct Environment {
     pub(crate) constants: HashMap<String, usize>,
     /// The functions of the user's, by path.
     pub(crate) own: fn(&str, f64) -> f64,
+    /// Their functions of several variables, by place, and derivatives along axes.
+    pub(crate) scalar_field: fn(&str, &[usize], &[f64]) -> f64,
 }
 
 /// Runs the functions of one expansion. What would panic in Rust is an `Err` with its reason.
@@ -183,6 +185,12 @@ impl Machine<'_> {
             | (Value::Weights([_, weight, ..]), "qv")
             | (Value::Weights([_, _, weight, _]), "vq")
             | (Value::Weights([.., weight]), "vv") => Value::Real(*weight),
+            (Value::Expansion { place, at, axes }, "value") => {
+                Value::Real((self.environment.scalar_field)(place, axes, at))
+            }
+            (Value::Expansion { .. }, "gradient" | "hessian") => {
+                Value::Derivatives(Box::new(base.clone()), if name == "gradient" { 1 } else { 2 })
+            }
             _ => panic!("the interpreter does not know the field {name} of {base:?}"),
         }
     }
@@ -203,6 +211,16 @@ impl Machine<'_> {
                 }
                 other => panic!("the interpreter does not index {other:?}"),
             },
+            Value::Derivatives(of, left) => {
+                let Value::Expansion { place, at, axes } = &**of else { panic!("derivatives of {of:?}") };
+                let axis = usize::try_from(position).expect("an axis");
+                let axes: Vec<usize> = axes.iter().copied().chain([axis]).collect();
+                if *left == 1 {
+                    return Ok(Value::Real((self.environment.scalar_field)(place, &axes, at)));
+                }
+                let inside = Value::Expansion { place: place.clone(), at: at.clone(), axes };
+                Ok(Value::Derivatives(Box::new(inside), left - 1))
+            }
             other => panic!("the interpreter does not index {other:?}"),
         }
     }
@@ -306,6 +324,14 @@ impl Machine<'_> {
                 Nested::List(entries) => Ok(Value::Integer(entries.len() as i128, Kind::Usize)),
                 other => panic!("{other:?} has no length"),
             },
+            (Value::System, name) => {
+                let place = self.expansion.scalar_fields.get(name);
+                let place = place.unwrap_or_else(|| panic!("the system has no method {name}")).clone();
+                let Value::Tuple(at) = &arguments[0] else {
+                    panic!("a function of several variables has a point")
+                };
+                Ok(Value::Expansion { place, at: at.iter().map(Value::real).collect(), axes: Vec::new() })
+            }
             (Value::Integer(..) | Value::Place(_), _) => {
                 let (kind, value) = (kind_of(receiver), receiver.integer());
                 let other = arguments.first().map(Value::integer);

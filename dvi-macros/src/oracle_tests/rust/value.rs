@@ -38,6 +38,14 @@ pub(crate) enum Value {
     Place(Rc<Nested>),
     /// The weights of the four blocks: qq, qv, vq, vv.
     Weights([f64; 4]),
+    /// A function of several variables at a point, and the axes that were asked for so far.
+    Expansion {
+        place: String,
+        at: Vec<f64>,
+        axes: Vec<usize>,
+    },
+    /// First or second derivatives of an expansion.
+    Derivatives(Box<Value>, usize),
     /// The struct itself.
     System,
     /// An `Err`, in words.

@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 
 use crate::symbolic::rules::evaluate_binary;
-use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Id, Index, Loop, Node, Range, Relation, Weight};
+use crate::symbolic::{
+    Atom, Coordinate, Expr, Fold, Graph, Id, Index, Loop, Node, Partial, Range, Relation, Weight,
+};
 
 /// What the names of a formula stand for. Every array has the one size that there is.
 #[derive(Clone, Debug)]
@@ -110,6 +112,14 @@ pub(super) fn own_function(order: u32, x: f64) -> f64 {
     }
 }
 
+/// The user's function of two variables is the sine of a + 2b.
+pub(super) fn scalar_field(partial: Partial, at: &[f64]) -> f64 {
+    let slopes = [1.0, 2.0];
+    let angle = at.iter().zip(slopes).map(|(x, slope)| slope * x).sum();
+    let axes = partial.axes();
+    axes.iter().map(|axis| slopes[*axis]).product::<f64>() * own_function(axes.len() as u32, angle)
+}
+
 /// One evaluation; a node is computed once for each value of the indices that it depends on.
 pub(super) struct Evaluation<'a> {
     graph: &'a Graph,
@@ -152,6 +162,10 @@ impl<'a> Evaluation<'a> {
             Node::Unary(function, of) => function.evaluate(self.expr(of, at)),
             Node::Binary(function, a, b) => evaluate_binary(function, self.expr(a, at), self.expr(b, at)),
             Node::Call(_, order, of) => own_function(order, self.expr(of, at)),
+            Node::ScalarField(_, partial, of) => {
+                let of: Vec<f64> = of.iter().map(|of| self.expr(*of, at)).collect();
+                scalar_field(partial, &of)
+            }
             Node::Choose { left, relation, right, then, otherwise } => {
                 let chosen = holds(self.expr(left, at), relation, self.expr(right, at));
                 self.expr(if chosen { then } else { otherwise }, at)

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use proptest::prelude::*;
 
-use super::evaluate::{Bindings, Evaluation, Point, holds, own_function};
+use super::evaluate::{Bindings, Evaluation, Point, holds, own_function, scalar_field};
 use super::properties::raw_value;
 use super::streams::NONLINEAR;
 use super::tree::{Tree, point, tree};
@@ -99,6 +99,12 @@ impl Machine<'_> {
             }
             Instruction::Power(of, exponent) => self.register(*of).powi(*exponent),
             Instruction::Call(_, order, of) => own_function(*order, self.signed(*of)),
+            Instruction::Expansion(..) => f64::NAN,
+            Instruction::Part(expansion, partial) => {
+                let Instruction::Expansion(_, at) = self.code.get(*expansion) else { unreachable!("a part") };
+                let at: Vec<f64> = at.iter().map(|argument| self.signed(*argument)).collect();
+                scalar_field(*partial, &at)
+            }
             Instruction::Choose(left, relation, right, then, otherwise) => {
                 let chosen = holds(self.signed(*left), *relation, self.signed(*right));
                 self.signed(if chosen { *then } else { *otherwise })

@@ -6,8 +6,8 @@ use proptest::prelude::*;
 use super::evaluate::Point;
 use super::field::Field;
 use crate::symbolic::{
-    Atom, Binary, Coordinate, Expr, Fold, Graph, Index, Node, Parameter, Range as Values, Relation, Size,
-    Unary,
+    Atom, Binary, Coordinate, Expr, Fold, Graph, Index, Node, Parameter, Partial, Range as Values, Relation,
+    Size, Unary,
 };
 
 /// The range of a sum; `j` is the index of the sum around it, if there is one.
@@ -48,6 +48,8 @@ pub(super) enum Tree {
     Unary(Unary, Box<Tree>),
     Binary(Binary, Box<Tree>, Box<Tree>),
     Own(Box<Tree>),
+    /// A function of two variables: the sine of a + 2b.
+    ScalarField(Box<Tree>, Box<Tree>),
     Choose(Box<[Tree; 4]>, Relation),
     Sum(Range, Box<Tree>),
 }
@@ -129,6 +131,7 @@ impl Tree {
             }
             Self::Unary(function, of) => F::unary(*function, value(of)),
             Self::Own(of) => F::unary(Unary::Sin, value(of)),
+            Self::ScalarField(a, b) => F::unary(Unary::Sin, value(a) + F::lift(2.0) * value(b)),
             Self::Binary(function, a, b) => {
                 let (a, b) = (value(a), value(b));
                 match function {
@@ -196,6 +199,9 @@ impl Tree {
                 let of = of.lower(graph, depth);
                 graph.call(0, 0, of)
             }
+            Self::ScalarField(a, b) => Self::both(graph, depth, a, b, |graph, a, b| {
+                graph.scalar_field(0, Partial::Value, vec![a, b])
+            }),
             Self::Binary(function, a, b) => {
                 Self::both(graph, depth, a, b, |graph, a, b| graph.binary(*function, a, b))
             }
@@ -296,6 +302,7 @@ pub(super) fn tree(sums: u32) -> impl Strategy<Value = Tree> {
             2 => (boxed(), prop_oneof![8 => -3..5_i32, 1 => Just(40)]).prop_map(|(of, exponent)| Tree::Powi(of, exponent)),
             4 => (unary(), inner.clone()).prop_map(|(function, u)| Tree::within_domain(function, u)),
             1 => boxed().prop_map(Tree::Own),
+            1 => pair().prop_map(|(a, b)| Tree::ScalarField(a, b)),
             1 => (boxed(), inner.clone())
                 .prop_map(|(a, b)| Tree::Binary(Binary::Atan2, a, Box::new(b.above_one()))),
             1 => (boxed(), inner.clone())
