@@ -95,6 +95,23 @@ pub enum StartError {
         /// Its value.
         value: f64,
     },
+    /// The time transformation is not positive at the initial state.
+    #[error("the time transformation is {rate} at the initial state: it must be positive and finite")]
+    TimeRate {
+        /// ρ.
+        rate: f64,
+    },
+    /// In a system whose time is transformed, the coordinate `energy` is not the value of the Hamiltonian.
+    #[error(
+        "the coordinate `energy` is {energy}, but the Hamiltonian is {hamiltonian} at the initial state: begin with \
+         `system.with_energy(state)`"
+    )]
+    EnergyCoordinate {
+        /// The coordinate.
+        energy: f64,
+        /// H before the time transformation.
+        hamiltonian: f64,
+    },
     /// A function that holds data is not known at the initial state.
     #[error(transparent)]
     Outside(#[from] OutsideError),
@@ -265,6 +282,15 @@ pub enum StepFailure {
     StepLength {
         /// The step, perhaps not finite.
         h: f64,
+    },
+    /// The time transformation is not positive any more at the end of the step, where the physical time would stand still or run
+    /// backwards.
+    #[error(
+        "the time transformation became {rate:e} in the step: it must be positive; a smaller step helps, or another ρ"
+    )]
+    TimeRate {
+        /// ρ at the end of the step.
+        rate: f64,
     },
     /// A function that holds data would have been evaluated outside of its table. The argument is the one at the state where the
     /// step began or, if that lies inside, at a point that the motion reaches from there within two steps.

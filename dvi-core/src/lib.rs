@@ -126,5 +126,5 @@ pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
     AffineOneForm, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula, Lagrangian, Linear,
     Matrix, OperationCount, Permutation, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report,
-    Separable, Square, State, System, Vector, Weights,
+    Separable, Square, State, System, TimeTransformed, Vector, Weights,
 };

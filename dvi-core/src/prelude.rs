@@ -16,6 +16,6 @@ pub use crate::run::{
 };
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::Summation;
-pub use crate::{DegenerateLagrangian, Lagrangian, RegularLagrangian, System};
+pub use crate::{DegenerateLagrangian, Lagrangian, RegularLagrangian, System, TimeTransformed};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

@@ -4,6 +4,7 @@
 mod checkpoint;
 mod integrator;
 mod outside;
+mod physical_time;
 mod step_control;
 
 use core::fmt;
@@ -12,7 +13,8 @@ use crate::error::{StepError, StepFailure};
 use crate::methods::{Carries, Clock, Method};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
-use crate::{Lagrangian, Real, Space, State, System, Vector};
+use crate::system::start::extended;
+use crate::{Lagrangian, Real, Space, State, System, TimeTransformed, Vector};
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
@@ -79,6 +81,15 @@ pub trait Run {
     #[inline]
     fn q(&self) -> &[Self::Scalar] {
         &self.stepper().q
+    }
+
+    /// The physical time t of a system whose time is transformed; [`time`](Self::time) is τ.
+    fn physical_time(&self) -> Self::Scalar
+    where
+        Self::System: TimeTransformed,
+    {
+        let [t, _] = extended(self.system());
+        self.q()[t]
     }
 
     /// The number of completed steps.

@@ -18,7 +18,7 @@ pub(crate) mod start;
 
 use core::fmt::Debug;
 
-use crate::error::{IndexError, LengthError, OutsideError};
+use crate::error::{IndexError, LengthError, OutsideError, StartError};
 use crate::space::sink::Sink;
 use crate::{Real, Scalar, Space};
 
@@ -84,6 +84,9 @@ pub trait System {
 
     /// Whether functions that hold data stand in its formulas, of which some may not be known everywhere.
     const HAS_SCALAR_FIELDS: bool = false;
+
+    /// Whether the time is transformed ([`TimeTransformed`]).
+    const TIME_TRANSFORMED: bool = false;
 
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
@@ -179,6 +182,11 @@ pub trait Lagrangian<T: Scalar = f64>: System {
         None
     }
 
+    /// What the time transformation of the system is at this point, if it has one ([`TimeTransformed`]).
+    fn time_transform(&self, _q: &[T]) -> Option<TimeTransform<T>> {
+        None
+    }
+
     /// The energy E = v·∂L/∂v − L. For degenerate systems this is H(q, t), and `v` may be empty.
     fn energy(&self, q: &[T], v: &[T], t: T) -> T;
     /// The value J(q, v, t) of declared momentum `index` (see [`Report::momenta`]). Momenta of degenerate
@@ -224,6 +232,69 @@ pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = D
     fn conjugate(&self, i: usize) -> usize;
     /// Sets `out` to the gradient ∂J/∂q of declared momentum `index`.
     fn momentum_gradient(&self, index: usize, q: &[T], t: T, out: &mut [T]);
+}
+
+/// What a time transformation is at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeTransform<T> {
+    /// ρ = dt/dτ, how fast the physical time t passes in the time τ of the run.
+    pub rate: T,
+    /// H(q, t), the Hamiltonian before the transformation.
+    pub hamiltonian: T,
+}
+
+/// A system whose time is transformed, by `time_transform = ρ` in its attribute: dt = ρ(q, t) dτ with a positive function ρ.
+///
+/// A run takes steps of equal length in τ, so they are short in the physical time t where ρ is small. To be variational, the
+/// system has two coordinates more, `t` and `energy`, the conjugate of the time:
+///
+/// ```math
+/// L'(q, t, e) = \alpha(q, t) \cdot q' - e\, t' - \rho(q, t)\, (H(q, t) - e), \qquad ' = \mathrm{d}/\mathrm{d}\tau
+/// ```
+///
+/// Its equations of motion are t' = ρ, e' = ρ ∂H/∂t and, where H = e, those of L = α·q̇ − H times ρ (Hairer, Lubich & Wanner 2006,
+/// section VIII.2.1, after Poincaré and Sundman). If H does not depend on time, `energy` is a constant of the run, and L' is
+/// α·q' − ρ (H − H₀) with H₀ = `energy`. As `t` is a coordinate, the scheme computes it to its own order. L' is in the class of
+/// one-step schemes if L is.
+///
+/// In such a run [`Run::energy`](crate::run::Run::energy) is ρ (H − e): zero on the motion, and in a run the error of H times ρ.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// Predators y and their prey x. Both are small for a long time and peak in a short one.
+/// #[degenerate_lagrangian(
+///     coordinates(x, y),
+///     one_form = y.ln() / x * d(x),
+///     hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
+///     time_transform = 1.0 / (x + y),
+/// )]
+/// struct Predators;
+///
+/// let start = Predators.with_energy(PredatorsState { x: 0.2, y: 0.1, t: 0.0, energy: 0.0 })?;
+/// let mut run = Integrator::new(&Predators, OneStep::midpoint(), 0.1, start)?;
+/// run.take_steps(1000)?;
+/// let state = run.state();
+/// assert_eq!(state.energy, start.energy);
+/// assert_eq!(run.physical_time(), state.t);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "the time of `{Self}` is not transformed",
+    label = "its attribute has no `time_transform`"
+)]
+pub trait TimeTransformed: System<Kind = Degenerate> {
+    /// The state with `energy` set to H(q, t), as a run begins.
+    ///
+    /// # Errors
+    /// [`StartError`], as the start of a run, if an array of the system or of the state has the wrong length, or a coordinate
+    /// other than `energy` is not finite.
+    fn with_energy<T: Real>(&self, state: Self::State<T>) -> Result<Self::State<T>, StartError>
+    where
+        Self: Lagrangian<T> + Sized,
+    {
+        start::with_energy(self, &state)
+    }
 }
 
 /// A system in the class of one-step schemes: there is a half y of the coordinates along which α has no component, so that

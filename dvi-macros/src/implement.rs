@@ -115,16 +115,17 @@ fn system(
     emitter: &Emitter<'_>,
     programs: &Programs,
     account: &Account,
-    energy: &TokenStream,
+    members: &TokenStream,
     special: &TokenStream,
 ) -> TokenStream {
     let (documentation, report) = (account.documentation(), account.report(emitter, programs));
     let state = state(emitter);
     let configuration = configuration(emitter, programs, &state, &report);
-    let lagrangian = lagrangian(emitter, programs, energy);
+    let lagrangian = lagrangian(emitter, programs, members);
     // Below what the user says.
     let mut item = emitter.model.item.clone();
     item.attrs.push(parse_quote!(#[doc = #documentation]));
+    let time_transformed = time_transformed(emitter);
     let (state, functions) = (&state.item, functions(emitter));
     quote! {
         #item
@@ -133,9 +134,22 @@ fn system(
             #configuration
             #lagrangian
             #special
+            #time_transformed
             #functions
         };
     }
+}
+
+/// The implementation of `TimeTransformed`, if the time is.
+fn time_transformed(emitter: &Emitter<'_>) -> Option<TokenStream> {
+    emitter.model.extended?;
+    let (krate, item) = (emitter.krate(), &emitter.model.item);
+    let name = &item.ident;
+    let (impl_generics, type_generics, where_clause) = item.generics.split_for_impl();
+    Some(quote! {
+        #[automatically_derived]
+        impl #impl_generics #krate::TimeTransformed for #name #type_generics #where_clause {}
+    })
 }
 
 /// One method for each function of the user's own and each of its derivatives:
@@ -250,6 +264,7 @@ fn configuration(
     let lengths =
         (0..emitter.model.blocks.len()).map(|block| emitter.index(&emitter.model.block_size(block)));
     let blocks = 0..emitter.model.blocks.len();
+    let time_transformed = emitter.model.extended.is_some();
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
     let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.has_velocities()));
     quote! {
@@ -261,6 +276,7 @@ fn configuration(
             type State<__T: #krate::Scalar> = #type_in_trait;
             const REPORT: #krate::Report = #report;
             const HAS_SCALAR_FIELDS: bool = #has_scalar_fields;
+            const TIME_TRANSFORMED: bool = #time_transformed;
 
             #[inline(always)]
             fn space(&self) -> Self::Space { #space_value }
@@ -274,7 +290,7 @@ fn configuration(
 }
 
 /// The implementation of `Lagrangian`.
-fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, energy: &TokenStream) -> TokenStream {
+fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream) -> TokenStream {
     let krate = emitter.krate();
     let value = emitter.value(&programs.lagrangian);
     let (read, body) = (emitter.read(&programs.gradient), emitter.body(&programs.gradient));
@@ -315,8 +331,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, energy: &TokenStream) 
                 #read_all #l_q #l_v #offsets #linearize
             }
             #outside
-            #[inline]
-            fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
+            #members
             #[inline]
             fn momentum(&self, __index: usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
                 match __index {

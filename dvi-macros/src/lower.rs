@@ -24,7 +24,7 @@ mod names;
 mod reach;
 mod sums;
 mod unsupported;
-mod words;
+pub(crate) mod words;
 
 pub(crate) use words::reserved;
 
@@ -35,6 +35,7 @@ pub(crate) enum Role {
     Component,
     Hamiltonian,
     Gauge,
+    TimeTransform,
     Lagrangian,
     Momentum,
 }
@@ -46,6 +47,7 @@ impl Role {
             Self::Component => "a component of the one-form",
             Self::Hamiltonian => "the Hamiltonian",
             Self::Gauge => "the gauge",
+            Self::TimeTransform => "the time transformation",
             Self::Lagrangian => "the Lagrangian",
             Self::Momentum => "a momentum",
         }
@@ -149,10 +151,11 @@ impl<'a> Lowering<'a> {
 
     /// A list of components, one for each block: Σ_b Σ_i αᵇᵢ·d(xᵇᵢ).
     pub(crate) fn components(&mut self, list: &syn::ExprArray) -> Option<Expr> {
-        let (expected, found) = (self.model.blocks.len(), list.elems.len());
+        let (expected, found) = (self.model.declared_blocks(), list.elems.len());
         if found != expected {
             if !self.model.lost_coordinates {
-                let names: Vec<String> = self.model.blocks.iter().map(|b| b.name.to_string()).collect();
+                let blocks = &self.model.blocks[..expected];
+                let names: Vec<String> = blocks.iter().map(|b| b.name.to_string()).collect();
                 let names = listed(names.iter().map(String::as_str));
                 let message =
                     format!("expected {expected} components, one for each of {names}; here are {found}");

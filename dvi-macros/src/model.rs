@@ -9,7 +9,7 @@ use syn::ext::IdentExt as _;
 use syn::{Fields, Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
-use crate::lower::reserved;
+use crate::lower::{reserved, words};
 use crate::symbolic::{Index, Names};
 use crate::syntax::{Attribute, Declaration, Function, Kind, ScalarFieldPath};
 
@@ -64,6 +64,13 @@ pub(crate) struct ScalarField {
     pub(crate) generic: Option<Type>,
 }
 
+/// The blocks of the physical time and of the energy that is its conjugate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extended {
+    pub(crate) time: usize,
+    pub(crate) energy: usize,
+}
+
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) kind: Kind,
@@ -76,6 +83,8 @@ pub(crate) struct Model {
     declared_scalar_fields: Vec<ScalarFieldPath>,
     /// Those that are called.
     pub(crate) scalar_fields: Vec<ScalarField>,
+    /// The coordinates that a time transformation adds, if there is one.
+    pub(crate) extended: Option<Extended>,
     /// The names of the momenta.
     pub(crate) momenta: Vec<String>,
     /// What the state derives beside what every state does.
@@ -100,6 +109,7 @@ impl Model {
             functions: std::mem::take(&mut attribute.functions),
             declared_scalar_fields: std::mem::take(&mut attribute.scalar_fields),
             scalar_fields: Vec::new(),
+            extended: None,
             momenta: attribute.momenta.iter().map(|momentum| momentum.name.unraw().to_string()).collect(),
             derives: std::mem::take(&mut attribute.derives),
             crate_path,
@@ -108,6 +118,9 @@ impl Model {
         };
         for declaration in &attribute.coordinates {
             model.declare(declaration, errors);
+        }
+        if let Some(transform) = &attribute.time_transform {
+            model.extend(&transform.word, errors);
         }
         let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
         for name in model.functions.iter().map(|function| &function.name).chain(fields) {
@@ -122,6 +135,36 @@ impl Model {
         unique(model.functions.iter().map(|function| &function.name).chain(fields), "function", errors);
         unique(attribute.momenta.iter().map(|momentum| &momentum.name), "momentum", errors);
         model
+    }
+
+    /// Adds the coordinates of a time transformation.
+    fn extend(&mut self, word: &Ident, errors: &mut Errors) {
+        let first = self.blocks.len();
+        for name in [words::TIME, words::ENERGY] {
+            let mut names = self.blocks.iter().map(|block| &block.name);
+            if let Some(taken) = names.find(|known| **known == name) {
+                let message = format!(
+                    "a time transformation adds the coordinates `t` and `energy`: give `{taken}` another name"
+                );
+                errors.push(taken, message);
+                return;
+            }
+            let field = self.parameters.iter().any(|parameter| parameter.text == name);
+            if field {
+                let message = format!(
+                    "a time transformation adds the coordinates `t` and `energy`: give the field `{name}` another name"
+                );
+                errors.push(word, message);
+                return;
+            }
+            self.blocks.push(Block { name: Ident::new(name, word.span()), array: None });
+        }
+        self.extended = Some(Extended { time: first, energy: first + 1 });
+    }
+
+    /// The number of blocks that the user has declared.
+    pub(crate) fn declared_blocks(&self) -> usize {
+        self.extended.map_or(self.blocks.len(), |extended| extended.time)
     }
 
     fn declare(&mut self, declaration: &Declaration, errors: &mut Errors) {

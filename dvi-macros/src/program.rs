@@ -11,7 +11,7 @@ use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, Sec
 mod degenerate;
 mod regular;
 
-pub(crate) use degenerate::{DegenerateFormulas, DegeneratePrograms, dalpha};
+pub(crate) use degenerate::{DegenerateFormulas, DegeneratePrograms, TimeTransform, dalpha};
 pub(crate) use regular::{RegularFormulas, RegularPrograms};
 
 /// An array that a generated function writes to.

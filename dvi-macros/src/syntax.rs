@@ -67,6 +67,13 @@ pub(crate) enum Gauge {
     Auto(Ident),
 }
 
+/// `time_transform = ρ`, with the word.
+#[derive(Debug)]
+pub(crate) struct TimeTransform {
+    pub(crate) word: Ident,
+    pub(crate) rate: Expr,
+}
+
 /// The arguments as written; what was not given is empty.
 #[derive(Debug, Default)]
 pub(crate) struct Attribute {
@@ -75,6 +82,7 @@ pub(crate) struct Attribute {
     pub(crate) one_form: Option<Expr>,
     pub(crate) hamiltonian: Option<Expr>,
     pub(crate) gauge: Option<Gauge>,
+    pub(crate) time_transform: Option<TimeTransform>,
     pub(crate) lagrangian: Option<Expr>,
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
@@ -90,11 +98,12 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 9] = [
+const ARGUMENTS: [(&str, &str); 10] = [
     ("coordinates", "coordinates(x, y[n])"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
     ("gauge",       "gauge = F(q)"),
+    ("time_transform", "time_transform = ρ(q)"),
     ("lagrangian",  "lagrangian = …"),
     ("momenta",     "momenta(p = …)"),
     ("functions",   "functions(f = [f, df, d2f])"),
@@ -103,7 +112,7 @@ const ARGUMENTS: [(&str, &str); 9] = [
 ];
 
 /// The arguments that a regular system does not have.
-const DEGENERATE_ONLY: [&str; 3] = ["one_form", "hamiltonian", "gauge"];
+const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
 
 impl Kind {
     /// The attribute as it is written.
@@ -271,8 +280,9 @@ impl Attribute {
 
     /// All formulas as they were written.
     pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expr> {
+        let rate = self.time_transform.as_ref().map(|transform| &transform.rate);
         let dynamics =
-            [self.one_form.as_ref(), self.hamiltonian.as_ref(), self.lagrangian.as_ref(), self.gauge()];
+            [self.one_form.as_ref(), self.hamiltonian.as_ref(), self.lagrangian.as_ref(), self.gauge(), rate];
         dynamics.into_iter().flatten().chain(self.momenta.iter().map(|momentum| &momentum.formula))
     }
 
@@ -307,6 +317,10 @@ impl Attribute {
                     Some(word) => Gauge::Auto(word),
                     None => Gauge::Formula(formula),
                 });
+            }
+            ("time_transform", Value::Assigned(tokens)) => {
+                self.time_transform =
+                    value_of(&name, tokens, errors).map(|rate| TimeTransform { word: name, rate });
             }
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),

@@ -8,6 +8,7 @@ use crate::methods::{Carries, Clock, Method, TwoPoint};
 use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
+use crate::run::physical_time::Kept;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
 use crate::system::start::{evaluate, flatten, velocities};
@@ -22,6 +23,8 @@ pub struct Integrator<'a, S: System, M: Carries<S, T>, T: Real = f64> {
     stepper: Stepper<'a, S, M, T>,
     /// At the start of the run.
     clock: Clock<T>,
+    /// If the time is transformed: where the step at hand has begun.
+    kept: Option<Kept<S, M, T>>,
 }
 
 impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
@@ -44,8 +47,8 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         validate(system, t, h)?;
         let [q, v] = flatten(system, &start)?;
         evaluate(system, &q, &v, t)?;
-        let memory = method.begin(system, &q, &v[..velocities(system)], t, h)?;
-        Ok(Self::assemble(system, method, memory, q, t, h))
+        let begin = |method: &M, q: &Vector<S, T>| method.begin(system, q, &v[..velocities(system)], t, h);
+        Self::assemble(system, method, q, Clock::new(t, h), begin)
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
@@ -59,20 +62,28 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
         validate(system, t, h)?;
         let [q, v] = checkpoint.point(system)?;
-        let mut memory = method.begin_again(system, &q, &v[..velocities(system)], t, h)?;
-        let mut clock = Clock::new(t, h);
-        checkpoint.load::<S, M>(&mut memory, |reader| {
-            clock = Clock::load(checkpoint, reader)?;
+        let begin =
+            |method: &M, q: &Vector<S, T>| method.begin_again(system, q, &v[..velocities(system)], t, h);
+        let mut run = Self::assemble(system, method, q, Clock::new(t, h), begin)?;
+        let clock = &mut run.clock;
+        checkpoint.load::<S, M>(&mut run.stepper.memory, |reader| {
+            *clock = Clock::load(checkpoint, reader)?;
             Ok(())
         })?;
-        let mut run = Self::assemble(system, method, memory, q, t, h);
-        run.clock = clock;
         run.stepper.statistics = checkpoint.statistics();
         Ok(run)
     }
 
-    fn assemble(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>, t: T, h: T) -> Self {
-        Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h) }
+    fn assemble(
+        system: &'a S,
+        method: M,
+        q: Vector<S, T>,
+        clock: Clock<T>,
+        begin: impl Fn(&M, &Vector<S, T>) -> Result<M::Memory, StartError>,
+    ) -> Result<Self, StartError> {
+        let memory = begin(&method, &q)?;
+        let kept = Kept::new(system, || begin(&method, &q))?;
+        Ok(Self { stepper: Stepper::new(system, method, memory, q), clock, kept })
     }
 }
 
@@ -90,7 +101,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
-        self.stepper.steps(clock, count).map_err(|failure| self.error(failure))
+        let taken = match &mut self.kept {
+            None => self.stepper.steps(clock, count),
+            Some(kept) => self.stepper.steps_forward(clock, count, kept),
+        };
+        taken.map_err(|failure| self.error(failure))
     }
 
     #[cfg(feature = "alloc")]
@@ -135,8 +150,8 @@ impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         let rest = system.space().vector();
         evaluate(system, &q0, &rest, t)?;
         evaluate(system, &q1, &rest, t + h)?;
-        let memory = method.begin_between(system, &q0, &q1, t, h)?;
-        Ok(Self::assemble(system, method, memory, q0, t, h))
+        let begin = |method: &M, q0: &Vector<S, T>| method.begin_between(system, q0, &q1, t, h);
+        Self::assemble(system, method, q0, Clock::new(t, h), begin)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::error::StartError;
 use crate::scalar::norm::reported;
+use crate::system::TimeTransform;
 use crate::{Lagrangian, Real, Space, State, System, Vector};
 
 /// Whether a run can begin at time `t`, and the formulas of `system` stay within its arrays.
@@ -24,6 +25,9 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     t: T,
 ) -> Result<(), StartError> {
     let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
+    if let Some(transform) = system.time_transform(q) {
+        consistent(system, q, transform)?;
+    }
     if let Some(outside) = system.outside(q, v, t) {
         return Err(outside.into());
     }
@@ -46,6 +50,56 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     }
     let quantity = if S::REGULAR { "the energy" } else { "the Hamiltonian" };
     Err(StartError::Undefined { quantity, coordinate: None, value: reported(energy) })
+}
+
+/// H and the coordinate `energy` may differ by this part of them where a run begins.
+const ENERGY_TOLERANCE: f64 = 1e-6;
+
+/// The places of `t` and of `energy` in a state of a system whose time is transformed.
+pub(crate) fn extended<S: System>(system: &S) -> [usize; 2] {
+    let dimension = system.space().dimension();
+    [dimension - 2, dimension - 1]
+}
+
+/// Whether the time passes at the start of a run, and `energy` is the value of H. On another level of H − `energy` the motion would
+/// be that of another system.
+///
+/// # Errors
+/// [`StartError::TimeRate`] and [`StartError::EnergyCoordinate`].
+fn consistent<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    transform: TimeTransform<T>,
+) -> Result<(), StartError> {
+    let [rate, hamiltonian] = [transform.rate, transform.hamiltonian].map(reported);
+    if rate.is_nan() || rate <= 0.0 || rate.is_infinite() {
+        return Err(StartError::TimeRate { rate });
+    }
+    let energy = reported(q[extended(system)[1]]);
+    let is_close = (hamiltonian - energy).abs() <= ENERGY_TOLERANCE * hamiltonian.abs().max(energy.abs());
+    // What is no number is reported as such.
+    if is_close || hamiltonian.is_nan() {
+        Ok(())
+    } else {
+        Err(StartError::EnergyCoordinate { energy, hamiltonian })
+    }
+}
+
+/// `state` with the coordinate `energy` set to H.
+pub(crate) fn with_energy<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    state: &S::State<T>,
+) -> Result<S::State<T>, StartError> {
+    system.check()?;
+    let (mut q, mut v) = (system.space().vector(), system.space().vector());
+    state.write(|block| system.block_len(block), &mut q, &mut v)?;
+    let [_, energy] = extended(system);
+    q[energy] = T::lift(0.0);
+    finite(system, q.iter().copied())?;
+    if let Some(TimeTransform { hamiltonian, .. }) = system.time_transform(&q) {
+        q[energy] = hamiltonian;
+    }
+    Ok(S::State::read(|block| system.block_len(block), &q, &v))
 }
 
 /// Checks that the entries of a state, in the order of [`System::names`], are finite.

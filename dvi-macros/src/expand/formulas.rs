@@ -3,11 +3,13 @@
 use syn::Expr as Syntax;
 
 use super::Stages;
+use crate::internal::internal;
 use crate::lower::{Lowering, Role};
-use crate::program::{DegenerateFormulas, RegularFormulas};
+use crate::model::Extended;
+use crate::program::{DegenerateFormulas, RegularFormulas, TimeTransform};
 use crate::structure::gauge::{self, Effort, Search};
-use crate::symbolic::{Expr, Graph, Node};
-use crate::syntax::{Attribute, Gauge};
+use crate::symbolic::{Coordinate, Expr, Graph, Index, Node};
+use crate::syntax::{self, Attribute, Gauge};
 
 impl Stages {
     /// α·v, H and the momenta.
@@ -16,13 +18,18 @@ impl Stages {
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
         let pair = one_form_and_hamiltonian(&self.attribute, &mut lowering, clean);
         let momenta = momenta(&self.attribute, &mut lowering);
+        let time = time_transform(&self.attribute, &mut lowering, pair.map(|(_, hamiltonian)| hamiltonian));
+        let pair = pair.zip(time).map(|(pair, time)| match time {
+            Some(time) => self.extended(pair.0, time),
+            None => pair,
+        });
         let gauge = self.gauge(pair.map(|(one_form, _)| one_form));
-        let (declared, momenta, gauge) = (pair?, momenta?, gauge?);
+        let (declared, momenta, gauge, time) = (pair?, momenta?, gauge?, time?);
         let (one_form, hamiltonian) = match gauge {
             Some(gauge) => self.with_gauge(declared, gauge),
             None => declared,
         };
-        Some(DegenerateFormulas { one_form, hamiltonian, gauge, declared: declared.0, momenta })
+        Some(DegenerateFormulas { one_form, hamiltonian, gauge, declared: declared.0, time, momenta })
     }
 
     /// F, written or found; `None` inside if there is none.
@@ -101,6 +108,25 @@ impl Stages {
         (graph.with_differential(one_form, gauge), graph.subtract(hamiltonian, rate))
     }
 
+    /// α·q' − energy·t' and ρ (H − energy): L in the extended phase space, with t' = ρ.
+    fn extended(
+        &mut self,
+        one_form: Expr,
+        TimeTransform { rate, hamiltonian }: TimeTransform<Expr>,
+    ) -> (Expr, Expr) {
+        let Some(Extended { time, energy }) = self.model.extended else {
+            internal("a time transformation without its coordinates")
+        };
+        let graph = &mut self.graph;
+        let [time, energy] =
+            [time, energy].map(|block| Coordinate { block: block as u32, index: Index::literal(0) });
+        let velocity = graph.intern(Node::Velocity(time)).into();
+        let energy = graph.intern(Node::Coordinate(energy)).into();
+        let conjugate = graph.multiply(energy, velocity);
+        let difference = graph.subtract(hamiltonian, energy);
+        (graph.subtract(one_form, conjugate), graph.multiply(rate, difference))
+    }
+
     /// L and the momenta.
     pub(super) fn regular_formulas(&mut self) -> Option<RegularFormulas> {
         let clean = self.check_coordinates()?;
@@ -131,6 +157,25 @@ impl Stages {
         }
         (!self.model.blocks.is_empty()).then(|| self.errors.is_empty())
     }
+}
+
+/// ρ and H; `None` inside if the time is not transformed.
+fn time_transform(
+    attribute: &Attribute,
+    lowering: &mut Lowering<'_>,
+    hamiltonian: Option<Expr>,
+) -> Option<Option<TimeTransform<Expr>>> {
+    let Some(syntax::TimeTransform { rate: formula, .. }) = &attribute.time_transform else {
+        return Some(None);
+    };
+    let rate = lowering.formula(formula, Role::TimeTransform)?;
+    if rate.as_number().is_some_and(|rate| rate <= 0.0) {
+        lowering.errors.push(formula, "a time transformation is positive: it is how fast the time passes");
+        return None;
+    }
+    // Where its coordinates have no names, that is an error of its own.
+    lowering.model.extended?;
+    Some(Some(TimeTransform { rate, hamiltonian: hamiltonian? }))
 }
 
 fn momenta(attribute: &Attribute, lowering: &mut Lowering<'_>) -> Option<Vec<Expr>> {

@@ -7,7 +7,7 @@ use super::document::{Account, quantity};
 use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
 use crate::errors::listed;
-use crate::program::{DegenerateFormulas, DegeneratePrograms};
+use crate::program::{DegenerateFormulas, DegeneratePrograms, TimeTransform};
 use crate::structure::{Class, Components, OneForm};
 use crate::symbolic::{Expr, Index, Node, print_coordinate};
 use crate::validate::Checked;
@@ -21,12 +21,32 @@ pub(crate) fn degenerate(
 ) -> TokenStream {
     let implementation = implementation(emitter, programs, structure);
     let krate = emitter.krate();
-    let energy = quote!(<Self as #krate::DegenerateLagrangian<__T>>::hamiltonian(self, __q, __t));
+    let time = programs.time.as_ref().map(|TimeTransform { rate, hamiltonian }| {
+        let [rate, hamiltonian] = [rate, hamiltonian].map(|routine| emitter.value(routine));
+        quote! {
+            #[inline]
+            fn time_transform(
+                &self, __q: &[__T],
+            ) -> ::core::option::Option<#krate::system::TimeTransform<__T>> {
+                ::core::option::Option::Some(#krate::system::TimeTransform {
+                    rate: { #rate },
+                    hamiltonian: { #hamiltonian },
+                })
+            }
+        }
+    });
+    let members = quote! {
+        #[inline]
+        fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T {
+            <Self as #krate::DegenerateLagrangian<__T>>::hamiltonian(self, __q, __t)
+        }
+        #time
+    };
     super::system(
         emitter,
         &programs.shared,
         &account(emitter, formulas, programs, structure, checked),
-        &energy,
+        &members,
         &implementation,
     )
 }
@@ -40,6 +60,7 @@ fn account(
 ) -> Account {
     let dynamics = [("α", formulas.one_form), ("H", formulas.hamiltonian)].into_iter();
     let declared = dynamics.chain(formulas.gauge.map(|gauge| ("F", gauge)));
+    let declared = declared.chain(formulas.time.map(|time| ("ρ", time.rate)));
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account = Account::new(
         "L(q, v, t) = α(q, t)·v − H(q, t) with",
@@ -48,6 +69,13 @@ fn account(
     );
     if formulas.gauge.is_some() {
         account.sentence("α and H contain the gauge F: dF/dt is added to L.".to_string());
+    }
+    if formulas.time.is_some() {
+        account.sentence(
+            "The time is transformed, dt/dτ = ρ: steps are steps of τ, `t` is the physical time and `energy` the value of the \
+             Hamiltonian. H is ρ times the Hamiltonian without `energy`, and 0 on the motion."
+                .to_string(),
+        );
     }
     let divisors = formulas.gauge.map_or_else(Vec::new, |gauge| divisors(emitter, gauge));
     if !divisors.is_empty() {

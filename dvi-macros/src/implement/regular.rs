@@ -19,11 +19,16 @@ pub(crate) fn regular(
     checked: &Checked,
 ) -> TokenStream {
     let implementation = implementation(emitter, programs, structure);
+    let energy = emitter.value(&programs.energy);
+    let members = quote! {
+        #[inline]
+        fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
+    };
     super::system(
         emitter,
         &programs.shared,
         &account(emitter, formulas, programs, structure, checked),
-        &emitter.value(&programs.energy),
+        &members,
         &implementation,
     )
 }

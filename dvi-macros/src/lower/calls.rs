@@ -272,6 +272,11 @@ impl Lowering<'_> {
         match (coordinate.scale == 1.0, self.graph.node(coordinate.node)) {
             (true, Node::Coordinate(coordinate)) => {
                 let coordinate = coordinate.clone();
+                if self.model.extended.is_some_and(|extended| extended.time == coordinate.block as usize) {
+                    let message = "`t` is the physical time: its velocity is the time transformation";
+                    self.errors.push(call, message);
+                    return None;
+                }
                 Some(self.graph.intern(Node::Velocity(coordinate)).into())
             }
             _ => {

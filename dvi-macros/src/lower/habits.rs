@@ -102,7 +102,9 @@ impl Lowering<'_> {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
             Role::Momentum if self.model.has_velocities() => "dot",
-            Role::Component | Role::Hamiltonian | Role::Gauge | Role::Momentum => return None,
+            Role::Component | Role::Hamiltonian | Role::Gauge | Role::TimeTransform | Role::Momentum => {
+                return None;
+            }
         };
         let block = self.model.blocks.iter().find(|block| {
             let (dot, of) = (velocity_name(&block.name), &block.name);

@@ -32,6 +32,12 @@ impl Lowering<'_> {
                 self.errors.push(path, format!("`{name}` is an array of coordinates: write `{name}[i]`"));
                 return None;
             }
+            if self.model.extended.is_some_and(|extended| extended.energy == block) {
+                let message = "`energy` is the value that H has in a run, which the time transformation adds as a coordinate: \
+                               formulas do without it";
+                self.errors.push(path, message);
+                return None;
+            }
             let coordinate = Coordinate { block: block as u32, index: Index::literal(0) };
             return Some(self.graph.intern(Node::Coordinate(coordinate)).into());
         }

@@ -44,7 +44,10 @@ pub(super) const SUMS: [&str; 4] = ["sum", "sum_pairs", "sum_ordered_pairs", "pr
 pub(super) const VELOCITIES: [&str; 2] = ["d", "dot"];
 
 /// The time, unless a coordinate or a field has that name.
-pub(super) const TIME: &str = "t";
+pub(crate) const TIME: &str = "t";
+
+/// The coordinate that a time transformation adds beside it.
+pub(crate) const ENERGY: &str = "energy";
 
 /// The constant that goes without a path: a single name may be that of another one in the module of the user, which the
 /// macro cannot see; only this is taken for what it says.

@@ -17,7 +17,17 @@ pub(crate) struct DegenerateFormulas {
     pub(crate) gauge: Option<Expr>,
     /// α·v without it.
     pub(crate) declared: Expr,
+    pub(crate) time: Option<TimeTransform<Expr>>,
     pub(crate) momenta: Vec<Expr>,
+}
+
+/// What a time transformation is made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TimeTransform<F> {
+    /// ρ = dt/dτ
+    pub(crate) rate: F,
+    /// H before the transformation.
+    pub(crate) hamiltonian: F,
 }
 
 /// What is generated for a degenerate system.
@@ -32,6 +42,7 @@ pub(crate) struct DegeneratePrograms {
     /// Where Ω is canonical, one entry a row; else nothing.
     pub(crate) conjugate_entries: Routine,
     pub(crate) momentum_gradients: Vec<Routine>,
+    pub(crate) time: Option<TimeTransform<Routine>>,
 }
 
 impl DegeneratePrograms {
@@ -53,8 +64,13 @@ impl DegeneratePrograms {
         let momenta = formulas.momenta.iter();
         let momentum_gradients: Vec<Vec<Statement>> =
             momenta.map(|value| first_derivatives(graph, *value, Output::Vector, Output::Lv)).collect();
+        let time = formulas.time.map(|TimeTransform { rate, hamiltonian }| TimeTransform {
+            rate: Routine::new(graph, result(rate)),
+            hamiltonian: Routine::new(graph, result(hamiltonian)),
+        });
         Self {
             shared,
+            time,
             hamiltonian: Routine::new(graph, result(formulas.hamiltonian)),
             hamiltonian_gradient: Routine::new(graph, hamiltonian_gradient),
             one_form: Routine::new(graph, one_form),

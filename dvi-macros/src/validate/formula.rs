@@ -11,7 +11,7 @@ use syn::{BinOp, Expr, Stmt, UnOp};
 use super::jet::Jet;
 use super::point::{Branches, Directions, Point, Variable};
 use crate::internal::internal;
-use crate::model::Model;
+use crate::model::{Extended, Model};
 
 mod calls;
 mod indices;
@@ -124,6 +124,12 @@ impl<'a> Evaluation<'a> {
             }
         }
         Ok(total)
+    }
+
+    /// The rate of the physical time, and the energy that is conjugate to it.
+    pub(super) fn conjugates(&self, extended: Extended) -> Value<[Jet; 2]> {
+        let velocity = self.variable(Variable::Velocity, extended.time, 0)?;
+        Ok([velocity, self.variable(Variable::Position, extended.energy, 0)?])
     }
 
     /// dF/dt of a gauge F, and what is left of it at v = 0.

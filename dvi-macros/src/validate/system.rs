@@ -46,6 +46,8 @@ enum Quantity {
     HamiltonianGradient,
     OneForm,
     FlowSource,
+    TimeRate,
+    Untransformed,
     MomentumRate,
     OneFormJacobian,
     Energy,
@@ -67,6 +69,8 @@ pub(super) struct Outputs {
     lagrangian: Jet,
     pub(super) form: Jet,
     hamiltonian: Jet,
+    /// ρ, and H before the transformation.
+    time: Option<[Jet; 2]>,
     momenta: Vec<Jet>,
     pub(super) sides: Sides,
     is_delicate: bool,
@@ -113,6 +117,23 @@ impl System<'_> {
             }
             (None, None) => internal("no dynamics"),
         };
+        let time = match (&attribute.time_transform, model.extended) {
+            (Some(transform), Some(extended)) => {
+                let rate = evaluation.number(&transform.rate)?;
+                Some((rate, evaluation.conjugates(extended)?))
+            }
+            _ => None,
+        };
+        let untransformed = hamiltonian.clone();
+        let (lagrangian, form, hamiltonian) = match &time {
+            None => (lagrangian, form, hamiltonian),
+            Some((rate, [velocity, energy])) => {
+                let form = form.minus(energy.times(velocity));
+                let hamiltonian = rate.times(&hamiltonian.minus(energy.clone()));
+                (form.clone().minus(hamiltonian.clone()), form, hamiltonian)
+            }
+        };
+        let time = time.map(|(rate, _)| [rate, untransformed]);
         let (lagrangian, form, hamiltonian) = match attribute.gauge() {
             None => (lagrangian, form, hamiltonian),
             Some(gauge) => {
@@ -128,7 +149,7 @@ impl System<'_> {
         let momenta = momenta.collect::<Result<_, _>>()?;
         let cost = budget - evaluation.budget;
         let Evaluation { sides, is_delicate, .. } = evaluation;
-        Ok(Outputs { lagrangian, form, hamiltonian, momenta, sides, is_delicate, cost })
+        Ok(Outputs { lagrangian, form, hamiltonian, time, momenta, sides, is_delicate, cost })
     }
 }
 
@@ -149,6 +170,8 @@ impl Output {
             Quantity::HamiltonianGradient => "∇H",
             Quantity::OneForm => "α",
             Quantity::FlowSource => "∇H + ∂α/∂t",
+            Quantity::TimeRate => "ρ",
+            Quantity::Untransformed => "H before the time transformation",
             Quantity::MomentumRate => "∂²L/∂t∂v",
             Quantity::OneFormJacobian => "a Dα + b (Dα)ᵀ",
             Quantity::Energy => "E",
@@ -164,7 +187,8 @@ impl Outputs {
     /// Whether everything is finite, and nothing on the way decided by rounding.
     pub(super) fn is_moderate(&self) -> bool {
         let jets = [&self.lagrangian, &self.form, &self.hamiltonian];
-        !self.is_delicate && jets.into_iter().chain(&self.momenta).all(Jet::is_moderate)
+        let mut jets = jets.into_iter().chain(&self.momenta).chain(self.time.iter().flatten());
+        !self.is_delicate && jets.all(Jet::is_moderate)
     }
 
     /// a Dα + b (Dα)ᵀ between the two directions.
@@ -201,6 +225,10 @@ impl Outputs {
 
     pub(super) fn expected(&self, output: &Output, point: &Point) -> Sized {
         let Self { lagrangian, form, hamiltonian, momenta, .. } = self;
+        let time = |part: usize| match &self.time {
+            Some(time) => time[part].value(),
+            None => internal("no time transformation"),
+        };
         match output.quantity {
             Quantity::Lagrangian => lagrangian.value(),
             Quantity::Lq | Quantity::Force => lagrangian.first(First::Q),
@@ -220,6 +248,8 @@ impl Outputs {
             Quantity::HamiltonianGradient => hamiltonian.first(First::Q),
             Quantity::OneForm => form.first(First::V),
             Quantity::FlowSource => hamiltonian.second(Second::Q).plus(form.both(First::T, Second::V)),
+            Quantity::TimeRate => time(0),
+            Quantity::Untransformed => time(1),
             Quantity::MomentumRate => lagrangian.both(First::T, Second::V),
             Quantity::OneFormJacobian => self.form_jacobian(point),
             Quantity::Energy => lagrangian.first(First::Stretch).plus(lagrangian.value().times(-1.0)),
@@ -302,6 +332,10 @@ impl Functions<'_> {
                 add("one_form", Quantity::OneForm, vector(&programs.one_form));
                 let source = machine.run(&programs.flow_source).along_second(program::Output::Vector);
                 add("flow_source", Quantity::FlowSource, source);
+                if let Some(time) = &programs.time {
+                    add("time_transform", Quantity::TimeRate, value(&time.rate));
+                    add("time_transform", Quantity::Untransformed, value(&time.hamiltonian));
+                }
                 let jacobian = machine.run(&programs.one_form_jacobian).matrix;
                 add("one_form_jacobian", Quantity::OneFormJacobian, jacobian);
                 for (number, gradient) in programs.momentum_gradients.iter().enumerate() {

@@ -54,6 +54,10 @@ where
         start: S::State<T>,
     ) -> Result<Self, StartError> {
         validate(system, t)?;
+        if S::TIME_TRANSFORMED {
+            let reason = "the time of the system is transformed, which sets the lengths of its steps";
+            return Err(StartError::Unsupported { option: "a step control", reason });
+        }
         let [q, v] = flatten(system, &start)?;
         evaluate(system, &q, &v, t)?;
         let v = &v[..velocities(system)];

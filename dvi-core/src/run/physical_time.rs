@@ -1,0 +1,59 @@
+//! Steps of a system whose time is transformed: each ends where the physical time still goes on.
+//!
+//! A motion reaches no zero of ρ = dt/dτ in a finite τ, so a step that crosses one is an error of its length. It is taken back.
+
+use crate::error::{StartError, StepFailure};
+use crate::methods::{Carries, Clock, Method};
+use crate::run::Stepper;
+use crate::scalar::norm::reported;
+use crate::state::memory::Memory;
+use crate::system::TimeTransform;
+use crate::{Lagrangian, Real, Space, System, Vector};
+
+/// Where the step at hand has begun.
+pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
+    q: Vector<S, T>,
+    memory: M::Memory,
+}
+
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
+    /// For a run whose memory `begin` makes, if its time is transformed.
+    ///
+    /// # Errors
+    /// Those of `begin`.
+    pub(super) fn new(
+        system: &S,
+        begin: impl FnOnce() -> Result<M::Memory, StartError>,
+    ) -> Result<Option<Self>, StartError> {
+        if !S::TIME_TRANSFORMED {
+            return Ok(None);
+        }
+        Ok(Some(Self { q: system.space().vector(), memory: begin()? }))
+    }
+}
+
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
+    /// Takes `count` steps from the present time of `clock`, or as many as succeed and end where ρ is positive.
+    pub(super) fn steps_forward(
+        &mut self,
+        clock: Clock<T>,
+        count: u64,
+        kept: &mut Kept<S, M, T>,
+    ) -> Result<(), StepFailure> {
+        for taken in 0..count {
+            kept.q.copy_from_slice(&self.q);
+            kept.memory.restore(&self.memory);
+            self.steps(clock.after(taken), 1)?;
+            let Some(TimeTransform { rate, .. }) = self.system.time_transform(&self.q) else { continue };
+            // A rate that is not a number is not positive either.
+            let is_positive = rate > T::lift(0.0);
+            if !is_positive {
+                self.q.copy_from_slice(&kept.q);
+                self.memory.restore(&kept.memory);
+                self.statistics.steps -= 1;
+                return Err(StepFailure::TimeRate { rate: reported(rate) });
+            }
+        }
+        Ok(())
+    }
+}
