@@ -69,6 +69,7 @@ use proc_macro::TokenStream;
 /// | `lagrangian = …` | instead of these two: L, affine in the velocities `dot(x)` |
 /// | `gauge = F` | F(q, t), whose dF/dt is added to L: α becomes α + ∂F/∂q and H becomes H − ∂F/∂t, with the same motion |
 /// | `gauge = auto` | an F is sought that leaves α no component along one half of the coordinates |
+/// | `time_transform = ρ` | steps of equal length in τ with dt = ρ(q, t) dτ, see below |
 /// | `momenta(name = …)` | conserved quantities to watch |
 /// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, and a third one where it stands in a gauge, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
 /// | `functions(psi = path)` | a value of a type that implements `dvi_core::ScalarField`, see below |
@@ -128,6 +129,13 @@ use proc_macro::TokenStream;
 /// Coordinates and the time stand in no denominator of F that has none in α. Parameters do if nothing else is found, as in
 /// `x * (k * y).cos() / k`, and the report says so: F is no number where such a parameter is 0. The integral of 1/x is `x.ln()`
 /// if α takes the logarithm or the root of x, else `0.5 * x.powi(2).ln()`.
+///
+/// # Time transformations
+///
+/// With `time_transform = ρ` a run takes steps of equal length in a time τ in which the physical time passes at the rate
+/// dt/dτ = ρ(q, t). The system has two coordinates more, `t` and `energy`, and L becomes α·q' − energy·t' − ρ (H − energy).
+/// The formulas are written as without it; `t` in them is the coordinate. `system.with_energy(state)` sets `energy` to the value of
+/// H, with which a run has to begin. `dvi_core::TimeTransformed` says more.
 ///
 /// # Sizes
 ///

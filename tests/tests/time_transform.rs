@@ -196,7 +196,8 @@ fn a_fall_takes_its_time() -> Outcome {
 #[test]
 fn what_is_wrong_is_said() -> Outcome {
     let system = Fall { floor: 0.0 };
-    let error = Integrator::new(&system, OneStep::midpoint(), 0.1, fall(0.5)).err().ok_or("not consistent")?;
+    let error =
+        Integrator::new(&system, OneStep::midpoint(), 0.1, fall(0.5)).err().ok_or("not consistent")?;
     assert_eq!(error, StartError::EnergyCoordinate { energy: 0.5, hamiltonian: -1.0 });
     let high = Fall { floor: 1.5 };
     let start = high.with_energy(fall(0.0))?;

@@ -83,12 +83,7 @@ impl Stages {
                 return None;
             }
         }
-        let below = lowering.graph.reachable([gauge.node]);
-        let field = below.into_iter().find_map(|id| match lowering.graph.node(id) {
-            Node::ScalarField(field, ..) => Some(*field),
-            _ => None,
-        });
-        if let Some(field) = field {
+        if let Some(field) = lowering.graph.scalar_field_below(gauge) {
             let name = lowering.model.scalar_fields[field as usize].text.clone();
             let message = format!(
                 "a gauge is differentiated three times, and `{name}`, which stands in it, has two derivatives: no function \

@@ -106,6 +106,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         blocks,
         dynamics,
         gauge: Gauge::None,
+        time_transform: None,
         momenta: vec![Formula::Time],
     }
 }

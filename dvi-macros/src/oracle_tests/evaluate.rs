@@ -2,7 +2,7 @@
 
 use super::formula::{Condition, Formula, Index, Loops, Relation};
 use super::functions::{own, scalar_field};
-use super::jet::Jet;
+use super::jet::{Jet, Sized};
 use super::rate;
 use super::system::{Dynamics, Gauge, System};
 
@@ -46,11 +46,51 @@ impl<'a> Oracle<'a> {
 
     /// L with dF/dt of a gauge F.
     pub(super) fn lagrangian(&mut self) -> Result<Jet, Outside> {
-        let declared = self.declared()?;
+        let declared = match &self.system.time_transform {
+            Some(rate) => self.extended(rate)?,
+            None => self.declared()?,
+        };
         match &self.system.gauge {
             Gauge::Formula(gauge) => Ok(declared.plus(&rate::rate(self.system, gauge, self.point)?)),
             Gauge::None | Gauge::Auto => Ok(declared),
         }
+    }
+
+    /// α·v − e t' − ρ (H − e)
+    fn extended(&mut self, rate: &Formula) -> Result<Jet, Outside> {
+        let system = self.system;
+        let Some([time, energy]) = system.extended() else { panic!("the time is transformed") };
+        let (form, hamiltonian) = match &system.dynamics {
+            Dynamics::OneForm(_, hamiltonian) | Dynamics::Components(_, hamiltonian) => {
+                let hamiltonian = self.value(hamiltonian)?;
+                (self.declared()?.plus(&hamiltonian), hamiltonian)
+            }
+            Dynamics::Affine(_) | Dynamics::Regular(_) => {
+                let hamiltonian = self.at_rest()?.scaled(-1.0);
+                (self.declared()?.plus(&hamiltonian), hamiltonian)
+            }
+        };
+        let variable = |place: usize, value: f64| Jet::variable(value, place, self.variables());
+        let energy = variable(energy, self.point.q[energy]);
+        let velocity = variable(system.dimension() + time, self.point.v[time]);
+        let difference = hamiltonian.plus(&energy.scaled(-1.0));
+        let work = self.value(rate)?.times(&difference);
+        Ok(form.plus(&energy.times(&velocity).scaled(-1.0)).plus(&work.scaled(-1.0)))
+    }
+
+    /// L at v = 0, as a function of q and t.
+    fn at_rest(&self) -> Result<Jet, Outside> {
+        let (n, point) = (self.system.dimension(), self.point);
+        let still = Point { q: point.q.clone(), v: vec![0.0; n], t: point.t };
+        let value = Oracle::new(self.system, &still).declared()?;
+        let is_position = |i: usize| i < n || i == 2 * n;
+        let only = |holds: bool, entry: Sized| if holds { entry } else { Sized::default() };
+        Ok(Jet::from_derivatives(
+            value.value,
+            self.variables(),
+            |i| only(is_position(i), value.gradient(i)),
+            |i, j| only(is_position(i) && is_position(j), value.hessian(i, j)),
+        ))
     }
 
     /// α·v − H, or L itself.
@@ -82,7 +122,10 @@ impl<'a> Oracle<'a> {
             Formula::Pi => Jet::constant(std::f64::consts::PI),
             Formula::Time => {
                 let variables = self.variables();
-                Jet::variable(self.point.t, variables - 1, variables)
+                match self.system.extended() {
+                    Some([time, _]) => Jet::variable(self.point.q[time], time, variables),
+                    None => Jet::variable(self.point.t, variables - 1, variables),
+                }
             }
             Formula::Name(name) => {
                 let known = self.names.iter().rev().find(|(known, _)| known == name);

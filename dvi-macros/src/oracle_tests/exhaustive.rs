@@ -95,6 +95,7 @@ pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
         blocks,
         dynamics,
         gauge: Gauge::None,
+        time_transform: None,
         momenta: Vec::new(),
     }
 }
@@ -119,6 +120,7 @@ pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
         blocks,
         dynamics,
         gauge: Gauge::None,
+        time_transform: None,
         momenta: Vec::new(),
     }
 }

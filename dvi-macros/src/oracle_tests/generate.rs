@@ -52,6 +52,12 @@ pub(super) fn system(random: &mut Random) -> System {
         let momentum = generator.value(&Scope::outside(), 3);
         generator.system.momenta.push(momentum);
     }
+    if !regular && generator.random.chance(25) {
+        generator.budget = 8;
+        let rate = generator.value(&Scope::outside(), 3);
+        let rate = generator.positive(rate);
+        return generator.system.with_time_transform(rate);
+    }
     generator.system
 }
 

@@ -25,6 +25,9 @@ fn smaller_systems(system: &System) -> Vec<System> {
     if system.gauge != Gauge::None {
         candidates.push(System { gauge: Gauge::None, ..system.clone() });
     }
+    if system.time_transform.is_some() {
+        candidates.push(system.clone().without_time_transform());
+    }
     let mut copy = system.clone();
     let formulas: Vec<Formula> = copy.formulas_mut().into_iter().map(|formula| formula.clone()).collect();
     for (place, formula) in formulas.iter().enumerate() {

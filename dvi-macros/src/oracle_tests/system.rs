@@ -83,8 +83,13 @@ pub(super) struct System {
     pub(super) blocks: Vec<Block>,
     pub(super) dynamics: Dynamics,
     pub(super) gauge: Gauge,
+    /// ρ; then the last two blocks are the time and the energy, which the attribute does not declare.
+    pub(super) time_transform: Option<Formula>,
     pub(super) momenta: Vec<Formula>,
 }
+
+/// The coordinates that a time transformation adds.
+const EXTENDED: [&str; 2] = ["t", "energy"];
 
 impl System {
     pub(super) fn size_values(&self) -> Vec<i64> {
@@ -102,6 +107,28 @@ impl System {
 
     pub(super) fn dimension(&self) -> usize {
         self.offset(self.blocks.len())
+    }
+
+    /// The blocks that the attribute declares.
+    pub(super) fn declared_blocks(&self) -> &[Block] {
+        let added = if self.time_transform.is_some() { EXTENDED.len() } else { 0 };
+        &self.blocks[..self.blocks.len() - added]
+    }
+
+    /// The places of the time and of the energy among the coordinates, if the time is transformed.
+    pub(super) fn extended(&self) -> Option<[usize; 2]> {
+        let first = self.blocks.len().checked_sub(EXTENDED.len())?;
+        self.time_transform.as_ref().map(|_| [self.offset(first), self.offset(first + 1)])
+    }
+
+    pub(super) fn with_time_transform(mut self, rate: Formula) -> Self {
+        self.blocks.extend(EXTENDED.map(|name| Block { name, size: None }));
+        Self { time_transform: Some(rate), ..self }
+    }
+
+    pub(super) fn without_time_transform(mut self) -> Self {
+        self.blocks.truncate(self.declared_blocks().len());
+        Self { time_transform: None, ..self }
     }
 
     pub(super) fn is_regular(&self) -> bool {
@@ -128,6 +155,7 @@ impl System {
         if let Gauge::Formula(gauge) = &mut self.gauge {
             formulas.push(gauge);
         }
+        formulas.extend(&mut self.time_transform);
         formulas.extend(&mut self.momenta);
         formulas
     }

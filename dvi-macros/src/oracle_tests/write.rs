@@ -41,7 +41,7 @@ impl Spelling {
 impl System {
     /// The arguments of the attribute.
     pub(super) fn attribute(&self) -> String {
-        let blocks = self.blocks.iter().map(|block| match block.size {
+        let blocks = self.declared_blocks().iter().map(|block| match block.size {
             None => block.name.to_string(),
             Some(size) => format!("{}[{}]", block.name, self.size_text(size)),
         });
@@ -69,6 +69,9 @@ impl System {
             Gauge::Formula(gauge) => format!(", gauge = {}", d.text(gauge)),
             Gauge::Auto => ", gauge = auto".to_string(),
         };
+        if let Some(rate) = &self.time_transform {
+            text += &format!(", time_transform = {}", d.text(rate));
+        }
         let momenta = self.momenta.iter().enumerate();
         let momenta: Vec<String> = momenta.map(|(n, value)| format!("p{n} = {}", dot.text(value))).collect();
         if !momenta.is_empty() {

@@ -66,7 +66,7 @@ enum Lacking {
     Gradient,
     Words,
     /// This function of the user's has no third derivative.
-    ThirdDerivative(u32),
+    ThirdDerivative(String),
     /// The search has become too long.
     Room,
 }
@@ -138,18 +138,16 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effor
 
 /// F as text, if α + dF is in class.
 fn found(graph: &mut Graph, model: &Model, form: Expr, function: Expr) -> Result<Found, Lacking> {
-    // Its third derivative stands in no table.
-    if graph.depends(function.node, |node| matches!(node, Node::ScalarField(..))) {
-        return Err(Lacking::Words);
-    }
     let class = Class::new(graph, model, form);
     let below = graph.reachable([function.node]);
     let lacking = below.into_iter().find_map(|id| match graph.node(id) {
-        Node::Call(number, ..) if !model.has_third_derivative(*number) => Some(*number),
+        Node::Call(number, ..) if !model.has_third_derivative(*number) => {
+            Some(model.functions[*number as usize].name.to_string())
+        }
         _ => None,
     });
-    if let Some(number) = lacking {
-        return Err(Lacking::ThirdDerivative(number));
+    if let Some(name) = lacking {
+        return Err(Lacking::ThirdDerivative(name));
     }
     let text = write_expr(graph, function, model).ok_or(Lacking::Words)?;
     let formula = syn::parse_str(&text).map_err(|_| Lacking::Words)?;
@@ -188,7 +186,12 @@ fn halves(model: &Model, coupled: &[[usize; 2]]) -> (usize, Vec<Vec<usize>>) {
     };
     let halves: Vec<u32> = (1..all).rev().filter(is_half).collect();
     let is_free = |set: &&u32| !coupled.iter().any(|pair| pair.iter().all(|block| **set & (1 << block) != 0));
-    (halves.len(), halves.iter().filter(is_free).map(|set| members(*set).collect()).collect())
+    // What the time transformation adds along the time stays there: formulas do not know its energy.
+    let keeps_time = |set: &&u32| model.extended.is_none_or(|extended| **set & (1 << extended.time) == 0);
+    (
+        halves.len(),
+        halves.iter().filter(is_free).filter(keeps_time).map(|set| members(*set).collect()).collect(),
+    )
 }
 
 /// A function F such that α + dF has no component along these blocks.
@@ -212,6 +215,9 @@ fn clear(
         let Some(integral) = graph.antiderivative(part.value, position, terms) else {
             return Err(Lacking::Antiderivative(part));
         };
+        if let Some(field) = graph.scalar_field_below(integral) {
+            return Err(Lacking::ThirdDerivative(model.scalar_fields[field as usize].text.clone()));
+        }
         let term = part.loops.into_iter().rev().fold(integral, |term, outer| graph.summed(term, outer));
         function = graph.subtract(function, term);
         components = graph.components(one_form, function);
@@ -251,8 +257,7 @@ impl Lacking {
                 format!("no function was found with the gradient of the components along {names}")
             }
             Self::Room => format!("the search for what removes the components along {names} became too long"),
-            Self::ThirdDerivative(number) => {
-                let name = &model.functions[*number as usize].name;
+            Self::ThirdDerivative(name) => {
                 format!("what removes the components along {names} needs the third derivative of `{name}`")
             }
             Self::Words => {

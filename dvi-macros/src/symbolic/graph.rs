@@ -285,6 +285,14 @@ impl Graph {
         self.reachable([root]).into_iter().any(|id| property(self.node(id)))
     }
 
+    /// A function of several variables that stands below `root`.
+    pub(crate) fn scalar_field_below(&self, root: Expr) -> Option<u32> {
+        self.reachable([root.node]).into_iter().find_map(|id| match self.node(id) {
+            Node::ScalarField(field, ..) => Some(*field),
+            _ => None,
+        })
+    }
+
     /// Whether `node` stands below `root`, or is it.
     pub(super) fn depends_on(&self, root: Id, node: Id) -> bool {
         root >= node && self.reachable([root]).contains(&node)

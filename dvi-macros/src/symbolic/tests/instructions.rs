@@ -189,8 +189,14 @@ fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
     let mut graph = Graph::new(Vec::new());
     let hamiltonian = tree.lower(&mut graph, 0);
     let one_form = one_form(&mut graph);
-    let formulas =
-        DegenerateFormulas { one_form, hamiltonian, gauge: None, declared: one_form, momenta: Vec::new() };
+    let formulas = DegenerateFormulas {
+        one_form,
+        hamiltonian,
+        gauge: None,
+        declared: one_form,
+        time: None,
+        momenta: Vec::new(),
+    };
     let entries = graph.hessian(one_form);
     let programs = DegeneratePrograms::new(&mut graph, &formulas, &entries, false);
     let values = [&programs.shared.lagrangian, &programs.hamiltonian, &programs.hamiltonian_gradient];
