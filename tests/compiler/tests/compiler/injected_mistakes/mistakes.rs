@@ -47,4 +47,13 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("symbolic/differential.rs", "values.push(part.value)", "values[0] = part.value"),
     // What is multiplied out loses its coefficients.
     mistake("symbolic/polynomial.rs", "self.monomial(monomial).scaled(*value)", "self.monomial(monomial)"),
+    // A function of several variables: a mixed derivative along one axis, the wrong number of an expansion, arguments in the
+    // wrong order.
+    mistake("symbolic/partial.rs", "Self::Second(first.min(axis), first.max(axis))", "Self::Second(first, first)"),
+    mistake("symbolic/derivative.rs", "partial.along(axis)", "partial.along(0)"),
+    mistake("select.rs", "Instruction::Part(expansion, partial)", "Instruction::Part(expansion, crate::symbolic::Partial::Value)"),
+    mistake("lower/calls.rs", "self.graph.scalar_field(field, Partial::Value, at)", "self.graph.scalar_field(field, Partial::Value, at.into_iter().rev().collect())"),
+    // A time transformation: the energy has the wrong sign, or the time no conjugate.
+    mistake("expand/formulas.rs", "graph.subtract(hamiltonian, energy)", "graph.add(hamiltonian, energy)"),
+    mistake("expand/formulas.rs", "graph.subtract(one_form, conjugate)", "graph.add(one_form, conjugate)"),
 ];

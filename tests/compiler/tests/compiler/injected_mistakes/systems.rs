@@ -106,4 +106,17 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
          hamiltonian = x * x + y * y, gauge = auto",
         "struct Sought {}",
     ),
+    (
+        "degenerate",
+        "coordinates(x[n], y[n]), one_form = sum(0..n, |j| psi(x[j], y[j], t) * d(x[j])),
+         hamiltonian = sum(0..n, |j| psi(y[j], x[j] * x[j], 1.0).powi(2)) + sum_pairs(0..n, |j, k| well(x[j] - x[k], y[k])),
+         functions(well = some::WELL)",
+        "struct Tables<F> { n: usize, psi: F }",
+    ),
+    (
+        "degenerate",
+        "coordinates(x, y), lagrangian = y * (1.0 + y * y) * dot(x) - (x * x + y * y) / 2.0 - x * t.sin(),
+         gauge = x * x * y * t, time_transform = 1.0 / (1.0 + x * x + t * t * y * y)",
+        "struct Extended;",
+    ),
 ];
