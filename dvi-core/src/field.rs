@@ -4,6 +4,20 @@
 //! its fields, of a type that implements [`ScalarField`], and its formulas call the field by its name. The attribute
 //! differentiates through the call by the chain rule.
 
+#[cfg(feature = "alloc")]
+mod axis;
+#[cfg(feature = "alloc")]
+mod basis;
+#[cfg(feature = "alloc")]
+mod interpolation;
+#[cfg(feature = "alloc")]
+mod spline;
+
+#[cfg(feature = "alloc")]
+pub use axis::{Axis, AxisError};
+#[cfg(feature = "alloc")]
+pub use spline::{Spline, SplineError};
+
 use crate::Scalar;
 
 /// The expansion of a function of `D` variables about a point, up to the second order.

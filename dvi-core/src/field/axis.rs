@@ -1,0 +1,178 @@
+//! One axis of a grid: the points at which a table has values.
+
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+/// The last point of a periodic axis is the first one, a period later, if the two differ by less than this part of the mean
+/// distance of its points.
+const SAME: f64 = 1e-6;
+
+/// A last point that is closer to the end of the period than this part of the mean distance, and is not the end, is refused.
+const CLOSE: f64 = 1e-2;
+
+/// The points of a grid along one variable, strictly increasing, and the period of a variable in which the table is periodic.
+///
+/// ```
+/// use dvi_core::field::Axis;
+///
+/// let radius = Axis::new(&[1.0, 1.5, 2.5, 4.0])?;
+/// let height = Axis::uniform([-1.0, 1.0], 5)?;
+/// let angle = Axis::periodic(&[0.0, 90.0, 180.0, 270.0], 360.0)?;
+/// assert_eq!(height.points(), [-1.0, -0.5, 0.0, 0.5, 1.0]);
+/// assert_eq!((radius.period(), angle.period()), (None, Some(360.0)));
+/// # Ok::<(), dvi_core::field::AxisError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    points: Vec<f64>,
+    period: Option<f64>,
+    /// The points without the last one where that is the first one, a period later.
+    distinct: usize,
+}
+
+impl Axis {
+    /// An axis with these points, from the first to the last.
+    ///
+    /// # Errors
+    /// [`AxisError::NotFinite`], [`AxisError::NotIncreasing`] and [`AxisError::Distance`]. How many points there must be is
+    /// asked by the spline that is made on them.
+    pub fn new(points: &[f64]) -> Result<Self, AxisError> {
+        if let Some(index) = points.iter().position(|x| !x.is_finite()) {
+            return Err(AxisError::NotFinite { index, value: points[index] });
+        }
+        for (i, pair) in points.windows(2).enumerate() {
+            let (before, after) = (pair[0], pair[1]);
+            if before >= after {
+                return Err(AxisError::NotIncreasing { index: i + 1, before, after });
+            }
+            if !is_usable(after - before) {
+                return Err(AxisError::Distance { index: i + 1, before, after });
+            }
+        }
+        if let (Some(&before), Some(&after)) = (points.first(), points.last())
+            && !(after - before).is_finite()
+        {
+            return Err(AxisError::Distance { index: points.len() - 1, before, after });
+        }
+        Ok(Self { points: points.to_vec(), period: None, distinct: points.len() })
+    }
+
+    /// An axis of `count` points at equal distances, with both ends.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn uniform([from, to]: [f64; 2], count: usize) -> Result<Self, AxisError> {
+        let last = count.saturating_sub(1).max(1);
+        // The ends are met exactly, and halves of large numbers do not overflow.
+        let point = |i: usize| {
+            let part = i as f64 / last as f64;
+            if i == last { to } else { (1.0 - part) * from + part * to }
+        };
+        Self::new(&(0..count).map(point).collect::<Vec<f64>>())
+    }
+
+    /// An axis on which the table repeats itself with the given period.
+    ///
+    /// The points are those of one period. The last of them may be the first one, a period later, to a millionth of the mean
+    /// distance of the points; the table then has the same values at both. Otherwise all points lie within the
+    /// period, and the last one is at least a hundredth of the mean distance away from its end.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`AxisError::Period`].
+    pub fn periodic(points: &[f64], period: f64) -> Result<Self, AxisError> {
+        let axis = Self::new(points)?;
+        let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
+            return Ok(Self { period: Some(period), ..axis });
+        };
+        let refused = AxisError::Period { period, first, last };
+        // The splines continue the points by less than one period on either side.
+        let is_length = period > 0.0 && (first - period).is_finite() && (first + 2.0 * period).is_finite();
+        if !is_length {
+            return Err(refused);
+        }
+        let (steps, gap) = (points.len() - 1, first + period - last);
+        let mean = if steps == 0 { period } else { (last - first) / steps as f64 };
+        if steps > 0 && gap.abs() <= SAME * mean {
+            return Ok(Self { period: Some(period), distinct: steps, ..axis });
+        }
+        if gap >= CLOSE * mean && is_usable(gap) {
+            Ok(Self { period: Some(period), ..axis })
+        } else {
+            Err(refused)
+        }
+    }
+
+    /// The points, as they were given: a table has a value at each of them.
+    pub fn points(&self) -> &[f64] {
+        &self.points
+    }
+
+    /// The period, if the axis has one.
+    pub fn period(&self) -> Option<f64> {
+        self.period
+    }
+
+    /// The points without the last one where that is the first one, a period later.
+    pub(super) fn distinct(&self) -> &[f64] {
+        &self.points[..self.distinct]
+    }
+}
+
+/// Whether second derivatives over a distance can be represented.
+fn is_usable(distance: f64) -> bool {
+    let curvature = 1.0 / (distance * distance);
+    distance.is_finite() && curvature.is_finite() && curvature > 0.0
+}
+
+/// Points that are not those of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum AxisError {
+    /// A point is infinite or not a number.
+    #[error("point {index} of the axis is {value}, and a finite number is expected")]
+    NotFinite {
+        /// The point, counted from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A point is not larger than the one before it.
+    #[error(
+        "point {index} of the axis is {after} and the one before it is {before}, and an increase is expected"
+    )]
+    NotIncreasing {
+        /// The second of the two points, counted from 0.
+        index: usize,
+        /// The first of them.
+        before: f64,
+        /// The second.
+        after: f64,
+    },
+    /// Two points are so close to each other or so far apart that the square of their distance, or its reciprocal, cannot be
+    /// represented.
+    #[error(
+        "point {index} of the axis is {after:e} after {before:e}, a distance whose square is out of range"
+    )]
+    Distance {
+        /// The second of the two points, counted from 0.
+        index: usize,
+        /// The first of them.
+        before: f64,
+        /// The second.
+        after: f64,
+    },
+    /// The points are not those of one period.
+    #[error(
+        "the period {period} does not go with points from {first} to {last}: the last point is expected at the first one \
+         plus the period, or clearly before it"
+    )]
+    Period {
+        /// The period.
+        period: f64,
+        /// The first point.
+        first: f64,
+        /// The last point.
+        last: f64,
+    },
+}

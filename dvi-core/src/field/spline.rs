@@ -1,0 +1,348 @@
+//! Tensor-product B-splines: functions of several variables that take the values of a table on a grid.
+//!
+//! f(x) = Σ c_{j₁…j_D} B_{j₁}(x₁) ⋯ B_{j_D}(x_D), with the coefficients that are found axis by axis (de Boor, *A Practical
+//! Guide to Splines*, 2001, chapter XVII). One pass over the (p + 1)ᴰ coefficients of a cell gives the value with all
+//! first and second derivatives: a line of p + 1 of them along the last axis is a function of the last variable, and is
+//! multiplied by a B-spline of each of the others.
+
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::basis::{Basis, Local, entry};
+use super::interpolation::Equations;
+use super::{Axis, Expansion, ScalarField};
+use crate::Scalar;
+
+/// Values at the two ends of a period agree to this part of the largest value of the table.
+const AGREEMENT: f64 = 1e-6;
+
+/// A spline of `D` variables through the values of a table: piecewise polynomials, of degree 3 with two continuous
+/// derivatives, or of degree 5 with four.
+///
+/// [`new`](Self::new) makes a cubic spline and [`quintic`](Spline::quintic) one of degree 5. Both take the values at the
+/// points of the grid, up to rounding. Where the table was sampled from a smooth function at distances h, the value of the
+/// cubic spline differs from it by a multiple of h⁴, the first derivatives by h³ and the second by h²; for the quintic
+/// spline these are h⁶, h⁵ and h⁴. Neighbouring distances of a grid should be similar: on a grid whose distances grow
+/// from one to the next by a large factor, splines oscillate.
+///
+/// At an end without a period the polynomials of the first two cells are the same one (*not a knot*; of the first three,
+/// in degree 5), and no derivative there has to be known. In every variable, polynomials up to the degree of the spline are
+/// reproduced.
+///
+/// Outside of the [domain](ScalarField::domain) the value and all derivatives are not numbers. A spline is never
+/// extrapolated. In a variable with a period every finite number is inside.
+///
+/// An evaluation does not allocate. It finds a cell in a fixed time on a grid that is nearly uniform, and by
+/// bisection on any other. In single precision a spline of more than 2²⁴ coefficients is not a number, because the place of
+/// a coefficient is not one.
+///
+/// ```
+/// use dvi_core::field::{Axis, ScalarField, Spline};
+///
+/// // r² sin θ on a grid of 5 × 36 points.
+/// let radius = Axis::uniform([1.0, 2.0], 5)?;
+/// let degrees: Vec<f64> = (0..36).map(|j| 10.0 * f64::from(j)).collect();
+/// let angle = Axis::periodic(&degrees, 360.0)?;
+/// let psi = Spline::sample([radius, angle], |[r, theta]| r * r * theta.to_radians().sin())?;
+///
+/// let there = psi.expansion([1.7, 30.0 - 720.0]);
+/// assert!((there.value - 1.7 * 1.7 * 0.5).abs() < 1e-12);
+/// assert!((there.gradient[0] - 1.7).abs() < 1e-12);
+/// assert!((there.hessian[0][0] - 1.0).abs() < 1e-12);
+/// assert!(psi.expansion([2.1, 0.0]).value.is_nan());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spline<const D: usize, const DEGREE: usize = 3> {
+    bases: [Basis<DEGREE>; D],
+    /// How far apart neighbours are on each axis.
+    strides: [usize; D],
+    coefficients: Vec<f64>,
+}
+
+impl<const D: usize> Spline<D> {
+    /// The cubic spline through `values` at the points of a grid. The last axis is that of neighbouring values.
+    ///
+    /// Each axis has at least four points, of which an end of a period that repeats the first point does not count.
+    ///
+    /// # Errors
+    /// What is wrong with the table, as a [`SplineError`].
+    pub fn new(axes: [Axis; D], values: &[f64]) -> Result<Self, SplineError> {
+        Self::through(&axes, values)
+    }
+
+    /// The cubic spline through the values of `function` at the points of a grid.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn sample(axes: [Axis; D], function: impl FnMut([f64; D]) -> f64) -> Result<Self, SplineError> {
+        Self::through(&axes, &sampled(&axes, function)?)
+    }
+}
+
+impl<const D: usize> Spline<D, 5> {
+    /// The spline of degree 5 through `values` at the points of a grid. The last axis is that of neighbouring values.
+    ///
+    /// Each axis has at least six points, of which an end of a period that repeats the first point does not count.
+    ///
+    /// # Errors
+    /// What is wrong with the table, as a [`SplineError`].
+    pub fn quintic(axes: [Axis; D], values: &[f64]) -> Result<Self, SplineError> {
+        Self::through(&axes, values)
+    }
+
+    /// The spline of degree 5 through the values of `function` at the points of a grid.
+    ///
+    /// # Errors
+    /// Those of [`quintic`](Self::quintic).
+    pub fn sample_quintic(
+        axes: [Axis; D],
+        function: impl FnMut([f64; D]) -> f64,
+    ) -> Result<Self, SplineError> {
+        Self::through(&axes, &sampled(&axes, function)?)
+    }
+}
+
+impl<const D: usize, const DEGREE: usize> Spline<D, DEGREE> {
+    fn through(axes: &[Axis; D], values: &[f64]) -> Result<Self, SplineError> {
+        const { assert!(D > 0, "a spline has at least one variable") };
+        for (axis, points) in axes.iter().enumerate() {
+            let found = points.distinct().len();
+            if found <= DEGREE {
+                return Err(SplineError::TooFewPoints { axis, found, expected: DEGREE + 1 });
+            }
+        }
+        let expected = points(axes)?;
+        if values.len() != expected {
+            return Err(SplineError::Count { found: values.len(), expected });
+        }
+        if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+            return Err(SplineError::NotFinite { index, value: values[index] });
+        }
+        let bases = axes.each_ref().map(Basis::new);
+        let mut coefficients = without_repetitions(axes, values)?;
+        let mut stride = 1;
+        let mut strides = [1; D];
+        for (axis, points) in axes.iter().enumerate().rev() {
+            let size = bases[axis].cells() + DEGREE;
+            coefficients = Equations::new(points, &bases[axis]).solve_lines(&coefficients, stride, size);
+            strides[axis] = stride;
+            stride *= size;
+        }
+        if coefficients.iter().all(|c| c.is_finite()) {
+            Ok(Self { bases, strides, coefficients })
+        } else {
+            Err(SplineError::Overflow)
+        }
+    }
+
+    /// 0, or not a number where `T` cannot hold the place of each coefficient.
+    #[inline(always)]
+    fn if_countable<T: Scalar>(&self) -> T {
+        // An odd number can be held if and only if all smaller ones can.
+        let odd = (self.coefficients.len() | 1) as f64;
+        T::lift(odd).piecewise(|held| if held == odd { 0.0 } else { f64::NAN })
+    }
+}
+
+impl<const D: usize, const DEGREE: usize> ScalarField<D> for Spline<D, DEGREE> {
+    fn expansion<T: Scalar>(&self, mut at: [T; D]) -> Expansion<D, T> {
+        at[0] += self.if_countable();
+        let local: [Local<T>; D] = core::array::from_fn(|axis| self.bases[axis].at(at[axis]));
+        let first = (0..D)
+            .fold(T::lift(0.0), |first, axis| first + local[axis].cell * T::lift(self.strides[axis] as f64));
+        let mut sum = constant(0.0);
+        let functions = DEGREE + 1;
+        for line in 0..functions.pow(D as u32 - 1) {
+            let (mut product, mut offset, mut rest) = (constant(1.0), 0, line);
+            for axis in 0..D - 1 {
+                let function = rest % functions;
+                rest /= functions;
+                offset += function * self.strides[axis];
+                multiply(&mut product, axis, local[axis].functions[function]);
+            }
+            let coefficient =
+                |i: usize| first.piecewise(|first| entry(&self.coefficients, first as usize + offset + i));
+            multiply(&mut product, D - 1, combination::<DEGREE, T>(coefficient, &local[D - 1].functions));
+            add(&mut sum, &product);
+        }
+        // So far the derivatives are those in cells of width 1.
+        for i in 0..D {
+            sum.gradient[i] = sum.gradient[i] * local[i].reciprocal;
+            for j in 0..=i {
+                sum.hessian[i][j] = sum.hessian[i][j] * (local[i].reciprocal * local[j].reciprocal);
+                sum.hessian[j][i] = sum.hessian[i][j];
+            }
+        }
+        sum
+    }
+
+    fn domain(&self) -> [(f64, f64); D] {
+        core::array::from_fn(|axis| self.bases[axis].domain())
+    }
+}
+
+#[inline(always)]
+fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
+    let zero = T::lift(0.0);
+    Expansion { value: T::lift(value), gradient: [zero; D], hessian: [[zero; D]; D] }
+}
+
+/// Multiplies a function of the variables before `axis` by one of that variable, given with its two derivatives. Of the
+/// matrix of second derivatives the lower half is computed.
+#[inline(always)]
+fn multiply<const D: usize, T: Scalar>(f: &mut Expansion<D, T>, axis: usize, [g, dg, ddg]: [T; 3]) {
+    for i in 0..axis {
+        for j in 0..=i {
+            f.hessian[i][j] = f.hessian[i][j] * g;
+        }
+        f.hessian[axis][i] = f.gradient[i] * dg;
+        f.gradient[i] = f.gradient[i] * g;
+    }
+    f.hessian[axis][axis] = f.value * ddg;
+    f.gradient[axis] = f.value * dg;
+    f.value = f.value * g;
+}
+
+/// Σ cᵢ Bᵢ with its two derivatives.
+#[inline(always)]
+fn combination<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, functions: &[[T; 3]]) -> [T; 3] {
+    let first = coefficient(0);
+    let mut sum = functions[0].map(|f| first * f);
+    for (i, function) in functions.iter().enumerate().take(P + 1).skip(1) {
+        let coefficient = coefficient(i);
+        for (sum, f) in sum.iter_mut().zip(function) {
+            *sum += coefficient * *f;
+        }
+    }
+    sum
+}
+
+#[inline(always)]
+fn add<const D: usize, T: Scalar>(sum: &mut Expansion<D, T>, term: &Expansion<D, T>) {
+    sum.value += term.value;
+    for i in 0..D {
+        sum.gradient[i] += term.gradient[i];
+        for j in 0..=i {
+            sum.hessian[i][j] += term.hessian[i][j];
+        }
+    }
+}
+
+/// The number of points of a grid.
+fn points(axes: &[Axis]) -> Result<usize, SplineError> {
+    let product = |points: usize, axis: &Axis| points.checked_mul(axis.points().len());
+    axes.iter().try_fold(1, product).ok_or(SplineError::Size)
+}
+
+fn sampled<const D: usize>(
+    axes: &[Axis; D],
+    mut function: impl FnMut([f64; D]) -> f64,
+) -> Result<Vec<f64>, SplineError> {
+    let count = points(axes)?;
+    let mut values = Vec::new();
+    values.try_reserve(count).map_err(|_| SplineError::Size)?;
+    values.extend((0..count).map(|index| {
+        let at = place(axes, index);
+        function(core::array::from_fn(|axis| axes[axis].points()[at[axis]]))
+    }));
+    Ok(values)
+}
+
+/// The point of the grid at which a value of the table stands.
+fn place<const D: usize>(axes: &[Axis; D], mut index: usize) -> [usize; D] {
+    let mut place = [0; D];
+    for (place, axis) in place.iter_mut().zip(axes).rev() {
+        *place = index % axis.points().len();
+        index /= axis.points().len();
+    }
+    place
+}
+
+/// The values without those at the end of a period, which are compared with those at its start.
+fn without_repetitions<const D: usize>(axes: &[Axis; D], values: &[f64]) -> Result<Vec<f64>, SplineError> {
+    let repeats = |axis: &Axis| axis.distinct().len() < axis.points().len();
+    if !axes.iter().any(repeats) {
+        return Ok(values.to_vec());
+    }
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let mut kept = Vec::with_capacity(values.len());
+    for (index, &value) in values.iter().enumerate() {
+        let (mut start, mut stride, mut repeated) = (index, 1, None);
+        for (axis, at) in place(axes, index).into_iter().enumerate().rev() {
+            let distinct = axes[axis].distinct().len();
+            if at == distinct {
+                start -= at * stride;
+                repeated = Some(axis);
+            }
+            stride *= axes[axis].points().len();
+        }
+        match repeated {
+            None => kept.push(value),
+            // The difference of large numbers may be infinite, which is no agreement either.
+            Some(axis) if (value - values[start]).abs() > AGREEMENT * largest => {
+                return Err(SplineError::NotPeriodic { axis, index, value, start, expected: values[start] });
+            }
+            Some(_) => {}
+        }
+    }
+    Ok(kept)
+}
+
+/// A table that no spline can be made of.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SplineError {
+    /// An axis has fewer points than the degree asks for.
+    #[error("axis {axis} has {found} different points, and at least {expected} are expected")]
+    TooFewPoints {
+        /// The axis, counted from 0.
+        axis: usize,
+        /// Its points, without the end of a period that repeats the first.
+        found: usize,
+        /// The degree plus one.
+        expected: usize,
+    },
+    /// There is not one value for each point of the grid.
+    #[error("the table has {found} values, and the grid has {expected} points")]
+    Count {
+        /// The values.
+        found: usize,
+        /// The points of the grid.
+        expected: usize,
+    },
+    /// A value is infinite or not a number.
+    #[error("value {index} of the table is {value}, and a finite number is expected")]
+    NotFinite {
+        /// Where it stands in the table, counted from 0.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The value at the end of a period is not that at its start: they differ by more than a millionth of the largest value
+    /// of the table.
+    #[error(
+        "value {index} of the table is {value} at the end of the period of axis {axis}, and {expected} is expected, which          is value {start}, at its start"
+    )]
+    NotPeriodic {
+        /// The axis, counted from 0.
+        axis: usize,
+        /// Where the value at the end stands in the table, counted from 0.
+        index: usize,
+        /// That value.
+        value: f64,
+        /// Where the value at the start stands.
+        start: usize,
+        /// That value.
+        expected: f64,
+    },
+    /// A coefficient became infinite: the values are too large, or the distances on an axis too unequal.
+    #[error(
+        "a coefficient of the spline is infinite: the values are too large or the distances on an axis too unequal"
+    )]
+    Overflow,
+    /// The grid has more points than there can be memory for.
+    #[error("the grid has more points than there can be memory for")]
+    Size,
+}
