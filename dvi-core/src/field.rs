@@ -12,11 +12,15 @@ mod basis;
 mod interpolation;
 #[cfg(feature = "alloc")]
 mod spline;
+#[cfg(feature = "alloc")]
+mod table;
 
 #[cfg(feature = "alloc")]
 pub use axis::{Axis, AxisError};
 #[cfg(feature = "alloc")]
 pub use spline::{Spline, SplineError};
+#[cfg(feature = "alloc")]
+pub use table::{Column, Grid, Table, TableError};
 
 use crate::Scalar;
 

@@ -30,6 +30,15 @@ pub(super) struct Local<T> {
     pub(super) functions: [[T; 3]; ORDER],
 }
 
+impl<T: Scalar> Local<T> {
+    /// Nothing yet.
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        let zero = T::lift(0.0);
+        Self { cell: zero, reciprocal: zero, functions: [[zero; 3]; ORDER] }
+    }
+}
+
 /// B-splines of degree P on one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Basis<const P: usize> {
@@ -127,20 +136,20 @@ impl<const P: usize> Basis<P> {
     pub(super) fn at<T: Scalar>(&self, x: T) -> Local<T> {
         let position = x.piecewise(|x| self.position(x));
         let cell = position.piecewise(|x| self.cell(x) as f64);
-        let start = cell.piecewise(|cell| entry(&self.knots, P + cell as usize));
-        let reciprocal = cell.piecewise(|cell| entry(&self.reciprocals, cell as usize));
+        let start = cell.piecewise(|cell| entry(&self.knots, P + cell as usize, 1, 0));
+        let reciprocal = cell.piecewise(|cell| entry(&self.reciprocals, cell as usize, 1, 0));
         // What is subtracted has the value of x: zero is left, with the derivatives of x.
         let differential = x - x.piecewise(|x| x);
         let s = (differential + (position - start)) * reciprocal;
         let coefficient = |function: usize, power: usize| {
-            let at = function * (P + 1) + power;
-            cell.piecewise(|cell| entry(&self.polynomials, cell as usize * (P + 1) * (P + 1) + at))
+            let (size, at) = ((P + 1) * (P + 1), function * (P + 1) + power);
+            cell.piecewise(|cell| entry(&self.polynomials, cell as usize * size, size, at))
         };
-        let mut functions = [[T::lift(0.0); 3]; ORDER];
-        for (i, function) in functions.iter_mut().enumerate().take(P + 1) {
-            *function = horner::<P, T>(|power| coefficient(i, power), s);
+        let mut local = Local { cell, reciprocal, ..Local::none() };
+        for i in 0..=P {
+            local.functions[i] = horner::<P, T>(|power| coefficient(i, power), s);
         }
-        Local { cell, reciprocal, functions }
+        local
     }
 
     /// The B-splines at one of the points of the grid, from the first that is not zero on.
@@ -150,10 +159,14 @@ impl<const P: usize> Basis<P> {
     }
 }
 
-/// An entry of a list. One beyond its end is not a number: a wrong index is seen in what is computed from it.
+/// An entry of a row of a table. One beyond its end is not a number: a wrong index is seen in what is computed from it.
 #[inline(always)]
-pub(super) fn entry(list: &[f64], at: usize) -> f64 {
-    list.get(at).copied().unwrap_or(f64::NAN)
+pub(super) fn entry(table: &[f64], start: usize, width: usize, at: usize) -> f64 {
+    // All entries of a row ask the same question, and one answer serves them.
+    match table.get(start..start.wrapping_add(width)) {
+        Some(row) => row[at],
+        None => f64::NAN,
+    }
 }
 
 /// A polynomial with its first two derivatives.

@@ -38,7 +38,7 @@ const AGREEMENT: f64 = 1e-6;
 /// a coefficient is not one.
 ///
 /// ```
-/// use dvi_core::field::{Axis, ScalarField, Spline};
+/// use dvi_core::field::{Axis, Expansion, ScalarField, Spline};
 ///
 /// // r² sin θ on a grid of 5 × 36 points.
 /// let radius = Axis::uniform([1.0, 2.0], 5)?;
@@ -46,11 +46,12 @@ const AGREEMENT: f64 = 1e-6;
 /// let angle = Axis::periodic(&degrees, 360.0)?;
 /// let psi = Spline::sample([radius, angle], |[r, theta]| r * r * theta.to_radians().sin())?;
 ///
-/// let there = psi.expansion([1.7, 30.0 - 720.0]);
+/// let there: Expansion<2> = psi.expansion([1.7, 30.0 - 720.0]);
 /// assert!((there.value - 1.7 * 1.7 * 0.5).abs() < 1e-12);
 /// assert!((there.gradient[0] - 1.7).abs() < 1e-12);
 /// assert!((there.hessian[0][0] - 1.0).abs() < 1e-12);
-/// assert!(psi.expansion([2.1, 0.0]).value.is_nan());
+/// let outside: Expansion<2> = psi.expansion([2.1, 0.0]);
+/// assert!(outside.value.is_nan());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -149,7 +150,10 @@ impl<const D: usize, const DEGREE: usize> Spline<D, DEGREE> {
 impl<const D: usize, const DEGREE: usize> ScalarField<D> for Spline<D, DEGREE> {
     fn expansion<T: Scalar>(&self, mut at: [T; D]) -> Expansion<D, T> {
         at[0] += self.if_countable();
-        let local: [Local<T>; D] = core::array::from_fn(|axis| self.bases[axis].at(at[axis]));
+        let mut local = [Local::none(); D];
+        for axis in 0..D {
+            local[axis] = self.bases[axis].at(at[axis]);
+        }
         let first = (0..D)
             .fold(T::lift(0.0), |first, axis| first + local[axis].cell * T::lift(self.strides[axis] as f64));
         let mut sum = constant(0.0);
@@ -162,8 +166,9 @@ impl<const D: usize, const DEGREE: usize> ScalarField<D> for Spline<D, DEGREE> {
                 offset += function * self.strides[axis];
                 multiply(&mut product, axis, local[axis].functions[function]);
             }
-            let coefficient =
-                |i: usize| first.piecewise(|first| entry(&self.coefficients, first as usize + offset + i));
+            let coefficient = |i: usize| {
+                first.piecewise(|first| entry(&self.coefficients, first as usize + offset, functions, i))
+            };
             multiply(&mut product, D - 1, combination::<DEGREE, T>(coefficient, &local[D - 1].functions));
             add(&mut sum, &product);
         }
@@ -323,7 +328,8 @@ pub enum SplineError {
     /// The value at the end of a period is not that at its start: they differ by more than a millionth of the largest value
     /// of the table.
     #[error(
-        "value {index} of the table is {value} at the end of the period of axis {axis}, and {expected} is expected, which          is value {start}, at its start"
+        "value {index} of the table is {value} at the end of the period of axis {axis}, and {expected} is expected, \
+         as value {start} is at its start"
     )]
     NotPeriodic {
         /// The axis, counted from 0.
