@@ -3,6 +3,31 @@
 //! A measured or computed field is known on a grid, and no formula says what it is. A struct has such a function as one of
 //! its fields, of a type that implements [`ScalarField`], and its formulas call the field by its name. The attribute
 //! differentiates through the call by the chain rule.
+//!
+//! With the feature `alloc` there are functions of that kind: a [`Spline`] through the values of a table on a grid, which has
+//! one [`Axis`] for each variable, and a [`Table`] that reads the values from text.
+//!
+//! ```
+//! use dvi_core::field::{Axis, Expansion, ScalarField, Spline, Table};
+//!
+//! let text = "
+//!     height, speed
+//!          0,   0.0
+//!         10,   3.0
+//!         20,   4.0
+//!         30,   4.5
+//!         50,   5.0
+//! ";
+//! let table = Table::read(text)?;
+//! let grid = table.grid(["height"])?;
+//! let [height] = grid.points();
+//! let speed = Spline::new([Axis::new(height)?], &grid.values("speed")?)?;
+//!
+//! let there: Expansion<1> = speed.expansion([20.0]);
+//! assert!((there.value - 4.0).abs() < 1e-12 && there.gradient[0] > 0.0);
+//! assert_eq!(speed.domain(), [(0.0, 50.0)]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg(feature = "alloc")]
 mod axis;

@@ -1,6 +1,7 @@
 //! No step allocates, and what a run takes before its first step is linear in the length of a chain, and in the number of
 //! vortices.
 
+use dvi_core::field::{Axis, ScalarField, Spline};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations;
@@ -160,4 +161,19 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Galerkin::<3>::new(),
         Galerkin { solver: newton, ..Galerkin::<4>::new() },
     );
+
+    // A field on a grid, on every kind of axis.
+    let axes = [
+        Axis::uniform([0.0, 3.0], 7),
+        Axis::new(&[0.0, 0.5, 2.0, 3.0]),
+        Axis::periodic(&[0.0, 0.5, 1.0, 2.0], 3.0),
+    ];
+    let field =
+        Spline::sample(axes.map(|axis| axis.expect("increases")), |[x, y, z]| x + y * z).expect("is full");
+    let mut at = [0.0; 3];
+    let blocks = of_steps(|| {
+        at = at.map(|x| x + 0.03);
+        std::hint::black_box(field.expansion(at));
+    });
+    assert_eq!(blocks, 0, "a spline");
 }

@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use thiserror::Error;
 
 /// The last point of a periodic axis is the first one, a period later, if the two differ by less than this part of the mean
-/// distance of its points.
-const SAME: f64 = 1e-6;
+/// distance of its points, as it does when a table has few digits.
+const SAME: f64 = 1e-3;
 
 /// A last point that is closer to the end of the period than this part of the mean distance, and is not the end, is refused.
 const CLOSE: f64 = 1e-2;
@@ -74,7 +74,7 @@ impl Axis {
 
     /// An axis on which the table repeats itself with the given period.
     ///
-    /// The points are those of one period. The last of them may be the first one, a period later, to a millionth of the mean
+    /// The points are those of one period. The last of them may be the first one, a period later, to a thousandth of the mean
     /// distance of the points; the table then has the same values at both. Otherwise all points lie within the
     /// period, and the last one is at least a hundredth of the mean distance away from its end.
     ///

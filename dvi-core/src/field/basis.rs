@@ -109,8 +109,8 @@ impl<const P: usize> Basis<P> {
     fn wrapped(&self, x: f64) -> f64 {
         let (first, last) = self.ends();
         let Some(period) = self.period else { return f64::NAN };
-        // The operation % has no rounding error, however large the quotient is.
-        let beyond = (x - first) % period;
+        // A remainder has no rounding error, however large the quotient is.
+        let beyond = (x % period - first % period) % period;
         let inside = first + if beyond < 0.0 { beyond + period } else { beyond };
         // The sum may be rounded beyond the end; what is not a number stays so.
         if inside > last { last } else { inside }

@@ -23,8 +23,12 @@ const AGREEMENT: f64 = 1e-6;
 /// [`new`](Self::new) makes a cubic spline and [`quintic`](Spline::quintic) one of degree 5. Both take the values at the
 /// points of the grid, up to rounding. Where the table was sampled from a smooth function at distances h, the value of the
 /// cubic spline differs from it by a multiple of h⁴, the first derivatives by h³ and the second by h²; for the quintic
-/// spline these are h⁶, h⁵ and h⁴. Neighbouring distances of a grid should be similar: on a grid whose distances grow
-/// from one to the next by a large factor, splines oscillate.
+/// spline these are h⁶, h⁵ and h⁴.
+///
+/// Neighbouring distances of a grid should be similar. Where they grow by a large factor from each to the next, splines
+/// oscillate between the points, those of degree 5 sooner. Through random values between 0 and 1 at 40 points, a cubic
+/// spline stays below 4 for a factor of 2 and exceeds 100 for a factor of 3. A quintic one stays below 4 for a factor of 1.2
+/// and exceeds 100 for a factor of 1.5.
 ///
 /// At an end without a period the polynomials of the first two cells are the same one (*not a knot*; of the first three,
 /// in degree 5), and no derivative there has to be known. In every variable, polynomials up to the degree of the spline are
