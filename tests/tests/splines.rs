@@ -164,6 +164,33 @@ fn the_smallest_tables() -> Outcome {
     Ok(())
 }
 
+/// The equations are solved to rounding on any axis. Where neighbouring distances differ by up to a factor of 10, splines
+/// become large, and their size is what rounding is measured by.
+#[test]
+fn very_uneven_points() -> Outcome {
+    let mut numbers = Numbers(19);
+    for k in 0..200 {
+        let values: Vec<f64> = (0..20).map(|_| numbers.next()).collect();
+        let (mut at, mut points) = (0.0, Vec::new());
+        for _ in 0..20 {
+            points.push(at);
+            at += 10_f64.powf(numbers.between([-0.5, 0.5]));
+        }
+        let axis = if k % 2 == 0 { Axis::new(&points)? } else { Axis::periodic(&points, at)? };
+        let (cubic, quintic) = (Spline::new([axis.clone()], &values)?, Spline::quintic([axis], &values)?);
+        let residual = |value: &dyn Fn(f64) -> f64| {
+            let at_points = points.iter().zip(&values).map(|(x, f)| (value(*x) - f).abs()).fold(0.0, larger);
+            let size = (0..200).map(|i| value(at * f64::from(i) / 200.0).abs());
+            // Beyond the last point there is no value, and it does not count.
+            at_points / size.filter(|value| value.is_finite()).fold(0.0, larger)
+        };
+        let cubic = residual(&|x| cubic.expansion([x]).value);
+        let quintic = residual(&|x| quintic.expansion([x]).value);
+        assert!(cubic < 1e-13 && quintic < 1e-12, "{cubic:e} {quintic:e}");
+    }
+    Ok(())
+}
+
 /// What the documentation says of grids whose distances grow.
 #[test]
 fn growing_distances() -> Outcome {

@@ -3,7 +3,7 @@
 //! Σⱼ cⱼ Bⱼ(xᵢ) = fᵢ is a banded system. It is solved by elimination without exchanges, which is stable here because the
 //! matrix is totally positive (de Boor, *A Practical Guide to Splines*, 2001, chapter XIII). With a period, B-splines at one
 //! end are in the equations of the other. The last (p − 1)/2 unknowns and equations stand beside the band then, which has no
-//! more such entries, and are eliminated last:
+//! more such entries, and are eliminated last, without exchanges too:
 //!
 //! ```text
 //! ⎛ B  E ⎞ ⎛ x ⎞   ⎛ f ⎞
@@ -26,9 +26,8 @@ pub(super) struct Equations {
     reach: usize,
     /// Row by row: the entries of the band around the diagonal, then those of the border.
     upper: Vec<f64>,
-    /// The rows below the band, all entries, and which equations they are after exchanges.
+    /// The rows below the band, all entries.
     lower: Vec<f64>,
-    order: Vec<usize>,
 }
 
 impl Equations {
@@ -39,8 +38,7 @@ impl Equations {
         let (inner, reach) = (count - border, if border == 0 { P } else { border });
         let width = 2 * reach + 1 + border;
         let (upper, lower) = (vec![0.0; inner * width], vec![0.0; border * count]);
-        let order = (inner..count).collect();
-        let mut equations = Self { inner, border, reach, upper, lower, order };
+        let mut equations = Self { inner, border, reach, upper, lower };
         for (row, &x) in points.iter().enumerate() {
             let (first, values) = basis.at_point(x);
             for (i, &value) in values.iter().enumerate().take(P + 1).filter(|(_, value)| **value != 0.0) {
@@ -80,9 +78,6 @@ impl Equations {
     fn factor(&mut self) {
         let count = self.count();
         for k in 0..count {
-            if k >= self.inner {
-                self.exchange(k);
-            }
             let rows = if k < self.inner { self.after(k) } else { 0..0 };
             for row in rows.chain((k + 1).max(self.inner)..count) {
                 let factor = *self.entry(row, k) / *self.entry(k, k);
@@ -96,26 +91,9 @@ impl Equations {
         }
     }
 
-    /// Brings the largest of the entries that may become pivot k among the last rows into its place.
-    fn exchange(&mut self, k: usize) {
-        let count = self.count();
-        for row in k + 1..count {
-            if self.entry(row, k).abs() > self.entry(k, k).abs() {
-                let (row, k) = (row - self.inner, k - self.inner);
-                self.order.swap(row, k);
-                (0..count).for_each(|column| self.lower.swap(row * count + column, k * count + column));
-            }
-        }
-    }
-
     /// The unknowns of the values in `line`, in place.
     fn solve(&self, line: &mut [f64]) {
         let (inner, reach, width, count) = (self.inner, self.reach, self.width(), self.count());
-        if let [last, _] = self.order[..]
-            && last != inner
-        {
-            line.swap(inner, inner + 1);
-        }
         for row in 0..inner {
             let band = &self.upper[row * width..];
             for column in row.saturating_sub(reach)..row {
