@@ -323,6 +323,33 @@ fn a_period_has_no_ends() -> Outcome {
     Ok(())
 }
 
+/// Any period and any first point: what is far away is in its place in the first period, to the rounding of the argument.
+#[test]
+fn periods_are_taken_off() -> Outcome {
+    let mut numbers = Numbers(23);
+    for _ in 0..200 {
+        let (first, period) = (numbers.between([-5.0, 5.0]), numbers.between([0.1, 10.0]));
+        let points: Vec<f64> = (0..7).map(|i| first + period * f64::from(i) / 7.0).collect();
+        let wave = |x: f64| (std::f64::consts::TAU * (x - first) / period).sin();
+        let spline = Spline::sample([Axis::periodic(&points, period)?], |[x]| wave(x))?;
+        for turns in [0, 1, -1, 3, -1000, 1_000_000_000] {
+            let x = numbers.between([first, first + period]);
+            let far = x + f64::from(turns) * period;
+            let (near, found): (Expansion<1>, Expansion<1>) =
+                (spline.expansion([x]), spline.expansion([far]));
+            let rounding = 1e-14 + 4.0 * f64::EPSILON * far.abs() * std::f64::consts::TAU / period;
+            assert!((near.value - found.value).abs() < rounding, "{first} {period} {x} {turns}");
+        }
+        for end in [first, first + period, first - period, first + 5.0 * period] {
+            for x in [end.next_down(), end, end.next_up()] {
+                let there: Expansion<1> = spline.expansion([x]);
+                assert!((there.value - wave(x)).abs() < 1e-13, "{first} {period} {x}: {there:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
 /// x₀ᵃ x₁ᵇ x₂ᶜ with exponents up to the degree, on axes without a period.
 #[test]
 fn polynomials_are_reproduced() -> Outcome {
@@ -414,6 +441,10 @@ fn what_cannot_be_a_spline() -> Outcome {
         assert_eq!(periodic(&points, period), of(&period.to_string()));
     }
     assert_eq!(Axis::periodic(&points, 3.5)?.period(), Some(3.5));
+    // Nor may the distance from the last point to the end of the period be out of range.
+    assert!(Axis::periodic(&points, 1e170).is_err());
+    let tiny = points.map(|x| x * 1e-153);
+    assert!(Axis::periodic(&tiny, 4e-153).is_ok() && Axis::periodic(&tiny, 3.02e-153).is_err());
     // An end of the period that is written with six digits is the end; one with three digits is refused.
     let rounded = |end: f64| (0..=100).map(|i| end * f64::from(i) / 100.0).collect::<Vec<f64>>();
     let written = Axis::periodic(&rounded(0.666667), 2.0 / 3.0)?;

@@ -107,13 +107,12 @@ impl<const P: usize> Basis<P> {
     }
 
     fn wrapped(&self, x: f64) -> f64 {
-        let (first, last) = self.ends();
+        let (first, _) = self.ends();
         let Some(period) = self.period else { return f64::NAN };
         // A remainder has no rounding error, however large the quotient is.
-        let beyond = (x % period - first % period) % period;
-        let inside = first + if beyond < 0.0 { beyond + period } else { beyond };
-        // The sum may be rounded beyond the end; what is not a number stays so.
-        if inside > last { last } else { inside }
+        let beyond = (x - first) % period;
+        // Sums are rounded to the end at most, which is rounded from the first point plus the period.
+        first + if beyond < 0.0 { beyond + period } else { beyond }
     }
 
     /// The cell of a position, and 0 of what is not a number.
