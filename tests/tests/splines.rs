@@ -483,7 +483,7 @@ fn what_cannot_be_a_spline() -> Outcome {
     let alternating: Vec<f64> = (0..16).map(|k| if k % 3 == 0 { 1.7e308 } else { -1.7e308 }).collect();
     assert_eq!(
         said([four.clone(), four], &alternating),
-        "a coefficient of the spline is infinite: the values are too large or the distances on an axis too unequal"
+        "a coefficient of the spline is not finite: the values are too large or the distances on an axis too unequal"
     );
     let many = Axis::uniform([0.0, 1.0], 100_000)?;
     let huge = Spline::sample([many.clone(), many.clone(), many.clone(), many], |_| 0.0);

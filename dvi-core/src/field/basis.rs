@@ -1,7 +1,7 @@
 //! The B-splines along one axis: the cells between their knots, and their polynomials in each cell.
 //!
 //! With knots t₀ ≤ t₁ ≤ …, the B-splines of degree k are those of degree k − 1, blended (de Boor, *A Practical Guide to
-//! Splines*, 2001, chapter IX, eq. 14):
+//! Splines*, 2001, chapter IX):
 //!
 //! Bⱼₖ(x) = (x − tⱼ)/(tⱼ₊ₖ − tⱼ) Bⱼ,ₖ₋₁(x) + (tⱼ₊ₖ₊₁ − x)/(tⱼ₊ₖ₊₁ − tⱼ₊₁) Bⱼ₊₁,ₖ₋₁(x)
 //!

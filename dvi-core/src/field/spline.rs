@@ -347,9 +347,9 @@ pub enum SplineError {
         /// That value.
         expected: f64,
     },
-    /// A coefficient became infinite: the values are too large, or the distances on an axis too unequal.
+    /// A coefficient became infinite or not a number: the values are too large, or the distances on an axis too unequal.
     #[error(
-        "a coefficient of the spline is infinite: the values are too large or the distances on an axis too unequal"
+        "a coefficient of the spline is not finite: the values are too large or the distances on an axis too unequal"
     )]
     Overflow,
     /// The grid has more points than there can be memory for.

@@ -5,7 +5,6 @@ mod row;
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::fmt;
 
 use thiserror::Error;
 
@@ -76,15 +75,6 @@ impl<'a> From<&'a str> for Column<'a> {
 impl From<usize> for Column<'_> {
     fn from(number: usize) -> Self {
         Self::Number(number)
-    }
-}
-
-impl fmt::Display for Column<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Name(name) => write!(f, "`{name}`"),
-            Self::Number(number) => write!(f, "column {number}"),
-        }
     }
 }
 
