@@ -36,7 +36,7 @@ pub use newmark::{Newmark, NewmarkLagrangian, NewmarkMemory};
 pub use one_step::{OneStep, OneStepGauss, OneStepGaussMemory, OneStepMemory};
 pub use projected::{Projected, ProjectedMemory};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
-pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
+pub use sigma_family::{ParasiticMode, Reinitialisation, Sigma, SigmaMemory, Start};
 pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
 pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
 

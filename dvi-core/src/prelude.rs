@@ -9,7 +9,7 @@ pub use crate::error::{StartError, StepError, StepFailure};
 pub use crate::mechanics::AtState;
 pub use crate::methods::{
     Composition, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, OneStep, OneStepGauss, ParasiticMode,
-    Projected, RungeKutta, Scheme, Sigma, Start, Variational,
+    Projected, Reinitialisation, RungeKutta, Scheme, Sigma, Start, Variational,
 };
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Density, Integrator, Osculating, Power, Reversible, Run,

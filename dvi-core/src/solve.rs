@@ -163,6 +163,13 @@ impl<N> Ladder<N> {
         newton.solve(attempt, statistics, solve_by_newton)
     }
 
+    /// Tries the fixed point in the next step, as in the first.
+    pub(crate) fn begin_again(&mut self) {
+        if let Some(newton) = &mut self.newton {
+            newton.steps_left = 0;
+        }
+    }
+
     /// How many iterations the fixed point gets of at most `max`; fewer, `patience`, where Newton stands by.
     #[inline(always)]
     pub(crate) fn budget(&self, max: usize, patience: usize) -> usize {

@@ -13,21 +13,27 @@ mod leapfrog;
 mod memory;
 mod monitor;
 mod nonlinear;
+mod reinitialisation;
+mod smooth;
 mod start;
 
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
-use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
+use crate::methods::{Carries, Clock, Gauss, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::sink::Places;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
+use memory::TwoStep;
+use reinitialisation::Renewal;
+use smooth::Smoothing;
 
 pub use memory::SigmaMemory;
 pub use monitor::ParasiticMode;
+pub use reinitialisation::Reinitialisation;
 pub use start::Start;
 
 /// The σ-family: a discrete Lagrangian with one node between the ends.
@@ -101,6 +107,8 @@ pub struct Sigma<T = f64> {
     ///
     /// [`EnergyLimit`](crate::methods::EnergyLimit) around the method limits the energy.
     pub parasitic_limit: Option<f64>,
+    /// When the parasitic part is taken from the state of a run. Default: [`Reinitialisation::Never`].
+    pub reinitialisation: Reinitialisation,
 }
 
 impl<T: Real> Sigma<T> {
@@ -113,6 +121,7 @@ impl<T: Real> Sigma<T> {
             stopping: Stopping::default(),
             summation: Summation::default(),
             parasitic_limit: Some(PARASITIC_LIMIT),
+            reinitialisation: Reinitialisation::default(),
         }
     }
 
@@ -149,8 +158,26 @@ impl<T: Real> Sigma<T> {
             Some(value) if value.is_nan() || value <= 0.0 => {
                 Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" })
             }
-            _ => self.stopping.validate(),
+            limit => self.reinitialisation.validate(limit).and_then(|()| self.stopping.validate()),
         }
+    }
+
+    /// What a run carries that begins with `run` at (`q`, `t`).
+    fn carry<S: DegenerateLagrangian<T>>(
+        &self,
+        system: &S,
+        run: TwoStep<S, T>,
+        q: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<SigmaMemory<S, T>, StartError> {
+        let renewal = match self.reinitialisation {
+            Reinitialisation::Never => None,
+            Reinitialisation::Every(_) | Reinitialisation::Above(_) => {
+                Some(Renewal::new(Smoothing::new(system, self, q, t, h)?))
+            }
+        };
+        Ok(SigmaMemory { run, renewal })
     }
 
     /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
@@ -210,10 +237,13 @@ impl<T: Real> Scheme for Sigma<T> {
         2
     }
     fn is_symmetric(&self) -> bool {
-        self.is_midpoint()
+        self.is_midpoint() && self.reinitialisation == Reinitialisation::Never
     }
     fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::Discrete
+        match self.reinitialisation {
+            Reinitialisation::Never => PreservedForm::Discrete,
+            Reinitialisation::Every(_) | Reinitialisation::Above(_) => PreservedForm::Nothing,
+        }
     }
 }
 
@@ -225,11 +255,28 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
-        if S::AFFINE && self.is_midpoint() && self.start == Start::Consistent {
-            return SigmaMemory::without_defect(system, self, q, t, h);
-        }
-        let q1 = self.start.second_point(system, q, t, h)?;
-        SigmaMemory::between(system, self, q, &q1, t, h)
+        let run = match self.start {
+            Start::Consistent | Start::Smooth if S::AFFINE && self.is_midpoint() => {
+                TwoStep::without_defect(system, self, q, t, h)?
+            }
+            Start::Smooth => {
+                let mut smoothing = Smoothing::new(system, self, q, t, h)?;
+                smoothing.start(system, q, t)?;
+                let step = Step { system, method: self, t, h };
+                let mut run = TwoStep::new(system, self, q, t, h)?;
+                run.set_out(&step, [q, &smoothing.defect, &smoothing.velocity]);
+                run
+            }
+            Start::Consistent => {
+                let q1 = start::one_step(&Gauss::<1>::new(), system, q, t, h)?;
+                TwoStep::between(system, self, q, &q1, t, h)?
+            }
+            Start::RungeKutta(method) => {
+                let q1 = start::one_step(&method, system, q, t, h)?;
+                TwoStep::between(system, self, q, &q1, t, h)?
+            }
+        };
+        self.carry(system, run, q, t, h)
     }
 
     /// Without a second point.
@@ -243,7 +290,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     ) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
-        SigmaMemory::without_defect(system, self, q, t, h)
+        let run = TwoStep::without_defect(system, self, q, t, h)?;
+        self.carry(system, run, q, t, h)
     }
 
     #[inline]
@@ -257,10 +305,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self, t, h };
-        if S::AFFINE {
-            affine::step(&step, memory, q, statistics)
-        } else {
-            nonlinear::step(&step, memory, q, statistics)
+        let SigmaMemory { run, renewal } = memory;
+        match renewal {
+            None => run.step(&step, q, statistics),
+            Some(renewal) => {
+                reinitialisation::steps(&step, run, renewal, q, Clock::new(t, h), 1, statistics).1
+            }
         }
     }
 
@@ -274,14 +324,23 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if S::AFFINE && self.sigma == T::lift(0.0) {
-            let (taken, result) = leapfrog::steps(system, memory, q, clock, count);
-            statistics.steps += taken;
-            statistics.gradients += taken;
-            result
-        } else {
-            one_by_one(self, system, memory, q, clock, count, statistics)
+        if !S::AFFINE || self.sigma != T::lift(0.0) {
+            return one_by_one(self, system, memory, q, clock, count, statistics);
         }
+        let SigmaMemory { run, renewal } = memory;
+        let (taken, result) = match renewal {
+            None => {
+                let (taken, result) = leapfrog::steps(system, run, q, clock, count);
+                statistics.gradients += taken;
+                (taken, result)
+            }
+            Some(renewal) => {
+                let first = Step { system, method: self, t: clock.time(), h: clock.step_size() };
+                reinitialisation::steps(&first, run, renewal, q, clock, count, statistics)
+            }
+        };
+        statistics.steps += taken;
+        result
     }
 }
 
@@ -289,6 +348,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
+        if self.reinitialisation != Reinitialisation::Never {
+            let reason = "a step that reinitialises is not that of a discrete Lagrangian";
+            return Err(StartError::Unsupported { option: "Sigma::reinitialisation", reason });
+        }
         self.validate(S::AFFINE)
     }
 
@@ -308,6 +371,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoPoint<S, T> for Sigma<T> {
     ) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q0, t)?;
-        SigmaMemory::between(system, self, q0, q1, t, h)
+        let run = TwoStep::between(system, self, q0, q1, t, h)?;
+        self.carry(system, run, q0, t, h)
     }
 }

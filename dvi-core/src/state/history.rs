@@ -72,6 +72,12 @@ impl<S: System, T: Real> History<S, T> {
         self.len <= DEPTH && self.next < DEPTH
     }
 
+    /// Forgets all increments; the next guess is `seed`.
+    pub(crate) fn begin_again(&mut self, seed: &[T]) {
+        self.clear();
+        self.seed.copy_from_slice(seed);
+    }
+
     /// Forgets all increments, but not the seed.
     pub(crate) fn clear(&mut self) {
         self.len = 0;

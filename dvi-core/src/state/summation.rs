@@ -39,6 +39,13 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
         Self { rest }
     }
 
+    /// Forgets what rounding has left out.
+    pub(crate) fn clear(&mut self) {
+        if let Some(rest) = &mut self.rest {
+            rest.fill(T::lift(0.0));
+        }
+    }
+
     /// Sets `sum` to x + Δ, or x + (Δ + e).
     pub(crate) fn add(&self, x: &[T], increment: &[T], sum: &mut [T]) {
         for i in 0..x.len() {

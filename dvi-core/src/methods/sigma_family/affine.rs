@@ -6,9 +6,9 @@
 //! At σ = 0 and σ = 1 no gradient of the unknown point occurs: explicit. At σ = ½, K' = −K and c1 = −c0;
 //! with c0 = 0 the scheme is the implicit midpoint rule.
 
+use super::Step;
 use super::leapfrog::{self, add};
-use super::memory::Work;
-use super::{SigmaMemory, Step};
+use super::memory::{TwoStep, Work};
 use crate::discrete::{Ends, OneNode, solve_by_newton};
 use crate::error::StepFailure;
 use crate::mechanics::combination::Inverse;
@@ -24,7 +24,7 @@ use crate::{DegenerateLagrangian, Linear, Real, Vector};
 #[inline(always)]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
+    memory: &mut TwoStep<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -50,11 +50,11 @@ pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
 #[inline(never)]
 fn explicit_right<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
+    memory: &mut TwoStep<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, inverse, product, l_d, work, .. } = memory;
+    let TwoStep { defect, inverse, product, l_d, work, .. } = memory;
     scratch!(delta = step.system, work.increment);
     scratch!(next = step.system, work.next);
     scratch!(gradient = step.system, l_d.work.gradient);
@@ -98,7 +98,7 @@ fn advance<S: DegenerateLagrangian<T>, T: Real>(
 #[inline(never)]
 fn implicit<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
+    memory: &mut TwoStep<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -109,7 +109,7 @@ fn implicit<S: DegenerateLagrangian<T>, T: Real>(
 #[inline(never)]
 fn compensated<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
+    memory: &mut TwoStep<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -122,7 +122,7 @@ fn compensated<S: DegenerateLagrangian<T>, T: Real>(
 #[inline(always)]
 fn solve<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
+    memory: &mut TwoStep<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
     fixed_point: impl FnOnce(&mut Attempt<'_, S, T>, &Carried<S, T>, &mut Statistics) -> Result<(), StepFailure>,
@@ -130,9 +130,8 @@ fn solve<S: DegenerateLagrangian<T>, T: Real>(
     if !memory.defect_vanishes {
         memory.shift_by_defect(step.system);
     }
-    let SigmaMemory {
-        ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, carried, ..
-    } = memory;
+    let TwoStep { ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, carried, .. } =
+        memory;
     let budget = step.budget(ladder, q.len());
     let defect = (!*defect_vanishes).then_some(&*defect);
     let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
@@ -280,10 +279,10 @@ fn add_to<T: Real>(sum: &mut [T], terms: &[T]) {
 #[inline(always)]
 fn finish<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut SigmaMemory<S, T>,
+    memory: &mut TwoStep<S, T>,
     q: &mut Vector<S, T>,
 ) -> Result<(), StepFailure> {
-    let SigmaMemory { defect, history, product, l_d, work, carried, defect_vanishes, .. } = memory;
+    let TwoStep { defect, history, product, l_d, work, carried, defect_vanishes, .. } = memory;
     if *defect_vanishes {
         advance(step, q, &work.increment, carried, &mut work.next)?;
         history.push(&work.increment);

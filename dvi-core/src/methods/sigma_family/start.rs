@@ -4,7 +4,6 @@
 //! there.
 
 use crate::error::StartError;
-use crate::methods::Gauss;
 use crate::methods::Method;
 use crate::methods::RungeKutta;
 use crate::state::Statistics;
@@ -19,24 +18,27 @@ pub enum Start {
     Consistent,
     /// One step of a Runge–Kutta method on q' = X(q); Rowley & Marsden use [`RungeKutta::midpoint`].
     RungeKutta(RungeKutta),
+    /// The point to which the scheme itself leads along the smooth orbit through the first one, so that no parasitic mode is
+    /// left but what the truncation of an expansion leaves, of order h⁹ in the coordinates, h¹⁰ if σ = ½.
+    ///
+    /// The defect c of the first point is determined by the condition that the central difference of eighth order of the
+    /// defects along the scheme's own orbit vanishes,
+    ///
+    /// ```math
+    /// F(q_0, c_0) = 2^{-8} \sum_{j=-4}^{4} (-1)^j \binom{8}{4 + j} c_j = 0,
+    /// ```
+    ///
+    /// which is solved by c ← c − W⁻¹F, where W is what F makes of a parasitic solution as h → 0: one if Dα is antisymmetric or
+    /// σ = ½. Each iteration takes four steps forward and four backward in time, and gains a factor of order h; there are at
+    /// most 64. The system must be defined at these eight points. If α is affine and σ = ½, this is
+    /// [`Consistent`](Self::Consistent), bit by bit.
+    ///
+    /// On smooth solutions of multistep methods and their parasitic ones: Hairer, Lubich & Wanner 2006, chapter XV.
+    Smooth,
 }
 
-impl Start {
-    pub(super) fn second_point<S: DegenerateLagrangian<T>, T: Real>(
-        self,
-        system: &S,
-        q: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<Vector<S, T>, StartError> {
-        match self {
-            Self::Consistent => one_step(&Gauss::<1>::new(), system, q, t, h),
-            Self::RungeKutta(method) => one_step(&method, system, q, t, h),
-        }
-    }
-}
-
-fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
+/// Where a step of `method` leads to.
+pub(super) fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
     method: &M,
     system: &S,
     q: &Vector<S, T>,
