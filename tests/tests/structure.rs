@@ -165,18 +165,21 @@ fn the_tangent_maps_preserve_their_two_forms() -> Outcome {
     let h = 0.02;
     let vortices = chaotic();
     let curved = (Curved { kappa: 0.2 }, CurvedState { x: 0.6, y: -0.4 });
-    for sigma in SIGMAS {
+    for (sigma, start) in
+        SIGMAS.into_iter().flat_map(|sigma| [(sigma, Start::Consistent), (sigma, Start::Smooth)])
+    {
+        let method = Sigma { start, ..unlimited(sigma) };
         let [vortex_points, curved_points] = [
-            three_points(&mut Integrator::new(&vortices.0, unlimited(sigma), h, vortices.1)?, 10)?,
-            three_points(&mut Integrator::new(&curved.0, unlimited(sigma), h, curved.1)?, 10)?,
+            three_points(&mut Integrator::new(&vortices.0, method, h, vortices.1)?, 10)?,
+            three_points(&mut Integrator::new(&curved.0, method, h, curved.1)?, 10)?,
         ];
         for (defect, name) in [
             (defects(&vortices.0, sigma, h, &vortex_points)?, "vortices"),
             (defects(&curved.0, sigma, h, &curved_points)?, "curved"),
         ] {
             let [discrete, canonical] = defect;
-            assert!(discrete < 1e-12, "{name}, sigma = {sigma}: {discrete:e}");
-            assert!(canonical < 1e-12, "{name}, sigma = {sigma}: {canonical:e}");
+            assert!(discrete < 1e-12, "{name}, sigma = {sigma}, {start:?}: {discrete:e}");
+            assert!(canonical < 1e-12, "{name}, sigma = {sigma}, {start:?}: {canonical:e}");
         }
     }
     Ok(())

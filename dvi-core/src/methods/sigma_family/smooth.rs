@@ -14,8 +14,10 @@
 //!
 //! So c ← c − W⁻¹F(q, c) gains a factor of order h in each iteration, and ends where F = 0.
 //!
-//! Of a state (q, c) that has a parasitic part, the same difference of the points leaves that part in q; with the parts
-//! of its defects, q ← q − a leads to a smooth orbit at the same time.
+//! Of a state (q, c) that has a parasitic part a, the same difference of the points, F_q, leaves that part in q. What it leaves
+//! of the smooth orbit through q is subtracted, so that a smooth state stays where it is:
+//!
+//! q ← q − a,   c ← Φ(q − a),   a = B⁻¹W⁻¹B(F_q(q, c) − F_q(q, Φ(q)))
 //!
 //! A step backward is a step of −h with 1 − σ: the adjoint scheme (Marsden & West 2001, section 2.4).
 
@@ -57,8 +59,10 @@ pub(super) struct Smoothing<S: System, T: Real> {
     pub(super) velocity: Vector<S, T>,
     /// What alternates in the points and in the defects around them.
     parts: Parts<S, T>,
+    /// By how much a state is off the smooth orbit that it leaves.
+    offset: Vector<S, T>,
     /// A point on the way.
-    pub(super) moving: Vector<S, T>,
+    moving: Vector<S, T>,
     spare: [Vector<S, T>; 2],
 }
 
@@ -113,6 +117,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Smoothing<S, T> {
             defect: vector(),
             velocity: vector(),
             parts: Parts { q: vector(), defect: vector() },
+            offset: vector(),
             moving: vector(),
             spare: [vector(), vector()],
         })
@@ -138,18 +143,26 @@ impl<S: DegenerateLagrangian<T>, T: Real> Smoothing<S, T> {
     ) -> Result<(), StepFailure> {
         self.q.copy_from_slice(q);
         self.defect.copy_from_slice(defect);
-        self.alternating_parts(system, t, statistics)?;
-        self.respond(system, t, statistics)?;
-        for i in 0..q.len() {
-            self.q[i] -= self.parts.q[i];
-            self.defect[i] -= self.parts.defect[i];
+        self.correct(system, t, statistics)?;
+        self.offset.copy_from_slice(&self.parts.q);
+        self.settle_down(system, t, statistics)?;
+        // On the smooth orbit through q, the difference leaves (h/2)ᵐ times a derivative, which is no reason to move.
+        for (offset, &rest) in self.offset.iter_mut().zip(self.parts.q.iter()) {
+            *offset -= rest;
         }
+        if norm::largest(&self.offset) <= T::default_epsilon() * norm::largest(q) {
+            return Ok(());
+        }
+        subtract(&mut self.q, &self.offset);
         norm::finite(&self.q)?;
-        norm::finite(&self.defect)?;
+        self.settle_down(system, t, statistics)
+    }
+
+    /// Φ(q) = 0 where the scheme is the implicit midpoint rule.
+    fn settle_down(&mut self, system: &S, t: T, statistics: &mut Statistics) -> Result<(), StepFailure> {
         if S::AFFINE && self.excursions[0].method.is_midpoint() {
-            // Φ = 0.
             self.defect.fill(T::lift(0.0));
-            return self.field.evaluate(system, &self.q, t, &mut self.velocity, statistics);
+            return self.alternating_parts(system, t, statistics);
         }
         self.settle(system, t, statistics)
     }
