@@ -304,14 +304,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, method: self, t, h };
-        let SigmaMemory { run, renewal } = memory;
-        match renewal {
-            None => run.step(&step, q, statistics),
-            Some(renewal) => {
-                reinitialisation::steps(&step, run, renewal, q, Clock::new(t, h), 1, statistics).1
-            }
+        if self.reinitialisation != Reinitialisation::Never {
+            return reinitialisation::steps(self, system, memory, q, Clock::new(t, h), 1, statistics).1;
         }
+        memory.run.step(&Step { system, method: self, t, h }, q, statistics)
     }
 
     #[inline]
@@ -324,23 +320,19 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if !S::AFFINE || self.sigma != T::lift(0.0) {
-            return one_by_one(self, system, memory, q, clock, count, statistics);
+        if self.reinitialisation != Reinitialisation::Never {
+            let (taken, result) = reinitialisation::steps(self, system, memory, q, clock, count, statistics);
+            statistics.steps += taken;
+            return result;
         }
-        let SigmaMemory { run, renewal } = memory;
-        let (taken, result) = match renewal {
-            None => {
-                let (taken, result) = leapfrog::steps(system, run, q, clock, count);
-                statistics.gradients += taken;
-                (taken, result)
-            }
-            Some(renewal) => {
-                let first = Step { system, method: self, t: clock.time(), h: clock.step_size() };
-                reinitialisation::steps(&first, run, renewal, q, clock, count, statistics)
-            }
-        };
-        statistics.steps += taken;
-        result
+        if S::AFFINE && self.sigma == T::lift(0.0) {
+            let (taken, result) = leapfrog::steps(system, &mut memory.run, q, clock, count);
+            statistics.steps += taken;
+            statistics.gradients += taken;
+            result
+        } else {
+            one_by_one(self, system, memory, q, clock, count, statistics)
+        }
     }
 }
 

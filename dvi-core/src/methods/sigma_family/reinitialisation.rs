@@ -3,10 +3,10 @@
 //! (q, c) ↦ (q − a, Φ(q − a)) at the same time, where a is what alternates in q and c = Φ(q) the smooth orbits. It is done
 //! before a step, and belongs to it: if the step fails, so that the run stays, the state is what it was.
 
-use super::Step;
 use super::leapfrog;
-use super::memory::TwoStep;
+use super::memory::{SigmaMemory, TwoStep};
 use super::smooth::Smoothing;
+use super::{Sigma, Step};
 use crate::error::{StartError, StepFailure};
 use crate::methods::Clock;
 use crate::state::Statistics;
@@ -109,22 +109,24 @@ impl<S: DegenerateLagrangian<T>, T: Real> Renewal<S, T> {
 }
 
 /// Takes `count` steps, or as many as succeed, and returns how many; with reinitialisations where it is time.
+#[cold]
 #[inline(never)]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
-    first: &Step<'_, S, T>,
-    run: &mut TwoStep<S, T>,
-    renewal: &mut Renewal<S, T>,
+    method: &Sigma<T>,
+    system: &S,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
     statistics: &mut Statistics,
 ) -> (u64, Result<(), StepFailure>) {
-    let (schedule, mut taken) = (first.method.reinitialisation, 0);
+    let SigmaMemory { run, renewal: Some(renewal) } = memory else { return (0, Ok(())) };
+    let (schedule, mut taken) = (method.reinitialisation, 0);
     // Whether the monitor asks for it, and whether it has been done at the present point.
     let (mut is_asked, mut is_done) = (false, false);
     while taken < count {
         let (clock, number) = (clock.after(taken), run.monitor.steps);
-        let step = Step { t: clock.time(), ..*first };
+        let step = Step { system, method, t: clock.time(), h: clock.step_size() };
         if !is_done && !run.defect_vanishes && (is_asked || schedule.is_due(number)) {
             if let Err(failure) = renewal.renew(&step, run, q, statistics) {
                 return (taken, Err(failure));
