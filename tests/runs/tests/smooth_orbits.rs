@@ -208,7 +208,12 @@ fn reinitialised_runs_go_on_without_a_drift_of_the_energy() -> Outcome {
             goes_on(&PREY, every(0.5, steps), h, &prey, 1000.0, bound)?;
         }
     }
-    // A scheme that is not zero-stable, and a time-dependent one.
+    // A scheme that is not zero-stable.
+    let often = Sigma { start: Start::Smooth, ..every(0.25, 10) };
+    goes_on(&PREY, often, 0.05, &prey, 1000.0, 0.045)?;
+    let seldom = Sigma { start: Start::Smooth, ..every(0.25, 50) };
+    let Course { time, error, .. } = course(&PREY, seldom, 0.05, &prey, 1000.0)?;
+    assert!(error.is_some() && time < 20.0, "{time}");
     let prey = LotkaVolterraState { x: 1.3, y: 1.6 };
     for (h, bound) in [(0.1, 4e-3), (0.05, 2.1e-3)] {
         goes_on(&PREY, Sigma { start: Start::Smooth, ..every(0.25, 10) }, h, &prey, 1000.0, bound)?;
@@ -293,7 +298,7 @@ fn reinitialisation_above_a_threshold_keeps_the_energy_where_it_was() -> Outcome
     let Course { time, error, .. } = course(&PREY, free, 0.1, &prey, 1000.0)?;
     assert!(error.is_some() && time < 6.0, "{time}");
     let free = Sigma { parasitic_limit: None, ..Sigma::leapfrog() };
-    let Course { halves, .. } = course(&vortices, free, 0.1, &start, 1000.0)?;
+    let Course { halves, .. } = course(&vortices, free, 0.1, &start, 500.0)?;
     assert!(halves[0] > 0.1, "{halves:?}");
     Ok(())
 }
@@ -411,5 +416,31 @@ fn reinitialisation_changes_the_two_form_by_what_it_removes() -> Outcome {
     let [coarse, fine] = [leapfrog(0.1).change(true, 1.6)?, leapfrog(0.05).change(true, 1.6)?];
     let slope = (coarse / fine).log2();
     assert!(slope > 1.7 && slope < 2.3, "{slope}: {coarse:e}, {fine:e}");
+    Ok(())
+}
+
+#[test]
+fn a_reinitialisation_costs_as_much_as_some_dozen_steps() -> Outcome {
+    let (vortices, start) = chaotic();
+    let every = Reinitialisation::Every(10);
+    for (h, [least, most]) in [(0.4, [100.0, 200.0]), (0.1, [30.0, 60.0])] {
+        let method = Sigma { start: Start::Smooth, reinitialisation: every, ..Sigma::leapfrog() };
+        let mut run = Integrator::new(&vortices, method, h, start)?;
+        run.take_steps(1000)?;
+        let extra = (run.statistics().gradients - run.steps()) as f64 / run.reinitialisations() as f64;
+        assert!(extra > least && extra < most, "h = {h}: {extra}");
+    }
+    let prey = LotkaVolterraState { x: 2.5, y: 2.0 };
+    for h in [0.1, 0.05] {
+        let gradients = |reinitialisation, steps| -> Measured {
+            let method = Sigma { start: Start::Smooth, reinitialisation, ..Sigma::midpoint() };
+            let mut run = Integrator::new(&PREY, method, h, prey)?;
+            run.take_steps(steps)?;
+            Ok(run.statistics().gradients as f64 / run.steps() as f64)
+        };
+        let step = gradients(Reinitialisation::Never, 200)?;
+        let extra = (gradients(every, 1000)? - step) * 10.0 / step;
+        assert!(extra > 30.0 && extra < 200.0, "h = {h}: {extra}");
+    }
     Ok(())
 }

@@ -1,7 +1,8 @@
 //! Reinitialisation: the parasitic part is taken from the state of a run, which then goes on along a smooth orbit.
 //!
-//! (q, c) ↦ (q − a, Φ(q − a)) at the same time, where a is what alternates in q and c = Φ(q) the smooth orbits. It is done
-//! before a step, and belongs to it: if the step fails, so that the run stays, the state is what it was.
+//! (q, c) ↦ (q − a, Φ(q − a)) at the same time, where a is what alternates in q and c = Φ(q) are the smooth orbits
+//! (`smooth.rs`). It is done before a step, and belongs to it: if the step fails, so that the run stays, the state is what it
+//! was.
 
 use super::leapfrog;
 use super::memory::{SigmaMemory, TwoStep};
@@ -13,17 +14,58 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::{DegenerateLagrangian, Real, System, Vector};
 
-/// When the parasitic part is taken from the state of a run of [`Sigma`](super::Sigma).
+/// When the parasitic part is taken from the state of a run of [`Sigma`](super::Sigma), which then goes on from the smooth
+/// part at the same time.
+///
+/// ```math
+/// (q, c) \mapsto (\bar q, \Phi(\bar q)), \qquad \bar q = q - a
+/// ```
+///
+/// Here c = p − α(q), Φ(q) is the defect that [`Start::Smooth`](super::Start::Smooth) finds at q, whatever the start of the run
+/// was, and a is what alternates from step to step in q: by the same central difference of eighth order along the scheme's own
+/// steps, four forward and four backward. It is the state
+/// alone that decides, so that runs that go on from a checkpoint do the same. If α is affine and σ = ½, c = 0 afterwards; a run
+/// that has c = 0 from the start is left alone.
+///
+/// **What becomes of the two-form.** The two-step map preserves Σ δq ∧ δp; reinitialisation does not, and a run with it
+/// preserves no two-form exactly. On all of T*Q it is a projection onto half of the dimensions. On the tangent vectors of
+/// smooth orbits it changes the form by a term that falls faster than h⁹. On those of orbits beside, by terms of the order
+/// h² a, and of the order a² where the scheme is the implicit midpoint rule in disguise.
+///
+/// **What becomes of the energy.** Reinitialised so often that the mode stays small, the run follows the smooth orbits, on which
+/// the two-step map is a one-step method of second order that preserves a two-form near Ω. No drift of the energy was seen: with
+/// σ = 0 on the chaotic vortices of Rowley & Marsden, whose energy is lost by t = 250 without, |ΔH| is below 7·10⁻⁵ with
+/// h = 0.1 up to t = 10⁴, with [`Every(10)`](Self::Every) and with `Every(100)`, and in the second half at most 1 % larger
+/// than in the first; with σ = ½ on Lotka–Volterra in the symmetric gauge, where a run from (2.5, 2) ends before t = 8 without, it is below 6.5·10⁻³ up to
+/// t = 1000 with `Every(1)`, `Every(10)` and `Every(30)`. What drifts are restarts that leave a mode of third order: a run that
+/// begins anew by a Runge–Kutta step after every ten steps has an energy error that grows with time, in proportion to h³.
+/// A mode that has become large leaves a part of itself in the energy: on these vortices with h ≤ 0.1 nothing is seen of
+/// one that is taken at [`Above(0.01)`](Self::Above), and `Above(0.1)` left up to twice the energy error.
+///
+/// **What it costs.** As much as 30 to 200 steps, the fewer the shorter the steps. It needs eight steps in each iteration, those backward included: the system must be
+/// defined there.
+///
+/// # Errors
+/// A step whose reinitialisation fails, as where the iteration does not converge, fails with that
+/// [`StepFailure`](crate::error::StepFailure), and the run stays where it is. A schedule of zero steps, and a threshold that is
+/// not positive and below the limit, are a [`StartError::Parameter`](crate::error::StartError::Parameter).
+///
+/// [`TangentMap`](crate::diagnostics::TangentMap) and what is made of it are those of the steps without reinitialisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Reinitialisation {
     /// The run goes on as the two-step map takes it.
     #[default]
     Never,
-    /// Before each step whose number, counted from zero, is a positive multiple of this.
+    /// Before each step whose number, counted from zero, is a positive multiple of this. For schemes that are not zero-stable it
+    /// has to be a few steps: on an orbit of Lotka–Volterra with σ = ¼ and h = 0.05 a run goes on with 10, and ends with 50.
     Every(u64),
     /// Where the measured [relative size](super::ParasiticMode::relative) of the mode has passed this threshold, which is below
-    /// [`Sigma::parasitic_limit`](super::Sigma::parasitic_limit). It is judged as the limit is, and when the limit is.
+    /// [`Sigma::parasitic_limit`](super::Sigma::parasitic_limit). It is judged as the limit is, and when the limit is. Between two
+    /// looks a mode may pass both; the limit then ends the run only if this happens within eight steps of the start or of the
+    /// last reinitialisation. Choose a threshold well above (ωh/2)², the relative size that a smooth motion of frequency ω has:
+    /// one that the motion itself reaches is passed again and again. Where the mode grows by a factor in a few steps, take
+    /// [`Every`](Self::Every).
     Above(f64),
 }
 

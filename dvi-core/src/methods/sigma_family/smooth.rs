@@ -38,7 +38,7 @@ const WEIGHTS: [f64; 5] = [70.0 / 256.0, -56.0 / 256.0, 28.0 / 256.0, -8.0 / 256
 /// m/2
 const HALF: usize = WEIGHTS.len() - 1;
 
-/// The largest number of iterations for a defect; 16 at 0.5 of the time in which four vortices turn by a radian.
+/// The largest number of iterations for a defect. Each gains a factor of order h.
 const MOST: usize = 64;
 
 /// Corrections of this many units of rounding that no longer shrink are noise. Where parasitic solutions grow from step to
