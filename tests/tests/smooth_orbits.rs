@@ -131,11 +131,23 @@ fn what_cannot_be_begun_says_so() -> Outcome {
     }
     // A step that is too long.
     let smooth = |sigma| Sigma { start: Start::Smooth, ..Sigma::new(sigma) };
-    for sigma in [0.0, 0.25] {
+    for sigma in [0.0, 0.25, 1.0] {
         for h in [20.0, 1e3, 1e10] {
             let error = begin(smooth(sigma), h);
             assert!(matches!(error, Some(StartError::Starter(_))), "σ = {sigma}, h = {h}: {error:?}");
         }
+    }
+    // At the bound of linear stability the motion and the mode are one.
+    let (system, state) = (Oscillator { omega: 1.0 }, OscillatorState { x: 1.0, y: 0.0 });
+    for (sigma, h) in [(0.0, 1.0), (0.25, 2.0), (1.0, 1.0)] {
+        let method = Sigma { reinitialisation: Reinitialisation::Every(10), ..smooth(sigma) };
+        let failure = match Integrator::new(&system, method, h, state) {
+            Ok(mut run) => run.take_steps(100).err().map(|error| error.failure),
+            Err(StartError::Starter(failure)) => Some(failure),
+            Err(other) => return Err(other.into()),
+        };
+        assert!(matches!(failure, Some(StepFailure::NotSmooth { .. })), "σ = {sigma}: {failure:?}");
+        Integrator::new(&system, method, 0.6 * h, state)?.take_steps(100)?;
     }
     // A one-form without a component along one coordinate.
     for sigma in [0.0, 1.0] {

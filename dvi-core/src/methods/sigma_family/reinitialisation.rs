@@ -46,8 +46,8 @@ use crate::{DegenerateLagrangian, Real, System, Vector};
 /// defined there.
 ///
 /// # Errors
-/// A step whose reinitialisation fails, as where the iteration does not converge, fails with that
-/// [`StepFailure`](crate::error::StepFailure), and the run stays where it is. A schedule of zero steps, and a threshold that is
+/// A step whose reinitialisation fails, fails with that [`StepFailure`](crate::error::StepFailure), and the run stays where it is:
+/// where the iteration does not converge, what it finds is not smooth, or the points around are not in the domain. A schedule of zero steps, and a threshold that is
 /// not positive and below the limit, are a [`StartError::Parameter`](crate::error::StartError::Parameter).
 ///
 /// [`TangentMap`](crate::diagnostics::TangentMap) and what is made of it are those of the steps without reinitialisation.

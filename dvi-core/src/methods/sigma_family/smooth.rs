@@ -41,6 +41,13 @@ const HALF: usize = WEIGHTS.len() - 1;
 /// The largest number of iterations for a defect. Each gains a factor of order h.
 const MOST: usize = 64;
 
+/// What the differences leave of a smooth orbit, at most, in increments: sin⁸(θ/2)/(2 sin(θ/2)) of a motion that turns by the angle
+/// θ = 70° in a step. The roots of the scheme, of which one is the motion and the other the parasitic mode, meet at 90°.
+const ROUGH: f64 = 0.01;
+
+/// Differences below this many units of rounding of the coordinates are noise.
+const ROUNDING: f64 = 1024.0;
+
 /// Corrections of this many units of rounding that no longer shrink are noise. Where parasitic solutions grow from step to
 /// step, so does noise: what is more than that, and less than half of the digits, ends the iteration only after it has grown
 /// three times.
@@ -130,7 +137,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Smoothing<S, T> {
         let first = TwoStep::between(system, method, q, &q1, t, *h)?;
         self.q.copy_from_slice(q);
         self.defect.copy_from_slice(&first.defect);
-        self.settle(system, t, &mut Statistics::default()).map_err(StartError::Starter)
+        self.settle_down(system, t, &mut Statistics::default()).map_err(StartError::Starter)
     }
 
     /// Finds the smooth orbit that a state (`q`, `defect`) at time `t` leaves when what alternates is taken from it.
@@ -162,9 +169,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Smoothing<S, T> {
     fn settle_down(&mut self, system: &S, t: T, statistics: &mut Statistics) -> Result<(), StepFailure> {
         if S::AFFINE && self.excursions[0].method.is_midpoint() {
             self.defect.fill(T::lift(0.0));
-            return self.alternating_parts(system, t, statistics);
+            self.alternating_parts(system, t, statistics)?;
+        } else {
+            self.settle(system, t, statistics)?;
         }
-        self.settle(system, t, statistics)
+        self.judge()
     }
 
     /// Keeps a state, for [`take_back`](Self::take_back).
@@ -177,6 +186,21 @@ impl<S: DegenerateLagrangian<T>, T: Real> Smoothing<S, T> {
     pub(super) fn take_back(&self, state: &mut TwoStep<S, T>, q: &mut [T]) {
         state.restore(&self.excursions[0].state);
         q.copy_from_slice(&self.moving);
+    }
+
+    /// Whether what has been found is smooth.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotSmooth`].
+    fn judge(&self) -> Result<(), StepFailure> {
+        let alternating = reported(norm::largest(&self.parts.q));
+        let increment = reported(Scalar::abs(self.excursions[0].h) * norm::largest(&self.velocity));
+        let noise = ROUNDING * reported(T::default_epsilon() * norm::largest(&self.q));
+        // What is not a number is not smooth.
+        if alternating <= ROUGH * increment || alternating <= noise {
+            return Ok(());
+        }
+        Err(StepFailure::NotSmooth { alternating, increment })
     }
 
     /// Solves F(q, c) = 0 for c, as far as rounding lets the corrections shrink.

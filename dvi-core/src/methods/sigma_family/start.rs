@@ -30,7 +30,9 @@ pub enum Start {
     ///
     /// which is solved by c ← c − W⁻¹F, where W is what F makes of a parasitic solution as h → 0: one if Dα is antisymmetric or
     /// σ = ½. Each iteration takes four steps forward and four backward in time, and gains a factor of order h; there are at
-    /// most 64. The system must be defined at these eight points. If α is affine and σ = ½, this is
+    /// most 64. The system must be defined at these eight points. Where they do not converge, or what they find is not smooth, the
+    /// step is too long: [`StepFailure::NotConverged`](crate::error::StepFailure::NotConverged) and
+    /// [`StepFailure::NotSmooth`](crate::error::StepFailure::NotSmooth) in a [`StartError::Starter`]. If α is affine and σ = ½, this is
     /// [`Consistent`](Self::Consistent), bit by bit.
     ///
     /// On smooth solutions of multistep methods and their parasitic ones: Hairer, Lubich & Wanner 2006, chapter XV.
