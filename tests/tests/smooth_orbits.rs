@@ -42,6 +42,17 @@ fn the_smooth_start_of_the_implicit_midpoint_rule_is_the_consistent_one() -> Out
     assert!(first > 1e-6, "{first:e}");
     run.take_steps(6)?;
     assert_eq!((run.parasitic_amplitude(), run.reinitialisations()), (0.0, 1));
+    // Five points of one orbit are what the mode is measured from.
+    for (n, is_measured) in [(4, false), (5, true)] {
+        let method = Sigma { reinitialisation: Reinitialisation::Every(n), ..Sigma::leapfrog() };
+        let mut run = Integrator::new(&vortices, method, 0.1, start)?;
+        let mut seen = false;
+        for _ in 0..100 {
+            run.advance()?;
+            seen |= run.parasitic_mode().is_some();
+        }
+        assert_eq!(seen, is_measured, "{n}");
+    }
     Ok(())
 }
 
@@ -187,6 +198,36 @@ fn what_cannot_be_reinitialised_keeps_its_state() -> Outcome {
             assert_eq!(format!("{:?}", run.advance().err()), format!("{error:?}"));
         }
     }
+    Ok(())
+}
+
+/// A fixed point of few iterations: sums that are carried on ask for more than the search for a smooth orbit does, so that there
+/// are steps that fail after a reinitialisation that did not.
+#[test]
+fn a_step_that_fails_takes_its_reinitialisation_back() -> Outcome {
+    let (vortices, start) = chaotic();
+    let mut failed = 0;
+    for max_iterations in 10..30 {
+        for n in 2..30 {
+            let method = Sigma {
+                start: Start::RungeKutta(RungeKutta::midpoint()),
+                solver: Solver::FixedPoint,
+                stopping: Stopping { max_iterations, ..Stopping::default() },
+                summation: Summation::Compensated,
+                ..Sigma::new(0.25)
+            };
+            let reinitialisation = Reinitialisation::Every(n);
+            let mut run = Integrator::new(&vortices, Sigma { reinitialisation, ..method }, 0.2, start)?;
+            let mut same = Integrator::new(&vortices, method, 0.2, start)?;
+            if same.take_steps(n).is_err() || run.take_steps(n).is_err() || run.advance().is_ok() {
+                continue;
+            }
+            failed += 1;
+            assert_eq!((run.q(), run.memory().defect()), (same.q(), same.memory().defect()));
+            assert_eq!((run.steps(), run.reinitialisations()), (n, 0));
+        }
+    }
+    assert!(failed > 0);
     Ok(())
 }
 

@@ -58,7 +58,8 @@ pub enum Reinitialisation {
     #[default]
     Never,
     /// Before each step whose number, counted from zero, is a positive multiple of this. For schemes that are not zero-stable it
-    /// has to be a few steps: on an orbit of Lotka–Volterra with σ = ¼ and h = 0.05 a run goes on with 10, and ends with 50.
+    /// has to be a few steps: on an orbit of Lotka–Volterra with σ = ¼ and h = 0.05 a run goes on with 10, and ends with 50. The mode is measured over
+    /// five points of one orbit: with less than 5 it is not measured, nor is its limit tested.
     Every(u64),
     /// Where the measured [relative size](super::ParasiticMode::relative) of the mode has passed this threshold, which is below
     /// [`Sigma::parasitic_limit`](super::Sigma::parasitic_limit). It is judged as the limit is, and when the limit is. Between two
