@@ -4,6 +4,7 @@ mod barnes;
 mod chaotic;
 mod double_pendulum;
 mod energy;
+mod field_lines;
 mod guiding_centre;
 mod kepler;
 mod kepler_frequency;
@@ -46,4 +47,5 @@ pub const ALL: &[Experiment] = &[
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,
+    field_lines::EXPERIMENT,
 ];

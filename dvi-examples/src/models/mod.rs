@@ -1,6 +1,7 @@
 //! The systems of the gallery and the initial data of the papers.
 
 mod double_pendulum;
+mod field_lines;
 mod kepler;
 mod oscillators;
 mod predators;
@@ -8,6 +9,7 @@ mod tokamak;
 mod vortices;
 
 pub use double_pendulum::*;
+pub use field_lines::*;
 pub use kepler::*;
 pub use oscillators::*;
 pub use predators::*;
