@@ -17,6 +17,7 @@ mod momenta;
 mod order;
 mod oscillator;
 mod parasitic;
+mod phase_space;
 mod quasi_periodic;
 mod rivals;
 mod round_off;
@@ -48,4 +49,5 @@ pub const ALL: &[Experiment] = &[
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,
     field_lines::EXPERIMENT,
+    phase_space::EXPERIMENT,
 ];

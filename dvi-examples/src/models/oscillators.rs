@@ -46,3 +46,21 @@ pub struct Spring {
 )]
 #[derive(Clone, Debug)]
 pub struct Pendulum {}
+
+/// The same pendulum in phase space, with p = x' and a one-form along x only.
+#[degenerate_lagrangian(
+    coordinates(x, p),
+    one_form    = p * d(x),
+    hamiltonian = p * p / 2.0 - x.cos(),
+)]
+#[derive(Clone, Debug)]
+pub struct PhasePendulum {}
+
+/// The same with the symmetric one-form.
+#[degenerate_lagrangian(
+    coordinates(x, p),
+    one_form    = (p * d(x) - x * d(p)) / 2.0,
+    hamiltonian = p * p / 2.0 - x.cos(),
+)]
+#[derive(Clone, Debug)]
+pub struct SymmetricPendulum {}
