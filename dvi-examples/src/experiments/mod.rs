@@ -13,6 +13,7 @@ mod kepler_steps;
 mod kepler_work;
 mod leapfrogging;
 mod lotka_volterra;
+mod massless;
 mod momenta;
 mod order;
 mod oscillator;
@@ -50,4 +51,5 @@ pub const ALL: &[Experiment] = &[
     guiding_centre::EXPERIMENT,
     field_lines::EXPERIMENT,
     phase_space::EXPERIMENT,
+    massless::EXPERIMENT,
 ];

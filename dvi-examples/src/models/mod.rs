@@ -1,6 +1,7 @@
 //! The systems of the gallery and the initial data of the papers.
 
 mod double_pendulum;
+mod drift;
 mod field_lines;
 mod kepler;
 mod oscillators;
@@ -9,6 +10,7 @@ mod tokamak;
 mod vortices;
 
 pub use double_pendulum::*;
+pub use drift::*;
 pub use field_lines::*;
 pub use kepler::*;
 pub use oscillators::*;
