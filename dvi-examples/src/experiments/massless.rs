@@ -238,7 +238,7 @@ fn figure(all: &[Series; 3], parasites: &[Parasite], end: f64) -> Figure {
         format!("*B* = 1 + 2(*x*² + *y*²), *φ* = cos *x* + sin *y*, from (1, 1), *h* = {H}"),
     )
     .row(430.0, vec![plane.legend_at(Corner::TopRight), amplitudes.legend_at(Corner::BottomRight)])
-    .row(300.0, vec![energy.legend_at(Corner::TopRight)])
+    .row(300.0, vec![energy.legend_at(Corner::BottomRight)])
     .footer(format!(
         "Largest |Δ*H*|: one step {}, projected {}. RK4 at the end: {}.",
         at_most(one_step.largest),

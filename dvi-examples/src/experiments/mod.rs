@@ -22,6 +22,7 @@ mod phase_space;
 mod quasi_periodic;
 mod rivals;
 mod round_off;
+mod schroedinger;
 mod sections;
 mod stability;
 mod symmetry;
@@ -52,4 +53,5 @@ pub const ALL: &[Experiment] = &[
     field_lines::EXPERIMENT,
     phase_space::EXPERIMENT,
     massless::EXPERIMENT,
+    schroedinger::EXPERIMENT,
 ];
