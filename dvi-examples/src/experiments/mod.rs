@@ -24,6 +24,7 @@ mod rivals;
 mod round_off;
 mod schroedinger;
 mod sections;
+mod sphere_vortices;
 mod stability;
 mod symmetry;
 
@@ -54,4 +55,5 @@ pub const ALL: &[Experiment] = &[
     phase_space::EXPERIMENT,
     massless::EXPERIMENT,
     schroedinger::EXPERIMENT,
+    sphere_vortices::EXPERIMENT,
 ];

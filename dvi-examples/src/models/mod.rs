@@ -7,6 +7,7 @@ mod kepler;
 mod lattice;
 mod oscillators;
 mod predators;
+mod sphere;
 mod tokamak;
 mod vortices;
 
@@ -17,5 +18,6 @@ pub use kepler::*;
 pub use lattice::*;
 pub use oscillators::*;
 pub use predators::*;
+pub use sphere::*;
 pub use tokamak::*;
 pub use vortices::*;
