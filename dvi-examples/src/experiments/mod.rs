@@ -27,6 +27,7 @@ mod sections;
 mod sphere_vortices;
 mod stability;
 mod symmetry;
+mod three_species;
 
 use crate::gallery::Experiment;
 
@@ -56,4 +57,5 @@ pub const ALL: &[Experiment] = &[
     massless::EXPERIMENT,
     schroedinger::EXPERIMENT,
     sphere_vortices::EXPERIMENT,
+    three_species::EXPERIMENT,
 ];
