@@ -27,6 +27,7 @@ mod sections;
 mod sphere_vortices;
 mod stability;
 mod symmetry;
+mod tabulated_field;
 mod three_species;
 
 use crate::gallery::Experiment;
@@ -52,6 +53,7 @@ pub const ALL: &[Experiment] = &[
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,
+    tabulated_field::EXPERIMENT,
     field_lines::EXPERIMENT,
     phase_space::EXPERIMENT,
     massless::EXPERIMENT,

@@ -8,6 +8,7 @@ mod lattice;
 mod oscillators;
 mod predators;
 mod sphere;
+mod tabulated;
 mod tokamak;
 mod vortices;
 
@@ -19,5 +20,6 @@ pub use lattice::*;
 pub use oscillators::*;
 pub use predators::*;
 pub use sphere::*;
+pub use tabulated::*;
 pub use tokamak::*;
 pub use vortices::*;
