@@ -22,7 +22,7 @@ use crate::output::{Table, number};
 pub const EXPERIMENT: Experiment = Experiment {
     name: "field-lines",
     title: "Magnetic field lines of an ABC flow and of a perturbed tokamak",
-    share: 10.0,
+    share: 4.0,
     run,
 };
 

@@ -23,7 +23,7 @@ use crate::output::{Table, number};
 pub const EXPERIMENT: Experiment = Experiment {
     name: "phase-space",
     title: "The pendulum in phase-space form, by one-step schemes",
-    share: 2.0,
+    share: 1.0,
     run,
 };
 

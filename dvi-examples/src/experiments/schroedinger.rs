@@ -20,7 +20,7 @@ use crate::models::{SchroedingerLattice, SchroedingerLatticeState, breather};
 use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "breather", title: "A discrete breather of a Schrödinger lattice", share: 12.0, run };
+    Experiment { name: "breather", title: "A discrete breather of a Schrödinger lattice", share: 11.0, run };
 
 const SITES: usize = 15;
 const OMEGA: f64 = 4.0;

@@ -20,7 +20,7 @@ use crate::models::SphereVortices;
 use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "sphere-vortices", title: "Point vortices on a sphere", share: 8.0, run };
+    Experiment { name: "sphere-vortices", title: "Point vortices on a sphere", share: 9.0, run };
 
 /// Three vortices whose moment is not along the axis of the coordinates.
 const THREE: SphereVortices<3> = SphereVortices { gamma: [1.0, 1.5, 2.0] };

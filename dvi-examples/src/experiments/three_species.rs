@@ -19,7 +19,7 @@ use crate::models::{ThreeSpecies, ThreeSpeciesReduced, ThreeSpeciesReducedState,
 use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "three-species", title: "Lotka–Volterra with three species", share: 3.0, run };
+    Experiment { name: "three-species", title: "Lotka–Volterra with three species", share: 1.5, run };
 
 /// x, y and z at the start; the paths in the figure begin at others too.
 const START: Species = [0.3, 0.7, 2.0];
