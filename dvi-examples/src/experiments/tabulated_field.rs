@@ -160,7 +160,7 @@ fn figure(cubic: &Differences, quintic: &Differences, energy: &Energy, end: f64)
     };
     let falls = Panel::new(
         "Distance from the orbits in the field of formulas",
-        Axis::logarithmic("intervals of the grid across the section").within(5.0, 60.0),
+        Axis::logarithmic("intervals of the grid across the section").within(6.0, 80.0),
         Axis::logarithmic("difference, relative").within(1e-13, 1e-2),
     )
     .line(slope(cubic, 3), Stroke::dashed(BLUE).width(1.0))
@@ -179,7 +179,7 @@ fn figure(cubic: &Differences, quintic: &Differences, energy: &Energy, end: f64)
     Figure::new(
         "A guiding centre in a field from a table",
         format!(
-            "*q* = {Q}, *μ* = {MU}, bananas from *R* = {} to {}, *h* = {H}, one-step midpoint",
+            "*q* = {Q}, *μ* = {MU}, bananas from *R* = {:.2} to {:.3}, *h* = {H}, one-step midpoint",
             1.0 + RADII[0],
             1.0 + RADII[RADII.len() - 1]
         ),
