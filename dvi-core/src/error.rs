@@ -31,19 +31,27 @@ pub struct IndexError {
 /// A function that holds data is evaluated where it is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
-    "`{function}` is not known there: its argument {argument} is {value}, and must lie from {least} to {largest}"
+    "`{}` is not known there: its argument {} is {value}, and must be at {} {bound}",
+    .argument.function,
+    .argument.number,
+    if *.value > *.bound { "most" } else { "least" }
 )]
 pub struct OutsideError {
-    /// The function, as the formulas call it.
-    pub function: &'static str,
-    /// Which of its arguments leaves the [domain](crate::ScalarField::domain), counted from 1.
-    pub argument: usize,
-    /// The value of that argument.
+    /// The argument that leaves the [domain](crate::ScalarField::domain).
+    pub argument: &'static Argument,
+    /// Its value.
     pub value: f64,
-    /// The least value that it may have.
-    pub least: f64,
-    /// The largest value that it may have.
-    pub largest: f64,
+    /// The end of the domain that it has passed; if the value is not a number, the least value that it may have.
+    pub bound: f64,
+}
+
+/// An argument of a function that formulas call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Argument {
+    /// The function, by the name that the formulas call it by.
+    pub function: &'static str,
+    /// Which of its arguments, counted from 1.
+    pub number: usize,
 }
 
 /// A run that cannot begin.
@@ -331,3 +339,7 @@ pub struct StepError {
     /// Why.
     pub failure: StepFailure,
 }
+
+/// The result of a step is returned through every call of a run: with failures of seven words in place of five, steps of
+/// phase-fitted schemes took 13 % to 16 % more instructions.
+const _: () = assert!(size_of::<StepFailure>() <= 40);

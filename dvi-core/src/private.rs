@@ -1,6 +1,7 @@
 //! What generated code calls. Not part of the interface.
 
 pub use crate::Number;
+pub use crate::error::Argument;
 pub use crate::system::stand_in::StandIn;
 
 use crate::Real;
@@ -38,15 +39,16 @@ pub fn check_index(array: &'static str, index: i64, len: usize) -> Result<(), In
 
 /// The first argument of a function that leaves its domain.
 pub fn outside<const D: usize, T: Real>(
-    function: &'static str,
+    arguments: &'static [Argument; D],
     domain: [(f64, f64); D],
     at: [T; D],
 ) -> Option<OutsideError> {
-    let mut arguments = at.into_iter().zip(domain).zip(1..);
-    arguments.find_map(|((value, (least, largest)), argument)| {
+    let mut arguments = arguments.iter().zip(at).zip(domain);
+    arguments.find_map(|((argument, value), (least, largest))| {
         let value = reported(value);
         let is_inside = least <= value && value <= largest;
-        (!is_inside).then_some(OutsideError { function, argument, value, least, largest })
+        let bound = if value > largest { largest } else { least };
+        (!is_inside).then_some(OutsideError { argument, value, bound })
     })
 }
 

@@ -244,9 +244,11 @@ impl Function<'_> {
                     &self.emitter.model.scalar_fields[*field as usize];
                 // With the span of the one above, so that a type that is no such function is one error.
                 let domain = quote_spanned!(*span=> #krate::ScalarField::<#arity>::domain(&#tokens));
+                let arguments = (1..=*arity)
+                    .map(|number| quote!(#krate::__private::Argument { function: #text, number: #number }));
                 quote! {{
                     let __at = [#(#at),*];
-                    let __outside = #krate::__private::outside(#text, #domain, __at);
+                    let __outside = #krate::__private::outside(&[#(#arguments),*], #domain, __at);
                     if __outside.is_some() {
                         return __outside;
                     }

@@ -102,8 +102,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
         let taken = match &mut self.kept {
-            None => self.stepper.steps(clock, count),
-            Some(kept) => self.stepper.steps_forward(clock, count, kept),
+            Some(kept) if S::TIME_TRANSFORMED => self.stepper.steps_forward(clock, count, kept),
+            _ => self.stepper.steps(clock, count),
         };
         taken.map_err(|failure| self.error(failure))
     }
