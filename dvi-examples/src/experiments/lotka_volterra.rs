@@ -4,6 +4,7 @@
 //! symmetric form of the same motion it is not, and the two-step midpoint scheme loses it to its parasitic mode.
 
 use anyhow::Result;
+use dvi_core::Space;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
@@ -13,7 +14,10 @@ use crate::figure::{
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
-use crate::models::{OneSidedPredators, OneSidedPredatorsState, SymmetricPredators, SymmetricPredatorsState};
+use crate::models::{
+    OneSidedPredators, OneSidedPredatorsState, ShiftedPredators, ShiftedSymmetricPredators,
+    SymmetricPredators, SymmetricPredatorsState,
+};
 use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment = Experiment {
@@ -59,7 +63,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
 
     let all = [one_step, gauss, runge_kutta, two_step];
     let outcome = Outcome {
-        claims: claims(&all, &watched),
+        claims: claims(&all, &watched).into_iter().chain([gauges()?]).collect(),
         references: vec![
             Check::new("one step, midpoint, h = 0.1: max|ΔH|", all[0].largest, Bound::Near(1.04e-2, 5e-5)),
             Check::new("one step, midpoint, h = 0.05: max|ΔH|", half.largest, Bound::Near(2.56e-3, 5e-6)),
@@ -124,6 +128,61 @@ fn claims([one_step, gauss, runge_kutta, two_step]: &[Series; 4], watched: &Seri
         Bound::AtLeast(1.0),
     );
     vec![flat, fails]
+}
+
+/// Four one-forms that differ by gauges.
+fn gauges() -> Result<Claim> {
+    let forms: [Form; 4] = [
+        omega(&OneSidedPredators {}),
+        omega(&SymmetricPredators {}),
+        omega(&ShiftedPredators {}),
+        omega(&ShiftedSymmetricPredators {}),
+    ];
+    let apart = forms.iter().flat_map(|form| form.iter().zip(&forms[0]));
+    let apart = apart.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, larger);
+    let spread = |h: f64| -> Result<f64> {
+        let ends = [
+            end(&OneSidedPredators {}, h)?,
+            end(&SymmetricPredators {}, h)?,
+            end(&ShiftedPredators {}, h)?,
+            end(&ShiftedSymmetricPredators {}, h)?,
+        ];
+        let distances = ends.iter().flat_map(|a| ends.iter().map(|b| (a[0] - b[0]).hypot(a[1] - b[1])));
+        Ok(distances.fold(0.0, larger))
+    };
+    let (coarse, fine) = (spread(H)?, spread(H / 2.0)?);
+    let text = "four gauges have one Ω, and their runs differ by the second order of the scheme";
+    Ok(Claim::new(BEYOND, text).check("largest relative difference of Ω", apart, Bound::AtMost(1e-14)).check(
+        "projected, spread at t = 10: h = 0.1 over h = 0.05",
+        coarse / fine,
+        Bound::Near(4.0, 0.4),
+    ))
+}
+
+/// The entry of Ω at some points.
+type Form = [f64; 25];
+
+fn omega<S: DegenerateLagrangian>(system: &S) -> Form {
+    let mut form = [0.0; 25];
+    for (place, entry) in form.iter_mut().enumerate() {
+        let q = [0.3 + 0.7 * (place / 5) as f64, 0.2 + 0.6 * (place % 5) as f64];
+        let mut omega = system.space().matrix();
+        system.one_form_jacobian(&q, 0.0, -1.0, 1.0, &mut omega);
+        *entry = omega[1];
+    }
+    form
+}
+
+/// Where a projected run is at t = 10.
+fn end<S>(system: &S, h: f64) -> Result<[f64; 2]>
+where
+    S: DegenerateLagrangian,
+    S::State<f64>: From<(f64, f64)>,
+{
+    let [x, y] = START;
+    let mut run = Integrator::new(system, Projected::symmetric(), h, (x, y).into())?;
+    run.take_steps((10.0 / h).round() as u64)?;
+    Ok([run.q()[0], run.q()[1]])
 }
 
 fn figure(all: &[Series; 4], end: f64) -> Figure {

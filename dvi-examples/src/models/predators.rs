@@ -1,4 +1,4 @@
-//! Predators and prey: x' = x(y − 2) and y' = y(1 − x) in two one-forms of the same motion, and three species in a circle.
+//! Predators and prey: x' = x(y − 2) and y' = y(1 − x) in four one-forms of the same motion, and three species in a circle.
 
 use dvi_core::prelude::*;
 
@@ -20,6 +20,24 @@ pub struct OneSidedPredators {}
 )]
 #[derive(Clone, Debug)]
 pub struct SymmetricPredators {}
+
+/// The one-sided form with d(xy) added.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (y + y.ln() / x) * d(x) + x * d(y),
+    hamiltonian = x - x.ln() + y - 2.0 * y.ln(),
+)]
+#[derive(Clone, Debug)]
+pub struct ShiftedPredators {}
+
+/// The symmetric form with d(xy) added.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (y + y.ln() / (2.0 * x)) * d(x) + (x - x.ln() / (2.0 * y)) * d(y),
+    hamiltonian = x - x.ln() + y - 2.0 * y.ln(),
+)]
+#[derive(Clone, Debug)]
+pub struct ShiftedSymmetricPredators {}
 
 /// Three species that eat each other in a circle, x' = x(y − z), y' = y(z − x), z' = z(x − y), as a degenerate system of four.
 ///
