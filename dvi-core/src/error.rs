@@ -303,18 +303,20 @@ pub enum StepFailure {
         /// The step, perhaps not finite.
         h: f64,
     },
-    /// The time transformation is not positive any more at the end of the step, where the physical time would stand still or run
-    /// backwards.
+    /// The physical time would stand still or run backwards: the time transformation is not positive any more at the end of
+    /// the step, or was negative on the way.
     #[error(
-        "the time transformation became {rate:e} in the step: it must be positive; a smaller step helps, or another ρ"
+        "the physical time went at the rate {rate:e} in the step: it must be positive; a smaller step helps, or another time \
+         transformation"
     )]
     TimeRate {
-        /// ρ at the end of the step.
+        /// ρ at the end of the step, or its mean over the step if that is smaller.
         rate: f64,
     },
-    /// A function that holds data would have been evaluated outside of its table. The argument is the one at the state where the
-    /// step began or, if that lies inside, at a point that the motion reaches from there within two steps.
-    #[error("the motion leaves a table: {0}")]
+    /// A function that holds data was evaluated outside of its table. The argument is the one at the state where the step began
+    /// or, if that lies inside, at the first point outside on a parabola that the motion follows from there, up to two steps
+    /// ahead: iterates of a step and their guesses lie beyond it. Where the motion itself stays inside, a smaller step helps.
+    #[error("the step leaves a table: {0}")]
     Outside(OutsideError),
     /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.
     #[error(

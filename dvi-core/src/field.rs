@@ -88,8 +88,8 @@ pub struct Expansion<const D: usize, T = f64> {
 /// assert_eq!(Product { k: 0.5 }.expansion([3.0, 2.0]).gradient, [2.0, 6.0]);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a function of {D} numbers: it does not implement `ScalarField<{D}>`",
-    label = "a formula calls this with {D} arguments",
+    message = "a formula cannot call `{Self}` with {D} arguments: it does not implement `ScalarField<{D}>`",
+    label = "does not implement `ScalarField<{D}>`",
     note = "`dvi_core::field::ScalarField` says what such a function is"
 )]
 pub trait ScalarField<const D: usize> {
@@ -103,13 +103,21 @@ pub trait ScalarField<const D: usize> {
     }
 }
 
-impl<const D: usize, F: ScalarField<D>> ScalarField<D> for &F {
-    #[inline(always)]
-    fn expansion<T: Scalar>(&self, at: [T; D]) -> Expansion<D, T> {
-        (**self).expansion(at)
-    }
+macro_rules! pointer {
+    ($($pointer:ty),*) => {$(
+        impl<const D: usize, F: ScalarField<D>> ScalarField<D> for $pointer {
+            #[inline(always)]
+            fn expansion<T: Scalar>(&self, at: [T; D]) -> Expansion<D, T> {
+                (**self).expansion(at)
+            }
 
-    fn domain(&self) -> [(f64, f64); D] {
-        (**self).domain()
-    }
+            fn domain(&self) -> [(f64, f64); D] {
+                (**self).domain()
+            }
+        }
+    )*};
 }
+
+pointer!(&F);
+#[cfg(feature = "alloc")]
+pointer!(alloc::boxed::Box<F>, alloc::rc::Rc<F>, alloc::sync::Arc<F>);

@@ -4,9 +4,10 @@ pub use crate::Number;
 pub use crate::error::Argument;
 pub use crate::system::stand_in::StandIn;
 
-use crate::Real;
 use crate::error::{IndexError, LengthError, OutsideError};
+use crate::field::Expansion;
 use crate::scalar::norm::reported;
+use crate::{Real, Scalar};
 
 /// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
 #[inline]
@@ -50,6 +51,23 @@ pub fn outside<const D: usize, T: Real>(
         let bound = if value > largest { largest } else { least };
         (!is_inside).then_some(OutsideError { argument, value, bound })
     })
+}
+
+/// A function that is the same everywhere, in place of one that is not known.
+pub fn constant<const D: usize, T: Scalar>() -> Expansion<D, T> {
+    let zero = T::lift(0.0);
+    Expansion { value: T::lift(1.0), gradient: [zero; D], hessian: [[zero; D]; D] }
+}
+
+/// The argument to blame for an L that is not a number: the first that left its domain, if there is one, and if the other parts of
+/// the formulas are not to blame. Where a formula chooses between two branches (`has_choices`), the function may stand in the one
+/// that was not taken: then L is a number, or is none with a constant in place of the function either.
+pub fn to_blame<T: Real>(
+    outside: Option<OutsideError>,
+    [value, with_constants]: [T; 2],
+    has_choices: bool,
+) -> Option<OutsideError> {
+    outside.filter(|_| !value.is_finite() && (!has_choices || with_constants.is_finite()))
 }
 
 /// Copies a block of a state to its place in a flat slice.

@@ -173,8 +173,8 @@ pub trait Lagrangian<T: Scalar = f64>: System {
         sink: &mut K,
     );
 
-    /// Whether a function that holds data is evaluated outside of its [domain](crate::ScalarField::domain) at this point, and
-    /// which: the first one in L that is.
+    /// Whether L is not a number at this point because a function that holds data is evaluated outside of its
+    /// [domain](crate::ScalarField::domain), and which argument of which function: the first one in L that is.
     fn outside(&self, _q: &[T], _v: &[T], _t: T) -> Option<OutsideError>
     where
         T: Real,
@@ -257,6 +257,12 @@ pub struct TimeTransform<T> {
 /// α·q' − ρ (H − H₀) with H₀ = `energy`. As `t` is a coordinate, the scheme computes it to its own order. L' is in the class of
 /// one-step schemes if L is.
 ///
+/// A run is to go on from its checkpoint, with another or a negative step by
+/// [`Checkpoint::with_step_size`](crate::run::Checkpoint::with_step_size). A run that begins at a state of another has to begin with
+/// the energy of that state, and is another motion by the error of the scheme. Diagnostics that speak of time mean τ. `t` and
+/// `energy` stand in the equations of a step beside the coordinates, so that units are needed in which their numbers are of
+/// moderate size: in units of time 10⁹ times too long, the matrices of a comet's steps count as singular.
+///
 /// In such a run [`Run::energy`](crate::run::Run::energy) is ρ (H − e): zero on the motion, and in a run the error of H times ρ.
 ///
 /// ```
@@ -272,7 +278,7 @@ pub struct TimeTransform<T> {
 /// struct Predators;
 ///
 /// let start = Predators.with_energy(PredatorsState { x: 0.2, y: 0.1, t: 0.0, energy: 0.0 })?;
-/// let mut run = Integrator::new(&Predators, OneStep::midpoint(), 0.1, start)?;
+/// let mut run = Integrator::new(&Predators, OneStep::midpoint(), 0.02, start)?;
 /// run.take_steps(1000)?;
 /// let state = run.state();
 /// assert_eq!(state.energy, start.energy);
@@ -287,8 +293,8 @@ pub trait TimeTransformed: System<Kind = Degenerate> {
     /// The state with `energy` set to H(q, t), as a run begins.
     ///
     /// # Errors
-    /// [`StartError`], as the start of a run, if an array of the system or of the state has the wrong length, or a coordinate
-    /// other than `energy` is not finite.
+    /// [`StartError`], as the start of a run, if an array of the system or of the state has the wrong length, a coordinate
+    /// other than `energy` is not finite, or H is not.
     fn with_energy<T: Real>(&self, state: Self::State<T>) -> Result<Self::State<T>, StartError>
     where
         Self: Lagrangian<T> + Sized,

@@ -44,7 +44,7 @@ struct Function<'a> {
     routine: &'a Routine,
     /// Registers that are written into the one expression that uses them.
     inlined: &'a [bool],
-    /// Whether the function returns where a function of several variables is not known.
+    /// Whether a constant stands in the place of functions of several variables where they are not known.
     is_guarded: bool,
 }
 
@@ -66,10 +66,18 @@ impl Emitter<'_> {
         self.body_of(routine, false)
     }
 
-    /// The body of a function that returns the first function of several variables that is not known, if there is one.
+    /// The body of a function that returns the argument to blame if L is no number because a function of several variables is not
+    /// known.
     pub(crate) fn guarded(&self, routine: &Routine) -> TokenStream {
-        let body = self.body_of(routine, true);
-        quote!(let _: __T = { #body }; ::core::option::Option::None)
+        let (krate, body) = (self.krate(), self.body_of(routine, true));
+        let has_choices = (0..routine.code.len())
+            .any(|position| matches!(routine.code.get(Register(position as u32)), Instruction::Choose(..)));
+        quote! {
+            let mut __outside = ::core::option::Option::None;
+            let __with_constants: __T = { #body };
+            let __value = <Self as #krate::Lagrangian<__T>>::lagrangian(self, __q, __v, __t);
+            #krate::__private::to_blame(__outside, [__value, __with_constants], #has_choices)
+        }
     }
 
     fn body_of(&self, routine: &Routine, is_guarded: bool) -> TokenStream {
@@ -248,11 +256,13 @@ impl Function<'_> {
                     .map(|number| quote!(#krate::__private::Argument { function: #text, number: #number }));
                 quote! {{
                     let __at = [#(#at),*];
-                    let __outside = #krate::__private::outside(&[#(#arguments),*], #domain, __at);
-                    if __outside.is_some() {
-                        return __outside;
+                    match #krate::__private::outside(&[#(#arguments),*], #domain, __at) {
+                        ::core::option::Option::None => self.#name(__at),
+                        __found => {
+                            __outside = __outside.or(__found);
+                            #krate::__private::constant()
+                        }
                     }
-                    self.#name(__at)
                 }}
             }
             Instruction::Part(expansion, partial) => {

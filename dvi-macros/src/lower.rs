@@ -343,8 +343,8 @@ impl<'a> Lowering<'a> {
         if self.model.lost_coordinates {
             return;
         }
-        let mut declared: Vec<String> =
-            self.model.blocks.iter().map(|block| block.name.to_string()).collect();
+        let blocks = &self.model.blocks[..self.model.declared_blocks()];
+        let mut declared: Vec<String> = blocks.iter().map(|block| block.name.to_string()).collect();
         let coordinates = declared.len();
         declared.extend(self.model.parameters.iter().map(|parameter| parameter.text.clone()));
         declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));

@@ -133,6 +133,16 @@ impl Model {
         }
         let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
         unique(model.functions.iter().map(|function| &function.name).chain(fields), "function", errors);
+        for ScalarFieldPath { name, .. } in &model.declared_scalar_fields {
+            let message = if model.parameters.iter().any(|parameter| *name == parameter.text) {
+                "is a field of the struct too; give one of them another name"
+            } else if words::is_method(&name.to_string()) {
+                "is a function of the language; give this one another name"
+            } else {
+                continue;
+            };
+            errors.push(name, format!("`{name}` {message}"));
+        }
         unique(attribute.momenta.iter().map(|momentum| &momentum.name), "momentum", errors);
         model
     }

@@ -259,6 +259,83 @@ fn a_run_does_not_begin_outside_of_the_table() {
     assert!(matches!(error, StartError::Outside(_)), "{error}");
 }
 
+/// A table that a formula keeps away from: it is not to blame where it is not asked, and does not keep a run from beginning.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - if x < 1.5 { slope(x) } else { 0.0 } + (3.0 - x).sqrt() / 1e3,
+)]
+struct Guarded {
+    slope: Table,
+}
+
+#[test]
+fn a_table_that_is_not_asked_is_not_to_blame() {
+    let system = Guarded { slope: Table };
+    let start = GuardedState { x: 2.2, dot_x: 2.0 };
+    assert!(system.energy_at(&start).is_ok());
+    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start).unwrap();
+    let error = run.take_steps(100).unwrap_err();
+    assert!(matches!(error.failure, StepFailure::NotFinite { .. }), "{error}");
+    // From where it is asked.
+    let start = GuardedState { x: 0.2, dot_x: -1.0 };
+    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start).unwrap();
+    let error = run.take_steps(100).unwrap_err();
+    assert!(matches!(error.failure, StepFailure::Outside(_)), "{error}");
+    let start = GuardedState { x: -0.2, dot_x: -1.0 };
+    let error = Integrator::new(&system, Variational::trapezoid(), 0.1, start).err().unwrap();
+    assert!(matches!(error, StartError::Outside(_)), "{error}");
+}
+
+/// Driven out of the table from rest, by a form that depends on time, and in a velocity.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + 10.0 * slope(x))]
+struct Repelled {
+    slope: Table,
+}
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = (y - 3.0 * t) * d(x), hamiltonian = slope(y))]
+struct Driven {
+    slope: Table,
+}
+
+#[lagrangian(coordinates(x), lagrangian = slope(dot(x)) + 5.0 * x)]
+struct Fast {
+    slope: Table,
+}
+
+#[test]
+fn whatever_drives_a_run_out_of_the_table_is_seen() {
+    macro_rules! ends_outside {
+        ($system:expr, $start:expr, $h:expr, [$($method:expr),* $(,)?]) => {$(
+            let mut run = Integrator::new(&$system, $method, $h, $start).unwrap();
+            let error = run.take_steps(1000).unwrap_err();
+            assert!(matches!(error.failure, StepFailure::Outside(_)), "{}: {error}", stringify!($method));
+        )*};
+    }
+    let repelled = Repelled { slope: Table };
+    let start = RepelledState { x: 1.9, dot_x: 0.0 };
+    ends_outside!(
+        repelled,
+        start,
+        0.12,
+        [
+            Variational::trapezoid(),
+            Variational::midpoint(),
+            Galerkin::<3>::new(),
+            Newmark::new(0.25),
+            RungeKutta::classical(),
+            Gauss::<2>::new(),
+        ]
+    );
+    let driven = Driven { slope: Table };
+    let start = DrivenState { x: 0.0, y: 0.5 };
+    ends_outside!(driven, start, 0.1, [Gauss::<2>::new(), RungeKutta::classical(), OneStep::midpoint()]);
+    let fast = Fast { slope: Table };
+    let start = FastState { x: 0.0, dot_x: 1.0 };
+    ends_outside!(fast, start, 0.1, [Variational::midpoint(), Gauss::<2>::new(), RungeKutta::classical()]);
+    let limited = EnergyLimit { method: RungeKutta::midpoint(), limit: 1.0 };
+    ends_outside!(repelled, RepelledState { x: 1.9, dot_x: 0.0 }, 0.12, [limited]);
+}
+
 /// A failure that has another reason keeps it, even if there are tables.
 #[test]
 fn other_failures_are_not_laid_on_the_table() {

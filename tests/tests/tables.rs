@@ -99,7 +99,10 @@ fn messages() {
         ("1 10 0\n1 20 1\n2 10 2\n2 20 3\n\n1 20 5", "line 6, column 1: the point column 1 = 1, column 2 = 20 is found again, and is expected once; it is in line 2 too"),
         ("r z psi\n1 10 0\n1 20 1\n2 10 2", "line 4, column 1: r = 2 is found in 1 of 2 rows that are expected; the point r = 2, z = 20 is missing"),
         // A coordinate with a slip of the pen: it is pointed at.
-        ("1 10 0\n1 20 1\n1 30 1\n2 10 2\n2 20.1 3\n2 30 1\n3 10 2\n3 20 3\n3 30 1", "line 5, column 2: column 2 = 20.1 is found in 1 of 3 rows that are expected; the point column 1 = 1, column 2 = 20.1 is missing"),
+        ("1 10 0\n1 20 1\n1 30 1\n2 10 2\n2 20.1 3\n2 30 1\n3 10 2\n3 20 3\n3 30 1", "line 5, column 2: column 2 = 20.1 is out of order, and numbers that increase, or decrease, from each new one to the next are expected"),
+        ("1 10 0\n1 20 1\n1 30 1\n2 10 2\n2 200 3\n2 30 1\n3 10 2\n3 20 3\n3 30 1", "line 5, column 2: column 2 = 200 is found in 1 of 3 rows that are expected; the point column 1 = 1, column 2 = 200 is missing"),
+        ("r z psi\n3 10 0\n2 10 1\n2.5 10 2", "line 4, column 1: r = 2.5 is out of order, and numbers that increase, or decrease, from each new one to the next are expected"),
+        ("r z psi\n3 10 0\n2 10 1\n4 10 2", "line 4, column 1: r = 4 is out of order, and numbers that increase, or decrease, from each new one to the next are expected"),
     ];
     for (text, expected) in cases {
         assert_eq!(message(text), expected, "{text:?}");
@@ -137,7 +140,7 @@ fn from_text_to_a_spline() -> Outcome {
     let texts = [
         rows(&|k| (k / 12, k % 12), 60),
         rows(&|k| (k % 5, k / 5), 60),
-        rows(&|k| (7 * k % 60 / 12, 7 * k % 60 % 12), 60),
+        rows(&|k| (4 - k % 5, 11 - k / 5), 60),
         rows(&|k| (k / 13, k % 13), 65),
     ];
     for text in texts {
@@ -191,9 +194,8 @@ fn a_large_table() -> Outcome {
     use std::fmt::Write;
     let (mut text, size) = (String::from("r,z,psi\n"), 300_usize);
     for k in 0..size * size {
-        // Steps that are prime to the number of points.
-        let at = k * 7919 % (size * size);
-        writeln!(text, "{},{},{k}", at / size, at % size)?;
+        // Backwards, and in columns.
+        writeln!(text, "{},{},{k}", size - 1 - k % size, size - 1 - k / size)?;
     }
     let table = Table::read(&text)?;
     let grid = table.grid(["r", "z"])?;

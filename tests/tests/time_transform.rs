@@ -214,10 +214,10 @@ fn what_is_wrong_is_said() -> Outcome {
     assert_eq!(error.step, run.steps());
     // And the run is where it was: the same step fails again.
     assert_eq!(run.take_steps(1).err(), Some(error));
-    // Not a number is no time either.
+    // A parameter that is not a number is said to be one.
     let nowhere = Fall { floor: f64::NAN };
     let error = Integrator::new(&nowhere, OneStep::midpoint(), 0.1, nowhere.with_energy(fall(0.0))?).err();
-    assert!(matches!(error, Some(StartError::TimeRate { rate }) if rate.is_nan()), "{error:?}");
+    assert!(matches!(error, Some(StartError::Undefined { value, .. }) if value.is_nan()), "{error:?}");
     Ok(())
 }
 
@@ -231,5 +231,74 @@ fn a_resumed_run_is_the_same() -> Outcome {
     let mut second = Integrator::resume(&Transformed, OneStep::midpoint(), &first.checkpoint())?;
     second.take_steps(17)?;
     assert_eq!(whole.q(), second.q());
+    Ok(())
+}
+
+/// ρ is negative for |x| < √0.2: a long step jumps across, and ends where ρ is positive. The physical time has run backwards in it.
+#[degenerate_lagrangian(
+    coordinates(x, p),
+    one_form = p * d(x),
+    hamiltonian = p * p / 2.0 + x * x / 2.0,
+    time_transform = x * x - gap,
+)]
+struct Gap {
+    gap: f64,
+}
+
+#[test]
+fn the_physical_time_does_not_run_backwards() -> Outcome {
+    let system = Gap { gap: 0.2 };
+    let mut failed = 0;
+    for x in [2.64, 1.7, 0.9] {
+        for p in [4.0, -3.0, -8.0] {
+            for h in [0.1, -0.1, 0.5] {
+                let start = system.with_energy(GapState { x, p, t: 0.0, energy: 0.0 })?;
+                let mut run = Integrator::new(&system, OneStep::midpoint(), h, start)?;
+                let mut last = 0.0;
+                for _ in 0..200 {
+                    match run.take_steps(1) {
+                        Ok(()) => {
+                            assert!((run.physical_time() - last) * h > 0.0, "{x}, {p}, {h}");
+                            last = run.physical_time();
+                        }
+                        Err(error) => {
+                            failed += u32::from(matches!(error.failure, StepFailure::TimeRate { .. }));
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(failed > 0, "no step jumps");
+    Ok(())
+}
+
+/// The limit is one of H − `energy`, which grows where a fall gets to the centre, and not of ρ times that.
+#[test]
+fn an_energy_limit_sees_the_energy() -> Outcome {
+    let system = Steep {};
+    let start = system.with_energy(SteepState { x: 1.0, y: 0.0, t: 0.0, energy: 0.0 })?;
+    let limited = EnergyLimit { method: OneStep::midpoint(), limit: 0.01 };
+    let mut run = Integrator::new(&system, limited, 0.1, start)?;
+    let error = run.take_steps(1000).err().ok_or("the energy is lost")?;
+    assert!(matches!(error.failure, StepFailure::Energy { .. }), "{error}");
+    Ok(())
+}
+
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = y * y / 2.0 - 1.0 / x,
+    time_transform = x.powi(3),
+)]
+struct Steep {}
+
+/// The terms of H may cancel: then H is known up to the rounding of these.
+#[test]
+fn an_energy_of_zero_may_be_typed() -> Outcome {
+    let system = Fall { floor: 0.0 };
+    let start = FallState { x: 0.7, y: (2.0 / 0.7_f64).sqrt(), t: 0.0, energy: 0.0 };
+    Integrator::new(&system, OneStep::midpoint(), 0.1, start)?;
     Ok(())
 }

@@ -26,9 +26,9 @@ const AGREEMENT: f64 = 1e-6;
 /// spline these are h⁶, h⁵ and h⁴.
 ///
 /// Neighbouring distances of a grid should be similar. Where they grow by a large factor from each to the next, splines
-/// oscillate between the points, those of degree 5 sooner. Through random values between 0 and 1 at 40 points, a cubic
-/// spline stays below 4 for a factor of 2 and exceeds 100 for a factor of 3. A quintic one stays below 4 for a factor of 1.2
-/// and exceeds 100 for a factor of 1.5.
+/// oscillate between the points, those of degree 5 sooner. Of cubic splines through random values between 0 and 1 at 40 points, 200
+/// of them, the largest values were between 0.9 and 5 for a factor of 2, and between 19 and 6700 for a factor of 3. Of quintic
+/// ones they were between 0.9 and 6 for a factor of 1.2, and between 3 and 4000 for a factor of 1.5.
 ///
 /// At an end without a period the polynomials of the first two cells are the same one (*not a knot*; of the first three,
 /// in degree 5), and no derivative there has to be known. In every variable, polynomials up to the degree of the spline are

@@ -132,13 +132,13 @@ impl Table {
 
     /// The grid whose points have their coordinates in these columns, given by names or by numbers from 1.
     ///
-    /// The rows may come in any order, and the numbers on an axis are put into increasing order. They must form a full grid:
-    /// each combination of the numbers of the axes stands in one row. Numbers that differ in their last digit are
-    /// different numbers.
+    /// The rows may be nested in any order. On each axis the numbers increase, or decrease, from each new one to the next. The
+    /// rows must form a full grid: each combination of the numbers of the axes stands in one row. Numbers that differ in their
+    /// last digit are different numbers.
     ///
     /// # Errors
     /// [`TableError::NoName`], [`TableError::NoColumn`], [`TableError::SameName`], [`TableError::NotFinite`],
-    /// [`TableError::Doubled`], and [`TableError::Missing`].
+    /// [`TableError::NotMonotone`], [`TableError::Doubled`], and [`TableError::Missing`].
     pub fn grid<'a, const D: usize>(
         &self,
         coordinates: [impl Into<Column<'a>>; D],
@@ -315,6 +315,21 @@ pub enum TableError {
         first: usize,
         /// The name.
         name: String,
+    },
+    /// The numbers of an axis neither increase nor decrease, in the order in which the rows bring them.
+    #[error(
+        "line {line}, column {column}: {name} = {number} is out of order, and numbers that increase, or decrease, from each \
+         new one to the next are expected"
+    )]
+    NotMonotone {
+        /// The line of the number that is out of order.
+        line: usize,
+        /// Its column.
+        column: usize,
+        /// The name of the column.
+        name: String,
+        /// The number.
+        number: f64,
     },
     /// A point of the grid stands in two rows.
     #[error(

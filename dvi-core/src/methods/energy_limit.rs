@@ -9,6 +9,8 @@ use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
+use crate::system::TimeTransform;
+use crate::system::start::extended;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// A method whose steps fail where the energy has changed by more than a limit since the start of the run.
@@ -21,7 +23,7 @@ use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 pub struct EnergyLimit<M> {
     /// The method.
     pub method: M,
-    /// The largest |E − E(start)|, in the units of the energy.
+    /// The largest |E − E(start)|, in the units of the energy; E is H − `energy` if the time of the system is transformed.
     pub limit: f64,
 }
 
@@ -44,6 +46,14 @@ impl<I, V, T> EnergyLimitMemory<I, V, T> {
 
 impl<I: Memory<T>, V, T: Real> Memory<T> for EnergyLimitMemory<I, V, T> {
     lasting!(T; part inner, number start);
+}
+
+/// The energy; of a system whose time is transformed H − `energy`, as ρ (H − `energy`) says little where ρ is small.
+fn watched<S: Lagrangian<T>, T: Real>(system: &S, q: &[T], v: &[T], t: T) -> T {
+    match system.time_transform(q) {
+        Some(TimeTransform { hamiltonian, .. }) => hamiltonian - q[extended(system)[1]],
+        None => system.energy(q, v, t),
+    }
 }
 
 impl<M: Scheme> Scheme for EnergyLimit<M> {
@@ -70,7 +80,7 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
         }
         let begin = || self.method.begin(system, q, v, t, h);
         let v_storage = system.space().vector();
-        let start = system.energy(q, v, t);
+        let start = watched(system, q, v, t);
         Ok(EnergyLimitMemory { inner: begin()?, checkpoint: begin()?, q: q.clone(), v: v_storage, start })
     }
 
@@ -88,7 +98,7 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
         checkpoint.restore(inner);
         self.method.step(system, inner, q, t, h, statistics)?;
         let verdict = self.method.velocity(system, inner, q, t + h, v).and_then(|()| {
-            let now = system.energy(q, if S::REGULAR { v } else { &[] }, t + h);
+            let now = watched(system, q, if S::REGULAR { v } else { &[] }, t + h);
             // An energy that is not a number is within no limit.
             let within = Scalar::abs(now - *start) <= T::lift(self.limit);
             let [start, now] = [*start, now].map(reported);

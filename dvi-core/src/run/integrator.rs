@@ -11,7 +11,7 @@ use crate::run::Checkpoint;
 use crate::run::physical_time::Kept;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
-use crate::system::start::{evaluate, flatten, velocities};
+use crate::system::start::{consistent, evaluate, flatten, velocities};
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
@@ -47,6 +47,7 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         validate(system, t, h)?;
         let [q, v] = flatten(system, &start)?;
         evaluate(system, &q, &v, t)?;
+        consistent(system, &q, t)?;
         let begin = |method: &M, q: &Vector<S, T>| method.begin(system, q, &v[..velocities(system)], t, h);
         Self::assemble(system, method, q, Clock::new(t, h), begin)
     }
@@ -149,6 +150,7 @@ impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         let ([q0, _], [q1, _]) = (flatten(system, &first)?, flatten(system, &second)?);
         let rest = system.space().vector();
         evaluate(system, &q0, &rest, t)?;
+        consistent(system, &q0, t)?;
         evaluate(system, &q1, &rest, t + h)?;
         let begin = |method: &M, q0: &Vector<S, T>| method.begin_between(system, q0, &q1, t, h);
         Self::assemble(system, method, q0, Clock::new(t, h), begin)

@@ -1,30 +1,37 @@
-//! Whether a step has failed because a function that holds data is not known where the motion goes.
+//! Whether a step has failed because a function that holds data is not known where the step has looked.
 //!
 //! Outside of its table such a function is not a number, and what fails then is an iteration or a coordinate. The points at
-//! which it was evaluated are gone, so they are looked for along the straight line from the last good state with its velocity.
+//! which it was evaluated are gone, so they are looked for along the parabola q + vτ + ½aτ² from the last good state, with its
+//! velocity and, of a regular system, its acceleration at rest.
 
 use crate::error::{OutsideError, StepFailure};
 use crate::methods::Method;
 use crate::run::Stepper;
 use crate::space::elimination::eliminate;
-use crate::{Lagrangian, Real, Space, Vector, Weights};
+use crate::{Lagrangian, Matrix, Real, Space, Vector, Weights};
 
 /// The parts of a step at which is looked: stages lie within the step, guesses and iterates beyond it.
-const PARTS: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 2.0];
+const PARTS: [f64; 8] = [0.0, 0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
+
+/// Of the step, over which ∂α/∂t is a difference quotient.
+const SHORT: f64 = 1.0 / 1024.0;
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
     /// Why the step from time `t` to `t + h` has failed.
     pub(super) fn explained(&self, failure: StepFailure, t: T, h: T) -> StepFailure {
         // What a number that is none can lead to.
-        let is_suspect = matches!(
-            failure,
+        let is_suspect = match failure {
             StepFailure::NotFinite { .. }
-                | StepFailure::NotConverged { .. }
-                | StepFailure::Singular { .. }
-                | StepFailure::Frequency { .. }
-                | StepFailure::StepLength { .. }
-                | StepFailure::Density { .. }
-        );
+            | StepFailure::NotConverged { .. }
+            | StepFailure::Singular { .. }
+            | StepFailure::Frequency { .. }
+            | StepFailure::StepLength { .. }
+            | StepFailure::Density { .. } => true,
+            StepFailure::TimeRate { rate } => rate.is_nan(),
+            StepFailure::Energy { now, .. } => now.is_nan(),
+            StepFailure::Orientation { after, .. } => after.is_nan(),
+            _ => false,
+        };
         if !S::HAS_SCALAR_FIELDS || !is_suspect {
             return failure;
         }
@@ -33,39 +40,75 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
 
     /// The first function that is not known on the way of a step from time `t` to `t + h`.
     fn outside(&self, t: T, h: T) -> Option<OutsideError> {
-        let velocity = self.present_velocity(t);
+        let motion = self.motion(t, h);
         PARTS.into_iter().find_map(|part| {
             let elapsed = T::lift(part) * h;
-            let mut q = self.q.clone();
-            for (q, &v) in q.iter_mut().zip(velocity.iter()) {
-                if part > 0.0 {
-                    *q += elapsed * v;
+            let (mut q, mut v) = (self.q.clone(), motion.velocity.clone());
+            if part > 0.0 {
+                let half = T::lift(0.5) * elapsed * elapsed;
+                for i in 0..q.len() {
+                    q[i] += elapsed * motion.velocity[i] + half * motion.acceleration[i];
+                    v[i] += elapsed * motion.acceleration[i];
                 }
             }
-            self.system.outside(&q, &velocity, t + elapsed).filter(|outside| outside.value.is_finite())
+            self.system.outside(&q, &v, t + elapsed).filter(|outside| outside.value.is_finite())
         })
     }
 
-    /// The velocity at the current point; of a degenerate system that of Ω q' = ∇H, without ∂α/∂t. It is not a number, or zero,
-    /// where it is not determined.
-    fn present_velocity(&self, t: T) -> Vector<S, T> {
+    /// The motion from the current point; zero where it is not determined.
+    fn motion(&self, t: T, h: T) -> Motion<Vector<S, T>> {
         let space = self.system.space();
-        let mut velocity = space.vector();
-        if S::REGULAR {
-            if self.velocity(t, &mut velocity).is_err() {
-                velocity.fill(T::lift(0.0));
-            }
-            return velocity;
-        }
-        let (rest, mut unused, mut omega) = (space.vector(), space.vector(), space.matrix());
+        let mut motion = Motion { velocity: space.vector(), acceleration: space.vector() };
         let [zero, one] = [0.0, 1.0].map(T::lift);
-        // ∂²L/∂qⁱ∂vʲ is ∂ᵢαⱼ, and ∂L/∂q at rest is −∇H.
-        let weights = Weights { qq: zero, qv: one, vq: -one, vv: zero };
-        self.system.linearize(&self.q, &rest, t, weights, &mut velocity, &mut unused, &mut omega);
-        match eliminate(&mut omega, &mut velocity) {
-            Ok(()) => velocity.iter_mut().for_each(|v| *v = -*v),
-            Err(_) => velocity.fill(zero),
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let (rest, mut matrix) = (space.vector(), space.matrix());
+        if S::REGULAR {
+            if self.velocity(t, &mut motion.velocity).is_err() {
+                motion.velocity.fill(zero);
+            }
+            // M a = ∂L/∂q, but for what velocities add.
+            let (force, _) = self.linearized([&self.q, &rest], t, Weights { vv: one, ..none }, &mut matrix);
+            motion.acceleration = solved(matrix, force);
+            return motion;
         }
-        velocity
+        // ∂²L/∂qⁱ∂vʲ is ∂ᵢαⱼ, ∂L/∂q at rest is −∇H, and ∂L/∂v is α.
+        let weights = Weights { qv: one, vq: -one, ..none };
+        let short = T::lift(SHORT) * h;
+        let (_, later) = self.linearized([&self.q, &rest], t + short, none, &mut space.matrix());
+        let (mut source, now) = self.linearized([&self.q, &rest], t, weights, &mut matrix);
+        for i in 0..source.len() {
+            source[i] = (later[i] - now[i]) / short - source[i];
+        }
+        motion.velocity = solved(matrix, source);
+        motion
     }
+
+    /// ∂L/∂q and ∂L/∂v, with the weighted second derivatives added to `matrix`.
+    fn linearized(
+        &self,
+        [q, v]: [&Vector<S, T>; 2],
+        t: T,
+        weights: Weights<T>,
+        matrix: &mut Matrix<S, T>,
+    ) -> (Vector<S, T>, Vector<S, T>) {
+        let (mut l_q, mut l_v) = (self.system.space().vector(), self.system.space().vector());
+        self.system.linearize(q, v, t, weights, &mut l_q, &mut l_v, matrix);
+        (l_q, l_v)
+    }
+}
+
+struct Motion<V> {
+    velocity: V,
+    acceleration: V,
+}
+
+/// The solution of matrix · x = b, or zero.
+fn solved<T: Real, V: core::ops::DerefMut<Target = [T]>>(
+    mut matrix: impl core::ops::DerefMut<Target = [T]>,
+    mut b: V,
+) -> V {
+    if eliminate(&mut matrix, &mut b).is_err() || b.iter().any(|b| !b.is_finite()) {
+        b.fill(T::lift(0.0));
+    }
+    b
 }

@@ -1,6 +1,7 @@
-//! Steps of a system whose time is transformed: each ends where the physical time still goes on.
+//! Steps of a system whose time is transformed: in each the physical time goes on, and it still does at the end.
 //!
-//! A motion reaches no zero of ρ = dt/dτ in a finite τ, so a step that crosses one is an error of its length. It is taken back.
+//! A motion reaches no zero of ρ = dt/dτ in a finite τ, so a step that crosses one is an error of its length. A step that ends
+//! where ρ is not positive is taken back, and one in which the physical time runs backwards because ρ was negative in between.
 
 use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, Clock, Method};
@@ -8,6 +9,7 @@ use crate::run::Stepper;
 use crate::scalar::norm::reported;
 use crate::state::memory::Memory;
 use crate::system::TimeTransform;
+use crate::system::start::extended;
 use crate::{Lagrangian, Real, Space, System, Vector};
 
 /// Where the step at hand has begun.
@@ -33,7 +35,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
 }
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
-    /// Takes `count` steps from the present time of `clock`, or as many as succeed and end where ρ is positive.
+    /// Takes `count` steps from the present time of `clock`, or as many as succeed and lead forward in the physical time.
     pub(super) fn steps_forward(
         &mut self,
         clock: Clock<T>,
@@ -44,14 +46,17 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             kept.q.copy_from_slice(&self.q);
             kept.memory.restore(&self.memory);
             self.steps(clock.after(taken), 1)?;
+            let [time, _] = extended(self.system);
+            let mean = (self.q[time] - kept.q[time]) / clock.step_size();
             let Some(TimeTransform { rate, .. }) = self.system.time_transform(&self.q) else { continue };
-            // A rate that is not a number is not positive either.
-            let is_positive = rate > T::lift(0.0);
+            // The smaller of the two; what is not a number is not positive either.
+            let least = if mean < rate { mean } else { rate };
+            let is_positive = least > T::lift(0.0) && rate > T::lift(0.0);
             if !is_positive {
                 self.q.copy_from_slice(&kept.q);
                 self.memory.restore(&kept.memory);
                 self.statistics.steps -= 1;
-                return Err(StepFailure::TimeRate { rate: reported(rate) });
+                return Err(StepFailure::TimeRate { rate: reported(least) });
             }
         }
         Ok(())

@@ -16,21 +16,25 @@ pub(crate) fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T) -> Result<()
 /// Whether energy and derivatives of L are finite at the start of a run.
 ///
 /// # Errors
-/// [`StartError::Outside`] where a function that holds data is not known; [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is −∇H for
-/// one, and the energy that is not.
+/// [`StartError::Outside`] where that is because a function that holds data is not known; else [`StartError::Undefined`] names
+/// the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is −∇H for one, and the energy that is not.
 pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
     v: &[T],
     t: T,
 ) -> Result<(), StartError> {
+    finite_derivatives(system, q, v, t)
+        .map_err(|error| system.outside(q, v, t).map_or(error, StartError::Outside))
+}
+
+fn finite_derivatives<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    v: &[T],
+    t: T,
+) -> Result<(), StartError> {
     let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
-    if let Some(transform) = system.time_transform(q) {
-        consistent(system, q, transform)?;
-    }
-    if let Some(outside) = system.outside(q, v, t) {
-        return Err(outside.into());
-    }
     // Of a degenerate system v is zero here, and ∂L/∂q is −∇H.
     system.gradient(q, v, t, &mut l_q, &mut l_v);
     let [momentum, force] = if S::REGULAR {
@@ -54,6 +58,8 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
 
 /// H and the coordinate `energy` may differ by this part of them where a run begins.
 const ENERGY_TOLERANCE: f64 = 1e-6;
+/// And by this part of the terms of H, where these cancel.
+const ROUNDING: f64 = 1e-12;
 
 /// The places of `t` and of `energy` in a state of a system whose time is transformed.
 pub(crate) fn extended<S: System>(system: &S) -> [usize; 2] {
@@ -61,28 +67,32 @@ pub(crate) fn extended<S: System>(system: &S) -> [usize; 2] {
     [dimension - 2, dimension - 1]
 }
 
-/// Whether the time passes at the start of a run, and `energy` is the value of H. On another level of H − `energy` the motion would
-/// be that of another system.
+/// If the time is transformed: whether it passes at the start of a run, and `energy` is the value of H. On another level of
+/// H − `energy` the motion would be that of another system.
 ///
 /// # Errors
 /// [`StartError::TimeRate`] and [`StartError::EnergyCoordinate`].
-fn consistent<S: Lagrangian<T>, T: Real>(
+pub(crate) fn consistent<S: Lagrangian<T>, T: Real>(
     system: &S,
-    q: &[T],
-    transform: TimeTransform<T>,
+    q: &Vector<S, T>,
+    t: T,
 ) -> Result<(), StartError> {
+    let Some(transform) = system.time_transform(q) else { return Ok(()) };
     let [rate, hamiltonian] = [transform.rate, transform.hamiltonian].map(reported);
     if rate.is_nan() || rate <= 0.0 || rate.is_infinite() {
         return Err(StartError::TimeRate { rate });
     }
+    let space = system.space();
+    let (rest, mut l_q, mut l_v): (Vector<S, T>, Vector<S, T>, Vector<S, T>) =
+        (space.vector(), space.vector(), space.vector());
+    system.gradient(q, &rest, t, &mut l_q, &mut l_v);
+    // ∂L/∂q is −ρ∇H: the terms of H are of the size of q·∇H.
+    let terms =
+        q.iter().zip(l_q.iter()).fold(0.0, |sum, (&q, &l)| sum + (reported(q) * reported(l) / rate).abs());
     let energy = reported(q[extended(system)[1]]);
-    let is_close = (hamiltonian - energy).abs() <= ENERGY_TOLERANCE * hamiltonian.abs().max(energy.abs());
-    // What is no number is reported as such.
-    if is_close || hamiltonian.is_nan() {
-        Ok(())
-    } else {
-        Err(StartError::EnergyCoordinate { energy, hamiltonian })
-    }
+    let tolerance = ENERGY_TOLERANCE * hamiltonian.abs().max(energy.abs()) + ROUNDING * terms;
+    let is_close = (hamiltonian - energy).abs() <= tolerance;
+    if is_close { Ok(()) } else { Err(StartError::EnergyCoordinate { energy, hamiltonian }) }
 }
 
 /// `state` with the coordinate `energy` set to H.
@@ -97,6 +107,9 @@ pub(crate) fn with_energy<S: Lagrangian<T>, T: Real>(
     q[energy] = T::lift(0.0);
     finite(system, q.iter().copied())?;
     if let Some(TimeTransform { hamiltonian, .. }) = system.time_transform(&q) {
+        if !hamiltonian.is_finite() {
+            evaluate(system, &q, &v, T::lift(0.0))?;
+        }
         q[energy] = hamiltonian;
     }
     Ok(S::State::read(|block| system.block_len(block), &q, &v))

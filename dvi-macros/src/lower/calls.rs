@@ -5,7 +5,7 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
-use super::words::{Arithmetic, Method, SUMS, VELOCITIES, callable};
+use super::words::{Arithmetic, Method, SUMS, VELOCITIES, callable, is_method};
 use super::{Lowering, Role};
 use crate::errors::{listed, nearest, similar, text};
 use crate::internal::internal;
@@ -173,6 +173,9 @@ impl Lowering<'_> {
     fn scalar_field(&mut self, name: &str, call: &ExprCall) -> Option<Option<Expr>> {
         let Syntax::Path(path) = &*call.func else { return None };
         let ident = path.path.get_ident()?;
+        if is_method(name) {
+            return None;
+        }
         let parameter = self.parameter(ident);
         if let Some(Shape::Number | Shape::Count | Shape::Array(..)) =
             parameter.map(|field| self.shape_of(field))
@@ -216,6 +219,14 @@ impl Lowering<'_> {
             return;
         }
         let kind = format!("function {name}");
+        if self.model.parameters.iter().any(|parameter| parameter.text == name) {
+            let listed: Vec<String> =
+                receiver.into_iter().chain(arguments.iter().copied()).map(text).collect();
+            let message =
+                format!("what the struct holds is called by its name: write `{name}({})`", listed.join(", "));
+            self.errors.push_once(&kind, at, message);
+            return;
+        }
         if let Some(meant) = meant(name, receiver, arguments) {
             self.errors.push_once(&kind, at, format!("unknown function `{name}`; write `{meant}`"));
             return;
@@ -231,7 +242,8 @@ impl Lowering<'_> {
                 let near = similar(name, known);
                 message += &format!(
                     "; a function of your own is declared with its derivatives: \
-                     `functions({name} = [{name}, d{name}, d2{name}])`\nsimilar names are {}",
+                     `functions({name} = [{name}, d{name}, d2{name}])`; one of several numbers, or from a table, is a field \
+                     of the struct that implements `ScalarField`\nsimilar names are {}",
                     listed(near)
                 );
             }

@@ -93,6 +93,11 @@ pub(crate) fn reserved() -> impl Iterator<Item = &'static str> {
 }
 
 /// All that can be called.
+/// Whether numbers have a method of this name.
+pub(crate) fn is_method(name: &str) -> bool {
+    Method::by_name(name).is_some()
+}
+
 pub(super) fn callable() -> impl Iterator<Item = &'static str> {
     let arithmetic = ARITHMETIC.iter().map(|(name, ..)| *name);
     unary_names().chain(binary_names()).chain(arithmetic).chain(reserved())

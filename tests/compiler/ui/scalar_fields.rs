@@ -158,4 +158,64 @@ mod declared_twice {
     }
 }
 
+mod a_field_and_a_path {
+    use super::*;
+
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = x * d(y),
+        hamiltonian = psi(x, y),
+        functions(psi = super::Flat),
+    )]
+    struct S {
+        psi: Flat,
+    }
+
+    fn state() -> SState {
+        SState { x: 1.0, y: 2.0 }
+    }
+}
+
+mod a_name_of_the_language {
+    use super::*;
+
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = x * d(y),
+        hamiltonian = x * y.exp(),
+        functions(exp = super::Flat),
+    )]
+    struct S;
+
+    fn state() -> SState {
+        SState { x: 1.0, y: 2.0 }
+    }
+}
+
+mod a_field_called_as_a_method {
+    use super::*;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.psi(y))]
+    struct S {
+        psi: Flat,
+    }
+
+    fn state() -> SState {
+        SState { x: 1.0, y: 2.0 }
+    }
+}
+
+mod not_there {
+    use super::*;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y))]
+    struct S {
+        phi_of: Flat,
+    }
+
+    fn state() -> SState {
+        SState { x: 1.0, y: 2.0 }
+    }
+}
+
 fn main() {}

@@ -26,6 +26,7 @@ impl<'a, const D: usize> Grid<'a, D> {
         for axis in 0..D {
             let numbers = (0..table.rows()).map(|row| table.number(row, columns[axis]));
             let numbers = numbers.collect::<Result<Vec<f64>, TableError>>()?;
+            monotone(table, columns[axis], &numbers)?;
             let sorted = &mut points[axis];
             sorted.clone_from(&numbers);
             sorted.sort_unstable_by(f64::total_cmp);
@@ -122,4 +123,24 @@ impl<'a, const D: usize> Grid<'a, D> {
         let coordinates: Vec<String> = (0..D).map(|axis| self.coordinate(axis, place[axis])).collect();
         coordinates.join(", ")
     }
+}
+
+/// Whether the numbers of an axis increase, or decrease, in the order in which the rows bring new ones.
+fn monotone(table: &Table, column: usize, numbers: &[f64]) -> Result<(), TableError> {
+    let mut seen: Vec<f64> = Vec::new();
+    for (row, &number) in numbers.iter().enumerate() {
+        let increases = seen.get(1) > seen.first();
+        let is_before = |point: &f64| if increases { *point < number } else { *point > number };
+        let place = if seen.len() < 2 { seen.len() } else { seen.partition_point(is_before) };
+        let is_known = seen.get(place) == Some(&number) || seen.last() == Some(&number);
+        if is_known {
+            continue;
+        }
+        if place < seen.len() {
+            let (line, name) = (table.lines[row], table.called(column));
+            return Err(TableError::NotMonotone { line, column: column + 1, name, number });
+        }
+        seen.push(number);
+    }
+    Ok(())
 }
