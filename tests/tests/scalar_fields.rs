@@ -9,6 +9,8 @@ use dvi_core::prelude::*;
 use dvi_core::{Scalar, Space, Weights};
 use num_dual::HyperDual64;
 
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
 /// a sin(kx) e^(−y²) + x²y, with derivatives by hand; it counts its evaluations.
 #[derive(Debug, Default)]
 struct Hill {
@@ -66,7 +68,7 @@ fn assert_close(found: f64, expected: f64) {
 const POINTS: [[f64; 4]; 3] = [[0.4, -0.7, 0.3, 1.1], [1.3, 0.2, -0.8, 0.5], [-2.1, 0.9, 1.4, -0.2]];
 
 #[test]
-fn derivatives_are_those_of_dual_numbers() {
+fn derivatives_are_those_of_dual_numbers() -> Outcome {
     let system = Drift { psi: Hill::new(0.3, 1.7) };
     for at in POINTS {
         let seeded = |i: usize, j: usize| {
@@ -93,11 +95,12 @@ fn derivatives_are_those_of_dual_numbers() {
             }
         }
     }
+    Ok(())
 }
 
 /// ψ stands at two points, (x, y) and (x − y, 2y), in five places of L.
 #[test]
-fn terms_at_the_same_arguments_share_an_evaluation() {
+fn terms_at_the_same_arguments_share_an_evaluation() -> Outcome {
     let system = Drift { psi: Hill::new(0.3, 1.7) };
     let count = |call: &dyn Fn()| {
         system.psi.evaluations.set(0);
@@ -113,6 +116,7 @@ fn terms_at_the_same_arguments_share_an_evaluation() {
         system.linearize(&q, &v, 0.0, w, &mut [0.0; 2], &mut [0.0; 2], &mut matrix);
     };
     assert_eq!(count(&linearize), 2);
+    Ok(())
 }
 
 /// One function for all particles of an array, borrowed, and one whose place is a path.
@@ -156,18 +160,18 @@ struct WrittenOut<const N: usize> {
 }
 
 #[test]
-fn a_run_is_that_of_the_formulas_written_out() {
+fn a_run_is_that_of_the_formulas_written_out() -> Outcome {
     let hill = Hill::new(0.3, 1.7);
     let (x, y) = ([0.6, 0.9, 1.2], [0.1, -0.4, 0.3]);
     let (called, written) = (Particles { psi: &hill }, WrittenOut { a: 0.3, k: 1.7 });
-    let mut run = Integrator::new(&called, OneStep::midpoint(), 0.01, ParticlesState { x, y }).unwrap();
-    let mut reference =
-        Integrator::new(&written, OneStep::midpoint(), 0.01, WrittenOutState { x, y }).unwrap();
-    run.take_steps(100).unwrap();
-    reference.take_steps(100).unwrap();
+    let mut run = Integrator::new(&called, OneStep::midpoint(), 0.01, ParticlesState { x, y })?;
+    let mut reference = Integrator::new(&written, OneStep::midpoint(), 0.01, WrittenOutState { x, y })?;
+    run.take_steps(100)?;
+    reference.take_steps(100)?;
     for (found, expected) in run.q().iter().zip(reference.q()) {
         assert_close(*found, *expected);
     }
+    Ok(())
 }
 
 /// x², known for 0 ≤ x ≤ 2 only.
@@ -198,8 +202,8 @@ struct Falling {
 }
 
 /// Runs until the table ends: the last good state lies in it but for rounding, and the error has the argument and the bounds.
-fn ends_at_the_edge<R: Run<Scalar = f64>>(method: &str, mut run: R) {
-    let error = run.take_steps(1000).unwrap_err();
+fn ends_at_the_edge<R: Run<Scalar = f64>>(method: &str, mut run: R) -> Outcome {
+    let error = run.take_steps(1000).err().ok_or("an error")?;
     let StepFailure::Outside(OutsideError { argument, value, bound }) = error.failure else {
         panic!("{method}: {error}")
     };
@@ -207,19 +211,20 @@ fn ends_at_the_edge<R: Run<Scalar = f64>>(method: &str, mut run: R) {
     assert!((-0.5..0.0).contains(&value), "{method}: {error}");
     assert!((-1e-15..0.2).contains(&run.q()[0]), "{method}: {:?}", run.q());
     assert_eq!(error.step, run.steps(), "{method}");
+    Ok(())
 }
 
 macro_rules! end_at_the_edge {
     ($system:expr, $start:expr, [$($method:expr),* $(,)?]) => {
         $(ends_at_the_edge(
             stringify!($method),
-            Integrator::new(&$system, $method, 0.1, $start).unwrap(),
-        );)*
+            Integrator::new(&$system, $method, 0.1, $start)?,
+        )?;)*
     };
 }
 
 #[test]
-fn a_run_that_leaves_the_table_ends_with_the_argument_that_did() {
+fn a_run_that_leaves_the_table_ends_with_the_argument_that_did() -> Outcome {
     end_at_the_edge!(
         Drifting { slope: Table },
         DriftingState { x: 1.0, y: 0.2 },
@@ -248,15 +253,19 @@ fn a_run_that_leaves_the_table_ends_with_the_argument_that_did() {
             RungeKutta::classical(),
         ]
     );
+    Ok(())
 }
 
 #[test]
-fn a_run_does_not_begin_outside_of_the_table() {
+fn a_run_does_not_begin_outside_of_the_table() -> Outcome {
     let start = DriftingState { x: 2.5, y: 0.2 };
-    let error = Integrator::new(&Drifting { slope: Table }, OneStep::midpoint(), 0.1, start).err().unwrap();
+    let error = Integrator::new(&Drifting { slope: Table }, OneStep::midpoint(), 0.1, start)
+        .err()
+        .ok_or("an error")?;
     assert_eq!(error.to_string(), "`slope` is not known there: its argument 1 is 2.5, and must be at most 2");
-    let error = Drifting { slope: Table }.vector_field(&start).unwrap_err();
+    let error = Drifting { slope: Table }.vector_field(&start).err().ok_or("an error")?;
     assert!(matches!(error, StartError::Outside(_)), "{error}");
+    Ok(())
 }
 
 /// A table that a formula keeps away from: it is not to blame where it is not asked, and does not keep a run from beginning.
@@ -269,21 +278,22 @@ struct Guarded {
 }
 
 #[test]
-fn a_table_that_is_not_asked_is_not_to_blame() {
+fn a_table_that_is_not_asked_is_not_to_blame() -> Outcome {
     let system = Guarded { slope: Table };
     let start = GuardedState { x: 2.2, dot_x: 2.0 };
     assert!(system.energy_at(&start).is_ok());
-    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start).unwrap();
-    let error = run.take_steps(100).unwrap_err();
+    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start)?;
+    let error = run.take_steps(100).err().ok_or("an error")?;
     assert!(matches!(error.failure, StepFailure::NotFinite { .. }), "{error}");
     // From where it is asked.
     let start = GuardedState { x: 0.2, dot_x: -1.0 };
-    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start).unwrap();
-    let error = run.take_steps(100).unwrap_err();
+    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start)?;
+    let error = run.take_steps(100).err().ok_or("an error")?;
     assert!(matches!(error.failure, StepFailure::Outside(_)), "{error}");
     let start = GuardedState { x: -0.2, dot_x: -1.0 };
-    let error = Integrator::new(&system, Variational::trapezoid(), 0.1, start).err().unwrap();
+    let error = Integrator::new(&system, Variational::trapezoid(), 0.1, start).err().ok_or("an error")?;
     assert!(matches!(error, StartError::Outside(_)), "{error}");
+    Ok(())
 }
 
 /// Driven out of the table from rest, by a form that depends on time, and in a velocity.
@@ -303,11 +313,11 @@ struct Fast {
 }
 
 #[test]
-fn whatever_drives_a_run_out_of_the_table_is_seen() {
+fn whatever_drives_a_run_out_of_the_table_is_seen() -> Outcome {
     macro_rules! ends_outside {
         ($system:expr, $start:expr, $h:expr, [$($method:expr),* $(,)?]) => {$(
-            let mut run = Integrator::new(&$system, $method, $h, $start).unwrap();
-            let error = run.take_steps(1000).unwrap_err();
+            let mut run = Integrator::new(&$system, $method, $h, $start)?;
+            let error = run.take_steps(1000).err().ok_or("an error")?;
             assert!(matches!(error.failure, StepFailure::Outside(_)), "{}: {error}", stringify!($method));
         )*};
     }
@@ -334,15 +344,17 @@ fn whatever_drives_a_run_out_of_the_table_is_seen() {
     ends_outside!(fast, start, 0.1, [Variational::midpoint(), Gauss::<2>::new(), RungeKutta::classical()]);
     let limited = EnergyLimit { method: RungeKutta::midpoint(), limit: 1.0 };
     ends_outside!(repelled, RepelledState { x: 1.9, dot_x: 0.0 }, 0.12, [limited]);
+    Ok(())
 }
 
 /// A failure that has another reason keeps it, even if there are tables.
 #[test]
-fn other_failures_are_not_laid_on_the_table() {
+fn other_failures_are_not_laid_on_the_table() -> Outcome {
     let system = Falling { slope: Table };
     let start = FallingState { x: 1.0, dot_x: 0.0 };
     let limited = EnergyLimit { method: Variational::trapezoid(), limit: 1e-9 };
-    let mut run = Integrator::new(&system, limited, 0.1, start).unwrap();
-    let error = run.take_steps(1000).unwrap_err();
+    let mut run = Integrator::new(&system, limited, 0.1, start)?;
+    let error = run.take_steps(1000).err().ok_or("an error")?;
     assert!(matches!(error.failure, StepFailure::Energy { .. }), "{error}");
+    Ok(())
 }

@@ -5,7 +5,7 @@
 //! was.
 
 use super::leapfrog;
-use super::memory::{SigmaMemory, TwoStep};
+use super::memory::TwoStep;
 use super::smooth::Smoothing;
 use super::{Sigma, Step};
 use crate::error::{StartError, StepFailure};
@@ -30,25 +30,25 @@ use crate::{DegenerateLagrangian, Real, System, Vector};
 /// **What becomes of the two-form.** The two-step map preserves Σ δq ∧ δp; reinitialisation does not, and a run with it
 /// preserves no two-form exactly. On all of T*Q it is a projection onto half of the dimensions. On the tangent vectors of
 /// smooth orbits it changes the form by a term that falls faster than h⁹. On those of orbits beside, by terms of the order
-/// h² a, and of the order a² where the scheme is the implicit midpoint rule in disguise.
+/// h² a, and of the order a² if σ = ½ and α is affine.
 ///
 /// **What becomes of the energy.** Reinitialised so often that the mode stays small, the run follows the smooth orbits, on which
 /// the two-step map is a one-step method of second order that preserves a two-form near Ω. No drift of the energy was seen: with
 /// σ = 0 on the chaotic vortices of Rowley & Marsden, whose energy is lost by t = 250 without, |ΔH| is below 7·10⁻⁵ with
 /// h = 0.1 up to t = 10⁴, with [`Every(10)`](Self::Every) and with `Every(100)`, and in the second half at most 1 % larger
-/// than in the first; with σ = ½ on Lotka–Volterra in the symmetric gauge, where a run from (2.5, 2) ends before t = 8 without, it is below 6.5·10⁻³ up to
-/// t = 1000 with `Every(1)`, `Every(10)` and `Every(30)`. What drifts are restarts that leave a mode of third order: a run that
+/// than in the first; with σ = ½ on Lotka–Volterra in the symmetric gauge, where a run from (2.5, 2) ends before t = 8 without,
+/// it is below 6.5·10⁻³ up to t = 1000 with `Every(1)`, `Every(10)` and `Every(30)`. What drifts are restarts that leave a mode of third order: a run that
 /// begins anew by a Runge–Kutta step after every ten steps has an energy error that grows with time, in proportion to h³.
 /// A mode that has become large leaves a part of itself in the energy: on these vortices with h ≤ 0.1 nothing is seen of
 /// one that is taken at [`Above(0.01)`](Self::Above), and `Above(0.1)` left up to twice the energy error.
 ///
-/// **What it costs.** As much as 30 to 200 steps, the fewer the shorter the steps. It needs eight steps in each iteration, those backward included: the system must be
-/// defined there.
+/// **What it costs.** As much as 30 to 200 steps, the fewer the shorter the steps. Each iteration takes eight steps, four of them
+/// backward: the system must be defined there.
 ///
 /// # Errors
 /// A step whose reinitialisation fails, fails with that [`StepFailure`](crate::error::StepFailure), and the run stays where it is:
-/// where the iteration does not converge, what it finds is not smooth, or the points around are not in the domain. A schedule of zero steps, and a threshold that is
-/// not positive and below the limit, are a [`StartError::Parameter`](crate::error::StartError::Parameter).
+/// where the iteration does not converge, what it finds is not smooth, or the points around are not in the domain. A schedule of
+/// zero steps, and a threshold that is not positive and below the limit, are a [`StartError::Parameter`](crate::error::StartError::Parameter).
 ///
 /// [`TangentMap`](crate::diagnostics::TangentMap) and what is made of it are those of the steps without reinitialisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,8 +58,8 @@ pub enum Reinitialisation {
     #[default]
     Never,
     /// Before each step whose number, counted from zero, is a positive multiple of this. For schemes that are not zero-stable it
-    /// has to be a few steps: on an orbit of Lotka–Volterra with σ = ¼ and h = 0.05 a run goes on with 10, and ends with 50. The mode is measured over
-    /// five points of one orbit: with less than 5 it is not measured, nor is its limit tested.
+    /// has to be a few steps: on an orbit of Lotka–Volterra with σ = ¼ and h = 0.05 a run goes on with 10, and ends with 50. The
+    /// mode is measured over five points of one orbit: with less than 5 it is not measured, nor is its limit tested.
     Every(u64),
     /// Where the measured [relative size](super::ParasiticMode::relative) of the mode has passed this threshold, which is below
     /// [`Sigma::parasitic_limit`](super::Sigma::parasitic_limit). It is judged as the limit is, and when the limit is. Between two
@@ -149,54 +149,55 @@ impl<S: DegenerateLagrangian<T>, T: Real> Renewal<S, T> {
         self.smoothing.take_back(run, q);
         self.count -= 1;
     }
-}
 
-/// Takes `count` steps, or as many as succeed, and returns how many; with reinitialisations where it is time.
-#[cold]
-#[inline(never)]
-pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
-    method: &Sigma<T>,
-    system: &S,
-    memory: &mut SigmaMemory<S, T>,
-    q: &mut Vector<S, T>,
-    clock: Clock<T>,
-    count: u64,
-    statistics: &mut Statistics,
-) -> (u64, Result<(), StepFailure>) {
-    let SigmaMemory { run, renewal: Some(renewal) } = memory else { return (0, Ok(())) };
-    let (schedule, mut taken) = (method.reinitialisation, 0);
-    // Whether the monitor asks for it, and whether it has been done at the present point.
-    let (mut is_asked, mut is_done) = (false, false);
-    while taken < count {
-        let (clock, number) = (clock.after(taken), run.monitor.steps);
-        let step = Step { system, method, t: clock.time(), h: clock.step_size() };
-        if !is_done && !run.defect_vanishes && (is_asked || schedule.is_due(number)) {
-            if let Err(failure) = renewal.renew(&step, run, q, statistics) {
-                return (taken, Err(failure));
-            }
-            is_done = true;
-        }
-        is_asked = false;
-        let wanted = schedule.until_due(number, count - taken);
-        let (walked, result) = some_steps(&step, run, q, clock, wanted, statistics);
-        taken += walked;
-        is_done &= walked == 0;
-        match result {
-            Ok(()) => {}
-            Err(StepFailure::ParasiticMode { limit, .. })
-                if !is_done && schedule.threshold() == Some(limit) =>
-            {
-                is_asked = true;
-            }
-            Err(failure) => {
-                if is_done {
-                    renewal.undo(run, q);
+    /// Takes `count` steps, or as many as succeed, and returns how many; with reinitialisations where it is time.
+    #[cold]
+    #[inline(never)]
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn steps(
+        &mut self,
+        method: &Sigma<T>,
+        system: &S,
+        run: &mut TwoStep<S, T>,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> (u64, Result<(), StepFailure>) {
+        let (schedule, mut taken) = (method.reinitialisation, 0);
+        // Whether the monitor asks for it, and whether it has been done at the present point.
+        let (mut is_asked, mut is_done) = (false, false);
+        while taken < count {
+            let (clock, number) = (clock.after(taken), run.monitor.steps);
+            let step = Step { system, method, t: clock.time(), h: clock.step_size() };
+            if !is_done && !run.defect_vanishes && (is_asked || schedule.is_due(number)) {
+                if let Err(failure) = self.renew(&step, run, q, statistics) {
+                    return (taken, Err(failure));
                 }
-                return (taken, Err(failure));
+                is_done = true;
+            }
+            is_asked = false;
+            let wanted = schedule.until_due(number, count - taken);
+            let (walked, result) = some_steps(&step, run, q, clock, wanted, statistics);
+            taken += walked;
+            is_done &= walked == 0;
+            match result {
+                Ok(()) => {}
+                Err(StepFailure::ParasiticMode { limit, .. })
+                    if !is_done && schedule.threshold() == Some(limit) =>
+                {
+                    is_asked = true;
+                }
+                Err(failure) => {
+                    if is_done {
+                        self.undo(run, q);
+                    }
+                    return (taken, Err(failure));
+                }
             }
         }
+        (taken, Ok(()))
     }
-    (taken, Ok(()))
 }
 
 /// Takes at least one and at most `count` steps, and returns how many.
