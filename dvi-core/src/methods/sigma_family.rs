@@ -311,8 +311,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if let SigmaMemory { run, renewal: Some(renewal) } = memory {
-            return renewal.steps(self, system, run, q, Clock::new(t, h), 1, statistics).1;
+        if let Some(renewal) = &mut memory.renewal {
+            return renewal.steps(self, system, &mut memory.run, q, Clock::new(t, h), 1, statistics).1;
         }
         memory.run.step(&Step { system, method: self, t, h }, q, statistics)
     }
@@ -327,8 +327,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if let SigmaMemory { run, renewal: Some(renewal) } = memory {
-            let (taken, result) = renewal.steps(self, system, run, q, clock, count, statistics);
+        if let Some(renewal) = &mut memory.renewal {
+            let (taken, result) = renewal.steps(self, system, &mut memory.run, q, clock, count, statistics);
             statistics.steps += taken;
             return result;
         }
