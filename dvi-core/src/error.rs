@@ -306,8 +306,8 @@ pub enum StepFailure {
     /// The physical time would stand still or run backwards: the time transformation is not positive any more at the end of
     /// the step, or was negative on the way.
     #[error(
-        "the physical time went at the rate {rate:e} in the step: it must be positive; a smaller step helps, or another time \
-         transformation"
+        "the physical time went at the rate {rate:e} in the step and must go forward: the time transformation is not positive on \
+         the way, or the step is too short for the digits of the time"
     )]
     TimeRate {
         /// ρ at the end of the step, or its mean over the step if that is smaller.

@@ -258,7 +258,7 @@ pub struct TimeTransform<T> {
 /// one-step schemes if L is.
 ///
 /// A run is to go on from its checkpoint, with another or a negative step by
-/// [`Checkpoint::with_step_size`](crate::run::Checkpoint::with_step_size). A run that begins at a state of another has to begin with
+/// [`Checkpoint::with_step_size`](crate::run::Checkpoint::with_step_size) if its method is not one of two steps. A run that begins at a state of another has to begin with
 /// the energy of that state, and is another motion by the error of the scheme. Diagnostics that speak of time mean τ. `t` and
 /// `energy` stand in the equations of a step beside the coordinates, so that units are needed in which their numbers are of
 /// moderate size: in units of time 10⁹ times too long, the matrices of a comet's steps count as singular.
@@ -294,7 +294,7 @@ pub trait TimeTransformed: System<Kind = Degenerate> {
     ///
     /// # Errors
     /// [`StartError`], as the start of a run, if an array of the system or of the state has the wrong length, a coordinate
-    /// other than `energy` is not finite, or H is not.
+    /// other than `energy` is not finite, or H or ρ is not.
     fn with_energy<T: Real>(&self, state: Self::State<T>) -> Result<Self::State<T>, StartError>
     where
         Self: Lagrangian<T> + Sized,

@@ -133,15 +133,18 @@ impl Model {
         }
         let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
         unique(model.functions.iter().map(|function| &function.name).chain(fields), "function", errors);
+        let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
+        for name in model.functions.iter().map(|function| &function.name).chain(fields) {
+            if model.parameters.iter().any(|parameter| *name == parameter.text) {
+                let message = "is a field of the struct too; give one of them another name";
+                errors.push(name, format!("`{name}` {message}"));
+            }
+        }
         for ScalarFieldPath { name, .. } in &model.declared_scalar_fields {
-            let message = if model.parameters.iter().any(|parameter| *name == parameter.text) {
-                "is a field of the struct too; give one of them another name"
-            } else if words::is_method(&name.to_string()) {
-                "is a function of the language; give this one another name"
-            } else {
-                continue;
-            };
-            errors.push(name, format!("`{name}` {message}"));
+            if words::is_method(&name.to_string()) {
+                let message = "is a function of the language; give this one another name";
+                errors.push(name, format!("`{name}` {message}"));
+            }
         }
         unique(attribute.momenta.iter().map(|momentum| &momentum.name), "momentum", errors);
         model

@@ -71,7 +71,8 @@ pub use start::Start;
 /// from it takes longer, by the logarithm of the ratio over the rate of growth: with σ = 0 and h = 0.1 the chaotic vortices of
 /// Rowley & Marsden reach the limit after t = 250, and before t = 50 if they begin by a Runge–Kutta step. It chooses an
 /// orbit and changes nothing in what the steps preserve. [`reinitialisation`](Self::reinitialisation) takes the mode from the state
-/// while the run goes on. Such a run preserves no two-form exactly; no drift of its energy was seen.
+/// while the run goes on. Such a run preserves no two-form exactly. Its energy drifts
+/// where steps are long, see there.
 ///
 /// The mode is measured while a run goes on ([`ParasiticMode`]; [`Integrator::parasitic_mode`](crate::run::Integrator)
 /// reads it), and a run in which it has taken over ends with
@@ -103,6 +104,8 @@ pub struct Sigma<T = f64> {
     /// affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
     ///
     /// The limit is one of the mode and not of the energy, and has limits of its own:
+    /// - A mode that appears from one step to the next is judged when it has been seen several times. Where α is not affine and
+    ///   σ ≠ ½, a mode can grow tenfold in a step: such a run can become huge first, and end with another failure.
     /// - Where α is far from affine, or the motion passes near a saddle, the energy error of short steps may have grown tenfold
     ///   before.
     /// - The mode is compared with the motion of the coordinates together, and of each that moves at least a tenth as much

@@ -71,7 +71,9 @@ impl<T: Real> Checkpoint<T> {
         self.statistics
     }
 
-    /// A checkpoint from which a run with a fixed step goes on with steps of length `h`.
+    /// A checkpoint from which a run with a fixed step goes on with steps of length `h`. The defect of a run of
+    /// [`Sigma`](crate::methods::Sigma) belongs to its step: with another one it becomes a parasitic mode, unless α is affine and
+    /// σ = ½. Begin such a run anew.
     #[must_use]
     pub fn with_step_size(self, h: T) -> Self {
         Self { step_size: h, ..self }

@@ -106,8 +106,8 @@ pub(crate) fn with_energy<S: Lagrangian<T>, T: Real>(
     let [_, energy] = extended(system);
     q[energy] = T::lift(0.0);
     finite(system, q.iter().copied())?;
-    if let Some(TimeTransform { hamiltonian, .. }) = system.time_transform(&q) {
-        if !hamiltonian.is_finite() {
+    if let Some(TimeTransform { rate, hamiltonian }) = system.time_transform(&q) {
+        if !hamiltonian.is_finite() || !rate.is_finite() {
             evaluate(system, &q, &v, T::lift(0.0))?;
         }
         q[energy] = hamiltonian;

@@ -444,3 +444,35 @@ fn a_reinitialisation_costs_as_much_as_some_dozen_steps() -> Outcome {
     }
     Ok(())
 }
+
+/// A pendulum with the symmetric one-form.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = (x * d(y) - y * d(x)) / 2.0,
+    hamiltonian = y * y / 2.0 - x.cos(),
+)]
+struct Swing;
+
+/// How much the energy changes in a step, from the means over blocks of 500 steps.
+fn drift(h: f64) -> Measured {
+    let reinitialisation = Reinitialisation::Every(1);
+    let method = Sigma { start: Start::Smooth, reinitialisation, ..Sigma::leapfrog() };
+    let mut run = Integrator::new(&Swing, method, h, SwingState { x: 2.0, y: 0.2 })?;
+    let mut means = [0.0; 4];
+    for mean in &mut means {
+        for _ in 0..500 {
+            run.take_steps(1)?;
+            *mean += run.energy() / 500.0;
+        }
+    }
+    Ok((means[3] - means[0]) / 1500.0)
+}
+
+/// What each reinitialisation takes from a smooth orbit adds up: long steps drift, at a high power of h.
+#[test]
+fn a_run_that_is_reinitialised_with_long_steps_drifts() -> Outcome {
+    let [coarse, fine] = [drift(0.4)?, drift(0.3)?];
+    assert!((2e-5..4e-5).contains(&coarse), "{coarse:e}");
+    assert!(fine > 0.0 && fine < coarse / 10.0, "{coarse:e}, {fine:e}");
+    Ok(())
+}

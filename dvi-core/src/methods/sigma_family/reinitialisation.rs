@@ -33,11 +33,14 @@ use crate::{DegenerateLagrangian, Real, System, Vector};
 /// h² a, and of the order a² if σ = ½ and α is affine.
 ///
 /// **What becomes of the energy.** Reinitialised so often that the mode stays small, the run follows the smooth orbits, on which
-/// the two-step map is a one-step method of second order that preserves a two-form near Ω. No drift of the energy was seen: with
+/// the two-step map is a one-step method of second order that preserves a two-form near Ω. What a reinitialisation
+/// takes from a smooth orbit, less than h⁹ of it, adds up: on a pendulum that swings to 115°, with σ = 0 and `Every(1)`, the energy
+/// drifts in proportion to time, by 3·10⁻⁵ in a step with h = 0.4 and less than a tenth of that with h = 0.3. With shorter
+/// steps no drift was seen: with
 /// σ = 0 on the chaotic vortices of Rowley & Marsden, whose energy is lost by t = 250 without, |ΔH| is below 7·10⁻⁵ with
 /// h = 0.1 up to t = 10⁴, with [`Every(10)`](Self::Every) and with `Every(100)`, and in the second half at most 1 % larger
 /// than in the first; with σ = ½ on Lotka–Volterra in the symmetric gauge, where a run from (2.5, 2) ends before t = 8 without,
-/// it is below 6.5·10⁻³ up to t = 1000 with `Every(1)`, `Every(10)` and `Every(30)`. What drifts are restarts that leave a mode of third order: a run that
+/// it is below 6.5·10⁻³ up to t = 1000 with `Every(1)`, `Every(10)` and `Every(30)`. Restarts that leave a mode of third order drift more: a run that
 /// begins anew by a Runge–Kutta step after every ten steps has an energy error that grows with time, in proportion to h³.
 /// A mode that has become large leaves a part of itself in the energy: on these vortices with h ≤ 0.1 nothing is seen of
 /// one that is taken at [`Above(0.01)`](Self::Above), and `Above(0.1)` left up to twice the energy error.

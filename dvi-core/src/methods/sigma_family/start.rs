@@ -32,7 +32,8 @@ pub enum Start {
     /// σ = ½. Each iteration takes four steps forward and four backward in time, and gains a factor of order h; there are at
     /// most 64. The system must be defined at these eight points. Where they do not converge, or what they find is not smooth, the
     /// step is too long: [`StepFailure::NotConverged`](crate::error::StepFailure::NotConverged) and
-    /// [`StepFailure::NotSmooth`](crate::error::StepFailure::NotSmooth) in a [`StartError::Starter`]. If α is affine and σ = ½, this is
+    /// [`StepFailure::NotSmooth`](crate::error::StepFailure::NotSmooth) in a [`StartError::Starter`], or the failure of a step around
+    /// that leads out of the domain. If α is affine and σ = ½, this is
     /// [`Consistent`](Self::Consistent), bit by bit.
     ///
     /// On smooth solutions of multistep methods and their parasitic ones: Hairer, Lubich & Wanner 2006, chapter XV.
