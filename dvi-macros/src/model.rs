@@ -133,9 +133,12 @@ impl Model {
         }
         let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
         unique(model.functions.iter().map(|function| &function.name).chain(fields), "function", errors);
+        // A field of numbers cannot be called: no formula means it by mistake.
+        let is_callable = |shape: &Shape| matches!(shape, Shape::Unknown | Shape::Other);
         let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
         for name in model.functions.iter().map(|function| &function.name).chain(fields) {
-            if model.parameters.iter().any(|parameter| *name == parameter.text) {
+            let mut same = model.parameters.iter().filter(|parameter| *name == parameter.text);
+            if same.any(|parameter| is_callable(&parameter.shape)) {
                 let message = "is a field of the struct too; give one of them another name";
                 errors.push(name, format!("`{name}` {message}"));
             }
