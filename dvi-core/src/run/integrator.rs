@@ -11,6 +11,7 @@ use crate::run::Checkpoint;
 use crate::run::physical_time::Kept;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
+use crate::state::memory::Aside;
 use crate::system::start::{consistent, evaluate, flatten, velocities};
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 
@@ -24,7 +25,7 @@ pub struct Integrator<'a, S: System, M: Carries<S, T>, T: Real = f64> {
     /// At the start of the run.
     clock: Clock<T>,
     /// If the time is transformed: where the step at hand has begun.
-    kept: Option<Kept<S, M, T>>,
+    kept: Option<Aside<Kept<S, M, T>>>,
 }
 
 impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {

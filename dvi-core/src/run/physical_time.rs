@@ -7,7 +7,7 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, Clock, Method};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
-use crate::state::memory::Memory;
+use crate::state::memory::{Aside, Memory};
 use crate::system::TimeTransform;
 use crate::system::start::extended;
 use crate::{Lagrangian, Real, Space, System, Vector};
@@ -23,14 +23,15 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
     ///
     /// # Errors
     /// Those of `begin`.
+    #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
     pub(super) fn new(
         system: &S,
         begin: impl FnOnce() -> Result<M::Memory, StartError>,
-    ) -> Result<Option<Self>, StartError> {
+    ) -> Result<Option<Aside<Self>>, StartError> {
         if !S::TIME_TRANSFORMED {
             return Ok(None);
         }
-        Ok(Some(Self { q: system.space().vector(), memory: begin()? }))
+        Ok(Some(Self { q: system.space().vector(), memory: begin()? }.into()))
     }
 }
 

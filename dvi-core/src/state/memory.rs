@@ -11,6 +11,12 @@ use crate::Real;
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 
+/// Where something is kept that is as large as the memory of a run, and that most runs do not have.
+#[cfg(feature = "alloc")]
+pub(crate) type Aside<R> = alloc::boxed::Box<R>;
+#[cfg(not(feature = "alloc"))]
+pub(crate) type Aside<R> = R;
+
 /// What a run of a method carries from step to step besides the coordinates. Of work space, which each step writes before
 /// it reads it, these functions take no notice.
 pub trait Memory<T> {

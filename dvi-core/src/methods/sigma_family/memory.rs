@@ -5,7 +5,7 @@
 //! nonlinear α it extrapolates Δ.
 
 use super::monitor::{Monitor, Pace, ParasiticMode};
-use super::reinitialisation::{Aside, Renewal};
+use super::reinitialisation::Renewal;
 use super::{Sigma, Step, affine, nonlinear};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
@@ -16,7 +16,7 @@ use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
-use crate::state::memory::{Memory, lasting};
+use crate::state::memory::{Aside, Memory, lasting};
 use crate::state::summation::Carried;
 use crate::{DegenerateLagrangian, Lagrangian, Linear, Real, Space, System, Vector};
 

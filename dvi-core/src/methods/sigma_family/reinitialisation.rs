@@ -11,7 +11,7 @@ use super::{Sigma, Step};
 use crate::error::{StartError, StepFailure};
 use crate::methods::Clock;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
+use crate::state::memory::{Aside, Memory, lasting};
 use crate::{DegenerateLagrangian, Real, System, Vector};
 
 /// When the parasitic part is taken from the state of a run of [`Sigma`](super::Sigma), which then goes on from the smooth
@@ -105,12 +105,6 @@ impl Reinitialisation {
         }
     }
 }
-
-/// Where something is kept that is twice as large as the memory of a run, and that most runs do not have.
-#[cfg(feature = "alloc")]
-pub(super) type Aside<R> = alloc::boxed::Box<R>;
-#[cfg(not(feature = "alloc"))]
-pub(super) type Aside<R> = R;
 
 /// What reinitialises a run, and how often it has.
 #[derive(Debug)]
