@@ -13,7 +13,7 @@ use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
 use crate::state::memory::Aside;
 use crate::system::start::{consistent, evaluate, flatten, velocities};
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System};
 
 /// A run of a method on a system with a fixed step.
 ///
@@ -49,8 +49,9 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         let [q, v] = flatten(system, &start)?;
         evaluate(system, &q, &v, t)?;
         consistent(system, &q, t)?;
-        let begin = |method: &M, q: &Vector<S, T>| method.begin(system, q, &v[..velocities(system)], t, h);
-        Self::assemble(system, method, q, Clock::new(t, h), begin)
+        let begin = || method.begin(system, &q, &v[..velocities(system)], t, h);
+        let (memory, kept) = (begin()?, if S::TIME_TRANSFORMED { Some(Kept::new(&q, begin)?) } else { None });
+        Ok(Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h), kept })
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
@@ -64,28 +65,17 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
         validate(system, t, h)?;
         let [q, v] = checkpoint.point(system)?;
-        let begin =
-            |method: &M, q: &Vector<S, T>| method.begin_again(system, q, &v[..velocities(system)], t, h);
-        let mut run = Self::assemble(system, method, q, Clock::new(t, h), begin)?;
-        let clock = &mut run.clock;
-        checkpoint.load::<S, M>(&mut run.stepper.memory, |reader| {
-            *clock = Clock::load(checkpoint, reader)?;
+        let begin = || method.begin_again(system, &q, &v[..velocities(system)], t, h);
+        let (mut memory, kept) =
+            (begin()?, if S::TIME_TRANSFORMED { Some(Kept::new(&q, begin)?) } else { None });
+        let mut clock = Clock::new(t, h);
+        checkpoint.load::<S, M>(&mut memory, |reader| {
+            clock = Clock::load(checkpoint, reader)?;
             Ok(())
         })?;
+        let mut run = Self { stepper: Stepper::new(system, method, memory, q), clock, kept };
         run.stepper.statistics = checkpoint.statistics();
         Ok(run)
-    }
-
-    fn assemble(
-        system: &'a S,
-        method: M,
-        q: Vector<S, T>,
-        clock: Clock<T>,
-        begin: impl Fn(&M, &Vector<S, T>) -> Result<M::Memory, StartError>,
-    ) -> Result<Self, StartError> {
-        let memory = begin(&method, &q)?;
-        let kept = Kept::new(system, || begin(&method, &q))?;
-        Ok(Self { stepper: Stepper::new(system, method, memory, q), clock, kept })
     }
 }
 
@@ -153,8 +143,10 @@ impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         evaluate(system, &q0, &rest, t)?;
         consistent(system, &q0, t)?;
         evaluate(system, &q1, &rest, t + h)?;
-        let begin = |method: &M, q0: &Vector<S, T>| method.begin_between(system, q0, &q1, t, h);
-        Self::assemble(system, method, q0, Clock::new(t, h), begin)
+        let begin = || method.begin_between(system, &q0, &q1, t, h);
+        let (memory, kept) =
+            (begin()?, if S::TIME_TRANSFORMED { Some(Kept::new(&q0, begin)?) } else { None });
+        Ok(Self { stepper: Stepper::new(system, method, memory, q0), clock: Clock::new(t, h), kept })
     }
 }
 

@@ -10,7 +10,7 @@ use crate::scalar::norm::reported;
 use crate::state::memory::{Aside, Memory};
 use crate::system::TimeTransform;
 use crate::system::start::extended;
-use crate::{Lagrangian, Real, Space, System, Vector};
+use crate::{Lagrangian, Real, System, Vector};
 
 /// Where the step at hand has begun.
 pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
@@ -19,19 +19,16 @@ pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
 }
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
-    /// For a run whose memory `begin` makes, if its time is transformed.
+    /// For a run from `q` whose memory `begin` makes.
     ///
     /// # Errors
     /// Those of `begin`.
     #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
     pub(super) fn new(
-        system: &S,
+        q: &Vector<S, T>,
         begin: impl FnOnce() -> Result<M::Memory, StartError>,
-    ) -> Result<Option<Aside<Self>>, StartError> {
-        if !S::TIME_TRANSFORMED {
-            return Ok(None);
-        }
-        Ok(Some(Self { q: system.space().vector(), memory: begin()? }.into()))
+    ) -> Result<Aside<Self>, StartError> {
+        Ok(Self { q: q.clone(), memory: begin()? }.into())
     }
 }
 
