@@ -6,6 +6,7 @@
 #![allow(unreachable_pub, reason = "in a binary `pub` means: for the other modules")]
 
 mod claim;
+mod deviation;
 mod experiments;
 mod figure;
 mod gallery;

@@ -87,7 +87,7 @@ fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f6
             .check(share(rk_small), outside(rk_small), Bound::AtMost(2e-3)),
         Claim::new("Fig. 5", "for h = 0.5 the section of RK4 is blurred")
             .check(share(rk_middle), job.only_full(outside(rk_middle)), Bound::AtLeast(8e-3))
-            .check(growth_of_error(rk_middle), rk_middle.growth_of_error(), Bound::AtLeast(5.0)),
+            .check(growth_of_error(rk_middle), rk_middle.error.growth(), Bound::AtLeast(5.0)),
         Claim::new("Fig. 5", "the section of VI2 remains crisp for h = 1")
             .check(share(vi_middle), outside(vi_middle), Bound::AtMost(2e-3))
             .check(share(vi_large), outside(vi_large), Bound::AtMost(2e-3)),
@@ -98,12 +98,12 @@ fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f6
             "section 5",
             "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts",
         )
-        .check(growth_of_error(vi_small), vi_small.growth_of_error(), Bound::AtMost(1.1))
-        .check(growth_of_error(vi_middle), vi_middle.growth_of_error(), Bound::AtMost(1.1))
-        .check(growth_of_error(vi_large), vi_large.growth_of_error(), Bound::AtMost(1.1))
+        .check(growth_of_error(vi_small), vi_small.error.growth(), Bound::AtMost(1.1))
+        .check(growth_of_error(vi_middle), vi_middle.error.growth(), Bound::AtMost(1.1))
+        .check(growth_of_error(vi_large), vi_large.error.growth(), Bound::AtMost(1.1))
         .check(
             "ΔH at the end / max|ΔH|, RK4 at h = 0.2",
-            rk_small.last_error / rk_small.largest_error,
+            rk_small.error.last / rk_small.error.largest,
             Bound::AtLeast(0.98),
         ),
     ]
@@ -113,10 +113,10 @@ fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f6
 fn references(job: &Job<'_>, all: &[Crossings]) -> Vec<Check> {
     let [_, vi_middle, vi_large, _, rk_middle, rk_large] = all else { return Vec::new() };
     let error = |run: &Crossings| format!("max|ΔH|, {}", run.name());
-    let full = |run: &Crossings| job.only_full(run.largest_error);
+    let full = |run: &Crossings| job.only_full(run.error.largest);
     vec![
-        Check::new(error(vi_middle), vi_middle.largest_error, Bound::AtMost(4.3e-4)),
-        Check::new(error(vi_large), vi_large.largest_error, Bound::AtMost(1.8e-3)),
+        Check::new(error(vi_middle), vi_middle.error.largest, Bound::AtMost(4.3e-4)),
+        Check::new(error(vi_large), vi_large.error.largest, Bound::AtMost(1.8e-3)),
         Check::new(error(rk_middle), full(rk_middle), Bound::Within(0.03, 0.05)),
         Check::new(error(rk_large), full(rk_large), Bound::Within(0.1, 0.2)),
     ]

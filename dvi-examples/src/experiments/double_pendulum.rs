@@ -3,15 +3,13 @@
 //! The variational step is implicit here, p0 = −D₁L_d(q0, q1), and the compiler has differentiated what it
 //! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
 
-use crate::claim::larger;
 use anyhow::Result;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim};
-use crate::figure::{
-    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most,
-};
+use crate::deviation::Deviation;
+use crate::figure::{Axis, BLUE, Corner, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{DoublePendulum, DoublePendulumState};
@@ -30,18 +28,17 @@ const START: [f64; 2] = [std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_
 const H: f64 = 0.01;
 /// How long the path is drawn.
 const SHOWN: f64 = 12.0;
+/// How long the beginning is with which the whole is compared.
+const EARLY: f64 = 100.0;
 
 /// What one run leaves.
 struct Series {
     name: &'static str,
-    error: Envelope,
+    /// E − E(0).
+    error: Deviation,
     /// [t, E − E(0)], and the angles, in the beginning.
     beginning: Vec<[f64; 2]>,
     angles: Vec<[f64; 2]>,
-    /// max |E − E(0)|, in all and in the first tenth.
-    largest: f64,
-    largest_early: f64,
-    last: f64,
 }
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
@@ -116,26 +113,18 @@ impl Series {
     fn new(name: &'static str, steps: u64) -> Self {
         Self {
             name,
-            error: Envelope::new(steps as f64 * H, 400),
+            error: Deviation::new(steps as f64 * H, 400, EARLY),
             beginning: Vec::new(),
             angles: vec![START],
-            largest: 0.0,
-            largest_early: 0.0,
-            last: 0.0,
         }
     }
 
     fn note(&mut self, t: f64, energy: f64, angles: [f64; 2]) {
         let error = energy - energy_at_rest();
         self.error.push(t, error);
-        self.largest = larger(self.largest, error.abs());
-        self.last = error;
         if t <= SHOWN {
             self.beginning.push([t, error]);
             self.angles.push(angles);
-        }
-        if t <= 100.0 {
-            self.largest_early = self.largest;
         }
     }
 }
@@ -146,13 +135,12 @@ fn energy_at_rest() -> f64 {
 
 fn claims(all: &[Series; 3]) -> Vec<Claim> {
     let [midpoint, simpson, rk4] = all;
-    let growth = |series: &Series| series.largest / series.largest_early;
     let bounded = Claim::new(BEYOND, "the variational energy error stays bounded over a long chaotic run")
-        .check("midpoint: max|ΔE| over all / to t = 100", growth(midpoint), Bound::AtMost(3.0))
-        .check("Simpson: max|ΔE| over all / to t = 100", growth(simpson), Bound::AtMost(3.0));
+        .check("midpoint: max|ΔE| over all / to t = 100", midpoint.error.growth(), Bound::AtMost(3.0))
+        .check("Simpson: max|ΔE| over all / to t = 100", simpson.error.growth(), Bound::AtMost(3.0));
     let drifts = Claim::new(BEYOND, "RK4 loses energy steadily at the same step").check(
         "RK4: |ΔE| at the end / max|ΔE| to t = 100",
-        rk4.last.abs() / rk4.largest_early,
+        rk4.error.last.abs() / rk4.error.largest_early,
         Bound::AtLeast(5.0),
     );
     vec![bounded, drifts]
@@ -173,10 +161,10 @@ fn figure(all: &[Series; 3], end: f64) -> Figure {
     let energy = Panel::new("Error of the energy", time, Axis::logarithmic(label)).weight(1.35);
     let strokes = [Stroke::solid(GREEN), Stroke::solid(BLUE), Stroke::dashed(VERMILLION)];
     let energy = all.iter().zip(strokes).fold(energy, |panel, (series, stroke)| {
-        panel.line(series.error.magnitude(), stroke).labelled(series.name)
+        panel.line(series.error.envelope.magnitude(), stroke).labelled(series.name)
     });
     let told: Vec<String> =
-        all.iter().map(|series| format!("{} {}", series.name, at_most(series.largest))).collect();
+        all.iter().map(|series| format!("{} {}", series.name, at_most(series.error.largest))).collect();
     Figure::new(
         "A chaotic double pendulum: a path, and the energy errors of three methods",
         format!("Masses of 1 kg, rods of 1 m, released with both rods horizontal; *h* = {H} s"),
@@ -189,7 +177,7 @@ fn figure(all: &[Series; 3], end: f64) -> Figure {
 fn table(all: &[Series; 3]) -> Result<Table> {
     let mut table = Table::new(&["method", "t", "lowest", "mean", "highest"])?;
     for Series { name, error, .. } in all {
-        for row in error.rows() {
+        for row in error.envelope.rows() {
             let numbers = row.map(number);
             table.row([(*name).to_owned()].into_iter().chain(numbers))?;
         }

@@ -3,7 +3,6 @@
 //! The explicit variational scheme (VE2, σ = 0) at h = 2 against the Runge–Kutta method of the same order
 //! (RK2, explicit midpoint) at half the step.
 
-use crate::claim::larger;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -12,7 +11,8 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{Bound, Check, Claim};
-use crate::figure::{Axis, BLUE, Corner, Envelope, Figure, Panel, Stroke, VERMILLION, at_most, scientific};
+use crate::deviation::Deviation;
+use crate::figure::{Axis, BLUE, Corner, Figure, Panel, Stroke, VERMILLION, at_most, scientific};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{self, Case, FourVortices};
@@ -29,14 +29,11 @@ pub const EXPERIMENT: Experiment = Experiment {
 const CLOSE_UP: f64 = 400.0;
 
 struct Series {
-    envelope: Envelope,
+    /// H − H(0); the beginning is the first tenth of the time.
+    error: Deviation,
     beginning: Vec<[f64; 2]>,
-    /// max |H − H(0)| so far, and what it was after a tenth of the time.
-    largest: f64,
-    largest_early: f64,
     /// H − H(0) at t = 10⁴ and t = 5·10⁴, if the run gets there.
     landmarks: [Option<f64>; 2],
-    last: f64,
     evaluations: u64,
 }
 
@@ -57,18 +54,15 @@ fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f6
     let mut run = Integrator::new(&vortices, method, h, start)?;
     let initial = run.energy();
     let mut series = Series {
-        envelope: Envelope::new(end, 500),
+        error: Deviation::new(end, 500, 0.1 * end),
         beginning: vec![[0.0, 0.0]],
-        largest: 0.0,
-        largest_early: 0.0,
         landmarks: [None; 2],
-        last: 0.0,
         evaluations: 0,
     };
     let steps = (end / h) as u64;
     job.repeat(steps, || {
         run.advance()?;
-        series.note(run.time(), run.energy() - initial, end);
+        series.note(run.time(), run.energy() - initial);
         Ok(())
     })?;
     series.evaluations = run.statistics().gradients;
@@ -78,18 +72,13 @@ fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f6
 impl Series {
     /// Until when the figure shows the run, to an interval.
     fn reached(&self) -> f64 {
-        self.envelope.end()
+        self.error.envelope.end()
     }
 
-    fn note(&mut self, t: f64, error: f64, end: f64) {
-        self.envelope.push(t, error);
-        self.largest = larger(self.largest, error.abs());
-        self.last = error;
+    fn note(&mut self, t: f64, error: f64) {
+        self.error.push(t, error);
         if t <= CLOSE_UP {
             self.beginning.push([t, error]);
-        }
-        if t <= 0.1 * end {
-            self.largest_early = self.largest;
         }
         for (landmark, time) in self.landmarks.iter_mut().zip([1e4, 5e4]) {
             if t == time {
@@ -106,13 +95,13 @@ fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series, times: Option<[f64; 2]>) ->
         // Rounding breaks the mirror symmetry at t ≈ 54000, and runs of this scheme differ from there on.
         .check(
             "ΔH of RK2 at the end / max|ΔH| of VE2",
-            job.only_full(rk2.last / ve2.largest),
+            job.only_full(rk2.error.last / ve2.error.largest),
             Bound::AtLeast(10.0),
         );
     let bounded =
         Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value, t ≤ 2·10⁵").check(
             "max|ΔH| over all / over the first tenth",
-            job.only_full(ve2.largest / ve2.largest_early),
+            job.only_full(ve2.error.growth()),
             Bound::AtMost(1.02),
         );
     let [read, bulk] = [0, 1].map(|i| times.map(|times| times[i]));
@@ -133,10 +122,10 @@ fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series, times: Option<[f64; 2]>) ->
 /// Numbers of independent programs.
 fn references(job: &Job<'_>, ve2: &Series, rk2: &Series) -> Vec<Check> {
     vec![
-        Check::new("max|ΔH| of VE2", job.only_full(ve2.largest), Bound::Near(3.268_824e-3, 1e-8)),
+        Check::new("max|ΔH| of VE2", job.only_full(ve2.error.largest), Bound::Near(3.268_824e-3, 1e-8)),
         Check::new("ΔH of RK2 at t = 10⁴", rk2.landmarks[0], Bound::Near(8.510_481_2e-3, 1e-9)),
         Check::new("ΔH of RK2 at t = 5·10⁴", rk2.landmarks[1], Bound::Near(0.035_429_685, 1e-8)),
-        Check::new("ΔH of RK2 at t = 2·10⁵", job.only_full(rk2.last), Bound::Within(0.05, 0.13)),
+        Check::new("ΔH of RK2 at t = 2·10⁵", job.only_full(rk2.error.last), Bound::Within(0.05, 0.13)),
     ]
 }
 
@@ -181,11 +170,11 @@ fn figure(ve2: &Series, rk2: &Series, end: f64) -> Figure {
     let energy = || Axis::linear("*H*(*t*) − *H*(0)   [Γ²]");
     let time = || Axis::linear("time *t*   [*L*²/Γ]");
     let whole = Panel::new("The whole run (range and mean)", time().within(0.0, end), energy())
-        .band(ve2.envelope.band(), BLUE)
-        .band(rk2.envelope.band(), VERMILLION)
-        .line(ve2.envelope.mean(), Stroke::solid(BLUE))
+        .band(ve2.error.envelope.band(), BLUE)
+        .band(rk2.error.envelope.band(), VERMILLION)
+        .line(ve2.error.envelope.mean(), Stroke::solid(BLUE))
         .labelled("VE2 (σ = 0), *h* = 2")
-        .line(rk2.envelope.mean(), Stroke::solid(VERMILLION))
+        .line(rk2.error.envelope.mean(), Stroke::solid(VERMILLION))
         .labelled("RK2 (midpoint), *h* = 1")
         .legend_at(Corner::TopLeft)
         .weight(1.25);
@@ -197,8 +186,8 @@ fn figure(ve2: &Series, rk2: &Series, end: f64) -> Figure {
         format!(
             "max|Δ*H*| up to *t* = {}: VE2 {}, RK2 {}; VE2 takes one evaluation of ∇*H* per step, RK2 two",
             scientific(ve2.reached()),
-            at_most(ve2.largest),
-            at_most(rk2.largest)
+            at_most(ve2.error.largest),
+            at_most(rk2.error.largest)
         ),
     )
     .row(430.0, vec![whole, beginning])
@@ -208,7 +197,7 @@ fn figure(ve2: &Series, rk2: &Series, end: f64) -> Figure {
 fn table(ve2: &Series, rk2: &Series) -> Result<Table> {
     let mut table = Table::new(&["scheme", "t", "lowest", "mean", "highest"])?;
     for (name, series) in [("VE2 h=2", ve2), ("RK2 h=1", rk2)] {
-        for [t, low, mean, high] in series.envelope.rows() {
+        for [t, low, mean, high] in series.error.envelope.rows() {
             table.row([name.to_owned(), number(t), number(low), number(mean), number(high)])?;
         }
     }

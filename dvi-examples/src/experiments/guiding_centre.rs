@@ -8,8 +8,9 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim, larger};
+use crate::deviation::Deviation;
 use crate::figure::{
-    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
+    Axis, BLUE, Corner, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -36,11 +37,9 @@ const EARLY: u64 = 2000;
 /// What one run leaves.
 struct Series {
     name: &'static str,
-    error: Envelope,
+    error: Deviation,
     /// R and Z of the beginning.
     path: Vec<[f64; 2]>,
-    largest: f64,
-    largest_early: f64,
     /// The largest change of the toroidal momentum, relative to its size.
     momentum: f64,
 }
@@ -90,24 +89,17 @@ fn series<S: DegenerateLagrangian, M: Method<S, f64>>(
     let toroidal = run.momenta().map(|(_, value)| value).sum::<f64>();
     let mut series = Series {
         name,
-        error: Envelope::new(steps as f64 * H, 400),
+        error: Deviation::new(steps as f64 * H, 400, EARLY as f64 * H),
         path: vec![place(run.q())],
-        largest: 0.0,
-        largest_early: 0.0,
         momentum: 0.0,
     };
     job.repeat(steps, || {
         run.advance()?;
-        let error = (run.energy() - energy) / energy;
-        series.error.push(run.time(), error);
-        series.largest = larger(series.largest, error.abs());
+        series.error.push(run.time(), (run.energy() - energy) / energy);
         let change = run.momenta().map(|(_, value)| value).sum::<f64>() / toroidal - 1.0;
         series.momentum = larger(series.momentum, change.abs());
-        if run.steps() <= EARLY {
-            series.largest_early = series.largest;
-            if run.steps() <= EARLY / 8 {
-                series.path.push(place(run.q()));
-            }
+        if run.steps() <= EARLY / 8 {
+            series.path.push(place(run.q()));
         }
         Ok(())
     })?;
@@ -117,7 +109,6 @@ fn series<S: DegenerateLagrangian, M: Method<S, f64>>(
 const NAMES: [&str; 2] = ["banana", "passing orbit"];
 
 fn claims(orbits: &[Orbit; 2]) -> Vec<Claim> {
-    let growth = |series: &Series| series.largest / series.largest_early;
     let mut flat = Claim::new(BEYOND, "energy errors are no larger in the whole run than in its beginning");
     let mut momentum = Claim::new(BEYOND, "the toroidal momentum is kept to rounding errors");
     let mut same = Claim::new(BEYOND, "both sets of coordinates give one orbit");
@@ -127,12 +118,12 @@ fn claims(orbits: &[Orbit; 2]) -> Vec<Claim> {
         same = same.check(text, reach(projected) / reach(in_class), Bound::Near(1.0, 2e-3));
         for series in [in_class, projected] {
             let text = format!("{name}, {}: max|ΔH| over all / over {EARLY} steps", series.name);
-            flat = flat.check(text, growth(series), Bound::AtMost(1.02));
+            flat = flat.check(text, series.error.growth(), Bound::AtMost(1.02));
             let text = format!("{name}, {}: max|Δp_φ/p_φ|", series.name);
             momentum = momentum.check(text, series.momentum, Bound::AtMost(1e-9));
         }
         let text = format!("{name}, {}: max|ΔH| over all / over {EARLY} steps", runge_kutta.name);
-        flat = flat.check(text, growth(runge_kutta), Bound::AtLeast(2.0));
+        flat = flat.check(text, runge_kutta.error.growth(), Bound::AtLeast(2.0));
     }
     vec![flat, momentum, same]
 }
@@ -159,11 +150,11 @@ fn figure(orbits: &[Orbit; 2], end: f64) -> Figure {
         Axis::logarithmic("largest |Δ*H*/*H*| of each interval").within(1e-7, 1e-1),
     )
     .weight(1.35)
-    .line(banana.in_class.error.magnitude(), Stroke::solid(BLUE))
+    .line(banana.in_class.error.envelope.magnitude(), Stroke::solid(BLUE))
     .labelled(banana.in_class.name)
-    .line(banana.projected.error.magnitude(), Stroke::solid(VERMILLION))
+    .line(banana.projected.error.envelope.magnitude(), Stroke::solid(VERMILLION))
     .labelled(banana.projected.name)
-    .line(banana.runge_kutta.error.magnitude(), Stroke::dashed(SLATE))
+    .line(banana.runge_kutta.error.envelope.magnitude(), Stroke::dashed(SLATE))
     .labelled(banana.runge_kutta.name);
     Figure::new(
         "A guiding centre in a tokamak: two orbits in two sets of coordinates",
@@ -172,9 +163,9 @@ fn figure(orbits: &[Orbit; 2], end: f64) -> Figure {
     .row(470.0, vec![paths.legend_at(Corner::TopRight), energy.legend_at(Corner::TopRight)])
     .footer(format!(
         "Largest |Δ*H*/*H*| of the banana: one step {}, projected {}. RK4 at the end: {}.",
-        at_most(banana.in_class.largest),
-        at_most(banana.projected.largest),
-        scientific(banana.runge_kutta.largest)
+        at_most(banana.in_class.error.largest),
+        at_most(banana.projected.error.largest),
+        scientific(banana.runge_kutta.error.largest)
     ))
 }
 
@@ -182,7 +173,7 @@ fn table(orbits: &[Orbit; 2]) -> Result<Table> {
     let mut table = Table::new(&["orbit", "method", "t", "lowest", "mean", "highest"])?;
     for (orbit, Orbit { in_class, projected, runge_kutta }) in NAMES.iter().zip(orbits) {
         for Series { name, error, .. } in [in_class, projected, runge_kutta] {
-            for row in error.rows() {
+            for row in error.envelope.rows() {
                 let names = [(*orbit).to_owned(), (*name).to_owned()];
                 table.row(names.into_iter().chain(row.map(number)))?;
             }

@@ -9,8 +9,9 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Check, Claim, larger};
+use crate::deviation::Deviation;
 use crate::figure::{
-    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
+    Axis, BLUE, Corner, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -35,10 +36,8 @@ const EARLY: u64 = 1000;
 /// What one run leaves.
 struct Series {
     name: &'static str,
-    error: Envelope,
+    error: Deviation,
     path: Vec<[f64; 2]>,
-    largest: f64,
-    largest_early: f64,
     /// The step that failed.
     ended: Option<u64>,
 }
@@ -65,8 +64,16 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     let outcome = Outcome {
         claims: claims(&all, &watched).into_iter().chain([gauges()?]).collect(),
         references: vec![
-            Check::new("one step, midpoint, h = 0.1: max|ΔH|", all[0].largest, Bound::Near(1.04e-2, 5e-5)),
-            Check::new("one step, midpoint, h = 0.05: max|ΔH|", half.largest, Bound::Near(2.56e-3, 5e-6)),
+            Check::new(
+                "one step, midpoint, h = 0.1: max|ΔH|",
+                all[0].error.largest,
+                Bound::Near(1.04e-2, 5e-5),
+            ),
+            Check::new(
+                "one step, midpoint, h = 0.05: max|ΔH|",
+                half.error.largest,
+                Bound::Near(2.56e-3, 5e-6),
+            ),
         ],
         notes: vec![],
     };
@@ -86,19 +93,14 @@ fn series<S: DegenerateLagrangian, M: Method<S, f64>>(
     let energy = run.energy();
     let mut series = Series {
         name,
-        error: Envelope::new(steps as f64 * h, 400),
+        error: Deviation::new(steps as f64 * h, 400, EARLY as f64 * h),
         path: vec![START],
-        largest: 0.0,
-        largest_early: 0.0,
         ended: None,
     };
     let lost = job.repeat_until_lost(steps, || {
         run.advance()?;
-        let error = run.energy() - energy;
-        series.error.push(run.time(), error);
-        series.largest = larger(series.largest, error.abs());
+        series.error.push(run.time(), run.energy() - energy);
         if run.steps() <= EARLY {
-            series.largest_early = series.largest;
             series.path.push([run.q()[0], run.q()[1]]);
         }
         Ok(())
@@ -108,14 +110,13 @@ fn series<S: DegenerateLagrangian, M: Method<S, f64>>(
 }
 
 fn claims([one_step, gauss, runge_kutta, two_step]: &[Series; 4], watched: &Series) -> Vec<Claim> {
-    let growth = |series: &Series| series.largest / series.largest_early;
     let flat = Claim::new(
         BEYOND,
         "the energy error of one-step schemes is no larger in the whole run than in its beginning",
     )
-    .check("midpoint: max|ΔH| over all / over 1000 steps", growth(one_step), Bound::AtMost(1.001))
-    .check("Gauss of order 4: max|ΔH| over all / over 1000 steps", growth(gauss), Bound::AtMost(1.001))
-    .check("RK4: max|ΔH| over all / over 1000 steps", growth(runge_kutta), Bound::AtLeast(5.0));
+    .check("midpoint: max|ΔH| over all / over 1000 steps", one_step.error.growth(), Bound::AtMost(1.001))
+    .check("Gauss of order 4: max|ΔH| over all / over 1000 steps", gauss.error.growth(), Bound::AtMost(1.001))
+    .check("RK4: max|ΔH| over all / over 1000 steps", runge_kutta.error.growth(), Bound::AtLeast(5.0));
     let number = |step: Option<u64>| step.map_or(f64::INFINITY, |step| step as f64);
     let fails = Claim::new(
         BEYOND,
@@ -201,11 +202,11 @@ fn figure(all: &[Series; 4], end: f64) -> Figure {
         Axis::logarithmic("largest |*H* − *H*(0)| of each interval").within(1e-6, 1.0),
     )
     .weight(1.35)
-    .line(one_step.error.magnitude(), Stroke::solid(BLUE))
+    .line(one_step.error.envelope.magnitude(), Stroke::solid(BLUE))
     .labelled(one_step.name)
-    .line(gauss.error.magnitude(), Stroke::solid(GREEN))
+    .line(gauss.error.envelope.magnitude(), Stroke::solid(GREEN))
     .labelled(gauss.name)
-    .line(runge_kutta.error.magnitude(), Stroke::dashed(SLATE))
+    .line(runge_kutta.error.envelope.magnitude(), Stroke::dashed(SLATE))
     .labelled(runge_kutta.name);
     let steps = two_step.ended.map_or("1000".to_owned(), |step| step.to_string());
     Figure::new(
@@ -215,16 +216,16 @@ fn figure(all: &[Series; 4], end: f64) -> Figure {
     .row(470.0, vec![paths.legend_at(Corner::TopRight), energy.legend_at(Corner::BottomRight)])
     .footer(format!(
         "Largest |Δ*H*| of one step: midpoint {}, Gauss {}. RK4 at the end: {}.",
-        at_most(one_step.largest),
-        at_most(gauss.largest),
-        scientific(runge_kutta.largest)
+        at_most(one_step.error.largest),
+        at_most(gauss.error.largest),
+        scientific(runge_kutta.error.largest)
     ))
 }
 
 fn table(all: &[Series; 4]) -> Result<Table> {
     let mut table = Table::new(&["method", "t", "lowest", "mean", "highest"])?;
     for Series { name, error, .. } in all {
-        for row in error.rows() {
+        for row in error.envelope.rows() {
             table.row([(*name).to_owned()].into_iter().chain(row.map(number)))?;
         }
     }

@@ -9,8 +9,9 @@ use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 
 use crate::claim::{BEYOND, Bound, Claim, larger};
+use crate::deviation::Deviation;
 use crate::figure::{
-    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
+    Axis, BLUE, Corner, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -43,10 +44,8 @@ const fn symmetric() -> MasslessSymmetricState {
 /// What one long run leaves.
 struct Series {
     name: &'static str,
-    error: Envelope,
+    error: Deviation,
     path: Vec<[f64; 2]>,
-    largest: f64,
-    largest_early: f64,
 }
 
 /// The parasitic mode of the two-step scheme.
@@ -84,15 +83,12 @@ fn series<S: DegenerateLagrangian, M: Method<S, f64>>(
 ) -> Result<Series> {
     let mut run = Integrator::new(system, method, H, start)?;
     let energy = run.energy();
-    let error = Envelope::new(steps as f64 * H, 100);
-    let mut series = Series { name, error, path: vec![START], largest: 0.0, largest_early: 0.0 };
+    let error = Deviation::new(steps as f64 * H, 100, EARLY as f64 * H);
+    let mut series = Series { name, error, path: vec![START] };
     job.repeat(steps, || {
         run.advance()?;
-        let error = run.energy() - energy;
-        series.error.push(run.time(), error);
-        series.largest = larger(series.largest, error.abs());
+        series.error.push(run.time(), run.energy() - energy);
         if run.steps() <= EARLY {
-            series.largest_early = series.largest;
             series.path.push([run.q()[0], run.q()[1]]);
         }
         Ok(())
@@ -161,7 +157,7 @@ fn flat(all: &[Series; 3]) -> Claim {
     all.iter().fold(Claim::new(BEYOND, text), |claim, series| {
         let bound = if series.name == "RK4" { Bound::AtLeast(5.0) } else { Bound::AtMost(1.001) };
         let quantity = format!("{}: max|ΔH| over all / over {EARLY} steps", series.name.replace('*', ""));
-        claim.check(quantity, series.largest / series.largest_early, bound)
+        claim.check(quantity, series.error.growth(), bound)
     })
 }
 
@@ -227,11 +223,11 @@ fn figure(all: &[Series; 3], parasites: &[Parasite], end: f64) -> Figure {
         Axis::linear("time *t*").within(0.0, end),
         Axis::logarithmic("largest |Δ*H*| of each interval").within(1e-5, 10.0),
     )
-    .line(one_step.error.magnitude(), Stroke::solid(BLUE))
+    .line(one_step.error.envelope.magnitude(), Stroke::solid(BLUE))
     .labelled(one_step.name)
-    .line(projected.error.magnitude(), Stroke::solid(GREEN))
+    .line(projected.error.envelope.magnitude(), Stroke::solid(GREEN))
     .labelled(projected.name)
-    .line(runge_kutta.error.magnitude(), Stroke::dashed(SLATE))
+    .line(runge_kutta.error.envelope.magnitude(), Stroke::dashed(SLATE))
     .labelled(runge_kutta.name);
     Figure::new(
         "A charged particle without mass: two gauges of one field",
@@ -241,16 +237,16 @@ fn figure(all: &[Series; 3], parasites: &[Parasite], end: f64) -> Figure {
     .row(300.0, vec![energy.legend_at(Corner::BottomRight)])
     .footer(format!(
         "Largest |Δ*H*|: one step {}, projected {}. RK4 at the end: {}.",
-        at_most(one_step.largest),
-        at_most(projected.largest),
-        scientific(runge_kutta.largest)
+        at_most(one_step.error.largest),
+        at_most(projected.error.largest),
+        scientific(runge_kutta.error.largest)
     ))
 }
 
 fn table(all: &[Series; 3], parasites: &[Parasite]) -> Result<Table> {
     let mut table = Table::new(&["series", "t", "amplitude or lowest ΔH", "highest ΔH"])?;
     for Series { name, error, .. } in all {
-        for [t, low, _, high] in error.rows() {
+        for [t, low, _, high] in error.envelope.rows() {
             table.row([name.replace('*', ""), number(t), number(low), number(high)])?;
         }
     }

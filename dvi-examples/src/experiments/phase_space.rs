@@ -10,8 +10,9 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Check, Claim, larger};
+use crate::deviation::Deviation;
 use crate::figure::{
-    Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most, scientific,
+    Axis, BLUE, Corner, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most, scientific,
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -42,9 +43,7 @@ type Circles = Vec<Vec<[f64; 2]>>;
 /// What one long run leaves.
 struct Series {
     name: &'static str,
-    error: Envelope,
-    largest: f64,
-    largest_early: f64,
+    error: Deviation,
 }
 
 fn run(job: &Job<'_>) -> Result<Outcome> {
@@ -82,16 +81,11 @@ fn series<M: Method<PhasePendulum, f64>>(
 ) -> Result<Series> {
     let mut run = Integrator::new(&PhasePendulum {}, method, H, PhasePendulumState { x: START, p: 0.0 })?;
     let energy = run.energy();
-    let error = Envelope::new(steps as f64 * H, 400);
-    let mut series = Series { name, error, largest: 0.0, largest_early: 0.0 };
+    let error = Deviation::new(steps as f64 * H, 400, EARLY as f64 * H);
+    let mut series = Series { name, error };
     job.repeat(steps, || {
         run.advance()?;
-        let error = run.energy() - energy;
-        series.error.push(run.time(), error);
-        series.largest = larger(series.largest, error.abs());
-        if run.steps() <= EARLY {
-            series.largest_early = series.largest;
-        }
+        series.error.push(run.time(), run.energy() - energy);
         Ok(())
     })?;
     Ok(series)
@@ -123,7 +117,7 @@ fn flat(all: &[Series; 3]) -> Claim {
     all.iter().fold(Claim::new(BEYOND, text), |claim, series| {
         let bound = if series.name == "RK4" { Bound::AtLeast(5.0) } else { Bound::AtMost(1.001) };
         let quantity = format!("{}: max|ΔH| over all / over {EARLY} steps", series.name);
-        claim.check(quantity, series.largest / series.largest_early, bound)
+        claim.check(quantity, series.error.growth(), bound)
     })
 }
 
@@ -269,7 +263,7 @@ fn figure(all: &[Series; 3], leapfrog: &Circles, end: f64) -> Figure {
     );
     let strokes = [Stroke::solid(BLUE), Stroke::solid(GREEN), Stroke::dashed(VERMILLION)];
     let energy = all.iter().zip(strokes).fold(empty.weight(1.2), |panel, (series, stroke)| {
-        panel.line(series.error.magnitude(), stroke).labelled(series.name)
+        panel.line(series.error.envelope.magnitude(), stroke).labelled(series.name)
     });
     Figure::new(
         "The pendulum in phase-space form: an area carried along, and the energy errors of three methods",
@@ -278,16 +272,16 @@ fn figure(all: &[Series; 3], leapfrog: &Circles, end: f64) -> Figure {
     .row(500.0, vec![plane, energy.legend_at(Corner::TopRight)])
     .footer(format!(
         "Largest |Δ*H*| of one step: midpoint {}, trapezoid {}. RK4 at the end: {}.",
-        at_most(all[0].largest),
-        at_most(all[1].largest),
-        scientific(all[2].largest)
+        at_most(all[0].error.largest),
+        at_most(all[1].error.largest),
+        scientific(all[2].error.largest)
     ))
 }
 
 fn table(all: &[Series; 3], leapfrog: &Circles) -> Result<Table> {
     let mut table = Table::new(&["series", "t", "x or lowest ΔH", "p or highest ΔH"])?;
     for Series { name, error, .. } in all {
-        for [t, low, _, high] in error.rows() {
+        for [t, low, _, high] in error.envelope.rows() {
             table.row([(*name).to_owned(), number(t), number(low), number(high)])?;
         }
     }

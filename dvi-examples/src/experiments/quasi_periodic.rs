@@ -67,10 +67,10 @@ fn claims(all: &[Crossings], curve: &Curve, exponent: Option<f64>) -> Vec<Claim>
             "section 5",
             "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts",
         )
-        .check(growth(vi_small), vi_small.growth_of_error(), Bound::AtMost(1.1))
-        .check(growth(vi_middle), vi_middle.growth_of_error(), Bound::AtMost(1.1))
-        .check(growth(vi_large), vi_large.growth_of_error(), Bound::AtMost(1.1))
-        .check(growth(rk_small), rk_small.growth_of_error(), Bound::AtLeast(5.0)),
+        .check(growth(vi_small), vi_small.error.growth(), Bound::AtMost(1.1))
+        .check(growth(vi_middle), vi_middle.error.growth(), Bound::AtMost(1.1))
+        .check(growth(vi_large), vi_large.error.growth(), Bound::AtMost(1.1))
+        .check(growth(rk_small), rk_small.error.growth(), Bound::AtLeast(5.0)),
     ]
 }
 
@@ -79,12 +79,12 @@ fn references(job: &Job<'_>, all: &[Crossings], left: Option<f64>) -> Vec<Check>
     let [vi_small, vi_middle, vi_large, rk_small, ..] = all else { return Vec::new() };
     let error = |run: &Crossings| format!("max|ΔH|, {}", run.name());
     vec![
-        Check::new(error(vi_small), vi_small.largest_error, Bound::Near(3.847e-5, 5e-8)),
-        Check::new(error(vi_middle), vi_middle.largest_error, Bound::Near(1.546e-4, 1e-7)),
-        Check::new(error(vi_large), vi_large.largest_error, Bound::Near(1.002e-3, 1e-6)),
+        Check::new(error(vi_small), vi_small.error.largest, Bound::Near(3.847e-5, 5e-8)),
+        Check::new(error(vi_middle), vi_middle.error.largest, Bound::Near(1.546e-4, 1e-7)),
+        Check::new(error(vi_large), vi_large.error.largest, Bound::Near(1.002e-3, 1e-6)),
         Check::new(
             "ΔH at the end, RK4 at h = 0.1",
-            job.only_full(rk_small.last_error),
+            job.only_full(rk_small.error.last),
             Bound::Near(6.518e-4, 1e-6),
         ),
         Check::new("RK4 at h = 0.2 leaves the torus at t", left, Bound::Within(4e4, 4.6e4)),

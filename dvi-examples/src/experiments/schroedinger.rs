@@ -11,6 +11,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim, larger};
+use crate::deviation::Deviation;
 use crate::figure::{
     AMBER, Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
 };
@@ -43,11 +44,8 @@ struct Series {
     profiles: [Amplitudes; 2],
     /// (Σ|ψ|²)²/Σ|ψ|⁴ over time: the number of sites that are excited.
     participation: Envelope,
-    norm: Envelope,
-    energy: Envelope,
-    largest_norm: f64,
-    largest_energy: f64,
-    largest_early: f64,
+    norm: Deviation,
+    energy: Deviation,
     most_sites: f64,
 }
 
@@ -88,32 +86,23 @@ fn series<M: Method<SchroedingerLattice<SITES>, f64>>(
     let mut run = Integrator::new(&LATTICE, method, H, state(start))?;
     let sum = |values: &Amplitudes| values.iter().sum::<f64>();
     let (energy, norm) = (run.energy(), sum(&densities(run.q())));
-    let empty = || Envelope::new(periods as f64, 400);
+    let empty = || Deviation::new(periods as f64, 400, EARLY as f64);
     let mut series = Series {
         name,
         profiles: [densities(run.q()); 2],
-        participation: empty(),
+        participation: Envelope::new(periods as f64, 400),
         norm: empty(),
         energy: empty(),
-        largest_norm: 0.0,
-        largest_energy: 0.0,
-        largest_early: 0.0,
         most_sites: 0.0,
     };
     job.repeat(periods * STEPS, || {
         run.advance()?;
         let (period, densities) = (run.time() * OMEGA / TAU, densities(run.q()));
-        let errors = [sum(&densities) / norm - 1.0, run.energy() / energy - 1.0];
         let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
         series.participation.push(period, sites);
-        series.norm.push(period, errors[0]);
-        series.energy.push(period, errors[1]);
-        series.largest_norm = larger(series.largest_norm, errors[0].abs());
-        series.largest_energy = larger(series.largest_energy, errors[1].abs());
+        series.norm.push(period, sum(&densities) / norm - 1.0);
+        series.energy.push(period, run.energy() / energy - 1.0);
         series.most_sites = larger(series.most_sites, sites);
-        if run.steps() <= EARLY * STEPS {
-            series.largest_early = series.largest_energy;
-        }
         series.profiles[1] = densities;
         Ok(())
     })?;
@@ -125,11 +114,11 @@ fn kept([one_step, runge_kutta, _]: &[Series; 3]) -> Claim {
         BEYOND,
         "the one-step midpoint scheme keeps the norm to rounding errors, and the energy error does not grow",
     )
-    .check("one step: largest relative change of the norm", one_step.largest_norm, Bound::AtMost(1e-11))
-    .check("RK4: largest relative change of the norm", runge_kutta.largest_norm, Bound::AtLeast(1e-3))
+    .check("one step: largest relative change of the norm", one_step.norm.largest, Bound::AtMost(1e-11))
+    .check("RK4: largest relative change of the norm", runge_kutta.norm.largest, Bound::AtLeast(1e-3))
     .check(
         "one step: max|ΔH| over all / over 100 periods",
-        one_step.largest_energy / one_step.largest_early,
+        one_step.energy.growth(),
         Bound::AtMost(1.02),
     )
 }
@@ -197,13 +186,13 @@ fn figure(all: &[Series; 3], periods: u64) -> Figure {
         time(),
         Axis::logarithmic("largest relative error of each interval").within(1e-16, 10.0),
     )
-    .line(one_step.energy.magnitude(), Stroke::solid(BLUE))
+    .line(one_step.energy.envelope.magnitude(), Stroke::solid(BLUE))
     .labelled("one step: *H*")
-    .line(one_step.norm.magnitude(), Stroke::dashed(BLUE))
+    .line(one_step.norm.envelope.magnitude(), Stroke::dashed(BLUE))
     .labelled("one step: norm")
-    .line(runge_kutta.energy.magnitude(), Stroke::solid(VERMILLION))
+    .line(runge_kutta.energy.envelope.magnitude(), Stroke::solid(VERMILLION))
     .labelled("RK4: *H*")
-    .line(runge_kutta.norm.magnitude(), Stroke::dashed(AMBER))
+    .line(runge_kutta.norm.envelope.magnitude(), Stroke::dashed(AMBER))
     .labelled("RK4: norm");
     Figure::new(
         "A discrete breather: where it is, and what two methods keep of it",
@@ -213,15 +202,17 @@ fn figure(all: &[Series; 3], periods: u64) -> Figure {
     .row(330.0, vec![errors.legend_at(Corner::Beside)])
     .footer(format!(
         "Largest relative change of the norm: one step {}, RK4 {}.",
-        at_most(one_step.largest_norm),
-        scientific(runge_kutta.largest_norm)
+        at_most(one_step.norm.largest),
+        scientific(runge_kutta.norm.largest)
     ))
 }
 
 fn table(all: &[Series; 3]) -> Result<Table> {
     let mut table = Table::new(&["series", "quantity", "period", "lowest", "mean", "highest"])?;
     for Series { name, participation, norm, energy, .. } in all {
-        for (quantity, envelope) in [("sites", participation), ("ΔN/N", norm), ("ΔH/H", energy)] {
+        for (quantity, envelope) in
+            [("sites", participation), ("ΔN/N", &norm.envelope), ("ΔH/H", &energy.envelope)]
+        {
             for row in envelope.rows() {
                 let names = [(*name).to_owned(), quantity.to_owned()];
                 table.row(names.into_iter().chain(row.map(number)))?;

@@ -10,7 +10,8 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use rayon::prelude::*;
 
-use crate::figure::{Axis, Envelope, Panel, SEQUENCE, Stroke, thin};
+use crate::deviation::Deviation;
+use crate::figure::{Axis, Panel, SEQUENCE, Stroke, thin};
 use crate::figure::{BLUE, Corner, GREEN, VERMILLION};
 use crate::job::Job;
 use crate::models::{Case, FourPoints, FourVortices};
@@ -41,14 +42,8 @@ pub struct Crossings {
     pub labels: Labels,
     /// [t, R₁, P₁] of each crossing.
     pub points: Vec<[f64; 3]>,
-    /// H − H(0).
-    pub error: Envelope,
-    /// max |H − H(0)|.
-    pub largest_error: f64,
-    /// The same in the first tenth of the time.
-    pub early_error: f64,
-    /// H − H(0) at the end.
-    pub last_error: f64,
+    /// H − H(0); the beginning is the first tenth of the time.
+    pub error: Deviation,
     /// By what factor a displacement of 1e-10 at the end grows in 2000 units of time more.
     pub growth: f64,
     /// Where the run ended early, and why.
@@ -99,10 +94,7 @@ pub fn crossings(
         end,
         labels,
         points: Vec::new(),
-        error: Envelope::new(end, 300),
-        largest_error: 0.0,
-        early_error: 0.0,
-        last_error: 0.0,
+        error: Deviation::new(end, 300, 0.1 * end),
         growth: f64::NAN,
         failure: None,
     };
@@ -138,12 +130,7 @@ where
         }
         if section.run().steps() > done {
             done = section.run().steps();
-            result.last_error = section.run().energy() - initial;
-            result.largest_error = larger(result.largest_error, result.last_error.abs());
-            if section.run().time() <= 0.1 * end {
-                result.early_error = result.largest_error;
-            }
-            result.error.push(section.run().time(), result.last_error);
+            result.error.push(section.run().time(), section.run().energy() - initial);
             job.proceed(1);
         }
     }
@@ -201,11 +188,6 @@ impl Crossings {
         format!("{} at h = {}", self.scheme.name(), self.h)
     }
 
-    /// max |H − H(0)| over all, over that of the first tenth.
-    pub fn growth_of_error(&self) -> f64 {
-        self.largest_error / self.early_error
-    }
-
     /// The time of the last crossing; 0 if there is none.
     pub fn last(&self) -> f64 {
         self.points.last().map_or(0.0, |&[t, ..]| t)
@@ -242,7 +224,8 @@ pub fn energy_panel(all: &[Crossings], end: f64) -> Panel {
     let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
     let panel = all.iter().zip(colours).fold(empty, |panel, (run, colour)| {
         let stroke = if run.scheme == Scheme::Vi2 { Stroke::solid(colour) } else { Stroke::dashed(colour) };
-        panel.line(run.error.magnitude(), stroke).labelled(format!("{}, *h* = {}", run.scheme.name(), run.h))
+        let text = format!("{}, *h* = {}", run.scheme.name(), run.h);
+        panel.line(run.error.envelope.magnitude(), stroke).labelled(text)
     });
     panel.legend_at(Corner::Beside)
 }

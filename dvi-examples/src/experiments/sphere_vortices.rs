@@ -11,6 +11,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim, larger};
+use crate::deviation::Deviation;
 use crate::figure::{
     Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SKY, SLATE, Stroke, VERMILLION, at_most, scientific,
 };
@@ -34,15 +35,11 @@ struct Series {
     name: &'static str,
     /// (x, y) of the vortices in the beginning, as seen from above the pole.
     paths: [Vec<[f64; 2]>; 3],
-    energy: Envelope,
+    energy: Deviation,
     /// |M| over its value at the start, less 1.
-    moment: Envelope,
+    moment: Deviation,
     /// By what angle M has turned around the axis of the coordinates.
     turn: Envelope,
-    largest_energy: f64,
-    early_energy: f64,
-    largest_moment: f64,
-    early_moment: f64,
     /// |M_z − M_z(0)|/|M|.
     largest_axial: f64,
 }
@@ -81,17 +78,14 @@ fn series<M: Method<SphereVortices<3>, f64>>(
 ) -> Result<Series> {
     let mut run = Integrator::new(&THREE, method, H, SphereVortices::state(PLACES))?;
     let (energy, start) = (run.energy(), moment(&THREE.gamma, &THREE.places(run.q())));
-    let empty = || Envelope::new(steps as f64 * H, 100);
+    let end = steps as f64 * H;
+    let empty = || Deviation::new(end, 100, EARLY as f64 * H);
     let mut series = Series {
         name,
         paths: [vec![], vec![], vec![]],
         energy: empty(),
         moment: empty(),
-        turn: empty(),
-        largest_energy: 0.0,
-        early_energy: 0.0,
-        largest_moment: 0.0,
-        early_moment: 0.0,
+        turn: Envelope::new(end, 100),
         largest_axial: 0.0,
     };
     let mut direction = Direction::of(start);
@@ -99,16 +93,10 @@ fn series<M: Method<SphereVortices<3>, f64>>(
         run.advance()?;
         let places = THREE.places(run.q());
         let moment = moment(&THREE.gamma, &places);
-        let errors = [run.energy() - energy, length(moment) / length(start) - 1.0];
-        series.energy.push(run.time(), errors[0]);
-        series.moment.push(run.time(), errors[1]);
+        series.energy.push(run.time(), run.energy() - energy);
+        series.moment.push(run.time(), length(moment) / length(start) - 1.0);
         series.turn.push(run.time(), direction.turned_to(moment));
-        series.largest_energy = larger(series.largest_energy, errors[0].abs());
-        series.largest_moment = larger(series.largest_moment, errors[1].abs());
         series.largest_axial = larger(series.largest_axial, (moment[2] - start[2]).abs() / length(start));
-        if run.steps() <= EARLY {
-            (series.early_energy, series.early_moment) = (series.largest_energy, series.largest_moment);
-        }
         if run.steps() <= 400 {
             for (path, [x, y, _]) in series.paths.iter_mut().zip(places) {
                 path.push([x, y]);
@@ -146,11 +134,11 @@ fn kept(all: &[Series; 3]) -> Claim {
         let name =
             |quantity: &str| format!("{}: max|Δ{quantity}| over all / over {EARLY} steps", series.name);
         claim
-            .check(name("H"), series.largest_energy / series.early_energy, Bound::AtMost(1.05))
-            .check(name("|M|"), series.largest_moment / series.early_moment, Bound::AtMost(1.05))
+            .check(name("H"), series.energy.growth(), Bound::AtMost(1.05))
+            .check(name("|M|"), series.moment.growth(), Bound::AtMost(1.05))
             .check(format!("{}: max|ΔM_z|/|M|", series.name), series.largest_axial, Bound::AtMost(1e-10))
     });
-    let growth = runge_kutta.largest_energy / runge_kutta.early_energy;
+    let growth = runge_kutta.energy.growth();
     claim.check(format!("RK4: max|ΔH| over all / over {EARLY} steps"), growth, Bound::AtLeast(4.0))
 }
 
@@ -249,7 +237,7 @@ fn figure(all: &[Series; 3], end: f64) -> Figure {
     };
     let energy =
         Panel::new("Error of the energy", time(), Axis::logarithmic("largest |Δ*H*| of each interval"));
-    let energy = lines(energy, |series| &series.energy);
+    let energy = lines(energy, |series| &series.energy.envelope);
     let moment = Panel::new(
         "Length of the moment",
         time(),
@@ -265,22 +253,24 @@ fn figure(all: &[Series; 3], end: f64) -> Figure {
     .row(
         300.0,
         vec![
-            lines(moment, |series| &series.moment).without_legend(),
+            lines(moment, |series| &series.moment.envelope).without_legend(),
             lines(turn, |series| &series.turn).without_legend(),
         ],
     )
     .footer(format!(
         "Largest |Δ*H*| of one step: midpoint {}, Gauss {}. RK4 at the end: {}.",
-        at_most(midpoint.largest_energy),
-        at_most(gauss.largest_energy),
-        scientific(runge_kutta.largest_energy)
+        at_most(midpoint.energy.largest),
+        at_most(gauss.energy.largest),
+        scientific(runge_kutta.energy.largest)
     ))
 }
 
 fn table(all: &[Series; 3]) -> Result<Table> {
     let mut table = Table::new(&["method", "quantity", "t", "lowest", "mean", "highest"])?;
     for Series { name, energy, moment, turn, .. } in all {
-        for (quantity, envelope) in [("ΔH", energy), ("Δ|M|/|M|", moment), ("angle of M", turn)] {
+        for (quantity, envelope) in
+            [("ΔH", &energy.envelope), ("Δ|M|/|M|", &moment.envelope), ("angle of M", turn)]
+        {
             for row in envelope.rows() {
                 let names = [(*name).to_owned(), quantity.to_owned()];
                 table.row(names.into_iter().chain(row.map(number)))?;

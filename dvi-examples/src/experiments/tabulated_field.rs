@@ -9,7 +9,8 @@ use dvi_core::field::{ScalarField, Spline};
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim, larger};
-use crate::figure::{Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, Stroke, VERMILLION, at_most};
+use crate::deviation::Deviation;
+use crate::figure::{Axis, BLUE, Corner, Figure, GREEN, Panel, Stroke, VERMILLION, at_most};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{TabulatedTokamak, TabulatedTokamakState, TokamakInClass, TokamakInClassState};
@@ -111,46 +112,35 @@ fn differences<F: ScalarField<2>>(
     Ok(Differences { name, of_grids, order: -falls })
 }
 
-/// The relative energy error in the coarse table, and its largest sizes in all and in the beginning.
-struct Energy {
-    error: Envelope,
-    largest: f64,
-    largest_early: f64,
-}
-
-fn energy(job: &Job<'_>, steps: u64) -> Result<Energy> {
+/// The relative energy error in the coarse table.
+fn energy(job: &Job<'_>, steps: u64) -> Result<Deviation> {
     let system =
         TabulatedTokamak::sampled(Q, MU, COARSE, |axes, function| Ok(Spline::sample(axes, function)?))?;
     let mut run = Integrator::new(&system, OneStep::midpoint(), H, start(RADIUS))?;
     let start = run.energy();
-    let mut energy = Energy { error: Envelope::new(steps as f64 * H, 400), largest: 0.0, largest_early: 0.0 };
+    let mut error = Deviation::new(steps as f64 * H, 400, EARLY as f64 * H);
     job.repeat(steps, || {
         run.advance()?;
-        let error = (run.energy() - start) / start;
-        energy.error.push(run.time(), error);
-        energy.largest = larger(energy.largest, error.abs());
-        if run.steps() <= EARLY {
-            energy.largest_early = energy.largest;
-        }
+        error.push(run.time(), (run.energy() - start) / start);
         Ok(())
     })?;
-    Ok(energy)
+    Ok(error)
 }
 
-fn claims(cubic: &Differences, quintic: &Differences, energy: &Energy) -> Vec<Claim> {
+fn claims(cubic: &Differences, quintic: &Differences, energy: &Deviation) -> Vec<Claim> {
     vec![
         Claim::new(BEYOND, "orbits in a table tend to those of the formulas as the splines do")
             .check("order in the distances of the grid, cubic", cubic.order, Bound::Near(3.0, 0.3))
             .check("order in the distances of the grid, quintic", quintic.order, Bound::Near(5.0, 0.3)),
         Claim::new(BEYOND, "the energy of a table is kept as that of a formula is").check(
             format!("cubic, {COARSE} intervals: max|ΔH| over all / over {EARLY} steps"),
-            energy.largest / energy.largest_early,
+            energy.growth(),
             Bound::AtMost(1.02),
         ),
     ]
 }
 
-fn figure(cubic: &Differences, quintic: &Differences, energy: &Energy, end: f64) -> Figure {
+fn figure(cubic: &Differences, quintic: &Differences, energy: &Deviation, end: f64) -> Figure {
     let points = |of: &Differences| of.of_grids.iter().map(|&(n, apart)| [n, apart]).collect::<Vec<_>>();
     // A straight line of this slope through the last point.
     let slope = |of: &Differences, order: i32| {
@@ -175,7 +165,7 @@ fn figure(cubic: &Differences, quintic: &Differences, energy: &Energy, end: f64)
         Axis::logarithmic("largest |Δ*H*/*H*| of each interval").within(1e-7, 1e-3),
     )
     .weight(1.35)
-    .line(energy.error.magnitude(), Stroke::solid(GREEN));
+    .line(energy.envelope.magnitude(), Stroke::solid(GREEN));
     Figure::new(
         "A guiding centre in a field from a table",
         format!(

@@ -9,9 +9,9 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Claim, larger};
+use crate::deviation::Deviation;
 use crate::figure::{
-    AMBER, Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most,
-    scientific,
+    AMBER, Axis, BLUE, Corner, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION, at_most, scientific,
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -34,31 +34,14 @@ type Species = [f64; 3];
 struct Series {
     name: &'static str,
     /// Relative changes of x + y + z and of xyz.
-    sum: Change,
-    product: Change,
+    sum: Deviation,
+    product: Deviation,
 }
 
-struct Change {
-    envelope: Envelope,
-    largest: f64,
-    early: f64,
-}
-
-impl Change {
-    fn new(end: f64) -> Self {
-        Self { envelope: Envelope::new(end, 400), largest: 0.0, early: 0.0 }
-    }
-
-    fn push(&mut self, step: u64, change: f64) {
-        self.envelope.push(step as f64 * H, change);
-        self.largest = larger(self.largest, change.abs());
-        if step <= EARLY {
-            self.early = self.largest;
-        }
-    }
-
-    fn growth(&self) -> f64 {
-        self.largest / self.early
+impl Series {
+    fn new(name: &'static str, steps: u64) -> Self {
+        let empty = || Deviation::new(steps as f64 * H, 400, EARLY as f64 * H);
+        Self { name, sum: empty(), product: empty() }
     }
 }
 
@@ -108,13 +91,12 @@ fn orbit<M: Method<ThreeSpecies, f64>>(
 }
 
 fn one_step(job: &Job<'_>, steps: u64) -> Result<Series> {
-    let end = steps as f64 * H;
-    let mut series = Series { name: "one step, midpoint", sum: Change::new(end), product: Change::new(end) };
+    let mut series = Series::new("one step, midpoint", steps);
     let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), H, state(START))?;
     job.repeat(steps, || {
         run.advance()?;
-        series.sum.push(run.steps(), run.energy() / sum(START) - 1.0);
-        series.product.push(run.steps(), (run.q()[3] - product(START).ln()).exp_m1());
+        series.sum.push(run.time(), run.energy() / sum(START) - 1.0);
+        series.product.push(run.time(), (run.q()[3] - product(START).ln()).exp_m1());
         Ok(())
     })?;
     Ok(series)
@@ -136,14 +118,14 @@ fn classical(species: Species, h: f64) -> Species {
 }
 
 fn runge_kutta(job: &Job<'_>, steps: u64) -> Result<Series> {
-    let end = steps as f64 * H;
-    let mut series = Series { name: "RK4", sum: Change::new(end), product: Change::new(end) };
-    let (mut species, mut step) = (START, 0);
+    let mut series = Series::new("RK4", steps);
+    let (mut species, mut step) = (START, 0u32);
     job.repeat(steps, || {
         species = classical(species, H);
         step += 1;
-        series.sum.push(step, sum(species) / sum(START) - 1.0);
-        series.product.push(step, product(species) / product(START) - 1.0);
+        let t = f64::from(step) * H;
+        series.sum.push(t, sum(species) / sum(START) - 1.0);
+        series.product.push(t, product(species) / product(START) - 1.0);
         Ok(())
     })?;
     Ok(series)
