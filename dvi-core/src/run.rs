@@ -86,7 +86,7 @@ pub trait Run {
     /// The physical time t of a system whose time is transformed; [`time`](Self::time) is τ.
     fn physical_time(&self) -> Self::Scalar
     where
-        Self::System: TimeTransformed,
+        Self::System: TimeTransformed<Self::Scalar>,
     {
         let [t, _] = extended(self.system());
         self.q()[t]

@@ -289,15 +289,19 @@ pub struct TimeTransform<T> {
     message = "the time of `{Self}` is not transformed",
     label = "its attribute has no `time_transform`"
 )]
-pub trait TimeTransformed: System<Kind = Degenerate> {
+pub trait TimeTransformed<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degenerate> {
+    /// ρ and H(q, t) at the point `q` of the extended space.
+    fn time_transform_at(&self, q: &[T]) -> TimeTransform<T>;
+
     /// The state with `energy` set to H(q, t), as a run begins.
     ///
     /// # Errors
     /// [`StartError`], as the start of a run, if an array of the system or of the state has the wrong length, a coordinate
     /// other than `energy` is not finite, or H or ρ is not.
-    fn with_energy<T: Real>(&self, state: Self::State<T>) -> Result<Self::State<T>, StartError>
+    fn with_energy(&self, state: Self::State<T>) -> Result<Self::State<T>, StartError>
     where
-        Self: Lagrangian<T> + Sized,
+        Self: Sized,
+        T: Real,
     {
         start::with_energy(self, &state)
     }

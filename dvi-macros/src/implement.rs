@@ -125,7 +125,6 @@ fn system(
     // Below what the user says.
     let mut item = emitter.model.item.clone();
     item.attrs.push(parse_quote!(#[doc = #documentation]));
-    let time_transformed = time_transformed(emitter);
     let (state, functions) = (&state.item, functions(emitter));
     quote! {
         #item
@@ -134,22 +133,9 @@ fn system(
             #configuration
             #lagrangian
             #special
-            #time_transformed
             #functions
         };
     }
-}
-
-/// The implementation of `TimeTransformed`, if the time is.
-fn time_transformed(emitter: &Emitter<'_>) -> Option<TokenStream> {
-    emitter.model.extended?;
-    let (krate, item) = (emitter.krate(), &emitter.model.item);
-    let name = &item.ident;
-    let (impl_generics, type_generics, where_clause) = item.generics.split_for_impl();
-    Some(quote! {
-        #[automatically_derived]
-        impl #impl_generics #krate::TimeTransformed for #name #type_generics #where_clause {}
-    })
 }
 
 /// One method for each function of the user's own and each of its derivatives:

@@ -334,3 +334,44 @@ fn steps_from_rest_at_the_origin_succeed() -> Outcome {
     }
     Ok(())
 }
+
+/// A mass that is no number behind x = 1, where steps may end whose nodes lie before it.
+#[lagrangian(coordinates(x), lagrangian = (1.0 - x).sqrt() * dot(x).powi(2) / 2.0)]
+#[derive(Clone, Debug)]
+struct Edge;
+
+/// A momentum with a velocity up to 1 only, beyond which a step may lead.
+#[lagrangian(coordinates(x), lagrangian = -(1.0 - dot(x).powi(2)).sqrt() + x)]
+#[derive(Clone, Debug)]
+struct Relativistic;
+
+fn yields_finite_states<S, M>(system: &S, method: M, h: f64, start: S::State<f64>) -> Outcome
+where
+    S: RegularLagrangian,
+    M: dvi_core::methods::Method<S, f64>,
+{
+    let Ok(run) = Integrator::new(system, method, h, start) else { return Ok(()) };
+    for state in run.take(200) {
+        let Ok(state) = state else { return Ok(()) };
+        assert!(system.values(&state)?.all(f64::is_finite), "h = {h}: {state:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn no_iterator_yields_a_velocity_that_is_no_number() -> Outcome {
+    for h in [0.03, 0.1, 0.15, 0.3, 0.7, 1.5] {
+        let (edge, fast) = (EdgeState { x: 0.0, dot_x: 1.0 }, RelativisticState { x: 0.0, dot_x: 0.0 });
+        yields_finite_states(&Edge, Variational::midpoint(), h, edge)?;
+        yields_finite_states(&Edge, Variational::sigma(0.0), h, edge)?;
+        yields_finite_states(&Edge, Galerkin::<3>::new(), h, edge)?;
+        yields_finite_states(&Edge, Gauss::<1>::new(), h, edge)?;
+        yields_finite_states(&Edge, General::new(Variational::sigma(0.0)), h, edge)?;
+        yields_finite_states(&Edge, RungeKutta::classical(), h, edge)?;
+        yields_finite_states(&Relativistic, RungeKutta::classical(), h, fast)?;
+        yields_finite_states(&Relativistic, Variational::midpoint(), h, fast)?;
+        yields_finite_states(&Relativistic, Gauss::<2>::new(), h, fast)?;
+        yields_finite_states(&Relativistic, General::new(Variational::midpoint()), h, fast)?;
+    }
+    Ok(())
+}

@@ -50,7 +50,7 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         evaluate(system, &q, &v, t)?;
         consistent(system, &q, t)?;
         let begin = || method.begin(system, &q, &v[..velocities(system)], t, h);
-        let (memory, kept) = (begin()?, if S::TIME_TRANSFORMED { Some(Kept::new(&q, begin)?) } else { None });
+        let (memory, kept) = (begin()?, Kept::for_transformed(&q, begin)?);
         Ok(Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h), kept })
     }
 
@@ -66,8 +66,7 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
         validate(system, t, h)?;
         let [q, v] = checkpoint.point(system)?;
         let begin = || method.begin_again(system, &q, &v[..velocities(system)], t, h);
-        let (mut memory, kept) =
-            (begin()?, if S::TIME_TRANSFORMED { Some(Kept::new(&q, begin)?) } else { None });
+        let (mut memory, kept) = (begin()?, Kept::for_transformed(&q, begin)?);
         let mut clock = Clock::new(t, h);
         checkpoint.load::<S, M>(&mut memory, |reader| {
             clock = Clock::load(checkpoint, reader)?;
@@ -94,8 +93,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
         let taken = match &mut self.kept {
-            Some(kept) if S::TIME_TRANSFORMED => self.stepper.steps_forward(clock, count, kept),
-            _ => self.stepper.steps(clock, count),
+            Some(kept) => self.stepper.steps_forward(clock, count, kept),
+            None => self.stepper.steps(clock, count),
         };
         taken.map_err(|failure| self.error(failure))
     }
@@ -144,8 +143,7 @@ impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         consistent(system, &q0, t)?;
         evaluate(system, &q1, &rest, t + h)?;
         let begin = || method.begin_between(system, &q0, &q1, t, h);
-        let (memory, kept) =
-            (begin()?, if S::TIME_TRANSFORMED { Some(Kept::new(&q0, begin)?) } else { None });
+        let (memory, kept) = (begin()?, Kept::for_transformed(&q0, begin)?);
         Ok(Self { stepper: Stepper::new(system, method, memory, q0), clock: Clock::new(t, h), kept })
     }
 }

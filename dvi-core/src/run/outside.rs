@@ -30,7 +30,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             StepFailure::TimeRate { rate } => rate.is_nan(),
             StepFailure::Energy { now, .. } => now.is_nan(),
             StepFailure::Orientation { after, .. } => after.is_nan(),
-            _ => false,
+            StepFailure::Resonance { .. }
+            | StepFailure::Pattern { .. }
+            | StepFailure::ParasiticMode { .. }
+            | StepFailure::NotSmooth { .. }
+            | StepFailure::Outside(_) => false,
         };
         if !S::HAS_SCALAR_FIELDS || !is_suspect {
             return failure;

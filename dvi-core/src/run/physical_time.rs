@@ -8,7 +8,6 @@ use crate::methods::{Carries, Clock, Method};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
 use crate::state::memory::{Aside, Memory};
-use crate::system::TimeTransform;
 use crate::system::start::extended;
 use crate::{Lagrangian, Real, System, Vector};
 
@@ -19,16 +18,19 @@ pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
 }
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
-    /// For a run from `q` whose memory `begin` makes.
+    /// For a run from `q` whose memory `begin` makes, if the time of its system is transformed.
     ///
     /// # Errors
     /// Those of `begin`.
     #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
-    pub(super) fn new(
+    pub(super) fn for_transformed(
         q: &Vector<S, T>,
         begin: impl FnOnce() -> Result<M::Memory, StartError>,
-    ) -> Result<Aside<Self>, StartError> {
-        Ok(Self { q: q.clone(), memory: begin()? }.into())
+    ) -> Result<Option<Aside<Self>>, StartError> {
+        if !S::TIME_TRANSFORMED {
+            return Ok(None);
+        }
+        Ok(Some(Self { q: q.clone(), memory: begin()? }.into()))
     }
 }
 
@@ -46,11 +48,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             self.steps(clock.after(taken), 1)?;
             let [time, _] = extended(self.system);
             let mean = (self.q[time] - kept.q[time]) / clock.step_size();
-            let Some(TimeTransform { rate, .. }) = self.system.time_transform(&self.q) else { continue };
-            // The smaller of the two; what is not a number is not positive either.
-            let least = if mean < rate { mean } else { rate };
-            let is_positive = least > T::lift(0.0) && rate > T::lift(0.0);
-            if !is_positive {
+            let rate = self.system.time_transform(&self.q).map_or(mean, |transform| transform.rate);
+            // What is not a number is not positive.
+            let leads_forward = mean > T::lift(0.0) && rate > T::lift(0.0);
+            if !leads_forward {
+                let least = if mean < rate { mean } else { rate };
                 self.q.copy_from_slice(&kept.q);
                 self.memory.restore(&kept.memory);
                 self.statistics.steps -= 1;

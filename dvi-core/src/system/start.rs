@@ -2,7 +2,7 @@
 
 use crate::error::StartError;
 use crate::scalar::norm::reported;
-use crate::system::TimeTransform;
+use crate::system::{TimeTransform, TimeTransformed};
 use crate::{Lagrangian, Real, Space, State, System, Vector};
 
 /// Whether a run can begin at time `t`, and the formulas of `system` stay within its arrays.
@@ -96,7 +96,7 @@ pub(crate) fn consistent<S: Lagrangian<T>, T: Real>(
 }
 
 /// `state` with the coordinate `energy` set to H.
-pub(crate) fn with_energy<S: Lagrangian<T>, T: Real>(
+pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
     system: &S,
     state: &S::State<T>,
 ) -> Result<S::State<T>, StartError> {
@@ -106,12 +106,11 @@ pub(crate) fn with_energy<S: Lagrangian<T>, T: Real>(
     let [_, energy] = extended(system);
     q[energy] = T::lift(0.0);
     finite(system, q.iter().copied())?;
-    if let Some(TimeTransform { rate, hamiltonian }) = system.time_transform(&q) {
-        if !hamiltonian.is_finite() || !rate.is_finite() {
-            evaluate(system, &q, &v, T::lift(0.0))?;
-        }
-        q[energy] = hamiltonian;
+    let TimeTransform { rate, hamiltonian } = system.time_transform_at(&q);
+    if !hamiltonian.is_finite() || !rate.is_finite() {
+        evaluate(system, &q, &v, T::lift(0.0))?;
     }
+    q[energy] = hamiltonian;
     Ok(S::State::read(|block| system.block_len(block), &q, &v))
 }
 

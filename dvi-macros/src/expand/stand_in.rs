@@ -20,6 +20,7 @@ struct StandIn<'a> {
     krate: &'a Path,
     space: TokenStream,
     state: TokenStream,
+    time_transformed: bool,
 }
 
 /// With errors in the attribute.
@@ -32,9 +33,9 @@ pub(super) fn stand_in(emitter: &Emitter<'_>, mut errors: Errors) -> TokenStream
         let State { space, type_in_trait, item, .. } = implement::state(emitter);
         (space, type_in_trait, item)
     };
-    let implementations =
-        StandIn { kind: model.kind, name: &item.ident, generics: &item.generics, krate, space, state }
-            .implementations();
+    let (name, generics, time_transformed) = (&item.ident, &item.generics, model.extended.is_some());
+    let stand_in = StandIn { kind: model.kind, name, generics, krate, space, state, time_transformed };
+    let implementations = stand_in.implementations();
     let errors = errors.into_tokens();
     quote!(#errors #item #state_item #implementations)
 }
@@ -49,7 +50,8 @@ pub(super) fn without_struct(
 ) -> TokenStream {
     let krate: Path = syn::parse_quote!(::dvi_core);
     let (space, state, state_item) = lost_state(&krate, visibility, name, generics, &mut errors);
-    let implementations = StandIn { kind, name, generics, krate: &krate, space, state }.implementations();
+    let stand_in = StandIn { kind, name, generics, krate: &krate, space, state, time_transformed: false };
+    let implementations = stand_in.implementations();
     let errors = errors.into_tokens();
     quote!(#errors #state_item #implementations)
 }
@@ -61,6 +63,7 @@ impl StandIn<'_> {
         let allow = implement::allow();
         let never = quote!({ ::core::unreachable!() });
         let kind = implement::kind(krate, self.kind == Kind::Regular);
+        let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
         quote! {
             const _: () = {
                 #[automatically_derived]
@@ -75,7 +78,22 @@ impl StandIn<'_> {
                     fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
                 }
                 impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause {}
+                #time_transformed
             };
+        }
+    }
+
+    /// The trait that systems have with a time transformation only.
+    fn time_transformed(&self, never: &TokenStream) -> TokenStream {
+        let Self { name, krate, .. } = self;
+        let mut generics = self.generics.clone();
+        generics.params.push(syn::parse_quote!(__T: #krate::Scalar));
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
+        let (_, type_generics, _) = self.generics.split_for_impl();
+        quote! {
+            impl #impl_generics #krate::TimeTransformed<__T> for #name #type_generics #where_clause {
+                fn time_transform_at(&self, _: &[__T]) -> #krate::system::TimeTransform<__T> #never
+            }
         }
     }
 }

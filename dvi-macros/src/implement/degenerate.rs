@@ -8,6 +8,7 @@ use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
 use crate::errors::listed;
 use crate::program::{DegenerateFormulas, DegeneratePrograms, TimeTransform};
+use crate::routine::Routine;
 use crate::structure::{Class, Components, OneForm};
 use crate::symbolic::{Expr, Index, Node, print_coordinate};
 use crate::validate::Checked;
@@ -21,17 +22,15 @@ pub(crate) fn degenerate(
 ) -> TokenStream {
     let implementation = implementation(emitter, programs, structure);
     let krate = emitter.krate();
-    let time = programs.time.as_ref().map(|TimeTransform { rate, hamiltonian }| {
-        let [rate, hamiltonian] = [rate, hamiltonian].map(|routine| emitter.value(routine));
+    let time = programs.time.as_ref().map(|_| {
         quote! {
             #[inline]
             fn time_transform(
                 &self, __q: &[__T],
             ) -> ::core::option::Option<#krate::system::TimeTransform<__T>> {
-                ::core::option::Option::Some(#krate::system::TimeTransform {
-                    rate: { #rate },
-                    hamiltonian: { #hamiltonian },
-                })
+                ::core::option::Option::Some(
+                    <Self as #krate::TimeTransformed<__T>>::time_transform_at(self, __q)
+                )
             }
         }
     });
@@ -174,7 +173,24 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     };
     let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian), &items);
     let proper = proper(emitter, &structure.class);
-    quote!(#lagrangian #affine #proper)
+    let time_transformed = programs.time.as_ref().map(|time| time_transformed(emitter, time));
+    quote!(#lagrangian #affine #proper #time_transformed)
+}
+
+/// The implementation of `TimeTransformed`.
+fn time_transformed(
+    emitter: &Emitter<'_>,
+    TimeTransform { rate, hamiltonian }: &TimeTransform<Routine>,
+) -> TokenStream {
+    let krate = emitter.krate();
+    let [rate, hamiltonian] = [rate, hamiltonian].map(|routine| emitter.value(routine));
+    let items = quote! {
+        #[inline]
+        fn time_transform_at(&self, __q: &[__T]) -> #krate::system::TimeTransform<__T> {
+            #krate::system::TimeTransform { rate: { #rate }, hamiltonian: { #hamiltonian } }
+        }
+    };
+    in_numbers(emitter, &quote!(TimeTransformed), &items)
 }
 
 /// The implementation of `ProperlyDegenerate`, or what says why there is none.

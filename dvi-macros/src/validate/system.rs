@@ -117,13 +117,11 @@ impl System<'_> {
             }
             (None, None) => internal("no dynamics"),
         };
-        let time = match (&attribute.time_transform, model.extended) {
-            (Some(transform), Some(extended)) => {
-                let rate = evaluation.number(&transform.rate)?;
-                Some((rate, evaluation.conjugates(extended)?))
-            }
-            _ => None,
-        };
+        let transform = attribute.time_transform.as_ref().zip(model.extended);
+        let time = transform.map(|(transform, extended)| {
+            Ok((evaluation.number(&transform.rate)?, evaluation.conjugates(extended)?))
+        });
+        let time = time.transpose()?;
         let untransformed = hamiltonian.clone();
         let (lagrangian, form, hamiltonian) = match &time {
             None => (lagrangian, form, hamiltonian),

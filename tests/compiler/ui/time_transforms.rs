@@ -130,4 +130,20 @@ mod no_value {
     }
 }
 
+mod begun_with_a_mistake {
+    use super::*;
+
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = y * d(x),
+        hamiltonian = x * z,
+        time_transform = 1.0 + x * x,
+    )]
+    struct S;
+
+    fn start() {
+        let _ = S.with_energy(SState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 });
+    }
+}
+
 fn main() {}

@@ -1,0 +1,139 @@
+//! What is declared by name in the arguments: coordinates, momenta, functions, a gauge.
+
+use proc_macro2::{Ident, Span};
+use quote::ToTokens;
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
+use syn::{Expr, Path, Token};
+
+/// `x`, or `x[n]`.
+#[derive(Debug)]
+pub(crate) struct Declaration {
+    pub(crate) name: Ident,
+    pub(crate) size: Option<Expr>,
+}
+
+/// `name = formula` in `momenta(...)`.
+#[derive(Debug)]
+pub(crate) struct Momentum {
+    pub(crate) name: Ident,
+    pub(crate) formula: Expr,
+}
+
+/// `f = [path, path_of_derivative, …]` in `functions(...)`, with two derivatives or three.
+#[derive(Debug)]
+pub(crate) struct Function {
+    pub(crate) name: Ident,
+    pub(crate) derivatives: Vec<Path>,
+}
+
+/// An entry of `functions(...)`.
+#[derive(Debug)]
+pub(super) enum Declared {
+    Function(Function),
+    ScalarField(ScalarFieldPath),
+}
+
+/// `psi = path`: a function of several variables that stands somewhere else than in the struct.
+#[derive(Debug)]
+pub(crate) struct ScalarFieldPath {
+    pub(crate) name: Ident,
+    pub(crate) path: Path,
+}
+
+/// `gauge = F`, or `gauge = auto`.
+#[derive(Debug)]
+pub(crate) enum Gauge {
+    Formula(Expr),
+    /// The compiler is to find one; the word.
+    Auto(Ident),
+}
+
+/// `time_transform = ρ`, with the word.
+#[derive(Debug)]
+pub(crate) struct TimeTransform {
+    pub(crate) word: Ident,
+    pub(crate) rate: Expr,
+}
+
+impl Gauge {
+    pub(super) fn new(formula: Expr) -> Self {
+        let word = match &formula {
+            Expr::Path(path) => path.path.get_ident().filter(|word| **word == "auto").cloned(),
+            _ => None,
+        };
+        word.map_or(Self::Formula(formula), Self::Auto)
+    }
+}
+
+impl Parse for Declaration {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let name = match input.call(Ident::parse_any) {
+            Ok(name) if syn::parse2::<Ident>(name.clone().into_token_stream()).is_ok() => name,
+            Ok(keyword) => {
+                let message =
+                    format!("`{keyword}` is a keyword of Rust: write `r#{keyword}`, or another name");
+                return Err(syn::Error::new(keyword.span(), message));
+            }
+            Err(error) => return Err(syn::Error::new(error.span(), "expected the name of a coordinate")),
+        };
+        let size = if input.peek(syn::token::Bracket) {
+            let content;
+            let bracket = syn::bracketed!(content in input);
+            if content.is_empty() {
+                let message = format!("`{name}[]` has no size: write `{name}[n]`");
+                return Err(syn::Error::new(bracket.span.join(), message));
+            }
+            Some(content.parse()?)
+        } else {
+            None
+        };
+        if !input.is_empty() {
+            return Err(input.error("a coordinate is declared as `x` or `x[n]`, and followed by `,`"));
+        }
+        Ok(Self { name, size })
+    }
+}
+
+impl Parse for Momentum {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let name: Ident = input.parse()?;
+        if !input.peek(Token![=]) {
+            return Err(syn::Error::new(
+                name.span(),
+                format!("this momentum has no formula: write `{name} = …`"),
+            ));
+        }
+        input.parse::<Token![=]>()?;
+        Ok(Self { name, formula: input.parse()? })
+    }
+}
+
+impl Parse for Declared {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let name: Ident = input.parse()?;
+        let advice = format!(
+            "a function is declared by its path and those of its first two derivatives, or three: write `{name} = [f, df, d2f]`; \
+             a value that implements `ScalarField` is declared by its path alone: write `{name} = path`"
+        );
+        let at_fault = |at: Span| syn::Error::new(at, &advice);
+        if !input.peek(Token![=]) {
+            return Err(at_fault(name.span()));
+        }
+        input.parse::<Token![=]>()?;
+        if !input.peek(syn::token::Bracket) {
+            let at = input.span();
+            let path = input.parse::<Path>().map_err(|_| at_fault(at))?;
+            return Ok(Self::ScalarField(ScalarFieldPath { name, path }));
+        }
+        let content;
+        let bracket = syn::bracketed!(content in input);
+        let derivatives = Punctuated::<Path, Token![,]>::parse_terminated(&content)
+            .map_err(|error| at_fault(error.span()))?;
+        if !(3..=4).contains(&derivatives.len()) {
+            return Err(at_fault(bracket.span.join()));
+        }
+        Ok(Self::Function(Function { name, derivatives: derivatives.into_iter().collect() }))
+    }
+}
