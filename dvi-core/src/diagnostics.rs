@@ -1,4 +1,4 @@
-//! What can be measured on a run: parasitic modes, preserved two-forms, sections, Lyapunov exponents.
+//! What can be measured on a run: parasitic modes, preserved two-forms, sections, Lyapunov exponents, work.
 //!
 //! Energy and momenta are methods of [`Run`](crate::run::Run). The tangent maps here are those of methods whose discrete
 //! Lagrangian can be differentiated twice, [`VariationalMethod`](crate::methods::VariationalMethod). The tangent map of any other
@@ -17,6 +17,7 @@ mod lyapunov;
 mod section;
 mod tangent;
 mod two_point;
+mod work;
 
 pub use alternating::AlternatingComponent;
 pub use convergence::convergence_order;
@@ -25,3 +26,4 @@ pub use lyapunov::LyapunovExponent;
 pub use section::{Crossing, CrossingOf, Direction, Section};
 pub use tangent::TangentMap;
 pub use two_point::TwoPointTangentMap;
+pub use work::Work;

@@ -82,6 +82,10 @@ impl<S, T: Copy> Copy for Span<'_, S, T> {}
 
 /// What one interval contributes to the discrete equations of a system.
 ///
+/// On a system with [forces](Lagrangian::applied_force) D₁L_d means D₁L_d + F⁻ and D₂L_d means D₂L_d + F⁺, with the discrete
+/// forces that the rule of L_d makes of F (Marsden & West 2001, section 3.2): of a rule with nodes qʲ they are
+/// F⁻ = h Σ wⱼ bⱼ F(qʲ, q̇ʲ) and F⁺ = h Σ wⱼ b̄ⱼ F(qʲ, q̇ʲ).
+///
 /// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so that nothing
 /// is allocated.
 pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
@@ -123,11 +127,13 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
     label = "has no tangent map"
 )]
 pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, T> {
-    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, and D₂D₂L_d to sinks.
+    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose D₂D₁L_d and D₂D₂L_d
+    /// to sinks. With forces on the system these are the derivatives of D₁L_d + F⁻ and D₂L_d + F⁺, and no matrix is the
+    /// transpose of another.
     ///
     /// # Errors
     /// As [`derivatives`](DiscreteLagrangian::derivatives).
-    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 3]) -> Result<(), StepFailure>;
+    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 4]) -> Result<(), StepFailure>;
 }
 
 /// D₁D₂L_d d = p0 + D₁L_d, for the correction −d of Δ.

@@ -2,7 +2,7 @@
 
 pub use crate::diagnostics::{
     AlternatingComponent, Crossing, Direction, LyapunovExponent, Section, TangentMap, TwoPointTangentMap,
-    convergence_order,
+    Work, convergence_order,
 };
 pub use crate::discrete::{Constant, Curvature, PerCoordinate, Quadrature, Radial, Reading};
 pub use crate::error::{StartError, StepError, StepFailure};

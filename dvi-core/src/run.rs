@@ -10,11 +10,12 @@ mod step_control;
 use core::fmt;
 
 use crate::error::{StepError, StepFailure};
+use crate::mechanics::motion::FirstOrder;
 use crate::methods::{Carries, Clock, Method};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::extended;
-use crate::{Lagrangian, Real, Space, State, System, TimeTransformed, Vector};
+use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed, Vector};
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
@@ -71,6 +72,31 @@ pub trait Run {
     fn energy(&self) -> Self::Scalar {
         let Stepper { system, q, .. } = self.stepper();
         self.stepper().with_velocity(self.time(), |v| system.energy(q, v, self.time()))
+    }
+
+    /// The power F·q' of the [forces](Lagrangian::applied_force) at the current state; zero if there are none. Not a number where
+    /// the velocities are not determined. [`Work`](crate::diagnostics::Work) is its integral.
+    fn power(&self) -> Self::Scalar
+    where
+        <Self::System as System>::Kind: FirstOrder<Self::System, Self::Scalar>,
+    {
+        let Stepper { system, q, .. } = self.stepper();
+        let (t, zero) = (self.time(), Self::Scalar::lift(0.0));
+        if !Self::System::FORCED {
+            return zero;
+        }
+        let power = |v: &[Self::Scalar], velocity: &[Self::Scalar]| {
+            let mut force = system.space().vector();
+            system.applied_force(q, v, t, &mut force);
+            force.iter().zip(velocity).fold(zero, |sum, (&force, &v)| sum + force * v)
+        };
+        if Self::System::REGULAR {
+            return self.stepper().with_velocity(t, |v| power(v, v));
+        }
+        match <Self::System as System>::Kind::rates(system, q, &[], t) {
+            Ok([velocity, _]) => power(&[], &velocity),
+            Err(_) => Self::Scalar::lift(f64::NAN),
+        }
     }
 
     /// The run as data, from which another one can go on as if this had not stopped.

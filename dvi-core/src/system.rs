@@ -88,6 +88,9 @@ pub trait System {
     /// Whether the time is transformed ([`TimeTransformed`]).
     const TIME_TRANSFORMED: bool = false;
 
+    /// Whether [forces](Lagrangian::applied_force) act on the system.
+    const FORCED: bool = false;
+
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
     /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`.
@@ -157,10 +160,11 @@ impl Kind for Regular {
 pub trait Lagrangian<T: Scalar = f64>: System {
     /// L(q, v, t).
     fn lagrangian(&self, q: &[T], v: &[T], t: T) -> T;
-    /// Sets `l_q` to ∂L/∂q and `l_v` to ∂L/∂v.
+    /// Sets `l_q` to ∂L/∂q + F, where F is the [force](Self::applied_force) that acts on the system, and `l_v` to ∂L/∂v.
     fn gradient(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
     /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j),
-    /// w.qq ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ.
+    /// w.qq ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ. With a force F on the system ∂L/∂qⁱ + Fᵢ stands
+    /// in the place of ∂L/∂qⁱ: w.qq ∂Fᵢ/∂qʲ + w.qv ∂Fᵢ/∂vʲ comes with it, and none of the matrices is symmetric.
     #[allow(clippy::too_many_arguments)]
     fn linearize<K: Sink<T>>(
         &self,
@@ -173,8 +177,19 @@ pub trait Lagrangian<T: Scalar = f64>: System {
         sink: &mut K,
     );
 
-    /// Whether L is not a number at this point because a function that holds data is evaluated outside of its
-    /// [domain](crate::ScalarField::domain), and which argument of which function: the first one in L that is.
+    /// Sets `out` to the force F(q, v, t) that `force = …` or `force(x) = …` declares, one component for each coordinate, in units
+    /// of energy over those of the coordinate; zero if none is declared.
+    ///
+    /// By the principle of Lagrange and d'Alembert, δ∫L dt + ∫F·δq dt = 0, the equations of motion are
+    /// d/dt ∂L/∂v = ∂L/∂q + F; of a degenerate system, Ω q' = ∇H − F + ∂α/∂t (Marsden & West 2001, section 3.1). So F stands
+    /// wherever ∂L/∂q does, in the motion and in the discrete equations of every method: with L_d come the forces that
+    /// the same rule makes of F.
+    fn applied_force(&self, _q: &[T], _v: &[T], _t: T, out: &mut [T]) {
+        out.fill(T::lift(0.0));
+    }
+
+    /// Whether L or a force is not a number at this point because a function that holds data is evaluated outside of its
+    /// [domain](crate::ScalarField::domain), and which argument of which function: the first one that is.
     fn outside(&self, _q: &[T], _v: &[T], _t: T) -> Option<OutsideError>
     where
         T: Real,
@@ -216,9 +231,9 @@ pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = D
 
     /// H(q, t).
     fn hamiltonian(&self, q: &[T], t: T) -> T;
-    /// Sets `out` to ∇H(q, t).
+    /// Sets `out` to ∇H(q, t) − F(q, t), with the [force](Lagrangian::applied_force) that acts on the system.
     fn hamiltonian_gradient(&self, q: &[T], t: T, out: &mut [T]);
-    /// Sets `out` to ∇H(q, t) + ∂α/∂t: the right side of Ω q' = ∇H + ∂α/∂t, the equation of the flow.
+    /// Sets `out` to ∇H(q, t) − F(q, t) + ∂α/∂t: the right side of Ω q' = ∇H − F + ∂α/∂t, the equation of the flow.
     fn flow_source(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets `out` to the components of α(q, t).
     fn one_form(&self, q: &[T], t: T, out: &mut [T]);
@@ -331,7 +346,7 @@ pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
 )]
 pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regular> {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no
-    /// term is linear in v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
+    /// term is linear in v; and no force depends on v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
     /// Störmer and Verlet (Marsden & West 2001, section 2.6).
     const SEPARABLE: bool;
     /// Whether M has entries on its diagonal only, so that it is solved by divisions.
@@ -339,8 +354,8 @@ pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regu
     /// Whether L is a polynomial of degree at most two in v, so that p = ∂L/∂v is affine in v.
     const QUADRATIC: bool;
 
-    /// Sets `out` to ∂L/∂q alone. Where [`SEPARABLE`](Self::SEPARABLE) holds, this is −∇V(q, t): `v` is
-    /// not read, and may be empty.
+    /// Sets `out` to ∂L/∂q + F alone, with the [force](Lagrangian::applied_force) that acts on the system. Where
+    /// [`SEPARABLE`](Self::SEPARABLE) holds, this is F − ∇V(q, t): `v` is not read, and may be empty.
     fn force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
     /// Sets `out` to ∂²L/∂t∂v: the rate at which p = ∂L/∂v changes where q and v do not.
     fn momentum_rate(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
@@ -349,8 +364,8 @@ pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regu
 /// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
 /// [`SEPARABLE`](RegularLagrangian::SEPARABLE) holds.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M",
-    label = "its report says what the mass matrix depends on",
+    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M, or a force depends on velocities",
+    label = "its report says what the mass matrix and the forces depend on",
     note = "`Variational` and `Galerkin` step any regular system"
 )]
 pub trait Separable<T: Scalar = f64>: RegularLagrangian<T> {}

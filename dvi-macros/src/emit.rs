@@ -66,16 +66,16 @@ impl Emitter<'_> {
         self.body_of(routine, false)
     }
 
-    /// The body of a function that returns the argument to blame if L is no number because a function of several variables is not
-    /// known.
+    /// The body of a function that returns the argument to blame if the value of `routine` is no number because a function of
+    /// several variables is not known.
     pub(crate) fn guarded(&self, routine: &Routine) -> TokenStream {
-        let (krate, body) = (self.krate(), self.body_of(routine, true));
+        let (krate, value, body) = (self.krate(), self.body(routine), self.body_of(routine, true));
         let has_choices = (0..routine.code.len())
             .any(|position| matches!(routine.code.get(Register(position as u32)), Instruction::Choose(..)));
         quote! {
             let mut __outside = ::core::option::Option::None;
             let __with_constants: __T = { #body };
-            let __value = <Self as #krate::Lagrangian<__T>>::lagrangian(self, __q, __v, __t);
+            let __value: __T = { #value };
             #krate::__private::to_blame(__outside, [__value, __with_constants], #has_choices)
         }
     }

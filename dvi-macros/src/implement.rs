@@ -251,6 +251,7 @@ fn configuration(
         (0..emitter.model.blocks.len()).map(|block| emitter.index(&emitter.model.block_size(block)));
     let blocks = 0..emitter.model.blocks.len();
     let time_transformed = emitter.model.extended.is_some();
+    let forced = programs.forces.is_some();
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
     let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.has_velocities()));
     quote! {
@@ -263,6 +264,7 @@ fn configuration(
             const REPORT: #krate::Report = #report;
             const HAS_SCALAR_FIELDS: bool = #has_scalar_fields;
             const TIME_TRANSFORMED: bool = #time_transformed;
+            const FORCED: bool = #forced;
 
             #[inline(always)]
             fn space(&self) -> Self::Space { #space_value }
@@ -285,8 +287,16 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
     let offsets = emitter.offsets();
     // A call costs as much as a few terms of a sum.
     let always = (programs.linearize.code.len() <= SHORT).then(|| quote!((always)));
+    let applied_force = programs.forces.as_ref().map(|forces| {
+        let applied = emitter.vector(&forces.applied);
+        quote! {
+            #[inline]
+            fn applied_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #applied }
+        }
+    });
     let outside = (!emitter.model.scalar_fields.is_empty()).then(|| {
-        let (read, body) = (emitter.read(&programs.lagrangian), emitter.guarded(&programs.lagrangian));
+        let probe = programs.forces.as_ref().map_or(&programs.lagrangian, |forces| &forces.probe);
+        let (read, body) = (emitter.read(probe), emitter.guarded(probe));
         quote! {
             fn outside(
                 &self, __q: &[__T], __v: &[__T], __t: __T,
@@ -316,6 +326,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             ) {
                 #read_all #l_q #l_v #offsets #linearize
             }
+            #applied_force
             #outside
             #members
             #[inline]

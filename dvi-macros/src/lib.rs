@@ -69,6 +69,7 @@ use proc_macro::TokenStream;
 /// | `lagrangian = …` | instead of these two: L, affine in the velocities `dot(x)` |
 /// | `gauge = F` | F(q, t), whose dF/dt is added to L: α becomes α + ∂F/∂q and H becomes H − ∂F/∂t, with the same motion |
 /// | `gauge = auto` | an F is sought that leaves α no component along one half of the coordinates |
+/// | `force(x) = …`, `force = […]` | forces, see below |
 /// | `time_transform = ρ` | steps of equal length in τ with dt = ρ(q, t) dτ, see below |
 /// | `momenta(name = …)` | conserved quantities to watch |
 /// | `functions(f = [f, df, d2f])` | functions of one number, each with its first two derivatives, and a third one where it stands in a gauge, as paths to `fn(T) -> T` generic over `dvi_core::Scalar` |
@@ -129,6 +130,12 @@ use proc_macro::TokenStream;
 /// Coordinates and the time stand in no denominator of F that has none in α. Parameters do if nothing else is found, as in
 /// `x * (k * y).cos() / k`, and the report says so: F is no number where such a parameter is 0. The integral of 1/x is `x.ln()`
 /// if α takes the logarithm or the root of x, else `0.5 * x.powi(2).ln()`.
+///
+/// # Forces
+///
+/// `force(x) = …` and `force = […]` declare forces as in [`macro@lagrangian`], for Ω q' = ∇H − F + ∂α/∂t. With α = p·dq that is
+/// p' = −∂H/∂q + F_q and q' = ∂H/∂p − F_p. No velocities stand in them: in a degenerate system these are functions of the
+/// coordinates. A gauge leaves forces as they are; `time_transform` does not go with them.
 ///
 /// # Time transformations
 ///
@@ -210,12 +217,46 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// |---|---|
 /// | `coordinates(x, y[N])` | single coordinates and arrays, as in [`macro@degenerate_lagrangian`] |
 /// | `lagrangian = …` | L, with the velocities `dot(x)` |
+/// | `force(x) = …`, `force = […]` | forces, as below |
 /// | `momenta(name = …)` | conserved quantities to watch; velocities may stand in them |
 /// | `functions(f = [f, df, d2f], psi = path)` | functions of your own, as in [`macro@degenerate_lagrangian`] |
 /// | `derive(Trait, …)` | what the state derives beside the usual traits |
 /// | `crate = ::path` | where `dvi_core` is, if it was renamed |
 ///
 /// Formulas, sizes and parameters are those of [`macro@degenerate_lagrangian`], without restriction on the velocities.
+///
+/// # Forces
+///
+/// `force(x) = …` declares a force on the coordinate x: friction, a drive, whatever no Lagrangian has. On an array it is
+/// `force(x) = |i| …`, the force on entry i. `force = [F_x, |i| F_y]` lists the forces on all coordinates, in the order of
+/// declaration. Positions, velocities `dot(x)` and the time may stand in them.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A driven oscillator with friction.
+/// #[lagrangian(
+///     coordinates(x),
+///     lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0,
+///     force(x) = -gamma * dot(x) + amplitude * t.cos(),
+/// )]
+/// struct Driven {
+///     gamma: f64,
+///     amplitude: f64,
+/// }
+///
+/// let system = Driven { gamma: 0.2, amplitude: 1.0 };
+/// let start: DrivenState = DrivenState { x: 0.0, dot_x: 0.0 };
+/// let mut run = Integrator::new(&system, Variational::midpoint(), 0.01, start)?;
+/// run.take_steps(20_000)?;
+/// // After long it moves as amplitude/gamma · sin t.
+/// assert!((run.state().x - 5.0 * run.time().sin()).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// The equations of motion are those of Lagrange and d'Alembert, d/dt ∂L/∂v = ∂L/∂q + F, and so are the discrete equations of
+/// every method: `dvi_core::Lagrangian::applied_force` says more. In a report and in the documentation of the struct, F_x is
+/// the force on x.
 ///
 /// # Errors
 ///

@@ -11,11 +11,12 @@ use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
 
 use crate::errors::{Errors, listed, nearest};
 use crate::model::{Model, Shape};
-use crate::symbolic::{Atom, Expr, Fold, Graph, Id, Index, Loop, Node, Parameter, Range};
+use crate::symbolic::{Expr, Graph, Id, Index, Loop, Node, Parameter};
 
 mod admit;
 mod blocks;
 mod calls;
+mod components;
 mod habits;
 mod inside;
 mod integers;
@@ -37,6 +38,7 @@ pub(crate) enum Role {
     Gauge,
     TimeTransform,
     Lagrangian,
+    Force,
     Momentum,
 }
 
@@ -49,6 +51,7 @@ impl Role {
             Self::Gauge => "the gauge",
             Self::TimeTransform => "the time transformation",
             Self::Lagrangian => "the Lagrangian",
+            Self::Force => "a force",
             Self::Momentum => "a momentum",
         }
     }
@@ -147,69 +150,6 @@ impl<'a> Lowering<'a> {
         names.visit_expr(formula);
         self.index_names = names.0;
         self.expr(formula)
-    }
-
-    /// A list of components, one for each block: Σ_b Σ_i αᵇᵢ·d(xᵇᵢ).
-    pub(crate) fn components(&mut self, list: &syn::ExprArray) -> Option<Expr> {
-        let (expected, found) = (self.model.declared_blocks(), list.elems.len());
-        if found != expected {
-            if !self.model.lost_coordinates {
-                let blocks = &self.model.blocks[..expected];
-                let names: Vec<String> = blocks.iter().map(|b| b.name.to_string()).collect();
-                let names = listed(names.iter().map(String::as_str));
-                let message =
-                    format!("expected {expected} components, one for each of {names}; here are {found}");
-                self.errors.push(list, message);
-            }
-            return None;
-        }
-        let terms: Vec<Option<Expr>> = list
-            .elems
-            .iter()
-            .enumerate()
-            .map(|(block, component)| self.component(block, component))
-            .collect();
-        let terms: Vec<Expr> = terms.into_iter().collect::<Option<_>>()?;
-        Some(self.graph.sum(&terms))
-    }
-
-    fn component(&mut self, block: usize, component: &Syntax) -> Option<Expr> {
-        let name = self.model.blocks[block].name.clone();
-        match (self.model.blocks[block].array.clone(), component) {
-            (None, Syntax::Closure(_)) => {
-                self.errors.push(
-                    component,
-                    format!("`{name}` is a single coordinate: write its component without `|…|`"),
-                );
-                None
-            }
-            (None, _) => {
-                let value = self.formula(component, Role::Component)?;
-                let velocity = self.velocity_node(block, Index::literal(0));
-                Some(self.graph.multiply(value, velocity))
-            }
-            (Some((size, _)), Syntax::Closure(closure)) => {
-                self.role = Role::Component;
-                let [index] = self.closure_indices::<1>(closure)?;
-                let entries = Loop { depth: 0, range: Range::up_to(size) };
-                let body = self.inside(&[(index, Index::open(0), &entries)], &closure.body)?;
-                let velocity = self.velocity_node(block, Index::open(0));
-                let term = self.graph.multiply(body, velocity);
-                Some(self.graph.fold(Fold::Sum, Atom::Open(0), entries.range, term))
-            }
-            (Some(_), _) => {
-                self.errors.push(
-                    component,
-                    format!("`{name}` is an array: write its component as `|i| …`, for entry i"),
-                );
-                None
-            }
-        }
-    }
-
-    fn velocity_node(&mut self, block: usize, index: Index) -> Expr {
-        let coordinate = crate::symbolic::Coordinate { block: block as u32, index };
-        self.graph.intern(Node::Velocity(coordinate)).into()
     }
 
     fn expr(&mut self, syntax: &Syntax) -> Option<Expr> {

@@ -17,7 +17,7 @@ pub(crate) use regular::{RegularFormulas, RegularPrograms};
 /// An array that a generated function writes to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Output {
-    /// ∂L/∂q
+    /// ∂L/∂q + F
     Lq,
     /// ∂L/∂v
     Lv,
@@ -47,14 +47,27 @@ pub(crate) enum Variable {
     Velocity,
 }
 
+/// A generalised force F: its components, each at the coordinate that it acts on. By the principle of Lagrange and d'Alembert,
+/// d/dt ∂L/∂v = ∂L/∂q + F: it stands wherever ∂L/∂q does.
+pub(crate) type Force = Vec<Contribution>;
+
 /// What is generated for every system.
 pub(crate) struct Programs {
     pub(crate) lagrangian: Routine,
+    pub(crate) forces: Option<Forces>,
     pub(crate) gradient: Routine,
     pub(crate) linearize: Routine,
     pub(crate) momenta: Vec<Routine>,
-    /// The second derivative of L.
+    /// The second derivative of L, and the first ones of F.
     pub(crate) entries: Vec<SecondContribution>,
+}
+
+/// What is generated for the forces on a system, if there are any.
+pub(crate) struct Forces {
+    /// F
+    pub(crate) applied: Routine,
+    /// L and all components of F, added up: no number where one of them is none.
+    pub(crate) probe: Routine,
 }
 
 /// What a derivative is by.
@@ -67,13 +80,23 @@ pub(crate) fn variable(graph: &Graph, id: Id) -> (Variable, Coordinate) {
 }
 
 impl Programs {
-    /// From L, its second derivative, and the momenta.
-    fn new(graph: &mut Graph, lagrangian: Expr, entries: Vec<SecondContribution>, momenta: &[Expr]) -> Self {
-        let gradient = first_derivatives(graph, lagrangian, Output::Lq, Output::Lv);
+    /// From L, its second derivative, the force, and the momenta.
+    fn new(
+        graph: &mut Graph,
+        lagrangian: Expr,
+        mut entries: Vec<SecondContribution>,
+        force: &Force,
+        momenta: &[Expr],
+    ) -> Self {
+        let by_lagrangian = graph.gradient(lagrangian, &[]);
+        let contributions = added(graph, by_lagrangian, force.iter().cloned());
+        let gradient = statements(graph, contributions, Output::Lq, Output::Lv);
+        entries.extend(force_derivatives(graph, force));
         let mut linearize = gradient.clone();
         linearize.extend(weighted_hessian(graph, &entries));
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
+            forces: (!force.is_empty()).then(|| Forces::new(graph, lagrangian, force)),
             gradient: Routine::new(graph, gradient),
             linearize: Routine::new(graph, linearize),
             momenta: momenta.iter().map(|value| Routine::new(graph, result(*value))).collect(),
@@ -82,12 +105,66 @@ impl Programs {
     }
 }
 
+impl Forces {
+    fn new(graph: &mut Graph, lagrangian: Expr, force: &Force) -> Self {
+        let applied = statements(graph, force.clone(), Output::Vector, Output::Lv);
+        let mut sum = lagrangian;
+        for Contribution { loops, value, .. } in force {
+            let added = loops.iter().rev().fold(*value, |value, over| graph.summed(value, over.clone()));
+            sum = graph.add(sum, added);
+        }
+        Self { applied: Routine::new(graph, applied), probe: Routine::new(graph, result(sum)) }
+    }
+}
+
+/// ∂F/∂q and ∂F/∂v, in the rows of ∂L/∂q.
+fn force_derivatives(graph: &mut Graph, force: &Force) -> Vec<SecondContribution> {
+    let mut found = Vec::new();
+    for Contribution { loops, target, value } in force {
+        found.extend(graph.gradient(*value, loops).into_iter().map(|by| SecondContribution {
+            loops: by.loops,
+            row: *target,
+            column: by.target,
+            value: by.value,
+            mirrored: false,
+        }));
+    }
+    found
+}
+
 fn result(value: Expr) -> Vec<Statement> {
     vec![Statement { loops: Vec::new(), place: Place::Result, value }]
 }
 
 fn first_derivatives(graph: &mut Graph, of: Expr, position: Output, velocity: Output) -> Vec<Statement> {
     let contributions = graph.gradient(of, &[]);
+    statements(graph, contributions, position, velocity)
+}
+
+/// The sum, with one value for each place.
+fn added(
+    graph: &mut Graph,
+    mut contributions: Vec<Contribution>,
+    others: impl Iterator<Item = Contribution>,
+) -> Vec<Contribution> {
+    for other in others {
+        let same = |known: &&mut Contribution| known.target == other.target && known.loops == other.loops;
+        match contributions.iter_mut().find(same) {
+            Some(known) => known.value = graph.add(known.value, other.value),
+            None => contributions.push(other),
+        }
+    }
+    contributions.retain(|contribution| !contribution.value.is_zero());
+    contributions
+}
+
+/// Contributions by positions in one array and by velocities in another.
+fn statements(
+    graph: &Graph,
+    contributions: Vec<Contribution>,
+    position: Output,
+    velocity: Output,
+) -> Vec<Statement> {
     let statement = |contribution: Contribution| {
         let (kind, coordinate) = variable(graph, contribution.target);
         let output = match kind {

@@ -14,7 +14,7 @@ mod declared;
 pub(crate) mod depth;
 
 use declared::Declared;
-pub(crate) use declared::{Declaration, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform};
+pub(crate) use declared::{Declaration, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform};
 
 /// Which of the two attributes stands on a struct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,6 +36,7 @@ pub(crate) struct Attribute {
     pub(crate) gauge: Option<Gauge>,
     pub(crate) time_transform: Option<TimeTransform>,
     pub(crate) lagrangian: Option<Expr>,
+    pub(crate) forces: Vec<Force>,
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
     pub(crate) scalar_fields: Vec<ScalarFieldPath>,
@@ -50,13 +51,14 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 10] = [
+const ARGUMENTS: [(&str, &str); 11] = [
     ("coordinates", "coordinates(x, y[n])"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
     ("gauge",       "gauge = F(q)"),
     ("time_transform", "time_transform = ρ(q)"),
     ("lagrangian",  "lagrangian = …"),
+    ("force",       "force = [F_x, |i| F_y(i)]`, or `force(x) = F_x"),
     ("momenta",     "momenta(p = …)"),
     ("functions",   "functions(f = [f, df, d2f])"),
     ("derive",      "derive(Trait, path::Trait)"),
@@ -93,6 +95,11 @@ struct Argument {
 enum Value {
     Assigned(TokenStream),
     List(TokenStream),
+    /// `name(of) = value`
+    AssignedTo {
+        of: TokenStream,
+        value: TokenStream,
+    },
     Neither,
 }
 
@@ -105,11 +112,15 @@ impl Argument {
         let value = if input.peek(syn::token::Paren) {
             let content;
             syn::parenthesized!(content in input);
-            let value = Value::List(content.parse()?);
-            if !input.is_empty() {
+            let list = content.parse()?;
+            if input.peek(Token![=]) && !input.peek(Token![==]) {
+                input.parse::<Token![=]>()?;
+                Value::AssignedTo { of: list, value: input.parse()? }
+            } else if input.is_empty() {
+                Value::List(list)
+            } else {
                 return Err(input.error("expected `,`"));
             }
-            value
         } else if input.peek(Token![=]) && !input.peek(Token![==]) {
             input.parse::<Token![=]>()?;
             Value::Assigned(input.parse()?)
@@ -118,6 +129,14 @@ impl Argument {
             Value::Neither
         };
         Ok(Self { name, value })
+    }
+
+    /// What may be given once: `name`, or `name(of)`.
+    fn given(&self) -> String {
+        match &self.value {
+            Value::AssignedTo { of, .. } => format!("{}({of})", self.name),
+            Value::Assigned(_) | Value::List(_) | Value::Neither => self.name.to_string(),
+        }
     }
 }
 
@@ -131,11 +150,11 @@ pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Erro
     let mut given: Vec<String> = Vec::new();
     for piece in split_at_commas(tokens) {
         match read_by(piece, |input| Argument::parse(input, kind)) {
-            Ok(Argument { name, .. }) if given.contains(&name.to_string()) => {
-                errors.push(&name, format!("`{name}` is given twice"));
+            Ok(argument) if given.contains(&argument.given()) => {
+                errors.push(&argument.name, format!("`{}` is given twice", argument.given()));
             }
             Ok(argument) => {
-                given.push(argument.name.to_string());
+                given.push(argument.given());
                 attribute.accept(argument, errors);
             }
             Err(error) => errors.push_syn(error),
@@ -164,7 +183,9 @@ impl Attribute {
         let rate = self.time_transform.as_ref().map(|transform| &transform.rate);
         let dynamics =
             [self.one_form.as_ref(), self.hamiltonian.as_ref(), self.lagrangian.as_ref(), self.gauge(), rate];
-        dynamics.into_iter().flatten().chain(self.momenta.iter().map(|momentum| &momentum.formula))
+        let forces = self.forces.iter().flat_map(Force::formulas);
+        let momenta = self.momenta.iter().map(|momentum| &momentum.formula);
+        dynamics.into_iter().flatten().chain(forces).chain(momenta)
     }
 
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
@@ -200,6 +221,27 @@ impl Attribute {
                 self.time_transform =
                     value_of(&name, tokens, errors).map(|rate| TimeTransform { word: name, rate });
             }
+            ("force", Value::Assigned(tokens)) => match value_of(&name, tokens, errors) {
+                Some(Expr::Array(components)) => self.push_force(&name, Force::Components(components), errors),
+                Some(other) => {
+                    let message = "`force = […]` is a list with a component for each coordinate; the force on one of them is \
+                                   written `force(x) = …`";
+                    errors.push(other, message);
+                }
+                None => {}
+            },
+            ("force", Value::AssignedTo { of, value }) => match read(of) {
+                Ok(on) => {
+                    if let Some(formula) = value_of(&name, value, errors) {
+                        self.push_force(&name, Force::On(on, formula), errors);
+                    }
+                }
+                Err(error) => errors.push_syn(syn::Error::new(
+                    error.span(),
+                    "the coordinate goes by its name alone, as in `force(x) = …`; of an array of them the force on entry i is \
+                     `force(x) = |i| …`",
+                )),
+            },
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),
@@ -222,6 +264,19 @@ impl Attribute {
                 );
                 errors.push(&name, format!("unknown argument `{keyword}`; {hint}"));
             }
+        }
+    }
+
+    /// Adds a force, unless there is a list of all of them.
+    fn push_force(&mut self, word: &Ident, force: Force, errors: &mut Errors) {
+        let is_list = |force: &Force| matches!(force, Force::Components(_));
+        if !self.forces.is_empty() && (is_list(&force) || self.forces.iter().any(is_list)) {
+            errors.push(
+                word,
+                "`force = […]` has the forces on all coordinates: write one list, or `force(x) = …` for each",
+            );
+        } else {
+            self.forces.push(force);
         }
     }
 }

@@ -3,13 +3,13 @@
 //! Differentiating p0 = −D₁L_d(q0, q1), p1 = D₂L_d(q0, q1) implicitly:
 //!
 //! δq1 = −(D₁D₂)⁻¹(δp0 + D₁D₁δq0)
-//! δp1 = (D₁D₂)ᵀδq0 + D₂D₂δq1
+//! δp1 = D₂D₁δq0 + D₂D₂δq1
 
 use super::DiscreteHessian;
 use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
-use crate::space::elimination::{self, multiply_add, multiply_transposed_add};
+use crate::space::elimination::{self, multiply_add};
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.
@@ -56,20 +56,20 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T
 
     /// Maps (δq0, δp0), in place, to (δq1, δp1).
     pub fn apply(&mut self, dq: &mut Vector<S, T>, dp: &mut Vector<S, T>) {
-        let DiscreteHessian { d11, d12, d22, .. } = &self.hessian;
+        let DiscreteHessian { d11, d21, d22, .. } = &self.hessian;
         let [dq1, dp1] = &mut self.next;
         dq1.copy_from_slice(dp);
         multiply_add(d11, dq, dq1);
         elimination::solve(&self.factors, &self.permutation, dq1);
         dq1.iter_mut().for_each(|x| *x = -*x);
         dp1.fill(T::lift(0.0));
-        multiply_transposed_add(d12, dq, dp1);
+        multiply_add(d21, dq, dp1);
         multiply_add(d22, dq1, dp1);
         dq.copy_from_slice(dq1);
         dp.copy_from_slice(dp1);
     }
 
-    /// max |MᵀJM − J| for the matrix M of the map and J = (0 1; −1 0): zero up to rounding.
+    /// max |MᵀJM − J| for the matrix M of the map and J = (0 1; −1 0): zero up to rounding, unless forces act.
     #[cfg(feature = "alloc")]
     pub fn symplectic_defect(&mut self, system: &S) -> T {
         let n = system.space().dimension();

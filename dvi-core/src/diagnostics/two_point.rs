@@ -10,7 +10,7 @@ use super::DiscreteHessian;
 use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
-use crate::space::elimination::{self, multiply_add, multiply_transposed_add};
+use crate::space::elimination::{self, multiply_add};
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δq1) ↦ (δq1, δq2) of one step of the discrete Lagrangian `L`.
@@ -59,7 +59,7 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap
     pub fn apply(&mut self, dq0: &mut Vector<S, T>, dq1: &mut Vector<S, T>) {
         let next = &mut self.next;
         next.fill(T::lift(0.0));
-        multiply_transposed_add(&self.before.d12, dq0, next);
+        multiply_add(&self.before.d21, dq0, next);
         multiply_add(&self.before.d22, dq1, next);
         multiply_add(&self.after.d11, dq1, next);
         elimination::solve(&self.factors, &self.permutation, next);
@@ -70,7 +70,7 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap
     }
 
     /// max |AᵀΩ₁A − Ω₀| for the matrix A of the map, Ω₀ at (q0, q1) and Ω₁ at (q1, q2): zero up to
-    /// rounding.
+    /// rounding, unless forces act.
     #[cfg(feature = "alloc")]
     pub fn two_form_defect(&mut self, system: &S) -> T {
         let n = system.space().dimension();

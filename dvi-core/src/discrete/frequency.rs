@@ -9,7 +9,7 @@ use core::fmt::Debug;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::scalar::norm;
-use crate::space::sink::Product;
+use crate::space::sink::TransposedProduct;
 use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// How a frequency that depends on the motion enters a step from q0 to q1.
@@ -360,7 +360,7 @@ impl<S: RegularLagrangian<T>, T: Real> Local<S, T> {
         };
         self.omega = omega;
         mass.solve(da, acceleration);
-        let (zero, mut product) = (T::lift(0.0), Product { x: acceleration, sum: dq });
+        let (zero, mut product) = (T::lift(0.0), TransposedProduct { x: acceleration, sum: dq });
         let weights = Weights { qq: T::lift(1.0), qv: zero, vq: zero, vv: zero };
         system.linearize(q, v, t, weights, l_q, l_v, &mut product);
         defined(self.omega)?;

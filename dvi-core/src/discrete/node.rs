@@ -108,7 +108,7 @@ impl<S: Lagrangian<T>, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
     fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,
-        [d11, d12, d22]: [&mut K; 3],
+        [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
         self.place(interval, ends);
         let NodeWork { point, velocity, gradient, momentum } = &mut self.work;
@@ -117,6 +117,7 @@ impl<S: Lagrangian<T>, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
         let weights = [
             (Weights { qq: h * left * left, qv: -left, vq: -left, vv: per_h }, d11),
             (Weights { qq: h * left * right, qv: left, vq: -right, vv: -per_h }, d12),
+            (Weights { qq: h * left * right, qv: -right, vq: left, vv: -per_h }, d21),
             (Weights { qq: h * right * right, qv: right, vq: right, vv: per_h }, d22),
         ];
         for (weights, sink) in weights {

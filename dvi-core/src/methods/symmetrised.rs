@@ -107,10 +107,10 @@ impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangi
 }
 
 impl<S: Lagrangian<T>, T: Real> TwiceDifferentiable<S, T> for SymmetrisedLagrangian<S, T> {
-    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 3]) -> Result<(), StepFailure> {
-        let [mut d11, mut d12, mut d22] = sinks.map(|sink| Scaled { sink, factor: |_, _| T::lift(0.5) });
+    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 4]) -> Result<(), StepFailure> {
+        let mut halves = sinks.map(|sink| Scaled { sink, factor: |_, _| T::lift(0.5) });
         for node in &mut self.nodes {
-            node.hessian(span, [&mut d11, &mut d12, &mut d22])?;
+            node.hessian(span, halves.each_mut())?;
         }
         Ok(())
     }

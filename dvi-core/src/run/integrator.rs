@@ -92,7 +92,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
-        let taken = match &mut self.kept {
+        // Where the time is not transformed, the compiler leaves the question out.
+        let taken = match self.kept.as_mut().filter(|_| S::TIME_TRANSFORMED) {
             Some(kept) => self.stepper.steps_forward(clock, count, kept),
             None => self.stepper.steps(clock, count),
         };

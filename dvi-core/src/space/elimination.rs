@@ -138,20 +138,9 @@ pub(crate) fn multiply_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
     }
 }
 
-/// Adds Aᵀ x to `out`.
-#[inline]
-pub(crate) fn multiply_transposed_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
-    let n = x.len();
-    for (line, &x) in matrix.chunks_exact(n).zip(x) {
-        for (out, &a) in out.iter_mut().zip(line) {
-            *out += a * x;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{eliminate, factor, multiply_add, multiply_transposed_add, solve};
+    use super::{eliminate, factor, multiply_add, solve};
     use crate::error::StepFailure;
     use nalgebra::{DMatrix, DVector};
 
@@ -193,11 +182,9 @@ mod tests {
     fn products_agree_with_nalgebra() {
         let (matrix, x) = (entries(25, 3), entries(5, 4));
         let (a, v) = (DMatrix::from_row_slice(5, 5, &matrix), DVector::from_column_slice(&x));
-        let (mut direct, mut transposed) = ([0.5; 5], [0.25; 5]);
+        let mut direct = [0.5; 5];
         multiply_add(&matrix, &x, &mut direct);
-        multiply_transposed_add(&matrix, &x, &mut transposed);
         assert!((DVector::from_column_slice(&direct) - (&a * &v).add_scalar(0.5)).amax() < 1e-15);
-        assert!((DVector::from_column_slice(&transposed) - (a.tr_mul(&v)).add_scalar(0.25)).amax() < 1e-15);
     }
 
     #[test]

@@ -18,18 +18,19 @@ impl Stages {
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
         let pair = one_form_and_hamiltonian(&self.attribute, &mut lowering, clean);
         let momenta = momenta(&self.attribute, &mut lowering);
+        let force = lowering.forces(&self.attribute.forces);
         let time = time_transform(&self.attribute, &mut lowering, pair.map(|(_, hamiltonian)| hamiltonian));
         let pair = pair.zip(time).map(|(pair, time)| match time {
             Some(time) => self.extended(pair.0, time),
             None => pair,
         });
         let gauge = self.gauge(pair.map(|(one_form, _)| one_form));
-        let (declared, momenta, gauge, time) = (pair?, momenta?, gauge?, time?);
+        let (declared, momenta, force, gauge, time) = (pair?, momenta?, force?, gauge?, time?);
         let (one_form, hamiltonian) = match gauge {
             Some(gauge) => self.with_gauge(declared, gauge),
             None => declared,
         };
-        Some(DegenerateFormulas { one_form, hamiltonian, gauge, declared: declared.0, time, momenta })
+        Some(DegenerateFormulas { one_form, hamiltonian, gauge, declared: declared.0, time, force, momenta })
     }
 
     /// F, written or found; `None` inside if there is none.
@@ -137,9 +138,10 @@ impl Stages {
             }
         };
         let momenta = momenta(&self.attribute, &mut lowering);
+        let force = lowering.forces(&self.attribute.forces);
         let lagrangian = lagrangian?;
         let quadratic = lowering.is_quadratic(lagrangian);
-        Some(RegularFormulas { lagrangian, quadratic, momenta: momenta? })
+        Some(RegularFormulas { lagrangian, quadratic, force: force?, momenta: momenta? })
     }
 
     /// Whether no mistake was found so far; `None` without coordinates, over which formulas would only
@@ -166,6 +168,12 @@ fn time_transform(
     let rate = lowering.formula(formula, Role::TimeTransform)?;
     if rate.as_number().is_some_and(|rate| rate <= 0.0) {
         lowering.errors.push(formula, "a time transformation is positive: it is how fast the time passes");
+        return None;
+    }
+    if !attribute.forces.is_empty() {
+        let message = "a system with forces keeps its time: without `time_transform` all methods step it, with steps of equal \
+                       length";
+        lowering.errors.push(formula, message);
         return None;
     }
     // Where its coordinates have no names, that is an error of its own.

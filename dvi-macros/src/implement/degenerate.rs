@@ -85,10 +85,14 @@ fn account(
     }
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
+    account.forces(emitter, &programs.shared);
+    let and_force = if programs.shared.forces.is_some() { " − F_" } else { "" };
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
     account.derived(emitter, &programs.one_form.statements, |_, entry| format!("α_{}", coordinate(entry)));
     account.derived(emitter, &programs.hamiltonian_gradient.statements, |_, entry| {
-        format!("∂H/∂{}", coordinate(entry))
+        let force =
+            if and_force.is_empty() { String::new() } else { format!("{and_force}{}", coordinate(entry)) };
+        format!("∂H/∂{}{force}", coordinate(entry))
     });
     account
 }

@@ -44,6 +44,18 @@ impl Account {
         }
     }
 
+    /// Adds the forces, and what they mean for the methods.
+    pub(super) fn forces(&mut self, emitter: &Emitter<'_>, programs: &Programs) {
+        let Some(forces) = &programs.forces else { return };
+        self.derived(emitter, &forces.applied.statements, |_, entry| {
+            format!("F_{}", print_coordinate(entry, emitter.model))
+        });
+        self.sentence(
+            "Forces act: no method preserves a form, and energy and momenta change as the forces make them."
+                .to_string(),
+        );
+    }
+
     /// Adds derivatives, named by what they are entries of and where.
     pub(super) fn derived(
         &mut self,

@@ -47,9 +47,16 @@ fn account(
         Account::new("L(q, v, t) and its energy E = v·∂L/∂v − L:", declared.to_vec(), structure.sentences());
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
+    account.forces(emitter, &programs.shared);
+    let and_force = |entry: &_| match programs.shared.forces {
+        Some(_) => format!(" + F_{}", print_coordinate(entry, emitter.model)),
+        None => String::new(),
+    };
     account.derived(emitter, &programs.shared.gradient.statements, |output, entry| match output {
         Output::Lv => format!("∂L/∂{}", print_velocity(entry, emitter.model)),
-        _ => format!("∂L/∂{}", print_coordinate(entry, emitter.model)),
+        Output::Lq | Output::Vector => {
+            format!("∂L/∂{}{}", print_coordinate(entry, emitter.model), and_force(entry))
+        }
     });
     account
 }

@@ -256,9 +256,12 @@ impl Lowering<'_> {
         let wanted = match self.role {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
-            Role::Momentum if self.model.kind == Kind::Regular => "dot",
+            Role::Momentum | Role::Force if self.model.kind == Kind::Regular => "dot",
             role => {
                 let advice = match role {
+                    Role::Force => {
+                        "so are the velocities of a degenerate system, by the equations of motion; write out the one that is meant"
+                    }
                     Role::Component => {
                         "write the one-form as a sum of `… * d(x)`, or its components without `d`"
                     }

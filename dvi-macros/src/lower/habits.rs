@@ -101,10 +101,13 @@ impl Lowering<'_> {
         let written = match self.role {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
-            Role::Momentum if self.model.has_velocities() => "dot",
-            Role::Component | Role::Hamiltonian | Role::Gauge | Role::TimeTransform | Role::Momentum => {
-                return None;
-            }
+            Role::Momentum | Role::Force if self.model.has_velocities() => "dot",
+            Role::Component
+            | Role::Hamiltonian
+            | Role::Gauge
+            | Role::TimeTransform
+            | Role::Force
+            | Role::Momentum => return None,
         };
         let block = self.model.blocks.iter().find(|block| {
             let (dot, of) = (velocity_name(&block.name), &block.name);

@@ -107,6 +107,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         dynamics,
         gauge: Gauge::None,
         time_transform: None,
+        forces: Vec::new(),
         momenta: vec![Formula::Time],
     }
 }

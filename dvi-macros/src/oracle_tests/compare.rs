@@ -21,9 +21,30 @@ pub(super) struct Expected {
     pub(super) lagrangian: Jet,
     /// L at v = 0: −H of a degenerate system.
     pub(super) at_rest: Jet,
+    /// The force on each coordinate.
+    pub(super) forces: Vec<Jet>,
     pub(super) momenta: Vec<Jet>,
     /// Whether other velocities leave ∂²L/∂v∂v as it is.
     pub(super) is_quadratic: bool,
+}
+
+impl Expected {
+    /// ∂L/∂qⁱ + Fᵢ, or ∂L/∂vⁱ behind.
+    fn first(&self, i: usize) -> Sized {
+        let of_lagrangian = self.lagrangian.gradient(i);
+        self.forces.get(i).map_or(of_lagrangian, |force| of_lagrangian.plus(force.value))
+    }
+
+    /// The derivative of that by variable `j`.
+    fn second(&self, i: usize, j: usize) -> Sized {
+        let of_lagrangian = self.lagrangian.hessian(i, j);
+        self.forces.get(i).map_or(of_lagrangian, |force| of_lagrangian.plus(force.gradient(j)))
+    }
+
+    /// ∂H/∂qⁱ − Fᵢ
+    fn source(&self, i: usize) -> Sized {
+        self.at_rest.gradient(i).plus(self.forces[i].value).scaled(-1.0)
+    }
 }
 
 /// What came out.
@@ -114,6 +135,7 @@ fn expected(system: &System, point: Point) -> Result<Expected, Outside> {
     let lagrangian = Oracle::new(system, &point).lagrangian()?;
     let momenta = system.momenta.iter().map(|formula| Oracle::new(system, &point).value(formula));
     let momenta = momenta.collect::<Result<_, _>>()?;
+    let forces = Oracle::new(system, &point).forces()?;
     // A regular L need not exist at rest.
     let at_rest =
         if system.is_regular() { lagrangian.clone() } else { Oracle::new(system, &rest).lagrangian()? };
@@ -125,7 +147,7 @@ fn expected(system: &System, point: Point) -> Result<Expected, Outside> {
         }),
         Err(_) => true,
     };
-    Ok(Expected { point, lagrangian, at_rest, momenta, is_quadratic })
+    Ok(Expected { point, lagrangian, at_rest, forces, momenta, is_quadratic })
 }
 
 /// A difference: the output and both numbers.
@@ -247,10 +269,10 @@ impl<'a> Comparison<'a> {
     /// it has found.
     fn motion(&mut self, expected: &Expected) -> Result<(), Difference> {
         let n = self.system.dimension();
-        let Expected { point: Point { q, t, .. }, lagrangian: jet, at_rest, .. } = expected;
+        let Expected { point: Point { q, t, .. }, lagrangian: jet, .. } = expected;
         let (_, slices) = self.call().slice(q).real(*t).slice(&vec![7.0; n]).run("flow_source")?;
         self.same_vector("flow_source with a gauge", &slices[1], |i| {
-            at_rest.gradient(i).scaled(-1.0).plus(jet.hessian(n + i, 2 * n))
+            expected.source(i).plus(jet.hessian(n + i, 2 * n))
         })?;
         // Second derivatives of the gauge, of whatever size, cancel in Ω.
         let cancelled = Sized { value: 0.0, size: 10.0 };
@@ -281,7 +303,7 @@ impl<'a> Comparison<'a> {
         let before = vec![7.0; n];
         let call = self.call().slice(q).slice(v).real(*t).slice(&before).slice(&before);
         let (_, slices) = call.run("gradient")?;
-        self.same_vector("gradient, ∂L/∂q", &slices[2], |i| jet.gradient(i))?;
+        self.same_vector("gradient, ∂L/∂q", &slices[2], |i| expected.first(i))?;
         self.same_vector("gradient, ∂L/∂v", &slices[3], |i| jet.gradient(n + i))?;
 
         let weights = [0; 4].map(|_| random.between(0.3, 1.7));
@@ -289,14 +311,23 @@ impl<'a> Comparison<'a> {
         let mut call = self.call().slice(q).slice(v).real(*t);
         call.arguments.push(Value::Weights(weights));
         let (_, slices) = call.slice(&before).slice(&before).slice(&matrix).run("linearize")?;
-        self.same_vector("linearize, ∂L/∂q", &slices[2], |i| jet.gradient(i))?;
+        self.same_vector("linearize, ∂L/∂q", &slices[2], |i| expected.first(i))?;
         self.same_vector("linearize, ∂L/∂v", &slices[3], |i| jet.gradient(n + i))?;
         let [qq, qv, vq, vv] = weights;
         self.same_matrix("linearize, second derivatives", &slices[4], |i, j| {
             let blocks = [(qq, i, j), (qv, i, n + j), (vq, n + i, j), (vv, n + i, n + j)];
             let start = Sized::new(matrix[i * n + j]);
-            blocks.iter().fold(start, |sum, (weight, i, j)| sum.plus(jet.hessian(*i, *j).scaled(*weight)))
+            blocks.iter().fold(start, |sum, (weight, i, j)| sum.plus(expected.second(*i, *j).scaled(*weight)))
         })?;
+        let applied = if self.expansion.constants["FORCED"] {
+            let call = self.call().slice(q).slice(v).real(*t).slice(&before);
+            let (_, mut slices) = call.run("applied_force")?;
+            slices.remove(2)
+        } else {
+            // Forces that cancel as they are written are none.
+            vec![0.0; n]
+        };
+        self.same_vector("applied_force", &applied, |i| expected.forces[i].value)?;
 
         for (index, jet) in expected.momenta.iter().enumerate() {
             let value = self.call().index(index).slice(q).slice(v).real(*t).number("momentum")?;
@@ -313,7 +344,7 @@ impl<'a> Comparison<'a> {
         let wanted = (0..n).fold(jet.value.scaled(-1.0), kinetic);
         self.same("energy", &[], wanted, energy)?;
         let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]).run("force")?;
-        self.same_vector("force", &slices[2], |i| jet.gradient(i))?;
+        self.same_vector("force", &slices[2], |i| expected.first(i))?;
         let call = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]);
         let (_, slices) = call.run("momentum_rate")?;
         self.same_vector("momentum_rate", &slices[2], |i| jet.hessian(n + i, 2 * n))
@@ -334,11 +365,9 @@ impl<'a> Comparison<'a> {
         };
         let (gradient, one_form, source) =
             (vector("hamiltonian_gradient")?, vector("one_form")?, vector("flow_source")?);
-        self.same_vector("hamiltonian_gradient", &gradient, |i| minus(at_rest.gradient(i)))?;
+        self.same_vector("hamiltonian_gradient", &gradient, |i| expected.source(i))?;
         self.same_vector("one_form", &one_form, |i| jet.gradient(n + i))?;
-        self.same_vector("flow_source", &source, |i| {
-            minus(at_rest.gradient(i)).plus(jet.hessian(n + i, 2 * n))
-        })?;
+        self.same_vector("flow_source", &source, |i| expected.source(i).plus(jet.hessian(n + i, 2 * n)))?;
 
         let (a, b) = (random.between(0.3, 1.7), random.between(-1.7, -0.3));
         let combination =

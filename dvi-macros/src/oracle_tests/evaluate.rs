@@ -215,6 +215,20 @@ impl<'a> Oracle<'a> {
         })
     }
 
+    /// The force on each coordinate.
+    pub(super) fn forces(&mut self) -> Result<Vec<Jet>, Outside> {
+        let mut forces = vec![Jet::constant(0.0); self.system.dimension()];
+        for (block, force) in &self.system.forces {
+            let offset = self.system.offset(*block);
+            for i in 0..self.system.block_length(*block) {
+                let is_array = self.system.blocks[*block].size.is_some();
+                let indices: &[i64] = if is_array { &[i as i64] } else { &[] };
+                forces[offset + i] = forces[offset + i].plus(&self.inside(indices, force)?);
+            }
+        }
+        Ok(forces)
+    }
+
     /// A body with its indices at these values.
     fn inside(&mut self, indices: &[i64], body: &Formula) -> Result<Jet, Outside> {
         let outside = self.bound.len();

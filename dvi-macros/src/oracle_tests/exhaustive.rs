@@ -96,6 +96,7 @@ pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
         dynamics,
         gauge: Gauge::None,
         time_transform: None,
+        forces: Vec::new(),
         momenta: Vec::new(),
     }
 }
@@ -121,6 +122,7 @@ pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
         dynamics,
         gauge: Gauge::None,
         time_transform: None,
+        forces: Vec::new(),
         momenta: Vec::new(),
     }
 }

@@ -52,6 +52,11 @@ pub(super) fn system(random: &mut Random) -> System {
         let momentum = generator.value(&Scope::outside(), 3);
         generator.system.momenta.push(momentum);
     }
+    if generator.random.chance(30) {
+        generator.velocities = if regular { Velocities::Any } else { Velocities::None };
+        generator.system.forces = generator.forces();
+        return generator.system;
+    }
     if !regular && generator.random.chance(25) {
         generator.budget = 8;
         let rate = generator.value(&Scope::outside(), 3);
@@ -84,15 +89,30 @@ impl Generator<'_> {
     }
 
     fn component(&mut self, block: usize) -> Formula {
+        let value = self.entry(block);
+        // Blocks come in pairs: yⱼ stands in the component of xⱼ.
+        let index = self.system.blocks[block].size.map(|_| Index::bound(0));
+        if block.is_multiple_of(2) { Formula::Coordinate(block + 1, index).plus(value) } else { value }
+    }
+
+    /// A function for each entry of a block.
+    fn entry(&mut self, block: usize) -> Formula {
         self.budget = self.budget.max(4);
         let scope = match self.system.blocks[block].size {
             Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
             None => Scope::outside(),
         };
-        let value = self.value(&scope, 3);
-        // Blocks come in pairs: yⱼ stands in the component of xⱼ.
-        let index = self.system.blocks[block].size.map(|_| Index::bound(0));
-        if block.is_multiple_of(2) { Formula::Coordinate(block + 1, index).plus(value) } else { value }
+        self.value(&scope, 3)
+    }
+
+    /// Forces on all blocks, or on some in any order.
+    fn forces(&mut self) -> Vec<(usize, Formula)> {
+        let blocks = self.system.blocks.len();
+        if self.random.chance(50) {
+            return (0..blocks).map(|block| (block, self.entry(block))).collect();
+        }
+        let acts = (0..blocks).rev().filter(|_| self.random.chance(60)).collect::<Vec<_>>();
+        acts.into_iter().map(|block| (block, self.entry(block))).collect()
     }
 
     fn regular(&mut self) -> Dynamics {

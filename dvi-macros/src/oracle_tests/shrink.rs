@@ -25,6 +25,11 @@ fn smaller_systems(system: &System) -> Vec<System> {
     if system.gauge != Gauge::None {
         candidates.push(System { gauge: Gauge::None, ..system.clone() });
     }
+    for force in 0..system.forces.len() {
+        let mut smaller = system.clone();
+        smaller.forces.remove(force);
+        candidates.push(smaller);
+    }
     if system.time_transform.is_some() {
         candidates.push(system.clone().without_time_transform());
     }

@@ -83,8 +83,10 @@ fn regular(n: usize, points: &[Expected]) -> Vec<(&'static str, bool)> {
         };
         still && (0..n).all(|i| same(momentum(i), at.lagrangian.gradient(n + i)))
     };
+    let at_rest =
+        |at: &Expected| at.forces.iter().all(|force| (n..2 * n).all(|j| is_zero(force.gradient(j))));
     vec![
-        ("SEPARABLE", constant && points.iter().all(fixed)),
+        ("SEPARABLE", constant && points.iter().all(|at| fixed(at) && at_rest(at))),
         ("DIAGONAL_MASS", diagonal),
         ("QUADRATIC", points.iter().all(|at| at.is_quadratic)),
     ]

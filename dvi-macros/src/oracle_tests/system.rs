@@ -85,6 +85,8 @@ pub(super) struct System {
     pub(super) gauge: Gauge,
     /// ρ; then the last two blocks are the time and the energy, which the attribute does not declare.
     pub(super) time_transform: Option<Formula>,
+    /// The forces, each on a block. The index of an entry is that of level 0.
+    pub(super) forces: Vec<(usize, Formula)>,
     pub(super) momenta: Vec<Formula>,
 }
 
@@ -156,6 +158,7 @@ impl System {
             formulas.push(gauge);
         }
         formulas.extend(&mut self.time_transform);
+        formulas.extend(self.forces.iter_mut().map(|(_, force)| force));
         formulas.extend(&mut self.momenta);
         formulas
     }

@@ -72,6 +72,18 @@ impl System {
         if let Some(rate) = &self.time_transform {
             text += &format!(", time_transform = {}", d.text(rate));
         }
+        let entries = self.forces.iter().map(|(block, force)| {
+            let index = if self.blocks[*block].size.is_some() { "|i| " } else { "" };
+            format!("{index}{}", dot.text(force))
+        });
+        let all = self.forces.iter().map(|(block, _)| *block).eq(0..self.blocks.len());
+        if all {
+            text += &format!(", force = [{}]", entries.collect::<Vec<_>>().join(", "));
+        } else {
+            for ((block, _), entry) in self.forces.iter().zip(entries) {
+                text += &format!(", force({}) = {entry}", self.blocks[*block].name);
+            }
+        }
         let momenta = self.momenta.iter().enumerate();
         let momenta: Vec<String> = momenta.map(|(n, value)| format!("p{n} = {}", dot.text(value))).collect();
         if !momenta.is_empty() {

@@ -1,11 +1,12 @@
 //! What is special to L = α·v − H: the one-form, the Hamiltonian, the right side of the flow.
 
 use super::{
-    Output, Place, Programs, Statement, Variable, first_derivatives, mirrored_pair, rates, result, variable,
+    Force, Output, Place, Programs, Statement, Variable, added, first_derivatives, mirrored_pair, rates,
+    result, statements, variable,
 };
 use crate::internal::internal;
 use crate::routine::Routine;
-use crate::symbolic::{Coordinate, Expr, Graph, SecondContribution, Weight};
+use crate::symbolic::{Contribution, Coordinate, Expr, Graph, SecondContribution, Weight};
 
 /// The formulas of a degenerate system.
 #[derive(Clone, Debug)]
@@ -18,6 +19,7 @@ pub(crate) struct DegenerateFormulas {
     /// α·v without it.
     pub(crate) declared: Expr,
     pub(crate) time: Option<TimeTransform<Expr>>,
+    pub(crate) force: Force,
     pub(crate) momenta: Vec<Expr>,
 }
 
@@ -34,9 +36,10 @@ pub(crate) struct TimeTransform<F> {
 pub(crate) struct DegeneratePrograms {
     pub(crate) shared: Programs,
     pub(crate) hamiltonian: Routine,
+    /// ∇H − F
     pub(crate) hamiltonian_gradient: Routine,
     pub(crate) one_form: Routine,
-    /// ∇H + ∂α/∂t
+    /// ∇H − F + ∂α/∂t
     pub(crate) flow_source: Routine,
     pub(crate) one_form_jacobian: Routine,
     /// Where Ω is canonical, one entry a row; else nothing.
@@ -55,8 +58,10 @@ impl DegeneratePrograms {
     ) -> Self {
         let lagrangian = graph.subtract(formulas.one_form, formulas.hamiltonian);
         let entries = graph.hessian(lagrangian);
-        let shared = Programs::new(graph, lagrangian, entries, &formulas.momenta);
-        let hamiltonian_gradient = first_derivatives(graph, formulas.hamiltonian, Output::Vector, Output::Lv);
+        let shared = Programs::new(graph, lagrangian, entries, &formulas.force, &formulas.momenta);
+        let by_hamiltonian = graph.gradient(formulas.hamiltonian, &[]);
+        let contributions = added(graph, by_hamiltonian, negated(&formulas.force));
+        let hamiltonian_gradient = statements(graph, contributions, Output::Vector, Output::Lv);
         let one_form = one_form(graph, formulas.one_form);
         let flow_source = flow_source(graph, &hamiltonian_gradient, &one_form);
         let one_form_jacobian = one_form_jacobian(graph, form_entries);
@@ -83,6 +88,10 @@ impl DegeneratePrograms {
                 .collect(),
         }
     }
+}
+
+fn negated(force: &Force) -> impl Iterator<Item = Contribution> {
+    force.iter().map(|part| Contribution { value: part.value.negated(), ..part.clone() })
 }
 
 /// αᵢ = ∂(α·v)/∂vⁱ

@@ -1,6 +1,6 @@
 //! What is special to a regular L: the energy, the force, and the rate of the momentum.
 
-use super::{Output, Place, Programs, Statement, rates, result};
+use super::{Force, Output, Place, Programs, Statement, rates, result};
 use crate::routine::Routine;
 use crate::symbolic::{Expr, Graph, SecondContribution};
 
@@ -10,6 +10,7 @@ pub(crate) struct RegularFormulas {
     pub(crate) lagrangian: Expr,
     /// Whether L is a polynomial of degree at most two in v.
     pub(crate) quadratic: bool,
+    pub(crate) force: Force,
     pub(crate) momenta: Vec<Expr>,
 }
 
@@ -18,7 +19,7 @@ pub(crate) struct RegularPrograms {
     pub(crate) shared: Programs,
     /// E = v·∂L/∂v − L
     pub(crate) energy: Routine,
-    /// ∂L/∂q
+    /// ∂L/∂q + F
     pub(crate) force: Routine,
     /// ∂²L/∂t∂v
     pub(crate) momentum_rate: Routine,
@@ -31,7 +32,7 @@ impl RegularPrograms {
         formulas: &RegularFormulas,
         entries: Vec<SecondContribution>,
     ) -> Self {
-        let shared = Programs::new(graph, formulas.lagrangian, entries, &formulas.momenta);
+        let shared = Programs::new(graph, formulas.lagrangian, entries, &formulas.force, &formulas.momenta);
         let energy = result(graph.energy(formulas.lagrangian));
         let part = |output| shared.gradient.statements.iter().filter_map(move |s| as_vector(s, output));
         let [force, momentum]: [Vec<Statement>; 2] =

@@ -7,13 +7,16 @@ use super::singular::{is_numerically_singular, skipped};
 use crate::errors::{Errors, listed};
 use crate::model::Model;
 use crate::program::{RegularFormulas, Variable, variable};
-use crate::symbolic::{Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution};
+use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution};
 use crate::syntax::Kind;
 
 /// The structure of a regular L; see the constants of `dvi_core::RegularLagrangian`.
 #[derive(Clone, Debug)]
 pub(crate) struct MassMatrix {
+    /// L is, and no force depends on velocities.
     pub(crate) separable: bool,
+    /// L is, whatever the forces.
+    has_separable_lagrangian: bool,
     pub(crate) diagonal: bool,
     pub(crate) quadratic: bool,
     /// What M depends on, of `q`, `v` and `t`.
@@ -50,11 +53,13 @@ impl MassMatrix {
         let block_of = |coordinate: &Coordinate| coordinate.block as usize;
         let depends_on = depends_on(graph, &mass);
         let diagonal = mass.iter().all(|entry| entry.row == entry.column);
-        let separable = formulas.quadratic
+        let has_separable_lagrangian = formulas.quadratic
             && depends_on.is_empty()
             && !mixes_position_and_velocity(graph, entries)
             && force_is_at_rest(graph, formulas.lagrangian)
             && momentum_vanishes_at_rest(graph, formulas.lagrangian);
+        let separable =
+            has_separable_lagrangian && !formulas.force.iter().any(|part| depends_on_velocity(graph, part));
         let mentioned = mentioned(graph, formulas.lagrangian);
         let involved = |block: usize| {
             mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
@@ -67,6 +72,7 @@ impl MassMatrix {
             mass.iter().map(|entry| [block_of(&entry.row), block_of(&entry.column)]).collect();
         Self {
             separable,
+            has_separable_lagrangian,
             diagonal,
             quadratic: formulas.quadratic,
             depends_on,
@@ -146,7 +152,7 @@ impl MassMatrix {
     /// What is said of the structure in reports.
     pub(crate) fn sentences(&self) -> Vec<String> {
         let mass = if self.diagonal { "diagonal" } else { "full" };
-        let form = match (self.separable, self.depends_on.as_slice()) {
+        let form = match (self.has_separable_lagrangian, self.depends_on.as_slice()) {
             (true, _) => format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."),
             (false, []) => format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."),
             (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
@@ -158,6 +164,9 @@ impl MassMatrix {
             }
             (true, false) => {
                 "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run."
+            }
+            (false, _) if self.has_separable_lagrangian => {
+                "A force depends on velocities: the trapezoidal step is implicit, and linear in the velocity if the force is."
             }
             (false, _) => "The trapezoidal step is implicit in general.",
         };
@@ -225,7 +234,11 @@ fn force_is_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
     first
         .iter()
         .filter(|first| matches!(graph.node(first.target), Node::Coordinate(_)))
-        .all(|first| !graph.depends(first.value.node, |node| matches!(node, Node::Velocity(_))))
+        .all(|first| !depends_on_velocity(graph, first))
+}
+
+fn depends_on_velocity(graph: &Graph, part: &Contribution) -> bool {
+    graph.depends(part.value.node, |node| matches!(node, Node::Velocity(_)))
 }
 
 /// Whether ∂L/∂v = 0 where v = 0.

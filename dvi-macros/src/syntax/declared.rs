@@ -1,4 +1,4 @@
-//! What is declared by name in the arguments: coordinates, momenta, functions, a gauge.
+//! What is declared by name in the arguments: coordinates, momenta, functions, forces.
 
 use proc_macro2::{Ident, Span};
 use quote::ToTokens;
@@ -55,6 +55,26 @@ pub(crate) enum Gauge {
 pub(crate) struct TimeTransform {
     pub(crate) word: Ident,
     pub(crate) rate: Expr,
+}
+
+/// A generalised force, as it is declared.
+#[derive(Debug)]
+pub(crate) enum Force {
+    /// `force = […]`: a component for each block.
+    Components(syn::ExprArray),
+    /// `force(x) = …`: that on one block.
+    On(Ident, Expr),
+}
+
+impl Force {
+    /// Its formulas as they were written.
+    pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expr> {
+        let (components, formula) = match self {
+            Self::Components(list) => (Some(&list.elems), None),
+            Self::On(_, formula) => (None, Some(formula)),
+        };
+        components.into_iter().flatten().chain(formula)
+    }
 }
 
 impl Gauge {

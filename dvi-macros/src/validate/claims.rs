@@ -113,7 +113,7 @@ impl System<'_> {
                 is_same("SEPARABLE", "∂²L/∂v∂v elsewhere", here.mass(), there.mass())?;
             }
             for coupling in here.coupling() {
-                vanishes("SEPARABLE", "∂²L/∂q∂v", coupling)?;
+                vanishes("SEPARABLE", "∂²L/∂q∂v or ∂F/∂v", coupling)?;
             }
             if let Some(at_rest) = self.at(&point.at_rest(), Directions::ALL) {
                 vanishes("SEPARABLE", "∂L/∂v at v = 0", at_rest.momentum_along())?;

@@ -12,6 +12,7 @@ use super::jet::Jet;
 use super::point::{Branches, Directions, Point, Variable};
 use crate::internal::internal;
 use crate::model::{Extended, Model};
+use crate::syntax::Force;
 
 mod calls;
 mod indices;
@@ -108,22 +109,48 @@ impl<'a> Evaluation<'a> {
     pub(super) fn components(&mut self, list: &syn::ExprArray) -> Value<Jet> {
         let mut total = Jet::number(0.0);
         for (block, component) in list.elems.iter().enumerate() {
-            match component {
-                Expr::Closure(closure) => {
-                    for index in self.point.visited(0, self.block_size(block)) {
-                        let component = self.closure(closure, &[index])?;
-                        let velocity = self.variable(Variable::Velocity, block, index)?;
-                        total = total.plus(&component.times(&velocity));
-                    }
-                }
-                _ => {
-                    let component = self.number(component)?;
-                    let velocity = self.variable(Variable::Velocity, block, 0)?;
-                    total = total.plus(&component.times(&velocity));
-                }
+            for (index, component) in self.entries(block, component)? {
+                let velocity = self.variable(Variable::Velocity, block, index)?;
+                total = total.plus(&component.times(&velocity));
             }
         }
         Ok(total)
+    }
+
+    /// The forces times the displacements along both directions: the work of a displacement.
+    pub(super) fn work(&mut self, forces: &[Force]) -> Value<[Jet; 2]> {
+        let mut work = [Jet::number(0.0), Jet::number(0.0)];
+        for force in forces {
+            let components: Vec<(usize, &Expr)> = match force {
+                Force::Components(list) => list.elems.iter().enumerate().collect(),
+                Force::On(name, formula) => match self.block(&name.to_string()) {
+                    Some(block) => vec![(block, formula)],
+                    None => unknown(name),
+                },
+            };
+            for (block, component) in components {
+                for (index, value) in self.entries(block, component)? {
+                    let Directions { first, second } = self.directions;
+                    for (work, (support, is_second)) in work.iter_mut().zip([(first, false), (second, true)])
+                    {
+                        let displacement = self.point.direction(support, is_second, block, index);
+                        *work = work.clone().plus(&value.clone().scaled(displacement));
+                    }
+                }
+            }
+        }
+        Ok(work)
+    }
+
+    /// A component of a covector at the entries of its block.
+    fn entries(&mut self, block: usize, component: &Expr) -> Value<Vec<(i64, Jet)>> {
+        match component {
+            Expr::Closure(closure) => {
+                let indices = self.point.visited(0, self.block_size(block));
+                indices.into_iter().map(|index| Ok((index, self.closure(closure, &[index])?))).collect()
+            }
+            _ => Ok(vec![(0, self.number(component)?)]),
+        }
     }
 
     /// The rate of the physical time, and the energy that is conjugate to it.

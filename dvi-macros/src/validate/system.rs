@@ -49,6 +49,7 @@ enum Quantity {
     TimeRate,
     Untransformed,
     MomentumRate,
+    AppliedForce,
     OneFormJacobian,
     Energy,
     Force,
@@ -71,6 +72,8 @@ pub(super) struct Outputs {
     hamiltonian: Jet,
     /// ρ, and H before the transformation.
     time: Option<[Jet; 2]>,
+    /// The forces times the displacements along both directions.
+    work: [Jet; 2],
     momenta: Vec<Jet>,
     pub(super) sides: Sides,
     is_delicate: bool,
@@ -139,6 +142,7 @@ impl System<'_> {
                 (lagrangian.plus(&moving), form.plus(&moving).minus(still.clone()), hamiltonian.minus(still))
             }
         };
+        let work = evaluation.work(&attribute.forces)?;
         let momenta = attribute
             .momenta
             .iter()
@@ -147,7 +151,7 @@ impl System<'_> {
         let momenta = momenta.collect::<Result<_, _>>()?;
         let cost = budget - evaluation.budget;
         let Evaluation { sides, is_delicate, .. } = evaluation;
-        Ok(Outputs { lagrangian, form, hamiltonian, time, momenta, sides, is_delicate, cost })
+        Ok(Outputs { lagrangian, form, hamiltonian, time, work, momenta, sides, is_delicate, cost })
     }
 }
 
@@ -161,16 +165,17 @@ impl Output {
     pub(super) fn quantity(&self, entry: Option<&str>) -> String {
         let name = match self.quantity {
             Quantity::Lagrangian => "L",
-            Quantity::Lq => "∂L/∂q",
+            Quantity::Lq => "∂L/∂q + F",
             Quantity::Lv => "∂L/∂v",
-            Quantity::Hessian => "the weighted second derivative of L",
+            Quantity::Hessian => "the weighted second derivative of L, or first one of F",
             Quantity::Hamiltonian => "H",
-            Quantity::HamiltonianGradient => "∇H",
+            Quantity::HamiltonianGradient => "∇H − F",
             Quantity::OneForm => "α",
-            Quantity::FlowSource => "∇H + ∂α/∂t",
+            Quantity::FlowSource => "∇H − F + ∂α/∂t",
             Quantity::TimeRate => "ρ",
             Quantity::Untransformed => "H before the time transformation",
             Quantity::MomentumRate => "∂²L/∂t∂v",
+            Quantity::AppliedForce => "F",
             Quantity::OneFormJacobian => "a Dα + b (Dα)ᵀ",
             Quantity::Energy => "E",
             Quantity::Force => "the force",
@@ -185,7 +190,8 @@ impl Outputs {
     /// Whether everything is finite, and nothing on the way decided by rounding.
     pub(super) fn is_moderate(&self) -> bool {
         let jets = [&self.lagrangian, &self.form, &self.hamiltonian];
-        let mut jets = jets.into_iter().chain(&self.momenta).chain(self.time.iter().flatten());
+        let mut jets =
+            jets.into_iter().chain(&self.momenta).chain(self.time.iter().flatten()).chain(&self.work);
         !self.is_delicate && jets.all(Jet::is_moderate)
     }
 
@@ -206,9 +212,12 @@ impl Outputs {
         self.lagrangian.both(First::V, Second::V)
     }
 
-    /// What couples positions and velocities in L.
-    pub(super) fn coupling(&self) -> [Sized; 2] {
-        [self.lagrangian.both(First::Q, Second::V), self.lagrangian.both(First::V, Second::Q)]
+    /// What couples positions and velocities in L, and how F depends on velocities.
+    pub(super) fn coupling(&self) -> [Sized; 3] {
+        let [work, _] = &self.work;
+        let second = [(First::Q, Second::V), (First::V, Second::Q)];
+        let [qv, vq] = second.map(|(first, second)| self.lagrangian.both(first, second));
+        [qv, vq, work.second(Second::V)]
     }
 
     /// α along the first direction.
@@ -222,14 +231,16 @@ impl Outputs {
     }
 
     pub(super) fn expected(&self, output: &Output, point: &Point) -> Sized {
-        let Self { lagrangian, form, hamiltonian, momenta, .. } = self;
+        let Self { lagrangian, form, hamiltonian, work: [first_work, second_work], momenta, .. } = self;
+        let minus = |value: Sized, other: Sized| value.plus(other.times(-1.0));
         let time = |part: usize| match &self.time {
             Some(time) => time[part].value(),
             None => internal("no time transformation"),
         };
         match output.quantity {
             Quantity::Lagrangian => lagrangian.value(),
-            Quantity::Lq | Quantity::Force => lagrangian.first(First::Q),
+            Quantity::Lq | Quantity::Force => lagrangian.first(First::Q).plus(first_work.value()),
+            Quantity::AppliedForce => first_work.value(),
             Quantity::Lv => lagrangian.first(First::V),
             Quantity::Hessian => {
                 let blocks = [
@@ -240,12 +251,16 @@ impl Outputs {
                 ];
                 let weighted =
                     |(weight, first, second)| lagrangian.both(first, second).times(point.weight(weight));
-                blocks.into_iter().map(weighted).fold(Sized::default(), Sized::plus)
+                let forces = [(Weight::Qq, Second::Q), (Weight::Qv, Second::V)]
+                    .map(|(weight, second)| first_work.second(second).times(point.weight(weight)));
+                blocks.into_iter().map(weighted).chain(forces).fold(Sized::default(), Sized::plus)
             }
             Quantity::Hamiltonian => hamiltonian.value(),
-            Quantity::HamiltonianGradient => hamiltonian.first(First::Q),
+            Quantity::HamiltonianGradient => minus(hamiltonian.first(First::Q), first_work.value()),
             Quantity::OneForm => form.first(First::V),
-            Quantity::FlowSource => hamiltonian.second(Second::Q).plus(form.both(First::T, Second::V)),
+            Quantity::FlowSource => {
+                minus(hamiltonian.second(Second::Q), second_work.value()).plus(form.both(First::T, Second::V))
+            }
             Quantity::TimeRate => time(0),
             Quantity::Untransformed => time(1),
             Quantity::MomentumRate => lagrangian.both(First::T, Second::V),
@@ -292,6 +307,7 @@ impl Functions<'_> {
         let shared = self.shared();
         [&shared.lagrangian]
             .into_iter()
+            .chain(shared.forces.as_ref().map(|forces| &forces.applied))
             .chain(&shared.momenta)
             .any(|routine| machine.run(routine).reads_outside)
     }
@@ -318,6 +334,9 @@ impl Functions<'_> {
             if function == "linearize" {
                 add(function, Quantity::Hessian, results.matrix);
             }
+        }
+        if let Some(forces) = &shared.forces {
+            add("applied_force", Quantity::AppliedForce, vector(&forces.applied));
         }
         for (number, momentum) in shared.momenta.iter().enumerate() {
             add("momentum", Quantity::Momentum(number), value(momentum));

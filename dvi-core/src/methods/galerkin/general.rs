@@ -142,6 +142,15 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real> NodeSum
         }
     }
 
+    const MIXED_ARE_TRANSPOSED: bool = !S::FORCED;
+
+    fn momentum_by_position(&mut self, vq: &mut impl Sink<T>) {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let [point, velocity, gradient, momentum] = &mut self.node;
+        let w = Weights { qq: zero, qv: zero, vq: one, vv: zero };
+        self.step.system.linearize(point, velocity, self.t, w, gradient, momentum, vq);
+    }
+
     // Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what is read, and
     // evaluates once what the three have in common.
     #[inline(never)]

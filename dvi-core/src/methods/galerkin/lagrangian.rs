@@ -18,7 +18,7 @@ use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::linear::blocks;
-use crate::space::sink::Sink;
+use crate::space::sink::{Sink, Transposed};
 use crate::state::Statistics;
 use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector, Weights};
 
@@ -118,14 +118,14 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
                 let [phi, psi] = self.along(j, r).map(|factor| self.coefficients.weights[j] * factor);
                 for (k, block) in row.iter_mut().enumerate() {
                     let [point_slope, velocity_slope] = self.along(j, k);
-                    // Rows and columns exchanged: the blocks are transposed.
                     let weights = Weights {
                         qq: h * phi * point_slope,
-                        qv: psi * point_slope,
-                        vq: phi * velocity_slope,
+                        qv: phi * velocity_slope,
+                        vq: psi * point_slope,
                         vv: psi * velocity_slope / h,
                     };
-                    self.system.linearize(point, velocity, self.time(j), weights, gradient, momentum, block);
+                    let (t, mut transposed) = (self.time(j), Transposed(block));
+                    self.system.linearize(point, velocity, t, weights, gradient, momentum, &mut transposed);
                 }
             }
         }
@@ -254,13 +254,15 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Tw
     fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,
-        [d11, d12, d22]: [&mut K; 3],
+        [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
         let n = ends.q0.len();
         let (path, storage) = self.settled(system, interval, ends, &mut Statistics::default())?;
         path.complement(storage)?;
         let [left, right] = [NODES - 2, NODES - 1];
-        for (row, column, sink) in [(left, left, d11), (left, right, d12), (right, right, d22)] {
+        for (row, column, sink) in
+            [(left, left, d11), (left, right, d12), (right, left, d21), (right, right, d22)]
+        {
             add_block(&storage.blocks[row][column], n, sink);
         }
         Ok(())

@@ -153,6 +153,11 @@ impl<S: Separable<T>, T: Real> VariationalMethod<S, T> for Newmark<T> {
     type DiscreteLagrangian = NewmarkLagrangian<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
+        if S::FORCED {
+            let reason =
+                "forces act on the system, and are no part of it: take `Newmark` itself, which has them";
+            return Err(StartError::Unsupported { option: "the discrete Lagrangian of `Newmark`", reason });
+        }
         self.validate()
     }
 

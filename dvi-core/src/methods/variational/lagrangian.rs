@@ -188,7 +188,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferen
     fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,
-        [d11, d12, d22]: [&mut K; 3],
+        [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
         with_coefficients!(self, system, interval, |step, coefficients| {
             for (node, &c) in self.method.rule.nodes().iter().enumerate() {
@@ -196,6 +196,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferen
                 let at = [step.node_time(c), step.h];
                 coefficients.add_second(node, [End::Left, End::Left], system, at, &mut self.node, d11);
                 coefficients.add_second(node, [End::Left, End::Right], system, at, &mut self.node, d12);
+                coefficients.add_second(node, [End::Right, End::Left], system, at, &mut self.node, d21);
                 coefficients.add_second(node, [End::Right, End::Right], system, at, &mut self.node, d22);
             }
         })

@@ -27,6 +27,11 @@ pub trait NodeSum<const NODES: usize, T> {
     fn weights(&self, r: usize, k: usize) -> Weights<T>;
     /// Adds the second derivatives of L at the node to sinks: L_qq, L_qv and L_vv.
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>);
+
+    /// Whether L_vq is (L_qv)ᵀ: not where forces that depend on velocities stand beside ∂L/∂q.
+    const MIXED_ARE_TRANSPOSED: bool = true;
+    /// Where [`MIXED_ARE_TRANSPOSED`](Self::MIXED_ARE_TRANSPOSED) does not hold: adds L_vq at the node to a sink.
+    fn momentum_by_position(&mut self, _vq: &mut impl Sink<T>) {}
 }
 
 /// What solves for `NODES` − 1 vectors, with the storage that it needs.
@@ -35,9 +40,9 @@ pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
     ///
     /// # Errors
     /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).
-    fn solve<V: DerefMut<Target = [T]>>(
+    fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
-        matrix: &mut impl NodeSum<NODES, T>,
+        matrix: &mut M,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure>;
 }
@@ -48,8 +53,8 @@ pub struct FixedCoupled<T, const NODES: usize, const BLOCKS: usize, const N: usi
 {
     /// Transposed; the first row and column are not used.
     rows: [[FixedMatrix<T, BLOCKS, N, SINGLES>; NODES]; NODES],
-    /// L_qq, L_qv and L_vv at a node.
-    second: [FixedMatrix<T, BLOCKS, N, SINGLES>; 3],
+    /// L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
+    second: [FixedMatrix<T, BLOCKS, N, SINGLES>; 4],
     permutation: FixedVector<usize, BLOCKS, N, SINGLES>,
 }
 
@@ -68,26 +73,28 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
 impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize>
     CoupledSolver<NODES, T> for FixedCoupled<T, NODES, BLOCKS, N, SINGLES>
 {
-    fn solve<V: DerefMut<Target = [T]>>(
+    fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
-        matrix: &mut impl NodeSum<NODES, T>,
+        matrix: &mut M,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { rows, second, permutation } = self;
         rows[1..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
         for j in 0..NODES {
             matrix.place(j);
-            second.iter_mut().for_each(|derivative| derivative.fill(T::lift(0.0)));
-            let [qq, qv, vv] = &mut *second;
+            let [qq, qv, vv, vq] = &mut *second;
+            for derivative in [&mut *qq, &mut *qv, &mut *vv] {
+                derivative.fill(T::lift(0.0));
+            }
             matrix.second_derivatives(qq, qv, vv);
+            if !M::MIXED_ARE_TRANSPOSED {
+                vq.fill(T::lift(0.0));
+                matrix.momentum_by_position(vq);
+            }
             for (r, row) in rows.iter_mut().enumerate().skip(1) {
                 for (k, block) in row.iter_mut().enumerate().skip(1) {
-                    add_transposed(
-                        matrix.weights(r, k),
-                        second,
-                        Fixed::<BLOCKS, N, SINGLES>::DIMENSION,
-                        block,
-                    );
+                    let (w, n) = (matrix.weights(r, k), Fixed::<BLOCKS, N, SINGLES>::DIMENSION);
+                    add_transposed::<_, _, M, NODES>(w, second, n, block);
                 }
             }
         }
@@ -95,18 +102,19 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
     }
 }
 
-/// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq = (L_qv)ᵀ.
+/// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq.
 #[inline]
-fn add_transposed<T: Scalar, M: Deref<Target = [T]>>(
+fn add_transposed<T: Scalar, D: Deref<Target = [T]>, M: NodeSum<NODES, T>, const NODES: usize>(
     w: Weights<T>,
-    [qq, qv, vv]: &[M; 3],
+    [qq, qv, vv, vq]: &[D; 4],
     n: usize,
     block: &mut [T],
 ) {
     for i in 0..n {
         for j in 0..n {
             let (here, across) = (i * n + j, j * n + i);
-            block[here] += w.qq * qq[here] + w.qv * qv[across] + w.vq * qv[here] + w.vv * vv[here];
+            let vq = if M::MIXED_ARE_TRANSPOSED { qv[here] } else { vq[across] };
+            block[here] += w.qq * qq[across] + w.qv * qv[across] + w.vq * vq + w.vv * vv[here];
         }
     }
 }
@@ -154,7 +162,7 @@ impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for F
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { matrix, b: given, n } = self;
         b.copy_from_slice(given);
-        // Three sinks pass on to it, one at a time.
+        // Several sinks pass on to it, one at a time.
         let sink = RefCell::new(sink);
         for node in 0..NODES {
             matrix.place(node);
@@ -172,10 +180,15 @@ impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for F
                 &mut Places(|i, j, entry| add(i, j, entry, |w| w.qq)),
                 &mut Places(|i, j, entry| {
                     add(i, j, entry, |w| w.qv);
-                    add(j, i, entry, |w| w.vq);
+                    if M::MIXED_ARE_TRANSPOSED {
+                        add(j, i, entry, |w| w.vq);
+                    }
                 }),
                 &mut Places(|i, j, entry| add(i, j, entry, |w| w.vv)),
             );
+            if !M::MIXED_ARE_TRANSPOSED {
+                matrix.momentum_by_position(&mut Places(|i, j, entry| add(i, j, entry, |w| w.vq)));
+            }
         }
         Ok(())
     }
@@ -183,9 +196,9 @@ impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for F
 
 #[cfg(feature = "alloc")]
 impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> {
-    fn solve<V: DerefMut<Target = [T]>>(
+    fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
-        matrix: &mut impl NodeSum<NODES, T>,
+        matrix: &mut M,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { solver, b, x } = self;

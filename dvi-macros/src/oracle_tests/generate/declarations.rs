@@ -20,7 +20,8 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
     let fields = fields(random, &sizes);
     let blocks = blocks(random, regular);
     let dynamics = Dynamics::Regular(Formula::Time);
-    System { sizes, fields, blocks, dynamics, gauge: Gauge::None, time_transform: None, momenta: Vec::new() }
+    let (forces, momenta) = (Vec::new(), Vec::new());
+    System { sizes, fields, blocks, dynamics, gauge: Gauge::None, time_transform: None, forces, momenta }
 }
 
 /// Two sizes that are different from each other, and that of the field `g`.

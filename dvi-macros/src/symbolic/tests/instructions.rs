@@ -195,6 +195,7 @@ fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
         gauge: None,
         declared: one_form,
         time: None,
+        force: Vec::new(),
         momenta: Vec::new(),
     };
     let entries = graph.hessian(one_form);

@@ -56,4 +56,12 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // A time transformation: the energy has the wrong sign, or the time no conjugate.
     mistake("expand/formulas.rs", "graph.subtract(hamiltonian, energy)", "graph.add(hamiltonian, energy)"),
     mistake("expand/formulas.rs", "graph.subtract(one_form, conjugate)", "graph.add(one_form, conjugate)"),
+    // Forces: without their derivatives, in the wrong rows, with the sign of the Hamiltonian, in the place of what is there, on
+    // another block, and a step that is taken for explicit.
+    mistake("program.rs", "entries.extend(force_derivatives(graph, force));", "let _ = force_derivatives(graph, force);"),
+    mistake("program.rs", "row: *target,\n            column: by.target,", "row: by.target,\n            column: *target,"),
+    mistake("program/degenerate.rs", "value: part.value.negated()", "value: part.value"),
+    mistake("program.rs", "known.value = graph.add(known.value, other.value)", "known.value = other.value"),
+    mistake("lower/components.rs", "vec![self.component(block, formula, Role::Force)?]", "vec![Component { block: 0, ..self.component(block, formula, Role::Force)? }]"),
+    mistake("structure/mass.rs", "has_separable_lagrangian && !formulas.force.iter().any(|part| depends_on_velocity(graph, part))", "has_separable_lagrangian"),
 ];

@@ -119,4 +119,22 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
          gauge = x * x * y * t, time_transform = 1.0 / (1.0 + x * x + t * t * y * y)",
         "struct Extended;",
     ),
+    // Forces, in lists and one by one.
+    (
+        "regular",
+        "coordinates(x[n], y), lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0) + (1.0 + y * y) * dot(y).powi(2),
+         force = [|i| -c[i] * dot(x[i]) * (1.0 + dot(y).powi(2)) + x[(i + 1) % n] * t, sum(0..n, |j| dot(x[j]) * x[j] * y)]",
+        "struct Dragged { n: usize, c: Vec<f64> }",
+    ),
+    (
+        "regular",
+        "coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - x * x * y, force(y) = -c * dot(y) * x",
+        "struct Friction { c: f64 }",
+    ),
+    (
+        "degenerate",
+        "coordinates(q[N], p[N]), one_form = sum(0..N, |j| p[j] * d(q[j])), hamiltonian = sum(0..N, |j| p[j].powi(2) + q[j].cos()),
+         force(p) = |k| q[k] * q[(k + 1) % N], force(q) = |j| -g * p[j] * q[j].exp() + t.sin()",
+        "struct Driven<const N: usize> { g: f64 }",
+    ),
 ];

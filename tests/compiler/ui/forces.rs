@@ -1,0 +1,159 @@
+//! Mistakes in forces.
+
+use dvi_core::prelude::*;
+
+mod too_few_components {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+        force = [-dot(x)],
+    )]
+    struct S;
+
+    fn state() -> SState {
+        SState { x: 1.0, y: 2.0, dot_x: 0.0, dot_y: 0.0 }
+    }
+}
+
+mod no_list {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force = -dot(x))]
+    struct S;
+}
+
+mod without_value {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x))]
+    struct S;
+}
+
+mod empty {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) =)]
+    struct S;
+}
+
+mod on_no_coordinate {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(theta),
+        lagrangian = dot(theta).powi(2) / 2.0,
+        force(thetta) = -1.0,
+    )]
+    struct S;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(gamma) = -1.0)]
+    struct T {
+        gamma: f64,
+    }
+}
+
+mod on_an_entry {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x[2]),
+        lagrangian = sum(0..2, |i| dot(x[i]).powi(2) / 2.0),
+        force(x[0]) = -dot(x[0]),
+    )]
+    struct S;
+}
+
+mod without_an_index {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x[2], y),
+        lagrangian = sum(0..2, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
+        force(x) = -1.0,
+        force(y) = |i| -1.0,
+    )]
+    struct S;
+}
+
+mod twice {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x),
+        lagrangian = dot(x).powi(2) / 2.0,
+        force(x) = -dot(x),
+        force(x) = t.cos(),
+    )]
+    struct S;
+
+    #[lagrangian(
+        coordinates(x),
+        lagrangian = dot(x).powi(2) / 2.0,
+        force = [-dot(x)],
+        force(x) = t.cos(),
+    )]
+    struct T;
+}
+
+mod velocities_of_a_degenerate_system {
+    use super::*;
+
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = y * d(x),
+        hamiltonian = x * x + y * y,
+        force = [-dot(x), 0.0],
+    )]
+    struct S;
+}
+
+mod differential_of_a_regular_system {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -d(x))]
+    struct S;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -dot_x)]
+    struct T;
+}
+
+mod with_transformed_time {
+    use super::*;
+
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = y * d(x),
+        hamiltonian = x * x + y * y,
+        time_transform = 1.0 + x * x,
+        force(x) = -y,
+    )]
+    struct S;
+}
+
+mod unknown_names {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x[3]),
+        lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0),
+        force(x) = |i| -gama * dot(x[i]) + x[i + 3],
+    )]
+    struct S {
+        gamma: f64,
+    }
+}
+
+mod explicit_methods {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -dot(x))]
+    struct Friction;
+
+    fn run() {
+        let _ = Integrator::new(&Friction, Newmark::new(0.25), 0.1, FrictionState { x: 0.0, dot_x: 1.0 });
+    }
+}
+
+fn main() {}

@@ -1,0 +1,138 @@
+//! How forces are declared, what is said of them, and what is refused.
+
+use dvi_core::field::{Axis, Spline};
+use dvi_core::methods::General;
+use dvi_core::prelude::*;
+use dvi_core::{IndexError, OutsideError, ScalarField};
+
+use super::Outcome;
+use super::systems::{ByHand, Damped, Driven, Pendulum, Swirl};
+
+/// The same forces as a list and one by one, with arrays of run-time size.
+#[lagrangian(
+    coordinates(x[n], y),
+    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
+    force = [|i| -c[i] * dot(x[i]) + x[(i + 1) % n], -y * t],
+)]
+#[derive(Clone, Debug)]
+struct Listed {
+    n: usize,
+    c: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x[n], y),
+    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
+    force(y) = -y * t,
+    force(x) = |k| -c[k] * dot(x[k]) + x[(k + 1) % n],
+)]
+#[derive(Clone, Debug)]
+struct OneByOne {
+    n: usize,
+    c: Vec<f64>,
+}
+
+#[test]
+fn a_list_is_the_same_as_one_force_after_the_other() {
+    let c = vec![0.1, 0.2, 0.3];
+    let (listed, one_by_one) = (Listed { n: 3, c: c.clone() }, OneByOne { n: 3, c });
+    let (q, v) = ([0.3, -0.2, 0.5, 0.7], [1.0, 2.0, 3.0, 4.0]);
+    let (mut a, mut b) = ([7.0; 4], [7.0; 4]);
+    listed.applied_force(&q, &v, 2.0, &mut a);
+    one_by_one.applied_force(&q, &v, 2.0, &mut b);
+    assert_eq!(a, b);
+    assert_eq!(a, [-0.1 * 1.0 + -0.2, -0.2 * 2.0 + 0.5, -0.3 * 3.0 + 0.3, -0.7 * 2.0]);
+}
+
+#[test]
+fn indices_of_forces_are_checked_against_their_arrays() {
+    let short = Listed { n: 3, c: vec![0.1, 0.2] };
+    let start = ListedState { x: vec![0.0; 3], y: 0.0, dot_x: vec![0.0; 3], dot_y: 0.0 };
+    let error = Integrator::new(&short, Variational::midpoint(), 0.1, start).err();
+    assert_eq!(error, Some(StartError::Index(IndexError { array: "c", index: 2, len: 2 })));
+}
+
+#[test]
+fn reports_name_the_forces_and_what_they_mean() {
+    let text = Damped::REPORT.to_string();
+    for line in [
+        "F_x = -dot(x)·gamma",
+        "Forces act: no method preserves a form, and energy and momenta change as the forces make them.",
+        "L = ½ v·M v − V(q, t) with a constant diagonal mass matrix M.",
+        "A force depends on velocities: the trapezoidal step is implicit, and linear in the velocity if the force is.",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    assert!(text.contains("∂L/∂x + F_x = "), "{text}");
+    let text = Driven::REPORT.to_string();
+    assert!(text.contains("F_z[i] = "), "{text}");
+    let text = Pendulum::REPORT.to_string();
+    assert!(text.contains("∂H/∂q − F_q = "), "{text}");
+    // Without velocities in the forces the step stays explicit.
+    let text = Swirl::REPORT.to_string();
+    assert!(text.contains("step is explicit"), "{text}");
+    const { assert!(<Swirl as RegularLagrangian>::SEPARABLE && !<Damped as RegularLagrangian>::SEPARABLE) };
+}
+
+#[test]
+fn an_explicit_step_takes_one_evaluation_of_the_forces() -> Outcome {
+    let system = Swirl { swirl: 0.4 };
+    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, Swirl::state(Swirl::start()))?;
+    run.take_steps(100)?;
+    assert_eq!((run.statistics().gradients, run.statistics().iterations), (100, 0));
+    Ok(())
+}
+
+/// Friction in a table.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0,
+    force(x) = -friction(x) * dot(x),
+)]
+#[derive(Clone, Debug)]
+struct Tabulated {
+    friction: Spline<1>,
+}
+
+#[test]
+fn a_force_outside_of_its_table_is_an_error_that_says_so() -> Outcome {
+    let axis = Axis::uniform([-1.0, 1.0], 21)?;
+    let values: Vec<f64> = (0..21).map(|i| 0.1 + 0.001 * f64::from(i * i)).collect();
+    let system = Tabulated { friction: Spline::new([axis], &values)? };
+    assert_eq!(system.friction.domain()[0], (-1.0, 1.0));
+    let mut run =
+        Integrator::new(&system, Variational::midpoint(), 0.1, TabulatedState { x: 0.9, dot_x: 2.0 })?;
+    let error = (0..100).find_map(|_| run.advance().err()).ok_or("no error")?;
+    assert!(
+        matches!(error.failure, StepFailure::Outside(OutsideError { bound, .. }) if bound == 1.0),
+        "{error}"
+    );
+    let start = Integrator::new(&system, Variational::midpoint(), 0.1, TabulatedState { x: 1.1, dot_x: 0.0 });
+    assert!(matches!(start.err(), Some(StartError::Outside(_))));
+    Ok(())
+}
+
+#[test]
+fn the_discrete_lagrangian_of_newmark_has_no_forces() {
+    let system = Swirl { swirl: 0.4 };
+    let error =
+        Integrator::new(&system, General::new(Newmark::new(0.25)), 0.1, Swirl::state(Swirl::start())).err();
+    assert!(matches!(error, Some(StartError::Unsupported { option, .. }) if option.contains("Newmark")));
+}
+
+/// A coordinate and a field may have the names that the language and the library use.
+#[lagrangian(
+    coordinates(force),
+    lagrangian = dot(force).powi(2) / 2.0,
+    force(force) = -applied_force * dot(force),
+)]
+struct Named {
+    applied_force: f64,
+}
+
+#[test]
+fn names_of_the_language_are_no_obstacle() {
+    let mut out = [0.0];
+    Named { applied_force: 2.0 }.applied_force(&[1.0], &[3.0], 0.0, &mut out);
+    assert_eq!(out, [-6.0]);
+}
