@@ -5,6 +5,8 @@ mod at_state;
 pub(crate) mod combination;
 pub(crate) mod legendre;
 pub(crate) mod mass;
+#[cfg(feature = "random")]
+pub(crate) mod mass_root;
 pub mod motion;
 pub(crate) mod orientation;
 pub(crate) mod pattern;

@@ -3,7 +3,7 @@
 //! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it, and
 //! [`Projected`] where it does not. For regular systems:
 //! [`Variational`], [`Galerkin`], [`Newmark`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
-//! motion. Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that
+//! motion. With friction and noise, for regular systems: `Langevin`. Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that
 //! has no method, as [`Symmetrised`] has none.
 
 mod collocation;
@@ -12,6 +12,8 @@ mod energy_limit;
 mod galerkin;
 mod gauss;
 mod general;
+#[cfg(feature = "random")]
+mod langevin;
 mod newmark;
 mod one_step;
 mod projected;
@@ -32,6 +34,8 @@ pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
 pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use general::{General, GeneralMemory};
+#[cfg(feature = "random")]
+pub use langevin::{Langevin, LangevinMemory};
 pub use newmark::{Newmark, NewmarkLagrangian, NewmarkMemory};
 pub use one_step::{OneStep, OneStepGauss, OneStepGaussMemory, OneStepMemory};
 pub use projected::{Projected, ProjectedMemory};

@@ -7,6 +7,8 @@ pub use crate::diagnostics::{
 pub use crate::discrete::{Constant, Curvature, PerCoordinate, Quadrature, Radial, Reading};
 pub use crate::error::{StartError, StepError, StepFailure};
 pub use crate::mechanics::AtState;
+#[cfg(feature = "random")]
+pub use crate::methods::Langevin;
 pub use crate::methods::{
     Composition, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, OneStep, OneStepGauss, ParasiticMode,
     Projected, Reinitialisation, RungeKutta, Scheme, Sigma, Start, Variational,

@@ -151,6 +151,7 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },
         Gauss::<2>::new(),
         RungeKutta::classical(),
+        Langevin { friction: 0.3, temperature: 0.1, seed: 1 },
     );
 
     // By products with vectors.
