@@ -295,6 +295,17 @@ pub enum StepFailure {
         /// Its value.
         density: f64,
     },
+    /// No length of the step near the last one gives the discrete energy of the run.
+    #[error(
+        "no step keeps the discrete energy: the best length found, h = {h:e}, leaves a defect of {defect:e}; a shorter first step \
+         or another rule may help"
+    )]
+    EnergyStep {
+        /// The length with the smallest defect that was found.
+        h: f64,
+        /// The discrete energy of that step without that of the run.
+        defect: f64,
+    },
     /// A step control asks for a step that does not advance the time.
     #[error(
         "the step control asks for h = {h:e}, which does not advance the time: a collision, or a demand out of reach"

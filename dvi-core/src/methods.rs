@@ -23,7 +23,7 @@ mod symmetrised;
 mod variational;
 mod walk;
 
-use crate::discrete::DiscreteLagrangian;
+use crate::discrete::{DiscreteLagrangian, Span};
 use crate::error::{StartError, StepFailure};
 use crate::state::Statistics;
 use crate::state::memory::Memory;
@@ -229,7 +229,18 @@ pub trait TwoPoint<S: Lagrangian<T>, T: Real>: Method<S, T> {
 
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
 /// may follow one another.
-pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {}
+pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
+    /// Whether [`discrete_energy`](Self::discrete_energy) is known.
+    fn has_discrete_energy(&self) -> bool {
+        false
+    }
+
+    /// The discrete energy E_d = −∂L_d/∂h of a step, for L that does not depend on time (Marsden & West 2001, section 4.2); `None` if it
+    /// is not known. `work` is storage for a point and a velocity.
+    fn discrete_energy(&self, _span: Span<'_, S, T>, _work: &mut [Vector<S, T>; 2]) -> Option<T> {
+        None
+    }
+}
 
 /// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`] around it, it
 /// is a method.

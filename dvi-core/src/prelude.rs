@@ -14,7 +14,8 @@ pub use crate::methods::{
     Projected, Reinitialisation, RungeKutta, Scheme, Sigma, Start, Variational,
 };
 pub use crate::run::{
-    CentreSpeed, ControlledIntegrator, Density, Integrator, Osculating, Power, Reversible, Run,
+    CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, Integrator, Osculating, Power, Reversible,
+    Run,
 };
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::Summation;

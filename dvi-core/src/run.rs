@@ -21,8 +21,8 @@ use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed
 pub use checkpoint::Checkpoint;
 pub use integrator::Integrator;
 pub use step_control::{
-    CentreSpeed, ControlledIntegrator, ControlledRun, Density, Osculating, OsculatingMemory, Power,
-    Reversible, ReversibleMemory, StepControl,
+    CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, EnergyMomentumMemory,
+    Osculating, OsculatingMemory, Power, Reversible, ReversibleMemory, StepControl,
 };
 
 /// A run of a method on a system: what [`Integrator`], with a fixed step, and

@@ -88,6 +88,9 @@ pub trait System {
     /// Whether the time is transformed ([`TimeTransformed`]).
     const TIME_TRANSFORMED: bool = false;
 
+    /// Whether neither L nor a force depends on the time.
+    const AUTONOMOUS: bool = false;
+
     /// Whether [forces](Lagrangian::applied_force) act on the system.
     const FORCED: bool = false;
 

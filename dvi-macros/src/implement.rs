@@ -252,6 +252,7 @@ fn configuration(
     let blocks = 0..emitter.model.blocks.len();
     let time_transformed = emitter.model.extended.is_some();
     let forced = programs.forces.is_some();
+    let autonomous = !programs.depends_on_time(emitter.graph);
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
     let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.has_velocities()));
     quote! {
@@ -265,6 +266,7 @@ fn configuration(
             const HAS_SCALAR_FIELDS: bool = #has_scalar_fields;
             const TIME_TRANSFORMED: bool = #time_transformed;
             const FORCED: bool = #forced;
+            const AUTONOMOUS: bool = #autonomous;
 
             #[inline(always)]
             fn space(&self) -> Self::Space { #space_value }

@@ -132,6 +132,15 @@ fn force_derivatives(graph: &mut Graph, force: &Force) -> Vec<SecondContribution
     found
 }
 
+impl Programs {
+    /// Whether the time stands in L or in a force.
+    pub(crate) fn depends_on_time(&self, graph: &Graph) -> bool {
+        let forces = self.forces.iter().flat_map(|forces| &forces.applied.statements);
+        let mut statements = self.lagrangian.statements.iter().chain(forces);
+        statements.any(|statement| graph.depends(statement.value.node, |node| matches!(node, Node::Time)))
+    }
+}
+
 fn result(value: Expr) -> Vec<Statement> {
     vec![Statement { loops: Vec::new(), place: Place::Result, value }]
 }

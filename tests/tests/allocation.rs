@@ -138,6 +138,7 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         RunTimeChainState { q: vec![0.1, 0.5, -0.2], wall: 0.3, dot_q: vec![0.3, 0.1, -0.4], dot_wall: 0.2 };
     let (reversible, osculating) = (Reversible::power(0.02, 1.0), Osculating::new(1e-3, 10.0));
     assert_none_controlled!(kepler, kepler_start, reversible, Variational::trapezoid(), fitted());
+    assert_none_controlled!(kepler, kepler_start, EnergyMomentum::new(0.01), Variational::midpoint());
     assert_none_controlled!(kepler, kepler_start, osculating, Variational::trapezoid(), fitted());
     assert_none_controlled!(chain, chain_start, reversible, Variational::trapezoid(), fitted());
     assert_none_controlled!(chain, chain_start, osculating, Variational::trapezoid(), fitted());

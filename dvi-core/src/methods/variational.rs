@@ -339,7 +339,34 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
     }
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
+    fn has_discrete_energy(&self) -> bool {
+        F::UNFITTED
+    }
+
+    /// Σ wⱼ E(qʲ, Δ/h), of linear interpolation.
+    fn discrete_energy(
+        &self,
+        Span { system, interval, ends: Ends { q0, delta } }: Span<'_, S, T>,
+        [point, velocity]: &mut [Vector<S, T>; 2],
+    ) -> Option<T> {
+        if !F::UNFITTED {
+            return None;
+        }
+        let per_h = T::lift(1.0) / interval.h;
+        for (velocity, &delta) in velocity.iter_mut().zip(delta) {
+            *velocity = delta * per_h;
+        }
+        let nodes = self.rule.nodes().iter().zip(self.rule.weights());
+        Some(nodes.fold(T::lift(0.0), |sum, (&c, &weight)| {
+            let c = T::lift(c);
+            for (point, (&q0, &delta)) in point.iter_mut().zip(q0.iter().zip(delta)) {
+                *point = q0 + c * delta;
+            }
+            sum + T::lift(weight) * system.energy(point, velocity, interval.time(c))
+        }))
+    }
+}
 
 impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
 where

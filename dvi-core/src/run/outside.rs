@@ -28,6 +28,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::StepLength { .. }
             | StepFailure::Density { .. } => true,
             StepFailure::TimeRate { rate } => rate.is_nan(),
+            StepFailure::EnergyStep { defect, .. } => defect.is_nan(),
             StepFailure::Energy { now, .. } => now.is_nan(),
             StepFailure::Orientation { after, .. } => after.is_nan(),
             StepFailure::Resonance { .. }

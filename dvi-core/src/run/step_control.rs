@@ -3,9 +3,10 @@
 //! A method keeps its good long-time behaviour under variable steps if the whole map, step control included, is
 //! symmetric or comes from a transformed system; choosing each step by the error of the one before destroys it
 //! (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind, [`Osculating`] of the
-//! other.
+//! other. With [`EnergyMomentum`] the length of a step is an unknown of its equations.
 
 mod controlled;
+mod energy_momentum;
 mod integrator;
 mod osculating;
 mod reversible;
@@ -18,6 +19,7 @@ use crate::state::memory::Memory;
 use crate::{Lagrangian, Real};
 
 pub use controlled::ControlledRun;
+pub use energy_momentum::{EnergyMomentum, EnergyMomentumMemory};
 pub use integrator::ControlledIntegrator;
 pub use osculating::{CentreSpeed, Osculating, OsculatingMemory};
 pub use reversible::{Density, Power, Reversible, ReversibleMemory};
@@ -45,6 +47,14 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Debug {
     /// As [`begin`](Self::begin).
     fn begin_again(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<Self::Memory, StartError> {
         self.begin(system, q, v, t).map(|(memory, _)| memory)
+    }
+
+    /// Whether `method` has what the control needs.
+    ///
+    /// # Errors
+    /// [`StartError::Unsupported`].
+    fn admit<M: VariableStep<S, T>>(&self, _method: &M) -> Result<(), StartError> {
+        Ok(())
     }
 
     /// Takes `run` one step on from time `t`, without allocation, and returns the length of the step.

@@ -29,7 +29,7 @@ pub(super) fn hold(
     let n = system.dimension();
     let numbers = if system.is_regular() { regular(n, points) } else { degenerate(n, conjugates, points) };
     let mut claims = Claims::new();
-    for (name, possible) in numbers {
+    for (name, possible) in numbers.into_iter().chain([("AUTONOMOUS", autonomous(n, points))]) {
         let declared = expansion.constants[name];
         if declared && !possible {
             let q: Vec<&Vec<f64>> = points.iter().map(|expected| &expected.point.q).collect();
@@ -48,6 +48,15 @@ pub(super) fn hold(
 
 fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
     (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)))
+}
+
+/// Whether neither L nor a force changes with the time, and ∂L/∂v does not.
+fn autonomous(n: usize, points: &[Expected]) -> bool {
+    points.iter().all(|at| {
+        is_zero(at.lagrangian.gradient(2 * n))
+            && (0..2 * n).all(|i| is_zero(at.lagrangian.hessian(i, 2 * n)))
+            && at.forces.iter().all(|force| is_zero(force.gradient(2 * n)))
+    })
 }
 
 fn degenerate(n: usize, conjugates: &[usize], points: &[Expected]) -> Vec<(&'static str, bool)> {

@@ -61,6 +61,7 @@ where
         let [q, v] = flatten(system, &start)?;
         evaluate(system, &q, &v, t)?;
         let v = &v[..velocities(system)];
+        control.admit(&method)?;
         let (control_memory, h) = control.begin(system, &q, v, t)?;
         let begin = |method: &M, q: &Vector<S, T>| method.begin(system, q, v, t, h);
         let controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
@@ -83,6 +84,7 @@ where
         validate(system, t)?;
         let [q, v] = checkpoint.point(system)?;
         let v = &v[..velocities(system)];
+        control.admit(&method)?;
         let mut control_memory = control.begin_again(system, &q, v, t)?;
         let begin = |method: &M, q: &Vector<S, T>| method.begin_again(system, q, v, t, h);
         let mut controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;

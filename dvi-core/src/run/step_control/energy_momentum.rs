@@ -1,0 +1,309 @@
+//! Steps of such a length that the discrete energy stays the same: the symplectic–energy–momentum scheme.
+//!
+//! p0 = −D₁L_d(q0, q1; h)      E_d(q0, q1; h) = −∂L_d/∂h = e
+//!
+//! for q1 and h (Kane, Marsden & Ortiz 1999). The first equation is the step of the method; what is left is one equation for h. It is
+//! solved by the secant method from the last two lengths and, where that leads nowhere, by the method of false position in the Illinois form
+//! between lengths at which the defect has different signs, sought from a quarter of the last length to four times that.
+
+use super::{ControlledRun, StepControl};
+use crate::discrete::{Ends, Interval, Span};
+use crate::error::{StartError, StepFailure};
+use crate::methods::VariableStep;
+use crate::scalar::norm::reported;
+use crate::state::memory::{Memory, lasting};
+use crate::{Real, RegularLagrangian, Scalar, Space, Vector};
+
+/// Iterations of the secant method, and of that of false position.
+const ITERATIONS: usize = 60;
+/// Lengths that are tried in search of a sign change, on either side of the last.
+const SOUGHT: i32 = 24;
+/// By this factor a length may differ from the last.
+const REACH: f64 = 4.0;
+
+/// Steps that conserve the discrete energy of a variational method exactly: the symplectic–energy–momentum scheme of Kane, Marsden &
+/// Ortiz (1999).
+///
+/// ```math
+/// p_0 = -D_1 L_d(q_0, q_1;\ h), \qquad E_d(q_0, q_1;\ h) = -\frac{\partial L_d}{\partial h} = e
+/// ```
+///
+/// The length h of each step is an unknown of the step, beside q1; e is the discrete energy of the first step, whose length is
+/// given. It is that of `Variational` with linear interpolation, for which E_d = Σ wⱼ E(qʲ, Δ/h), on systems without forces whose
+/// L does not depend on time. Momenta of symmetries are conserved as by steps of one length. Energies E at the points of the run differ
+/// from E_d by terms of the order h².
+///
+/// The equation for h may have no solution: E_d differs from E by a(q, p)h² and terms of higher order, and where a is zero
+/// or has an extremum nearby, no length near the last gives e. The run then ends with [`StepFailure::EnergyStep`], at the last good
+/// state. Kane, Marsden & Ortiz take the length of the smallest defect there; this control does not, because energy would no longer be
+/// conserved. Take `Variational::midpoint()`: on an oscillator its E_d does not depend on the point, so that steps have one length,
+/// and on the spring below it finds lengths for thousands of steps, where `Variational::trapezoid()` ends after a few.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A spring that becomes stiffer.
+/// #[lagrangian(
+///     coordinates(x, y),
+///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - (x * x + y * y) / 2.0 - (x * x + y * y).powi(2) / 4.0,
+/// )]
+/// struct Spring;
+///
+/// let start: SpringState = SpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
+/// let mut run = ControlledIntegrator::new(&Spring, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
+/// run.take_steps(1000)?;
+/// assert!(run.control_memory().defect().abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyMomentum {
+    /// The length of the first step, which sets the discrete energy; negative to run back in time.
+    pub first_step: f64,
+    /// The largest defect of the discrete energy to accept, relative to the larger of |E| and v·∂L/∂v at the start. Default:
+    /// 1e-14.
+    pub tolerance: f64,
+}
+
+impl EnergyMomentum {
+    /// With the default tolerance.
+    pub fn new(first_step: f64) -> Self {
+        Self { first_step, tolerance: 1e-14 }
+    }
+}
+
+/// What [`EnergyMomentum`] carries from step to step.
+#[derive(Debug)]
+pub struct EnergyMomentumMemory<S: RegularLagrangian<T>, T: Real> {
+    /// The length of the last step; before the first, the one that it will have.
+    h: T,
+    /// The length of the step before, from which the secant method begins too.
+    before: T,
+    /// e, once the first step has been taken.
+    energy: T,
+    has_begun: bool,
+    /// E_d − e of the last step.
+    defect: T,
+    /// The defect that counts as none.
+    tolerance: T,
+    start: Vector<S, T>,
+    delta: Vector<S, T>,
+    node: [Vector<S, T>; 2],
+}
+
+impl<S: RegularLagrangian<T>, T: Real> Memory<T> for EnergyMomentumMemory<S, T> {
+    lasting!(T; number h, number before, number energy, flag has_begun, number defect, number tolerance);
+}
+
+impl<S: RegularLagrangian<T>, T: Real> EnergyMomentumMemory<S, T> {
+    /// e; `None` before the first step.
+    pub fn discrete_energy(&self) -> Option<T> {
+        self.has_begun.then_some(self.energy)
+    }
+
+    /// By how much the discrete energy of the last step differs from e, in units of energy.
+    pub fn defect(&self) -> T {
+        self.defect
+    }
+}
+
+/// A length, and E_d − e of the step that has it.
+#[derive(Clone, Copy, Debug)]
+struct Trial<T> {
+    h: T,
+    defect: T,
+}
+
+impl<T: Real> Trial<T> {
+    fn size(&self) -> T {
+        Scalar::abs(self.defect)
+    }
+}
+
+/// A step whose length is sought, from the point that `run` has kept.
+struct Search<'a, 'b, S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> {
+    run: &'a mut ControlledRun<'b, S, M, T>,
+    memory: &'a mut EnergyMomentumMemory<S, T>,
+    t: T,
+    /// The trial with the smallest defect.
+    best: Option<Trial<T>>,
+    failed: Option<StepFailure>,
+}
+
+impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, M, T> {
+    /// Takes a step of length `h`, and returns its discrete energy.
+    fn energy(&mut self, h: T) -> Result<T, StepFailure> {
+        self.run.step(self.t, h)?;
+        let Self { run, memory, t, .. } = self;
+        let EnergyMomentumMemory { start, delta, node, .. } = &mut **memory;
+        for (delta, (&q1, &q0)) in delta.iter_mut().zip(run.q().iter().zip(start.iter())) {
+            *delta = q1 - q0;
+        }
+        let span =
+            Span { system: run.system(), interval: Interval { t: *t, h }, ends: Ends { q0: start, delta } };
+        let energy = run.stepper.method.discrete_energy(span, node);
+        let missing = StepFailure::EnergyStep { h: reported(h), defect: f64::NAN };
+        energy.filter(|energy| energy.is_finite()).ok_or(missing)
+    }
+
+    /// The trial of a length, from which the run has gone back; `None` if there is no such step.
+    fn trial(&mut self, h: T) -> Option<Trial<T>> {
+        let energy = self.energy(h);
+        self.run.go_back();
+        match energy {
+            Ok(energy) => {
+                let trial = Trial { h, defect: energy - self.memory.energy };
+                if self.best.is_none_or(|best| trial.size() < best.size()) {
+                    self.best = Some(trial);
+                }
+                Some(trial)
+            }
+            Err(failure) => {
+                self.failed = Some(failure);
+                None
+            }
+        }
+    }
+
+    fn is_solved(&self) -> bool {
+        self.best.is_some_and(|best| best.size() <= self.memory.tolerance)
+    }
+
+    /// From two lengths on, as long as the lengths stay within reach of the last.
+    fn secant(&mut self, [one, other]: [T; 2]) -> Option<()> {
+        let reach = T::lift(REACH);
+        let (mut a, mut b) = (self.trial(one)?, self.trial(other)?);
+        for _ in 0..ITERATIONS {
+            if self.is_solved() {
+                return Some(());
+            }
+            let h = b.h - b.defect * (b.h - a.h) / (b.defect - a.defect);
+            let ratio = h / self.memory.h;
+            let is_near = ratio > T::lift(1.0) / reach && ratio < reach;
+            if !is_near {
+                return None;
+            }
+            (a, b) = (b, self.trial(h)?);
+        }
+        None
+    }
+
+    /// Two lengths between which the defect changes its sign, nearest to the last.
+    fn bracket(&mut self) -> Option<[Trial<T>; 2]> {
+        let mut ends = [self.trial(self.memory.h)?; 2];
+        for k in 1..=SOUGHT {
+            for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
+                let factor = T::lift(sign * f64::from(k) / f64::from(SOUGHT) * REACH.ln());
+                let Some(next) = self.trial(self.memory.h * Scalar::exp(factor)) else { continue };
+                if next.defect * end.defect <= T::lift(0.0) {
+                    return Some([*end, next]);
+                }
+                *end = next;
+            }
+        }
+        None
+    }
+
+    /// Between two lengths at which the defect has different signs (Dowell & Jarratt 1971).
+    fn false_position(&mut self, [mut a, mut b]: [Trial<T>; 2]) -> Option<()> {
+        let half = T::lift(0.5);
+        for _ in 0..ITERATIONS {
+            if self.is_solved() {
+                return Some(());
+            }
+            let next = self.trial(b.h - b.defect * (b.h - a.h) / (b.defect - a.defect))?;
+            if next.defect * b.defect < T::lift(0.0) {
+                a = b;
+            } else {
+                a.defect *= half;
+            }
+            b = next;
+        }
+        None
+    }
+
+    /// The length of the step.
+    fn solve(&mut self) -> Result<T, StepFailure> {
+        let EnergyMomentumMemory { h, before, .. } = *self.memory;
+        // Lengths change by a factor from step to step, as geometric means do.
+        let guess = h * h / before;
+        let other = if guess == h { h * T::lift(1.0 + 1e-3) } else { h };
+        let found = self.secant([other, guess]).is_some()
+            || self.bracket().is_some_and(|ends| self.false_position(ends).is_some());
+        match (found, self.best, self.failed) {
+            (true, Some(best), _) => Ok(best.h),
+            (false, Some(best), _) => {
+                Err(StepFailure::EnergyStep { h: reported(best.h), defect: reported(best.defect) })
+            }
+            (_, None, failed) => Err(failed.unwrap_or(StepFailure::StepLength { h: reported(h) })),
+        }
+    }
+}
+
+impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
+    const REJECTS: bool = true;
+    type Memory = EnergyMomentumMemory<S, T>;
+
+    fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
+        let is_tolerance = self.tolerance > 0.0 && self.tolerance.is_finite();
+        if !is_tolerance {
+            let (value, range) = (self.tolerance, "positive and finite");
+            return Err(StartError::Parameter { name: "tolerance", value, range });
+        }
+        if !self.first_step.is_finite() || self.first_step == 0.0 {
+            return Err(StartError::Step { h: self.first_step });
+        }
+        if S::FORCED || !S::AUTONOMOUS {
+            let reason = "energy is not conserved: forces act on the system, or L depends on the time";
+            return Err(StartError::Unsupported { option: "EnergyMomentum", reason });
+        }
+        let vector = || system.space().vector();
+        let (mut l_q, mut l_v): (Vector<S, T>, Vector<S, T>) = (vector(), vector());
+        system.gradient(q, v, t, &mut l_q, &mut l_v);
+        let energy = Scalar::abs(system.energy(q, v, t));
+        let action = v.iter().zip(l_v.iter()).fold(T::lift(0.0), |sum, (&v, &p)| sum + v * p);
+        let scale = if action > energy { action } else { energy };
+        let h = T::lift(self.first_step);
+        let memory = EnergyMomentumMemory {
+            h,
+            before: h,
+            energy: T::lift(0.0),
+            has_begun: false,
+            defect: T::lift(0.0),
+            tolerance: T::lift(self.tolerance) * scale,
+            start: vector(),
+            delta: l_q,
+            node: [vector(), l_v],
+        };
+        Ok((memory, h))
+    }
+
+    fn admit<M: VariableStep<S, T>>(&self, method: &M) -> Result<(), StartError> {
+        if method.has_discrete_energy() {
+            return Ok(());
+        }
+        let reason = "the method has no discrete energy: take `Variational` without a frequency";
+        Err(StartError::Unsupported { option: "EnergyMomentum", reason })
+    }
+
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut ControlledRun<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure> {
+        run.keep();
+        memory.start.copy_from_slice(run.q());
+        let mut search = Search { run, memory, t, best: None, failed: None };
+        if !search.memory.has_begun {
+            let h = search.memory.h;
+            let energy = search.energy(h).inspect_err(|_| search.run.go_back())?;
+            (memory.energy, memory.has_begun) = (energy, true);
+            return Ok(h);
+        }
+        let h = search.solve()?;
+        let energy = search.energy(h).inspect_err(|_| search.run.go_back())?;
+        memory.defect = energy - memory.energy;
+        (memory.before, memory.h) = (memory.h, h);
+        Ok(h)
+    }
+}

@@ -1,0 +1,203 @@
+//! Steps whose length keeps the discrete energy: conservation, order, refusals, and where there is no such step.
+
+use dvi_core::discrete::{Constant, Rule};
+use dvi_core::prelude::*;
+use dvi_tests::larger;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// A spring that becomes stiffer.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - (x * x + y * y) / 2.0 - (x * x + y * y).powi(2) / 4.0,
+    momenta(l = x * dot(y) - y * dot(x)),
+)]
+#[derive(Clone, Debug)]
+struct Spring;
+
+const SPRING: SpringState = SpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
+
+/// A double pendulum's kind of mass, so that no step is explicit.
+#[lagrangian(
+    coordinates(a, b),
+    lagrangian = dot(a).powi(2) + dot(b).powi(2) / 2.0 + dot(a) * dot(b) * (a - b).cos() + 2.0 * a.cos() + b.cos(),
+)]
+#[derive(Clone, Debug)]
+struct DoublePendulum;
+
+const PENDULUM: DoublePendulumState = DoublePendulumState { a: 0.4, b: 0.3, dot_a: 0.3, dot_b: -0.1 };
+
+/// E_d of a step of a rule with linear interpolation, by hand.
+fn discrete_energy(rule: &Quadrature, h: f64, q0: [f64; 2], q1: [f64; 2]) -> f64 {
+    let velocity: [f64; 2] = core::array::from_fn(|i| (q1[i] - q0[i]) / h);
+    let kinetic = (velocity[0].powi(2) + velocity[1].powi(2)) / 2.0;
+    let potential = |c: f64| {
+        let [x, y]: [f64; 2] = core::array::from_fn(|i| (1.0 - c) * q0[i] + c * q1[i]);
+        let s = x * x + y * y;
+        s / 2.0 + s * s / 4.0
+    };
+    let nodes = rule.nodes().iter().zip(rule.weights());
+    kinetic + nodes.map(|(&c, &weight)| weight * potential(c)).sum::<f64>()
+}
+
+#[test]
+fn discrete_energy_and_momentum_are_conserved_to_rounding() -> Outcome {
+    for rule in [Quadrature::gauss(1)?, Quadrature::gauss(2)?] {
+        for h in [0.1, -0.05] {
+            let mut run =
+                ControlledIntegrator::new(&Spring, Variational::new(rule), EnergyMomentum::new(h), SPRING)?;
+            let momentum = run.momentum(0).ok_or("a momentum")?;
+            let (mut first, mut lengths, mut worst, mut ratio) =
+                (None, [f64::INFINITY, 0.0_f64], 0.0, 1.0_f64);
+            let mut last = h;
+            for _ in 0..3000 {
+                let (q0, t) = ([run.q()[0], run.q()[1]], run.time());
+                run.advance()?;
+                let step = run.step_size();
+                assert!((run.time() - t - step).abs() < 1e-12);
+                let energy = discrete_energy(&rule, step, q0, [run.q()[0], run.q()[1]]);
+                worst = larger(worst, (energy - *first.get_or_insert(energy)).abs());
+                ratio = ratio.max(step / last).max(last / step);
+                last = step;
+                lengths = [lengths[0].min(step.abs()), lengths[1].max(step.abs())];
+            }
+            // Δ/h is known to the rounding of q over h.
+            assert!(worst < 3e-14 / h.abs(), "{worst:e}");
+            assert!(ratio < 1.5, "lengths change little from step to step: {ratio}");
+            assert!(lengths[0] > 0.9 * h.abs() && lengths[1] < 4.0 * h.abs(), "{lengths:?}");
+            assert!(lengths[1] > 1.05 * lengths[0], "steps differ: {lengths:?}");
+            let change = run.momentum(0).ok_or("a momentum")? - momentum;
+            assert!(change.abs() < 1e-12, "{change:e}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn steps_of_any_lagrangian_keep_their_discrete_energy() -> Outcome {
+    let mut run = ControlledIntegrator::new(
+        &DoublePendulum,
+        Variational::midpoint(),
+        EnergyMomentum::new(0.05),
+        PENDULUM,
+    )?;
+    assert_eq!(run.control_memory().discrete_energy(), None);
+    for _ in 0..500 {
+        run.advance()?;
+        assert!(run.control_memory().defect().abs() < 1e-13, "{:e}", run.control_memory().defect());
+    }
+    assert!(run.control_memory().discrete_energy().is_some());
+    Ok(())
+}
+
+/// On an oscillator E_d of the midpoint rule does not depend on the point.
+#[test]
+fn an_oscillator_is_stepped_by_steps_of_one_length() -> Outcome {
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - 4.0 * x * x / 2.0)]
+    struct Oscillator;
+    let start: OscillatorState = OscillatorState { x: 1.0, dot_x: 0.2 };
+    let mut run =
+        ControlledIntegrator::new(&Oscillator, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
+    for _ in 0..200 {
+        run.advance()?;
+        assert!((run.step_size() - 0.1).abs() < 1e-10, "{}", run.step_size());
+    }
+    Ok(())
+}
+
+#[test]
+fn it_is_of_second_order_in_the_time() -> Outcome {
+    let mut errors = Vec::new();
+    for h in [0.04, 0.03, 0.02, 0.015] {
+        let mut run =
+            ControlledIntegrator::new(&Spring, Variational::midpoint(), EnergyMomentum::new(h), SPRING)?;
+        while run.time() < 2.0 {
+            run.advance()?;
+        }
+        let time = run.time();
+        let mut reference = Integrator::new(&Spring, Gauss::<4>::new(), time / 400.0, SPRING)?;
+        reference.take_steps(400)?;
+        let off = run.q().iter().zip(reference.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        errors.push((h, off));
+    }
+    let order = convergence_order(&errors).ok_or("no slope")?;
+    assert!((order - 2.0).abs() < 0.1, "{order}: {errors:?}");
+    Ok(())
+}
+
+/// The discrete energy of a trapezoidal step of length `h` from (q, p), by hand.
+fn of_trapezoid(h: f64, q: [f64; 2], p: [f64; 2]) -> f64 {
+    let slope = 1.0 + q[0] * q[0] + q[1] * q[1];
+    let q1 = core::array::from_fn(|i| q[i] + h * (p[i] - 0.5 * h * slope * q[i]));
+    Quadrature::lobatto(2).map_or(f64::NAN, |rule| discrete_energy(&rule, h, q, q1))
+}
+
+#[test]
+fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Outcome {
+    let mut run =
+        ControlledIntegrator::new(&Spring, Variational::trapezoid(), EnergyMomentum::new(0.1), SPRING)?;
+    let (before, error) = loop {
+        let before = run.state();
+        if let Err(error) = run.advance() {
+            break (before, error);
+        }
+    };
+    let StepFailure::EnergyStep { h, defect } = error.failure else { return Err(error.into()) };
+    assert_eq!((run.state(), error.step, error.time), (before, run.steps(), run.time()));
+    assert!(run.steps() > 0);
+    // No length within reach does better, by another program, and none is near to a solution.
+    let energy = run.control_memory().discrete_energy().ok_or("begun")?;
+    let SpringState { x, y, dot_x, dot_y } = run.state();
+    let of = |h: f64| of_trapezoid(h, [x, y], [dot_x, dot_y]) - energy;
+    assert!((of(h) - defect).abs() < 1e-12, "{} {defect}", of(h));
+    let last = run.step_size();
+    for k in -1000..=1000 {
+        let h = last * 4.0_f64.powf(f64::from(k) / 1000.0);
+        assert!(of(h) * defect > 0.0, "a solution near {h}");
+    }
+    // It fails again in the same way.
+    assert_eq!(run.advance().err().map(|again| again.failure), Some(error.failure));
+    Ok(())
+}
+
+#[test]
+fn a_run_is_resumed_from_its_checkpoint_to_the_bit() -> Outcome {
+    let control = EnergyMomentum::new(0.1);
+    let mut whole = ControlledIntegrator::new(&Spring, Variational::midpoint(), control, SPRING)?;
+    whole.take_steps(70)?;
+    let checkpoint = whole.checkpoint();
+    let mut resumed = ControlledIntegrator::resume(&Spring, Variational::midpoint(), control, &checkpoint)?;
+    whole.take_steps(100)?;
+    resumed.take_steps(100)?;
+    assert_eq!((whole.state(), whole.time()), (resumed.state(), resumed.time()));
+    Ok(())
+}
+
+#[test]
+fn what_has_no_conserved_energy_is_refused() {
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0, force(x) = -dot(x))]
+    struct Friction;
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * t.cos())]
+    struct Driven;
+    let control = EnergyMomentum::new(0.1);
+    let friction: FrictionState = FrictionState { x: 1.0, dot_x: 0.0 };
+    let driven: DrivenState = DrivenState { x: 1.0, dot_x: 0.0 };
+    let unsupported = |error: Option<StartError>| matches!(error, Some(StartError::Unsupported { .. }));
+    assert!(unsupported(
+        ControlledIntegrator::new(&Friction, Variational::midpoint(), control, friction).err()
+    ));
+    assert!(unsupported(ControlledIntegrator::new(&Driven, Variational::midpoint(), control, driven).err()));
+    let fitted = Variational::midpoint().phase_fitted(Constant(1.0));
+    assert!(unsupported(ControlledIntegrator::new(&Spring, fitted, control, SPRING).err()));
+    assert!(unsupported(ControlledIntegrator::new(&Spring, RungeKutta::classical(), control, SPRING).err()));
+    for first_step in [0.0, f64::NAN] {
+        let control = EnergyMomentum::new(first_step);
+        let error = ControlledIntegrator::new(&Spring, Variational::midpoint(), control, SPRING).err();
+        assert!(matches!(error, Some(StartError::Step { .. })));
+    }
+    for tolerance in [0.0, -1.0, f64::NAN] {
+        let control = EnergyMomentum { tolerance, ..control };
+        let error = ControlledIntegrator::new(&Spring, Variational::midpoint(), control, SPRING).err();
+        assert!(matches!(error, Some(StartError::Parameter { name: "tolerance", .. })));
+    }
+}
