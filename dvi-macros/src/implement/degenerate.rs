@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::document::{Account, quantity};
+use super::document::{Account, beside_force, quantity};
 use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
 use crate::errors::listed;
@@ -86,12 +86,10 @@ fn account(
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     account.forces(emitter, &programs.shared);
-    let and_force = if programs.shared.forces.is_some() { " − F_" } else { "" };
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
     account.derived(emitter, &programs.one_form.statements, |_, entry| format!("α_{}", coordinate(entry)));
     account.derived(emitter, &programs.hamiltonian_gradient.statements, |_, entry| {
-        let force =
-            if and_force.is_empty() { String::new() } else { format!("{and_force}{}", coordinate(entry)) };
+        let force = beside_force(emitter, &programs.shared, "−", entry);
         format!("∂H/∂{}{force}", coordinate(entry))
     });
     account

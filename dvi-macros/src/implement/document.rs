@@ -110,6 +110,22 @@ impl Account {
     }
 }
 
+/// ` + F_x` behind the derivative by x of a function that stands beside the force on x, or with another sign; nothing where no
+/// force acts.
+pub(super) fn beside_force(
+    emitter: &Emitter<'_>,
+    programs: &Programs,
+    sign: &str,
+    entry: &Coordinate,
+) -> String {
+    let acts = |statement: &Statement| match &statement.place {
+        Place::Entry(_, on) => on.block == entry.block,
+        Place::Result | Place::MatrixEntry(..) => false,
+    };
+    let is_forced = programs.forces.iter().any(|forces| forces.applied.statements.iter().any(acts));
+    if is_forced { format!(" {sign} F_{}", print_coordinate(entry, emitter.model)) } else { String::new() }
+}
+
 fn operation_list(emitter: &Emitter<'_>, operations: &[Operations]) -> TokenStream {
     let krate = emitter.krate();
     let entries = operations.iter().map(|count| {

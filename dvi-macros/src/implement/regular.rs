@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::document::{Account, quantity};
+use super::document::{Account, beside_force, quantity};
 use super::in_numbers;
 use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
@@ -48,14 +48,11 @@ fn account(
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     account.forces(emitter, &programs.shared);
-    let and_force = |entry: &_| match programs.shared.forces {
-        Some(_) => format!(" + F_{}", print_coordinate(entry, emitter.model)),
-        None => String::new(),
-    };
     account.derived(emitter, &programs.shared.gradient.statements, |output, entry| match output {
         Output::Lv => format!("∂L/∂{}", print_velocity(entry, emitter.model)),
         Output::Lq | Output::Vector => {
-            format!("∂L/∂{}{}", print_coordinate(entry, emitter.model), and_force(entry))
+            let force = beside_force(emitter, &programs.shared, "+", entry);
+            format!("∂L/∂{}{force}", print_coordinate(entry, emitter.model))
         }
     });
     account

@@ -67,7 +67,7 @@ fn reports_name_the_forces_and_what_they_mean() {
     let text = Driven::REPORT.to_string();
     assert!(text.contains("F_z[i] = "), "{text}");
     let text = Pendulum::REPORT.to_string();
-    assert!(text.contains("∂H/∂q − F_q = "), "{text}");
+    assert!(text.contains("∂H/∂q − F_q = ") && text.contains("∂H/∂p = "), "{text}");
     // Without velocities in the forces the step stays explicit.
     let text = Swirl::REPORT.to_string();
     assert!(text.contains("step is explicit"), "{text}");
