@@ -179,3 +179,36 @@ fn compensated_sums_round_as_little_as_it_is_said() {
         percent("oscillator, Verlet")
     )]);
 }
+
+#[test]
+fn friction_takes_from_the_energy_what_is_said() {
+    let rows = rows();
+    let friction = |quantity: &str| value(&rows, "friction", quantity);
+    let rate =
+        |name: &str| friction(&format!("{name}: rate of decay of E less that of the motion, in units of γ"));
+    let at_most_hundredths = |name: &str| (100.0 * rate(name).abs()).ceil() / 100.0;
+    let ratio = |h: &str| friction(&format!("h = {h}: largest deviation of E, RK4 / midpoint"));
+    for name in ["Heun", "explicit midpoint"] {
+        assert!(friction(&format!("{name}: time at which E is twice E(0)")) <= 5.0, "{name}");
+    }
+    assert_said(&[
+        format!(
+            "is wrong by at most {:.2} γ with the variational midpoint rule, {:.2} γ with the trapezoid and {:.2} γ with \
+             Newmark's method; RK4 adds {:.2} γ of its own.",
+            at_most_hundredths("variational midpoint"),
+            at_most_hundredths("variational trapezoid"),
+            at_most_hundredths("Newmark, β = ¼"),
+            rate("RK4")
+        ),
+        format!(
+            "at h = 0.1 the energy of RK4 deviates {:.1} times as far as that of the midpoint rule, at h = 0.025 only \
+             {:.2} times as far.",
+            ratio("0.1"),
+            ratio("0.025")
+        ),
+        format!(
+            "decays as e^{{−γt}} up to {} of itself in all of that time.",
+            at_most(friction("trapezoid: largest |l/(l(0) exp(−γt)) − 1|"))
+        ),
+    ]);
+}

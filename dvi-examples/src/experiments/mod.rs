@@ -5,6 +5,7 @@ mod chaotic;
 mod double_pendulum;
 mod energy;
 mod field_lines;
+mod friction;
 mod guiding_centre;
 mod kepler;
 mod kepler_frequency;
@@ -50,6 +51,7 @@ pub const ALL: &[Experiment] = &[
     kepler_work::EXPERIMENT,
     barnes::EXPERIMENT,
     double_pendulum::EXPERIMENT,
+    friction::EXPERIMENT,
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,

@@ -3,6 +3,7 @@
 mod double_pendulum;
 mod drift;
 mod field_lines;
+mod friction;
 mod kepler;
 mod lattice;
 mod oscillators;
@@ -15,6 +16,7 @@ mod vortices;
 pub use double_pendulum::*;
 pub use drift::*;
 pub use field_lines::*;
+pub use friction::*;
 pub use kepler::*;
 pub use lattice::*;
 pub use oscillators::*;
