@@ -348,8 +348,10 @@ pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
     note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`"
 )]
 pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regular> {
-    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no
-    /// term is linear in v; and no force depends on v. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
+    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no term is linear in v. Then
+    /// p = M v, whatever forces act.
+    const CONSTANT_MASS: bool;
+    /// Whether, with [`CONSTANT_MASS`](Self::CONSTANT_MASS), no force depends on v either. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
     /// Störmer and Verlet (Marsden & West 2001, section 2.6).
     const SEPARABLE: bool;
     /// Whether M has entries on its diagonal only, so that it is solved by divisions.

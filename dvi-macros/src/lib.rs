@@ -255,8 +255,7 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// ```
 ///
 /// The equations of motion are those of Lagrange and d'Alembert, d/dt ∂L/∂v = ∂L/∂q + F, and so are the discrete equations of
-/// every method: `dvi_core::Lagrangian::applied_force` says more. In a report and in the documentation of the struct, F_x is
-/// the force on x.
+/// every method: `dvi_core::Lagrangian::applied_force` says more.
 ///
 /// # Errors
 ///

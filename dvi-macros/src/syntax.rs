@@ -6,6 +6,7 @@
 use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
+use syn::spanned::Spanned;
 use syn::{Expr, Path, Token};
 
 use crate::errors::{Errors, listed, nearest};
@@ -65,6 +66,9 @@ const ARGUMENTS: [(&str, &str); 11] = [
     ("crate",       "crate = ::path"),
 ];
 
+/// Words for what is a force.
+const FORCES: [&str; 6] = ["damping", "drag", "drive", "forces", "forcing", "friction"];
+
 /// The arguments that a regular system does not have.
 const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
 
@@ -99,6 +103,7 @@ enum Value {
     AssignedTo {
         of: TokenStream,
         value: TokenStream,
+        parentheses: Span,
     },
     Neither,
 }
@@ -111,13 +116,15 @@ impl Argument {
         })?;
         let value = if input.peek(syn::token::Paren) {
             let content;
-            syn::parenthesized!(content in input);
+            let parentheses = syn::parenthesized!(content in input).span.join();
             let list = content.parse()?;
             if input.peek(Token![=]) && !input.peek(Token![==]) {
                 input.parse::<Token![=]>()?;
-                Value::AssignedTo { of: list, value: input.parse()? }
+                Value::AssignedTo { of: list, value: input.parse()?, parentheses }
             } else if input.is_empty() {
                 Value::List(list)
+            } else if name == "force" {
+                return Err(input.error("a force is written `force(x) = …`"));
             } else {
                 return Err(input.error("expected `,`"));
             }
@@ -222,7 +229,9 @@ impl Attribute {
                     value_of(&name, tokens, errors).map(|rate| TimeTransform { word: name, rate });
             }
             ("force", Value::Assigned(tokens)) => match value_of(&name, tokens, errors) {
-                Some(Expr::Array(components)) => self.push_force(&name, Force::Components(components), errors),
+                Some(Expr::Array(components)) => {
+                    self.push_force(&name, Force::Components(components), errors);
+                }
                 Some(other) => {
                     let message = "`force = […]` is a list with a component for each coordinate; the force on one of them is \
                                    written `force(x) = …`";
@@ -230,18 +239,18 @@ impl Attribute {
                 }
                 None => {}
             },
-            ("force", Value::AssignedTo { of, value }) => match read(of) {
-                Ok(on) => {
-                    if let Some(formula) = value_of(&name, value, errors) {
-                        self.push_force(&name, Force::On(on, formula), errors);
-                    }
+            ("force", Value::AssignedTo { of, value, parentheses }) => {
+                let at = if of.is_empty() { parentheses } else { of.span() };
+                match (read(of), value_of(&name, value, errors)) {
+                    (Ok(on), Some(formula)) => self.push_force(&name, Force::On(on, formula), errors),
+                    (Ok(_), None) => {}
+                    (Err(_), _) => errors.push_syn(syn::Error::new(
+                        at,
+                        "a force acts on a coordinate by its name alone, as in `force(x) = …`; of an array the force on entry i is \
+                         `force(x) = |i| …`",
+                    )),
                 }
-                Err(error) => errors.push_syn(syn::Error::new(
-                    error.span(),
-                    "the coordinate goes by its name alone, as in `force(x) = …`; of an array of them the force on entry i is \
-                     `force(x) = |i| …`",
-                )),
-            },
+            }
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),
@@ -256,6 +265,10 @@ impl Attribute {
                 let form = ARGUMENTS.iter().find(|(name, _)| *name == known).map_or("", |(_, form)| form);
                 self.lost_functions |= known == "functions";
                 errors.push(&name, format!("`{known}` is written `{form}`"));
+            }
+            _ if FORCES.contains(&keyword.as_str()) => {
+                errors
+                    .push(&name, format!("unknown argument `{keyword}`; a force is written `force(x) = …`"));
             }
             _ => {
                 let hint = nearest(&keyword, self.kind.arguments()).map_or_else(

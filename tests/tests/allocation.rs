@@ -48,6 +48,28 @@ fn of_chain<M: Method<RunTimeChain, f64>>(method: M, n: usize) -> f64 {
     (dhat::HeapStats::get().total_bytes - before) as f64
 }
 
+/// Friction on bodies that all depend on each other.
+#[lagrangian(
+    coordinates(q[n]),
+    lagrangian = sum(0..n, |j| dot(q[j]).powi(2) / 2.0) - sum_pairs(0..n, |j, k| (q[j] - q[k]).powi(2)) / (n as f64),
+    force(q) = |j| -0.1 * dot(q[j]),
+)]
+#[derive(Debug)]
+struct Rubbed {
+    n: usize,
+}
+
+/// Bytes that a run of `n` such bodies takes.
+fn of_bodies<M: Method<Rubbed, f64>>(method: M, n: usize) -> f64 {
+    let (system, q) = (Rubbed { n }, (0..n).map(|j| (j as f64).sin()).collect());
+    let before = dhat::HeapStats::get().total_bytes;
+    let mut run =
+        Integrator::new(&system, method, 0.1, RubbedState { q, dot_q: vec![0.0; n] }).expect("starts");
+    run.take_steps(3).expect("steps");
+    let _ = (run.state(), run.power());
+    (dhat::HeapStats::get().total_bytes - before) as f64
+}
+
 /// Vortices on a spiral.
 fn spiral(n: usize) -> (ManyVortices, ManyVorticesState) {
     let at = |j: usize, phase: f64| (1.0 + j as f64).sqrt() * (2.4 * j as f64 + phase).sin();
@@ -154,6 +176,12 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         RungeKutta::classical(),
         Langevin { friction: 0.3, temperature: 0.1, seed: 1 },
     );
+
+    // Friction stores no matrix where the mass matrix is diagonal and constant.
+    let fixed_point = Variational { solver: Solver::FixedPoint, ..Variational::midpoint() };
+    let grows = |[short, long]: [f64; 2]| assert!(long < 4.1 * short, "{short} bytes and {long}");
+    grows([50, 200].map(|n| of_bodies(RungeKutta::classical(), n)));
+    grows([50, 200].map(|n| of_bodies(fixed_point, n)));
 
     // By products with vectors.
     let (system, start) = spiral(50);

@@ -9,7 +9,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
-use crate::{Lagrangian, Linear, Real, RegularLagrangian, Space, System, Vector, Weights};
+use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
 
 /// Storage for the transform.
 #[derive(Debug)]
@@ -74,13 +74,11 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         p: &[T],
         t: T,
         v: &mut [T],
-    ) -> Result<(), StepFailure>
-    where
-        S: RegularLagrangian<T>,
-    {
-        self.solve(system, q, p, t, v, S::QUADRATIC).or_else(|_| {
+        is_quadratic: bool,
+    ) -> Result<(), StepFailure> {
+        self.solve(system, q, p, t, v, is_quadratic).or_else(|_| {
             v.fill(T::lift(0.0));
-            self.solve(system, q, p, t, v, S::QUADRATIC)
+            self.solve(system, q, p, t, v, is_quadratic)
         })
     }
 

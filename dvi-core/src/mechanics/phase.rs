@@ -162,7 +162,7 @@ impl<S: System, T: Real> Memory<T> for PhasePoint<S, T> {
 /// The mass matrix ∂²L/∂v∂v of a run.
 #[derive(Debug)]
 pub(crate) enum Inertial<S: System, T: Real> {
-    /// L is separable.
+    /// p = M v with a constant M.
     Constant(Mass<S, T>),
     /// It depends on the state; its orientation is watched.
     Varying(MassOrientation<S, T>),
@@ -174,7 +174,7 @@ impl<S: RegularLagrangian<T>, T: Real> Inertial<S, T> {
     /// # Errors
     /// [`StartError::Starter`] where the matrix is singular.
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StartError> {
-        let new = if S::SEPARABLE {
+        let new = if S::CONSTANT_MASS {
             Mass::new(system, q, t).map(Self::Constant)
         } else {
             MassOrientation::new(system, q, v, t).map(Self::Varying)
@@ -231,7 +231,7 @@ impl<S: RegularLagrangian<T>, T: Real> Inertial<S, T> {
             }
             Self::Varying(_) => {
                 phase.history.extrapolate(v);
-                Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v)
+                Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v, S::QUADRATIC)
             }
         }
     }

@@ -104,7 +104,8 @@ impl<const NODES: usize, F: Frequency> Galerkin<NODES, F> {
         F: FrequencyIn<T>,
     {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-        let separable = "it needs L = ½ v·M v − V(q, t) with a constant matrix M";
+        let separable =
+            "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities";
         if F::PER_COORDINATE {
             return unsupported("PerCoordinate", "displacements go with one frequency for all coordinates");
         }
@@ -115,7 +116,8 @@ impl<const NODES: usize, F: Frequency> Galerkin<NODES, F> {
             Some(_) => return unsupported("this reading of the frequency", "take Reading::Averaged"),
         }
         if !S::SEPARABLE && self.solver == Solver::FixedPoint {
-            let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
+            let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities; take \
+                          Solver::Newton";
             return unsupported("Solver::FixedPoint", reason);
         }
         frequency::admit(&self.frequency, system)?;

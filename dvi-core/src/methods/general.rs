@@ -160,7 +160,7 @@ impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Gen
             return Ok(());
         }
         memory.history.extrapolate(v);
-        Legendre::new(system, q, v, t).solve(system, q, &memory.p, t, v, false)
+        Legendre::new(system, q, v, t).solve_near(system, q, &memory.p, t, v, false)
     }
 }
 

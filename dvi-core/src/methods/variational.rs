@@ -213,6 +213,12 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         S::SEPARABLE && !mixes && self.frequency.reading() != Some(Reading::Variational)
     }
 
+    /// Whether a fixed point is an iteration for the step: with a constant mass matrix, unless each coordinate has a frequency
+    /// of its own.
+    fn has_fixed_point<S: RegularLagrangian<T>, T: Real>(&self) -> bool {
+        self.needs_forces_only::<S, T>() || (S::CONSTANT_MASS && !F::PER_COORDINATE)
+    }
+
     #[inline(always)]
     fn reads_both_ends(&self) -> bool {
         matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
@@ -233,20 +239,17 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         if !S::SEPARABLE && self.frequency.reading().is_some() {
             return unsupported(
                 "a frequency read from the motion",
-                "it needs L = ½ v·M v − V(q, t) with a constant matrix M",
+                "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities",
             );
         }
-        if F::PER_COORDINATE && !S::DIAGONAL_MASS && self.solver == Solver::FixedPoint {
-            return unsupported(
-                "Solver::FixedPoint",
-                "frequencies per coordinate need a diagonal mass matrix for it",
-            );
-        }
-        if !S::SEPARABLE && self.solver == Solver::FixedPoint {
-            return unsupported(
-                "Solver::FixedPoint",
-                "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton",
-            );
+        if self.solver == Solver::FixedPoint && !self.has_fixed_point::<S, T>() {
+            let reason = match F::PER_COORDINATE {
+                true => {
+                    "frequencies per coordinate need a diagonal mass matrix and forces without velocities for it"
+                }
+                false => "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton",
+            };
+            return unsupported("Solver::FixedPoint", reason);
         }
         frequency::admit(&self.frequency, system)?;
         self.stopping.validate()
@@ -290,7 +293,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self, t, h };
         let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
-        if let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial) {
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && S::SEPARABLE, &*inertial) {
             if self.summation == Summation::Compensated {
                 statistics.gradients += 1;
                 return verlet::compensated(&step, mass, phase, work, q);
@@ -328,7 +331,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
     ) -> Result<(), StepFailure> {
         let VariationalMemory { phase, inertial, work, .. } = &mut *memory;
         let is_plain = self.summation == Summation::Plain;
-        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && is_plain, &*inertial) {
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && S::SEPARABLE && is_plain, &*inertial) {
             let (taken, result) = verlet::steps(system, mass, phase, work, q, clock, count);
             statistics.gradients += taken;
             statistics.steps += taken;

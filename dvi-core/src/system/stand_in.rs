@@ -63,6 +63,7 @@ impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> ProperlyDegenerate<T> fo
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + System<Kind = Regular>, T: Scalar> RegularLagrangian<T> for S {
+    const CONSTANT_MASS: bool = false;
     const SEPARABLE: bool = false;
     const DIAGONAL_MASS: bool = false;
     const QUADRATIC: bool = false;

@@ -64,7 +64,7 @@ fn account(
     let mut account = Account::new(
         "L(q, v, t) = α(q, t)·v − H(q, t) with",
         declared.collect(),
-        structure.sentences(emitter.model),
+        structure.sentences(emitter.model, programs.shared.forces.is_some()),
     );
     if formulas.gauge.is_some() {
         account.sentence("α and H contain the gauge F: dF/dt is added to L.".to_string());

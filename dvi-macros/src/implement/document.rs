@@ -48,7 +48,7 @@ impl Account {
     pub(super) fn forces(&mut self, emitter: &Emitter<'_>, programs: &Programs) {
         let Some(forces) = &programs.forces else { return };
         self.derived(emitter, &forces.applied.statements, |_, entry| {
-            format!("F_{}", print_coordinate(entry, emitter.model))
+            format!("force({})", print_coordinate(entry, emitter.model))
         });
         self.sentence(
             "Forces act: no method preserves a form, and energy and momenta change as the forces make them."
@@ -110,7 +110,7 @@ impl Account {
     }
 }
 
-/// ` + F_x` behind the derivative by x of a function that stands beside the force on x, or with another sign; nothing where no
+/// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with another sign; nothing where no
 /// force acts.
 pub(super) fn beside_force(
     emitter: &Emitter<'_>,
@@ -123,7 +123,11 @@ pub(super) fn beside_force(
         Place::Result | Place::MatrixEntry(..) => false,
     };
     let is_forced = programs.forces.iter().any(|forces| forces.applied.statements.iter().any(acts));
-    if is_forced { format!(" {sign} F_{}", print_coordinate(entry, emitter.model)) } else { String::new() }
+    if is_forced {
+        format!(" {sign} force({})", print_coordinate(entry, emitter.model))
+    } else {
+        String::new()
+    }
 }
 
 fn operation_list(emitter: &Emitter<'_>, operations: &[Operations]) -> TokenStream {

@@ -60,12 +60,13 @@ fn account(
 
 /// The implementation of `RegularLagrangian`.
 fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: &MassMatrix) -> TokenStream {
-    let MassMatrix { separable, diagonal, quadratic, .. } = *structure;
+    let MassMatrix { constant, separable, diagonal, quadratic, .. } = *structure;
     let (force, rate) = (emitter.vector(&programs.force), emitter.vector(&programs.momentum_rate));
     let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
     let traits = traits.map(|structure| in_numbers(emitter, &structure, &TokenStream::new()));
     let lagrangian = quote! {
+        const CONSTANT_MASS: bool = #constant;
         const SEPARABLE: bool = #separable;
         const DIAGONAL_MASS: bool = #diagonal;
         const QUADRATIC: bool = #quadratic;

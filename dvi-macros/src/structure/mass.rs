@@ -16,7 +16,7 @@ pub(crate) struct MassMatrix {
     /// L is, and no force depends on velocities.
     pub(crate) separable: bool,
     /// L is, whatever the forces.
-    has_separable_lagrangian: bool,
+    pub(crate) constant: bool,
     pub(crate) diagonal: bool,
     pub(crate) quadratic: bool,
     /// What M depends on, of `q`, `v` and `t`.
@@ -53,13 +53,12 @@ impl MassMatrix {
         let block_of = |coordinate: &Coordinate| coordinate.block as usize;
         let depends_on = depends_on(graph, &mass);
         let diagonal = mass.iter().all(|entry| entry.row == entry.column);
-        let has_separable_lagrangian = formulas.quadratic
+        let constant = formulas.quadratic
             && depends_on.is_empty()
             && !mixes_position_and_velocity(graph, entries)
             && force_is_at_rest(graph, formulas.lagrangian)
             && momentum_vanishes_at_rest(graph, formulas.lagrangian);
-        let separable =
-            has_separable_lagrangian && !formulas.force.iter().any(|part| depends_on_velocity(graph, part));
+        let separable = constant && !formulas.force.iter().any(|part| depends_on_velocity(graph, part));
         let mentioned = mentioned(graph, formulas.lagrangian);
         let involved = |block: usize| {
             mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
@@ -72,7 +71,7 @@ impl MassMatrix {
             mass.iter().map(|entry| [block_of(&entry.row), block_of(&entry.column)]).collect();
         Self {
             separable,
-            has_separable_lagrangian,
+            constant,
             diagonal,
             quadratic: formulas.quadratic,
             depends_on,
@@ -152,7 +151,7 @@ impl MassMatrix {
     /// What is said of the structure in reports.
     pub(crate) fn sentences(&self) -> Vec<String> {
         let mass = if self.diagonal { "diagonal" } else { "full" };
-        let form = match (self.has_separable_lagrangian, self.depends_on.as_slice()) {
+        let form = match (self.constant, self.depends_on.as_slice()) {
             (true, _) => format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."),
             (false, []) => format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."),
             (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
@@ -165,7 +164,7 @@ impl MassMatrix {
             (true, false) => {
                 "The trapezoidal (Störmer–Verlet) step is explicit up to one factorisation for the whole run."
             }
-            (false, _) if self.has_separable_lagrangian => {
+            (false, _) if self.constant => {
                 "A force depends on velocities: the trapezoidal step is implicit, and linear in the velocity if the force is."
             }
             (false, _) => "The trapezoidal step is implicit in general.",

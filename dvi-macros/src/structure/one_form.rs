@@ -177,7 +177,7 @@ impl OneForm {
     }
 
     /// What is said of the structure in reports.
-    pub(crate) fn sentences(&self, model: &Model) -> Vec<String> {
+    pub(crate) fn sentences(&self, model: &Model, is_forced: bool) -> Vec<String> {
         let mut sentences = Vec::new();
         sentences.push(match self.linear {
             true => "α is affine in q with constant coefficients: Ω is constant.",
@@ -208,19 +208,22 @@ impl OneForm {
         });
         let mut sentences: Vec<String> = sentences.into_iter().map(str::to_string).collect();
         sentences.push(self.class.sentence(model));
-        sentences.push(
-            match (self.linear, self.class.is_proper) {
-                (false, false) if self.class.advice.is_some() => {
-                    "Begin with `gauge = auto` and `OneStep::midpoint()`: it has no parasitic mode and preserves Ω."
-                }
-                (true, _) => "Begin with `Sigma::midpoint()`: α is affine, so it is the implicit midpoint rule.",
-                (false, true) => "Begin with `OneStep::midpoint()`: it has no parasitic mode and preserves Ω.",
-                (false, false) => {
-                    "Begin with `Gauss::<2>::new()`: α is not affine, and `Sigma` would have a parasitic mode."
-                }
+        let one_step = match is_forced {
+            true => "`OneStep::midpoint()`: it has no parasitic mode.",
+            false => "`OneStep::midpoint()`: it has no parasitic mode and preserves Ω.",
+        };
+        sentences.push(match (self.linear, self.class.is_proper) {
+            (false, false) if self.class.advice.is_some() => {
+                format!("Begin with `gauge = auto` and {one_step}")
             }
-            .to_string(),
-        );
+            (false, true) => format!("Begin with {one_step}"),
+            (true, _) => "Begin with `Sigma::midpoint()`: α is affine, so it is the implicit midpoint rule."
+                .to_string(),
+            (false, false) => {
+                "Begin with `Gauss::<2>::new()`: α is not affine, and `Sigma` would have a parasitic mode."
+                    .to_string()
+            }
+        });
         sentences
     }
 }

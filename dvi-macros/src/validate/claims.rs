@@ -109,14 +109,17 @@ impl System<'_> {
             is_same("QUADRATIC", "∂²L/∂v∂v at other velocities", here.mass(), there.mass())?;
         }
         if mass.separable {
+            vanishes("SEPARABLE", "∂F/∂v", here.friction())?;
+        }
+        if mass.constant {
             if let Some(there) = self.at(&point.elsewhere(true, true, true), Directions::ALL) {
-                is_same("SEPARABLE", "∂²L/∂v∂v elsewhere", here.mass(), there.mass())?;
+                is_same("CONSTANT_MASS", "∂²L/∂v∂v elsewhere", here.mass(), there.mass())?;
             }
             for coupling in here.coupling() {
-                vanishes("SEPARABLE", "∂²L/∂q∂v or ∂F/∂v", coupling)?;
+                vanishes("CONSTANT_MASS", "∂²L/∂q∂v", coupling)?;
             }
             if let Some(at_rest) = self.at(&point.at_rest(), Directions::ALL) {
-                vanishes("SEPARABLE", "∂L/∂v at v = 0", at_rest.momentum_along())?;
+                vanishes("CONSTANT_MASS", "∂L/∂v at v = 0", at_rest.momentum_along())?;
             }
         }
         if mass.diagonal {

@@ -212,12 +212,15 @@ impl Outputs {
         self.lagrangian.both(First::V, Second::V)
     }
 
-    /// What couples positions and velocities in L, and how F depends on velocities.
-    pub(super) fn coupling(&self) -> [Sized; 3] {
+    /// What couples positions and velocities in L.
+    pub(super) fn coupling(&self) -> [Sized; 2] {
+        [self.lagrangian.both(First::Q, Second::V), self.lagrangian.both(First::V, Second::Q)]
+    }
+
+    /// ∂F/∂v between the two directions.
+    pub(super) fn friction(&self) -> Sized {
         let [work, _] = &self.work;
-        let second = [(First::Q, Second::V), (First::V, Second::Q)];
-        let [qv, vq] = second.map(|(first, second)| self.lagrangian.both(first, second));
-        [qv, vq, work.second(Second::V)]
+        work.second(Second::V)
     }
 
     /// α along the first direction.

@@ -54,6 +54,19 @@ mod on_no_coordinate {
     }
 }
 
+mod on_nothing {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force() = -dot(x))]
+    struct S;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x): -dot(x))]
+    struct T;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, friction(x) = -dot(x))]
+    struct U;
+}
+
 mod on_an_entry {
     use super::*;
 

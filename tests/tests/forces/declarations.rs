@@ -6,7 +6,7 @@ use dvi_core::prelude::*;
 use dvi_core::{IndexError, OutsideError, ScalarField};
 
 use super::Outcome;
-use super::systems::{ByHand, Damped, Driven, Pendulum, Swirl};
+use super::systems::{ByHand, Damped, Driven, Harvested, Pendulum, Swirl};
 
 /// The same forces as a list and one by one, with arrays of run-time size.
 #[lagrangian(
@@ -56,21 +56,26 @@ fn indices_of_forces_are_checked_against_their_arrays() {
 fn reports_name_the_forces_and_what_they_mean() {
     let text = Damped::REPORT.to_string();
     for line in [
-        "F_x = -dot(x)·gamma",
+        "force(x) = -dot(x)·gamma",
         "Forces act: no method preserves a form, and energy and momenta change as the forces make them.",
         "L = ½ v·M v − V(q, t) with a constant diagonal mass matrix M.",
         "A force depends on velocities: the trapezoidal step is implicit, and linear in the velocity if the force is.",
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
-    assert!(text.contains("∂L/∂x + F_x = "), "{text}");
+    assert!(text.contains("∂L/∂x + force(x) = "), "{text}");
     let text = Driven::REPORT.to_string();
-    assert!(text.contains("F_z[i] = "), "{text}");
+    assert!(text.contains("force(z[i]) = "), "{text}");
     let text = Pendulum::REPORT.to_string();
-    assert!(text.contains("∂H/∂q − F_q = ") && text.contains("∂H/∂p = "), "{text}");
+    assert!(text.contains("∂H/∂q − force(q) = ") && text.contains("∂H/∂p = "), "{text}");
+    // What preserves Ω without forces does not with them.
+    let text = Harvested::REPORT.to_string();
+    assert!(text.contains("Begin with `OneStep::midpoint()`: it has no parasitic mode.\n"), "{text}");
+    assert!(!text.contains("preserves Ω"), "{text}");
     // Without velocities in the forces the step stays explicit.
     let text = Swirl::REPORT.to_string();
     assert!(text.contains("step is explicit"), "{text}");
+    const { assert!(<Swirl as RegularLagrangian>::CONSTANT_MASS && <Damped as RegularLagrangian>::CONSTANT_MASS) };
     const { assert!(<Swirl as RegularLagrangian>::SEPARABLE && !<Damped as RegularLagrangian>::SEPARABLE) };
 }
 
@@ -109,6 +114,29 @@ fn a_force_outside_of_its_table_is_an_error_that_says_so() -> Outcome {
     );
     let start = Integrator::new(&system, Variational::midpoint(), 0.1, TabulatedState { x: 1.1, dot_x: 0.0 });
     assert!(matches!(start.err(), Some(StartError::Outside(_))));
+    Ok(())
+}
+
+/// Friction in a table of velocities, which the motion leaves.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0, force(x) = -drag(dot(x)))]
+#[derive(Clone, Debug)]
+struct Dragged {
+    drag: Spline<1>,
+}
+
+#[test]
+fn states_are_known_where_the_force_on_them_is_not() -> Outcome {
+    let axis = Axis::uniform([-0.5, 0.5], 11)?;
+    let values: Vec<f64> = (0..11).map(|i| 0.02 * f64::from(i - 5)).collect();
+    let system = Dragged { drag: Spline::new([axis], &values)? };
+    for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?] {
+        let method = Variational::new(rule);
+        let start: DraggedState = DraggedState { x: 1.0, dot_x: 0.0 };
+        let mut run = Integrator::new(&system, method, 0.1, start)?;
+        let error = (0..100).find_map(|_| run.advance().err()).ok_or("no error")?;
+        assert!(matches!(error.failure, StepFailure::Outside(_)), "{error}");
+        assert!(run.state().dot_x.is_finite() && run.energy().is_finite(), "{:?}", run.state());
+    }
     Ok(())
 }
 

@@ -29,7 +29,7 @@ pub struct HamiltonsEquations<S: System, T: Real> {
 /// What finds the velocity that belongs to a momentum.
 #[derive(Debug)]
 enum Velocities<S: System, T: Real> {
-    /// L is separable.
+    /// p = M v with a constant M.
     Constant(Mass<S, T>),
     Varying(Transform<S, T>),
 }
@@ -106,7 +106,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             core::array::from_fn(|_| system.space().vector());
         system.gradient(q, v, t, &mut force, &mut p);
         velocity.copy_from_slice(v);
-        let inverse = if S::SEPARABLE {
+        let inverse = if S::CONSTANT_MASS {
             Velocities::Constant(Mass::new(system, q, t).map_err(StartError::Starter)?)
         } else {
             let orientation = MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?;

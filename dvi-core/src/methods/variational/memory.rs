@@ -72,6 +72,10 @@ impl<S: RegularLagrangian<T>, T: Real> VariationalMemory<S, T> {
         let solver = match (method.needs_forces_only::<S, T>(), method.solver.in_numbers::<T>()) {
             (true, _) if explicit => Solver::FixedPoint,
             (true, solver) => solver,
+            // Forces that depend on velocities leave the fixed point as it is.
+            (false, Solver::Automatic) if !S::SEPARABLE && method.has_fixed_point::<S, T>() => {
+                Solver::Automatic
+            }
             // Any L has no fixed point.
             (false, Solver::Automatic | Solver::Newton) => Solver::Newton,
             (false, solver @ (Solver::FixedPoint | Solver::NewtonKrylov)) => solver,

@@ -42,7 +42,7 @@ impl CentreSpeed {
 /// circle of the path changes little in a step.
 ///
 /// A step that is too long, or fails, is undone and tried again. The next length is h·0.9 (tolerance/e)^(1/p), between h/5 and
-/// 5h, with the order p of the error e in h. The control is for L = ½ v·M v − V(q) with a constant matrix M, and for the
+/// 5h, with the order p of the error e in h. The control is for L = ½ v·M v − V(q) with a constant matrix M and forces without velocities, and for the
 /// curvature of the path in the Euclidean metric of the coordinates; a V that depends on time explicitly does so in the
 /// acceleration, but not in its rate of change. It is not available on straight paths, which have no osculating circle.
 ///
@@ -164,7 +164,8 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
             return Err(StartError::Step { h: self.first_step });
         }
         if !S::SEPARABLE {
-            let reason = "it needs L = ½ v·M v − V(q) with a constant matrix M";
+            let reason =
+                "it needs L = ½ v·M v − V(q) with a constant matrix M, and forces without velocities";
             return Err(StartError::Unsupported { option: "Osculating", reason });
         }
         let space = system.space();

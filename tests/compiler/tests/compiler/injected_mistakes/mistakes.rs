@@ -63,5 +63,5 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("program/degenerate.rs", "value: part.value.negated()", "value: part.value"),
     mistake("program.rs", "known.value = graph.add(known.value, other.value)", "known.value = other.value"),
     mistake("lower/components.rs", "vec![self.component(block, formula, Role::Force)?]", "vec![Component { block: 0, ..self.component(block, formula, Role::Force)? }]"),
-    mistake("structure/mass.rs", "has_separable_lagrangian && !formulas.force.iter().any(|part| depends_on_velocity(graph, part))", "has_separable_lagrangian"),
+    mistake("structure/mass.rs", "constant && !formulas.force.iter().any(|part| depends_on_velocity(graph, part))", "constant"),
 ];
