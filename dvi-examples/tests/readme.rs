@@ -212,3 +212,46 @@ fn friction_takes_from_the_energy_what_is_said() {
         ),
     ]);
 }
+
+#[test]
+fn steps_that_keep_the_discrete_energy_do_what_is_said() {
+    let rows = rows();
+    let measured = |quantity: &str| value(&rows, "energy-momentum", quantity);
+    let both = |quantity: &str| ["spring", "Kepler"].map(|name| measured(&format!("{name}{quantity}")));
+    let kept = both(": largest |E_d − e| of all runs").map(at_most);
+    let varies = both(", steps of one length: largest difference of two E_d").map(about);
+    let energy = both(": largest difference of two E / that with steps of one length");
+    let longest = both(": largest length / that of the first step");
+    let distance = both(": largest distance / that with as many steps of one length");
+    let work = both(": evaluations of derivatives in a step / in one of steps of one length");
+    let farther = both(": largest distance / that with the same work");
+    let least =
+        (measured("smallest E_d − e of lengths up to 4 times the last, by hand") * 1e4).floor() / 10.0;
+    let steps = measured("steps that it takes");
+    assert_said(&[
+        format!("E_d changes by at most {} on the spring and {} on the orbit;", kept[0], kept[1]),
+        format!("with as many steps of one length it varies by {} and {}.", varies[0], varies[1]),
+        format!(
+            "{:.2} times as much as with steps of one length on the spring, and {:.2} times as much on the orbit.",
+            energy[0], energy[1]
+        ),
+        format!(
+            "the longest step is {:.2} times the first on the spring and {:.2} times on the orbit.",
+            longest[0], longest[1]
+        ),
+        format!(
+            "the distance from the motion is {:.2} times that of as many steps of one length on the spring and {:.2} times \
+             on the orbit.",
+            distance[0], distance[1]
+        ),
+        format!(
+            "a step takes {:.1} and {:.1} times as many evaluations of derivatives: for no more evaluations steps of one \
+             length come {:.0} and {:.0} times closer.",
+            work[0], work[1], farther[0], farther[1]
+        ),
+        format!(
+            "the scheme ends on the spring after {steps} steps: there E_d − e is at least {}",
+            power(least, -3)
+        ),
+    ]);
+}

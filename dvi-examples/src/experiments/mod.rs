@@ -4,6 +4,7 @@ mod barnes;
 mod chaotic;
 mod double_pendulum;
 mod energy;
+mod energy_momentum;
 mod field_lines;
 mod friction;
 mod guiding_centre;
@@ -52,6 +53,7 @@ pub const ALL: &[Experiment] = &[
     barnes::EXPERIMENT,
     double_pendulum::EXPERIMENT,
     friction::EXPERIMENT,
+    energy_momentum::EXPERIMENT,
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,
