@@ -39,6 +39,9 @@ const REACH: f64 = 4.0;
 /// conserved. Take `Variational::midpoint()`: on an oscillator its E_d does not depend on the point, so that steps have one length,
 /// and on the spring below it finds lengths for thousands of steps, where `Variational::trapezoid()` ends after a few.
 ///
+/// A step takes several of the method: about seven evaluations of derivatives in the experiment `energy-momentum`, where steps of one
+/// length are nearer to the motion for the same work. The scheme is for those who need E_d as it is.
+///
 /// ```
 /// use dvi_core::prelude::*;
 ///
