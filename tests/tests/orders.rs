@@ -4,7 +4,9 @@ use dvi_core::methods::{General, Symmetrised};
 use dvi_core::prelude::*;
 use dvi_tests::configurations::{chaotic, leapfrogging};
 use dvi_tests::larger;
-use dvi_tests::systems::{Oscillator, OscillatorState, PointVortices, PointVorticesState};
+use dvi_tests::systems::{
+    LotkaVolterra, LotkaVolterraState, Oscillator, OscillatorState, PointVortices, PointVorticesState,
+};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -212,4 +214,63 @@ fn a_second_point_without_an_energy_is_refused() {
     let second = PointVorticesState { x: [0.5, 0.5, -1.0, 1.0], y: [0.0, 0.0, -2.0, -2.0] };
     let run = Integrator::from_two_points(&system, Sigma::leapfrog(), 0.1, start, second);
     assert!(matches!(run.err(), Some(StartError::Undefined { .. })));
+}
+
+/// One motion in forms whose Dα is antisymmetric, and not.
+#[degenerate_lagrangian(
+    coordinates(q, p),
+    one_form = (1.0 - share) * p * d(q) - share * q * d(p),
+    hamiltonian = p * p / 2.0 - q.cos(),
+)]
+#[derive(Clone, Debug)]
+struct Pendulum {
+    share: f64,
+}
+
+/// The order of a member of the σ-family on smooth orbits, on which reinitialisation holds it.
+fn on_smooth_orbits<S: DegenerateLagrangian>(
+    system: &S,
+    start: S::State<f64>,
+    sigma: f64,
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let mut reference = Integrator::new(system, Gauss::<4>::new(), 0.01, start.clone())?;
+    reference.take_steps(200)?;
+    let reinitialisation = Reinitialisation::Every(5);
+    let method = Sigma { reinitialisation, start: Start::Smooth, ..Sigma::new(sigma) };
+    let mut errors = Vec::new();
+    for steps in [100, 150, 200, 300] {
+        let h = 2.0 / steps as f64;
+        let mut run = Integrator::new(system, method, h, start.clone())?;
+        run.take_steps(steps)?;
+        let off = run.q().iter().zip(reference.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        errors.push((h, off));
+    }
+    convergence_order(&errors).ok_or_else(|| "no slope".into())
+}
+
+/// dF with F'' ≠ 0 adds (σ − ½) Δ·F''Δ to the discrete Lagrangian, beside a difference of F.
+#[test]
+fn sigma_away_from_one_half_is_of_first_order_where_dalpha_is_not_antisymmetric() -> Outcome {
+    let start: PendulumState = PendulumState { q: 1.0, p: 0.4 };
+    let of = |share: f64, sigma: f64| on_smooth_orbits(&Pendulum { share }, start, sigma);
+    for (share, sigma, expected) in [
+        (0.5, 0.3, 2.0),
+        (0.5, 0.8, 2.0),
+        (0.0, 0.5, 2.0),
+        (0.3, 0.5, 2.0),
+        (0.0, 0.3, 1.0),
+        (0.3, 0.3, 1.0),
+        (0.3, 0.8, 1.0),
+    ] {
+        let order = of(share, sigma)?;
+        assert!((order - expected).abs() < 0.06, "share {share}, sigma {sigma}: {order}");
+    }
+    // Of a form that is not affine Dα is not antisymmetric either.
+    let (prey, start) =
+        (LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] }, LotkaVolterraState { x: 1.4, y: 1.7 });
+    for (sigma, expected) in [(0.5, 2.0), (0.4, 1.0)] {
+        let order = on_smooth_orbits(&prey, start, sigma)?;
+        assert!((order - expected).abs() < 0.15, "Lotka-Volterra, sigma {sigma}: {order}");
+    }
+    Ok(())
 }

@@ -42,10 +42,13 @@ pub use start::Start;
 /// L_d(q_0, q_1) = \alpha(q_\sigma) \cdot (q_1 - q_0) - h H(q_\sigma), \qquad q_\sigma = (1 - \sigma) q_0 + \sigma q_1
 /// ```
 ///
-/// For every σ in \[0, 1\] it is of second order on nonlinear systems, and for σ = ½ it is symmetric. For σ = (3 − √3)/6 and
-/// σ = (3 + √3)/6 it is of fourth order on linear systems. If α depends on time, be it by an added function of t alone, the
-/// order is one unless σ = ½. Each step preserves the discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for
-/// symmetries that act by affine maps, the discrete momenta.
+/// For σ = ½ it is symmetric and of second order, and for every other σ in \[0, 1\] it is of second order where Dα is
+/// antisymmetric, as that of ½(p dq − q dp) is. Elsewhere the order is one unless σ = ½: a term dF of α with F'' ≠ 0 adds
+/// (σ − ½) Δ·F''Δ to L_d, beside a difference of F. It is one too if α depends on time, be it by an added function of t alone. For
+/// σ = (3 − √3)/6 and σ = (3 + √3)/6 it is of fourth order on linear systems with an antisymmetric Dα.
+///
+/// Each step preserves the discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for symmetries that act by affine maps,
+/// the discrete momenta.
 ///
 /// | α | σ = 0 | 0 < σ < 1 | σ = 1 |
 /// |---|---|---|---|

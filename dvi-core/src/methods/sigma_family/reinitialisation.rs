@@ -33,7 +33,7 @@ use crate::{DegenerateLagrangian, Real, System, Vector};
 /// h² a, and of the order a² if σ = ½ and α is affine.
 ///
 /// **What becomes of the energy.** Reinitialised so often that the mode stays small, the run follows the smooth orbits, on which
-/// the two-step map is a one-step method of second order that preserves a two-form near Ω. What a reinitialisation
+/// the two-step map is a one-step method of its order, one or two, that preserves a two-form near Ω. What a reinitialisation
 /// takes from a smooth orbit, less than h⁹ of it, adds up: on a pendulum that swings to 115°, with σ = 0 and `Every(1)`, the energy
 /// drifts in proportion to time, by 3·10⁻⁵ in a step with h = 0.4 and less than a tenth of that with h = 0.3. With shorter
 /// steps no drift was seen: with
