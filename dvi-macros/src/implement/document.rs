@@ -153,7 +153,8 @@ fn sparsity(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
         let [(_, row), (_, column)] = [entry.row, entry.column].map(|id| variable(emitter.graph, id));
         let loops = print_loops(&entry.loops, emitter.model);
         let [row, column] = [row, column].map(|coordinate| print_coordinate(&coordinate, emitter.model));
-        for place in [[row.clone(), column.clone(), loops.clone()], [column, row, loops]] {
+        let mirrored = entry.mirrored.then(|| [column.clone(), row.clone(), loops.clone()]);
+        for place in [[row, column, loops]].into_iter().chain(mirrored) {
             if !places.contains(&place) {
                 places.push(place);
             }
