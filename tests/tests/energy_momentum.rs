@@ -201,3 +201,56 @@ fn what_has_no_conserved_energy_is_refused() {
         assert!(matches!(error, Some(StartError::Parameter { name: "tolerance", .. })));
     }
 }
+
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - g * x - k * (x - x0).powi(2) / 2.0)]
+#[derive(Clone, Debug)]
+struct Particle {
+    g: f64,
+    k: f64,
+    x0: f64,
+}
+
+/// The smallest and the largest of `steps` lengths over the first one.
+fn lengths(
+    system: &Particle,
+    [x, dot_x, h]: [f64; 3],
+    steps: usize,
+) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+    let start: ParticleState = ParticleState { x, dot_x };
+    let mut run = ControlledIntegrator::new(system, Variational::midpoint(), EnergyMomentum::new(h), start)?;
+    let mut found = [1.0_f64; 2];
+    for _ in 0..steps {
+        run.advance()?;
+        let ratio = run.step_size() / h;
+        found = [found[0].min(ratio), found[1].max(ratio)];
+    }
+    Ok(found)
+}
+
+/// Rounding is no defect: energies of zero, that grow, of coordinates far from the origin, of short steps.
+#[test]
+fn what_rounding_leaves_of_the_energy_ends_no_run() -> Outcome {
+    let fall = Particle { g: 1.0, k: 0.0, x0: 0.0 };
+    for [x, v] in [[0.0, 0.0], [0.0, 1e-6], [1.0, 0.0], [-1.0, 2.0_f64.sqrt()]] {
+        lengths(&fall, [x, v, 0.1], 2000)?;
+    }
+    for x0 in [0.0, 100.0, 1000.0] {
+        let oscillator = Particle { g: 0.0, k: 4.0, x0 };
+        for h in [0.1, 0.01, 1e-4] {
+            lengths(&oscillator, [x0 + 1.0, 0.2, h], 1000)?;
+        }
+    }
+    Ok(())
+}
+
+/// Where every length is a solution, the last one is taken.
+#[test]
+fn at_rest_steps_keep_their_length() -> Outcome {
+    for h in [0.125, 0.3, 0.01, 0.1] {
+        for k in [0.0, 1.0] {
+            let found = lengths(&Particle { g: 0.0, k, x0: 0.0 }, [0.0, 0.0, h], 1000)?;
+            assert!((found[0] - 1.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{h} {k}: {found:?}");
+        }
+    }
+    Ok(())
+}

@@ -34,7 +34,8 @@ use crate::{Real, Scalar, Separable, Space, System, Vector};
 /// its middle; with γ = 0 it is that step. It evaluates F once.
 ///
 /// Averages over a run have errors of order h². On a harmonic oscillator the positions have the exact distribution at every
-/// stable step, ωh < 2, and the mean kinetic energy is too small by the factor 1 − (ωh)²/4.
+/// stable step, ωh < 2, and the mean kinetic energy is too small by the factor 1 − (ωh)²/4. Free particles diffuse too fast, by the
+/// factor (γh/2) coth(γh/2). With noise M has to be positive definite.
 ///
 /// The noise comes from `seed` and the number of the step alone: a run with the same seed is the same to the last bit, and goes
 /// on from a [`Checkpoint`](crate::run::Checkpoint) as if it had not stopped. Steps are positive, because friction has a direction in time.
@@ -78,7 +79,8 @@ pub struct LangevinMemory<S: System, T: Real> {
     step: u64,
     generator: ChaCha8Rng,
     mass: Mass<S, T>,
-    root: MassRoot<S, T>,
+    /// If there is noise.
+    root: Option<MassRoot<S, T>>,
     work: Work<S, T>,
 }
 
@@ -119,9 +121,15 @@ impl<S: Separable<T>, T: Real> Work<S, T> {
     }
 
     /// Friction and noise over a time `h`, with normal numbers from `generator`.
-    fn exchange(&mut self, bath: &Langevin, root: &MassRoot<S, T>, h: T, generator: &mut ChaCha8Rng) {
+    fn exchange(&mut self, bath: &Langevin, root: Option<&MassRoot<S, T>>, h: T, generator: &mut ChaCha8Rng) {
         let kept = Scalar::exp(T::lift(-bath.friction) * h);
-        let gained = Scalar::sqrt(T::lift(bath.temperature) * (T::lift(1.0) - kept * kept));
+        let Some(root) = root else {
+            self.p.iter_mut().for_each(|p| *p *= kept);
+            return;
+        };
+        // 1 − c² without its cancellation.
+        let lost = -Scalar::exp_m1(T::lift(-2.0 * bath.friction) * h);
+        let gained = Scalar::sqrt(T::lift(bath.temperature) * lost);
         for number in self.velocity.iter_mut() {
             let drawn: f64 = StandardNormal.sample(generator);
             *number = T::lift(drawn);
@@ -170,7 +178,9 @@ impl<S: Separable<T>, T: Real> Method<S, T> for Langevin {
         self.validate(h)?;
         let vector = || system.space().vector();
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
-        let root = MassRoot::new(system, &mass).map_err(StartError::Starter)?;
+        let has_noise = self.friction > 0.0 && self.temperature > 0.0;
+        let root =
+            has_noise.then(|| MassRoot::new(system, &mass).map_err(StartError::Starter)).transpose()?;
         let (mut p, mut force) = (vector(), vector());
         mass.multiply_add(T::lift(1.0), v, &mut p);
         system.force(q, &[], t, &mut force);
@@ -196,7 +206,7 @@ impl<S: Separable<T>, T: Real> Method<S, T> for Langevin {
         work.drift(mass, half);
         generator.set_stream(*step);
         generator.set_word_pos(0);
-        work.exchange(self, root, h, generator);
+        work.exchange(self, root.as_ref(), h, generator);
         work.drift(mass, half);
         system.force(&work.q, &[], t + h, next_force);
         statistics.gradients += 1;

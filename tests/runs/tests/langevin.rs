@@ -1,6 +1,7 @@
 //! Langevin dynamics: distributions, limits, repetition.
 
 use dvi_core::prelude::*;
+use num_dual::Dual64;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -211,4 +212,26 @@ fn what_is_no_bath_is_refused() {
     let error =
         Integrator::new(&system, Langevin { friction: 1.0, temperature: 1.0, seed: 0 }, 0.1, start).err();
     assert!(matches!(error, Some(StartError::Starter(StepFailure::Singular { .. }))), "{error:?}");
+}
+
+/// Without noise a run has derivatives, and any mass that is not zero.
+#[test]
+fn without_noise_it_is_a_deterministic_method() -> Outcome {
+    let system = DoubleWell { mass: 0.5 };
+    for (friction, temperature) in [(1.0, 0.0), (0.0, 0.5), (0.0, 0.0)] {
+        let method = Langevin { friction, temperature, seed: 1 };
+        let end = |x: f64| {
+            let mut run = Integrator::new(&system, method, 0.1, DoubleWellState { x, dot_x: 0.2 })?;
+            run.take_steps(20)?;
+            Ok::<f64, Box<dyn core::error::Error>>(run.q()[0])
+        };
+        let [x, dot_x] = [Dual64::new(1.2, 1.0), Dual64::from(0.2)];
+        let mut run = Integrator::new(&system, method, Dual64::from(0.1), DoubleWellState { x, dot_x })?;
+        run.take_steps(20)?;
+        let quotient = (end(1.2 + 1e-5)? - end(1.2 - 1e-5)?) / 2e-5;
+        assert!((run.q()[0].eps - quotient).abs() < 1e-7, "{} {quotient}", run.q()[0].eps);
+        let negative = DoubleWell { mass: -0.5 };
+        Integrator::new(&negative, method, 0.1, DoubleWellState { x: 1.0, dot_x: 0.2 })?.take_steps(3)?;
+    }
+    Ok(())
 }
