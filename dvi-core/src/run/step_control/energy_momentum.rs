@@ -25,7 +25,7 @@ const NEAR: [f64; 2] = [1e-6, 1e-3];
 /// By this factor a length may differ from the last.
 const REACH: f64 = 4.0;
 
-/// Steps that conserve the discrete energy of a variational method exactly: the symplectic–energy–momentum scheme of Kane, Marsden &
+/// Steps that conserve the discrete energy of a variational method to rounding errors: the symplectic–energy–momentum scheme of Kane, Marsden &
 /// Ortiz (1999).
 ///
 /// ```math
