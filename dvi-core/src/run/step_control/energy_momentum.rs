@@ -70,8 +70,8 @@ const REACH: f64 = 4.0;
 pub struct EnergyMomentum {
     /// The length of the first step, which sets the discrete energy; negative to run back in time.
     pub first_step: f64,
-    /// The largest defect of the discrete energy to accept, relative to the larger of |E| and v·∂L/∂v at the start; rounding
-    /// errors of E_d are accepted where they are larger. Default: 1e-14.
+    /// The largest defect of the discrete energy to accept, relative to the larger of |E| and v·∂L/∂v at the start. Where
+    /// rounding leaves more, that is accepted. Default: 1e-14.
     pub tolerance: f64,
 }
 
@@ -96,8 +96,8 @@ pub struct EnergyMomentumMemory<S: RegularLagrangian<T>, T: Real> {
     defect: T,
     /// The larger of |E| and v·∂L/∂v at the start.
     scale: T,
-    /// The defect of the step at hand that counts as none.
-    threshold: T,
+    /// What rounding leaves of E_d in the step at hand.
+    rounding: T,
     start: Vector<S, T>,
     delta: Vector<S, T>,
     node: [Vector<S, T>; 2],
@@ -120,22 +120,17 @@ impl<S: RegularLagrangian<T>, T: Real> EnergyMomentumMemory<S, T> {
     pub fn defect(&self) -> T {
         self.defect
     }
-}
 
-impl<S: RegularLagrangian<T>, T: Real> EnergyMomentumMemory<S, T> {
-    /// Sets the threshold of a step from `start`, where `velocity` is: `tolerance` of the scale, or what rounding leaves of E_d there, in
-    /// which Δ/h has the rounding of the coordinates over h.
-    fn set_threshold(&mut self, system: &S, t: T, tolerance: f64) {
-        let Self { h, scale, threshold, start, velocity, momentum, force, .. } = self;
+    /// Sets what rounding leaves of E_d in a step from `start`, where `velocity` is: Δ/h has the rounding of the coordinates over h.
+    fn set_rounding(&mut self, system: &S, t: T) {
+        let Self { h, rounding, start, velocity, momentum, force, .. } = self;
         system.gradient(start, velocity, t, force, momentum);
         let mut terms = Scalar::abs(system.energy(start, velocity, t));
         for i in 0..start.len() {
             let rate = Scalar::abs(velocity[i]) + Scalar::abs(start[i] / *h);
             terms += Scalar::abs(momentum[i]) * rate;
         }
-        let rounding = T::lift(ROUNDINGS) * T::default_epsilon() * terms;
-        let asked = T::lift(tolerance) * *scale;
-        *threshold = if asked > rounding { asked } else { rounding };
+        *rounding = T::lift(ROUNDINGS) * T::default_epsilon() * terms;
     }
 }
 
@@ -157,6 +152,8 @@ struct Search<'a, 'b, S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> {
     run: &'a mut ControlledRun<'b, S, M, T>,
     memory: &'a mut EnergyMomentumMemory<S, T>,
     t: T,
+    /// The largest defect that is asked for.
+    tolerance: T,
     /// The trial with the smallest defect.
     best: Option<Trial<T>>,
     failed: Option<StepFailure>,
@@ -198,7 +195,12 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
     }
 
     fn is_solved(&self) -> bool {
-        self.best.is_some_and(|best| best.size() <= self.memory.threshold)
+        self.best.is_some_and(|best| best.size() <= self.tolerance)
+    }
+
+    /// Whether nothing but rounding is left, of which a search may make no less.
+    fn is_rounding(&self) -> bool {
+        self.best.is_some_and(|best| best.size() <= self.memory.rounding)
     }
 
     /// From a guess and another length on, as long as the lengths stay within reach of the last.
@@ -208,7 +210,13 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
         if self.is_solved() {
             return Some(());
         }
+        let is_rounding = self.is_rounding();
         let mut a = self.trial(other)?;
+        if is_rounding && Scalar::abs(b.defect - a.defect) <= self.memory.rounding {
+            // The length makes no difference that can be seen: every one is a solution.
+            self.best = Some(b);
+            return Some(());
+        }
         for _ in 0..ITERATIONS {
             if self.is_solved() {
                 return Some(());
@@ -217,9 +225,13 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
             let ratio = h / self.memory.h;
             let is_near = ratio > T::lift(1.0) / reach && ratio < reach;
             if !is_near {
-                return None;
+                return self.is_rounding().then_some(());
             }
-            (a, b) = (b, self.trial(h)?);
+            let next = self.trial(h)?;
+            if self.is_rounding() && next.size() >= b.size() {
+                return Some(());
+            }
+            (a, b) = (b, next);
         }
         None
     }
@@ -270,7 +282,7 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
         };
         let found = self.secant([guess, other]).is_some()
             || self.bracket().is_some_and(|ends| self.false_position(ends).is_some());
-        match (found || self.is_solved(), self.best, self.failed) {
+        match (found || self.is_solved() || self.is_rounding(), self.best, self.failed) {
             (true, Some(best), _) => Ok(best.h),
             (false, Some(best), _) => {
                 Err(StepFailure::EnergyStep { h: reported(best.h), defect: reported(best.defect) })
@@ -311,7 +323,7 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
             has_begun: false,
             defect: T::lift(0.0),
             scale,
-            threshold: T::lift(0.0),
+            rounding: T::lift(0.0),
             start: vector(),
             delta: vector(),
             node: [vector(), vector()],
@@ -339,8 +351,9 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
         run.keep();
         memory.start.copy_from_slice(run.q());
         run.velocity(t, &mut memory.velocity)?;
-        memory.set_threshold(run.system(), t, self.tolerance);
-        let mut search = Search { run, memory, t, best: None, failed: None };
+        memory.set_rounding(run.system(), t);
+        let tolerance = T::lift(self.tolerance) * memory.scale;
+        let mut search = Search { run, memory, t, tolerance, best: None, failed: None };
         if !search.memory.has_begun {
             let h = search.memory.h;
             let energy = search.energy(h).inspect_err(|_| search.run.go_back())?;

@@ -35,7 +35,7 @@ fn order(runs: &[Runs; 4], of: fn(&Runs) -> &Series, value: fn(&Series) -> f64) 
 
 fn discrete_energy(measured: &Measured) -> Claim {
     let text = "the steps keep the discrete energy to rounding, and steps of one length up to terms of the second order";
-    let bounds = [(1e-13, 3.141e-3, 5e-6), (1e-13, 1.053e-2, 2e-5)];
+    let bounds = [(1.5e-14, 3.141e-3, 5e-6), (5e-14, 1.053e-2, 2e-5)];
     let claim = Claim::new(BEYOND, text);
     systems(measured).into_iter().zip(bounds).fold(claim, |claim, ((name, runs), (kept, varies, near))| {
         claim
