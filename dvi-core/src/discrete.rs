@@ -137,11 +137,11 @@ pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, 
 }
 
 /// D₁D₂L_d d = p0 + D₁L_d, for the correction −d of Δ.
-struct Equations<'a, 'b, S, T, L> {
-    l_d: &'a mut L,
-    span: Span<'b, S, T>,
-    p0: &'a [T],
-    statistics: &'a mut Statistics,
+pub(crate) struct Equations<'a, 'b, S, T, L> {
+    pub(crate) l_d: &'a mut L,
+    pub(crate) span: Span<'b, S, T>,
+    pub(crate) p0: &'a [T],
+    pub(crate) statistics: &'a mut Statistics,
 }
 
 impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> LinearEquations<T>

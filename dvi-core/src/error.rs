@@ -120,6 +120,39 @@ pub enum StartError {
         /// H before the time transformation.
         hamiltonian: f64,
     },
+    /// The initial state is not on a constraint.
+    #[error(
+        "constraint {constraint} is {value:e} at the initial state and has to be zero: begin with \
+         `system.projected(t, &state)`"
+    )]
+    OffConstraint {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// Its value, in the units of its formula.
+        value: f64,
+    },
+    /// The initial velocity leads away from a constraint.
+    #[error(
+        "the initial velocity changes constraint {constraint} at the rate {rate:e}, which has to be zero: begin with \
+         `system.projected(t, &state)`"
+    )]
+    AcrossConstraint {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// G v + ∂g/∂t, in units of the formula over time.
+        rate: f64,
+    },
+    /// No state on the constraints was found near one.
+    #[error(
+        "no state on all constraints was found near this one: constraint {constraint} is still {value:e}; the constraints \
+         contradict each other, or the state is too far away"
+    )]
+    Inconsistent {
+        /// The number of the constraint with the largest value, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// That value.
+        value: f64,
+    },
     /// A function that holds data is not known at the initial state.
     #[error(transparent)]
     Outside(#[from] OutsideError),
@@ -230,6 +263,28 @@ pub enum StepFailure {
         column: usize,
         /// The largest candidate.
         pivot: f64,
+    },
+    /// A constraint says nothing that those before it do not say: its gradient depends linearly on theirs, or vanishes. Its
+    /// multiplier is not determined then.
+    #[error(
+        "constraint {constraint} is redundant here: its gradient vanishes or depends on those of the constraints before it \
+         (pivot {pivot:e})"
+    )]
+    RedundantConstraint {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// The pivot without which the equations have no solution.
+        pivot: f64,
+    },
+    /// A step turns the gradient of a constraint by a right angle or more, in the metric of the mass matrix: the equations of the
+    /// step have several solutions then, and this one need not be that of the motion.
+    #[error(
+        "the step turns the gradient of constraint {constraint} by a right angle or more, where its equations have other solutions \
+         than the motion: a smaller step helps"
+    )]
+    Turned {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
     },
     /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::methods::EnergyLimit)).
     #[error(

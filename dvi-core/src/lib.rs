@@ -124,7 +124,8 @@ pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 #[cfg(feature = "alloc")]
 pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
-    AffineOneForm, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula, Lagrangian, Linear,
-    Matrix, OperationCount, Permutation, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report,
+    AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula,
+    HolonomicLagrangian, Lagrangian, Linear, Matrix, NondegenerateLagrangian, NonholonomicLagrangian,
+    OperationCount, Permutation, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report,
     Separable, Square, State, System, TimeTransformed, Vector, Weights,
 };

@@ -3,15 +3,19 @@
 
 mod at_state;
 pub(crate) mod combination;
+pub(crate) mod constraints;
 pub(crate) mod legendre;
 pub(crate) mod mass;
 #[cfg(feature = "random")]
 pub(crate) mod mass_root;
 pub mod motion;
+mod on_constraints;
 pub(crate) mod orientation;
 pub(crate) mod pattern;
 pub(crate) mod phase;
 mod vector_field;
 
 pub use at_state::{AtState, AtTime};
+pub use constraints::{ConstrainedLagrangian, Constraints};
+pub use on_constraints::OnConstraints;
 pub use vector_field::VectorField;

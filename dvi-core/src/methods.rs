@@ -8,6 +8,7 @@
 
 mod collocation;
 mod composition;
+mod constrained;
 mod energy_limit;
 mod galerkin;
 mod gauss;
@@ -17,6 +18,7 @@ mod langevin;
 mod newmark;
 mod one_step;
 mod projected;
+mod rattle;
 mod runge_kutta;
 mod sigma_family;
 mod symmetrised;
@@ -30,6 +32,7 @@ use crate::state::memory::Memory;
 use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::{Composition, CompositionMemory};
+pub use constrained::{Constrained, ConstrainedMemory};
 pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
 pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
@@ -39,6 +42,7 @@ pub use langevin::{Langevin, LangevinMemory};
 pub use newmark::{Newmark, NewmarkLagrangian, NewmarkMemory};
 pub use one_step::{OneStep, OneStepGauss, OneStepGaussMemory, OneStepMemory};
 pub use projected::{Projected, ProjectedMemory};
+pub use rattle::{Rattle, RattleMemory};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use sigma_family::{ParasiticMode, Reinitialisation, Sigma, SigmaMemory, Start};
 pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};

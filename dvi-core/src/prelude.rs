@@ -6,12 +6,12 @@ pub use crate::diagnostics::{
 };
 pub use crate::discrete::{Constant, Curvature, PerCoordinate, Quadrature, Radial, Reading};
 pub use crate::error::{StartError, StepError, StepFailure};
-pub use crate::mechanics::AtState;
+pub use crate::mechanics::{AtState, OnConstraints};
 #[cfg(feature = "random")]
 pub use crate::methods::Langevin;
 pub use crate::methods::{
-    Composition, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, OneStep, OneStepGauss, ParasiticMode,
-    Projected, Reinitialisation, RungeKutta, Scheme, Sigma, Start, Variational,
+    Composition, Constrained, EnergyLimit, Fitting, Galerkin, Gauss, Newmark, OneStep, OneStepGauss,
+    ParasiticMode, Projected, Rattle, Reinitialisation, RungeKutta, Scheme, Sigma, Start, Variational,
 };
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, Integrator, Osculating, Power, Reversible,
@@ -19,6 +19,9 @@ pub use crate::run::{
 };
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::Summation;
-pub use crate::{DegenerateLagrangian, Lagrangian, RegularLagrangian, System, TimeTransformed};
+pub use crate::{
+    DegenerateLagrangian, HolonomicLagrangian, Lagrangian, NondegenerateLagrangian, RegularLagrangian,
+    System, TimeTransformed,
+};
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

@@ -10,7 +10,7 @@ mod step_control;
 use core::fmt;
 
 use crate::error::{StepError, StepFailure};
-use crate::mechanics::motion::FirstOrder;
+use crate::mechanics::motion::Rates;
 use crate::methods::{Carries, Clock, Method};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
@@ -78,7 +78,7 @@ pub trait Run {
     /// the velocities are not determined. [`Work`](crate::diagnostics::Work) is its integral.
     fn power(&self) -> Self::Scalar
     where
-        <Self::System as System>::Kind: FirstOrder<Self::System, Self::Scalar>,
+        <Self::System as System>::Kind: Rates<Self::System, Self::Scalar>,
     {
         let Stepper { system, q, .. } = self.stepper();
         let (t, zero) = (self.time(), Self::Scalar::lift(0.0));

@@ -12,6 +12,7 @@
 pub(crate) mod elimination;
 pub(crate) mod inertia;
 pub(crate) mod linear;
+mod rows;
 pub mod sink;
 pub(crate) mod square;
 
@@ -27,6 +28,9 @@ use crate::{Real, Scalar};
 pub use linear::{CoupledSolver, FixedCoupled, LinearEquations, LinearSolver, NodeSum, Storing};
 #[cfg(feature = "alloc")]
 pub use linear::{RunTimeCoupled, RunTimeSolver};
+#[cfg(feature = "alloc")]
+pub use rows::SparseRows;
+pub use rows::{FullRows, RowMatrix};
 pub use sink::Sink;
 #[cfg(feature = "alloc")]
 pub use square::RunTimeSquare;
@@ -47,6 +51,10 @@ pub trait Space: Copy + Debug + PartialEq {
     type Linear<T: Real>: LinearSolver<T>;
     /// What solves linear equations for several vectors at once.
     type Coupled<const NODES: usize, T: Real>: CoupledSolver<NODES, T>;
+    /// Something for each coordinate.
+    type Array<E: Clone + Debug>: Deref<Target = [E]> + DerefMut + Clone + Debug;
+    /// A row of `dimension` numbers for each dimension of `C`.
+    type Rows<C: Space, T: Scalar>: RowMatrix<T>;
     /// A row permutation, `dimension` indices.
     type Permutation: Deref<Target = [usize]> + DerefMut + Clone + Debug;
 
@@ -54,6 +62,14 @@ pub trait Space: Copy + Debug + PartialEq {
     fn dimension(self) -> usize;
     /// A vector of zeros.
     fn vector<T: Scalar>(self) -> Self::Vector<T>;
+    /// What `of` makes, for each coordinate.
+    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Array<E>;
+    /// Rows of zeros, one for each dimension of `over`, with room for the entries that `entries` visits.
+    fn rows<C: Space, T: Scalar>(
+        self,
+        over: C,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Rows<C, T>;
     /// A matrix of zeros.
     fn matrix<T: Scalar>(self) -> Self::Matrix<T>;
     /// A matrix of zeros with room for the entries in the rows and columns, below the dimension, that `entries` visits. Others
@@ -170,6 +186,8 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     type Square<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES>;
     type Linear<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES>;
     type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N, SINGLES>;
+    type Array<E: Clone + Debug> = FixedVector<E, BLOCKS, N, SINGLES>;
+    type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES>>>;
     type Permutation = FixedVector<usize, BLOCKS, N, SINGLES>;
 
     #[inline(always)]
@@ -179,6 +197,17 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     #[inline(always)]
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
         FixedVector([[T::lift(0.0); N]; BLOCKS])
+    }
+    #[inline(always)]
+    fn array<E: Clone + Debug>(self, mut of: impl FnMut() -> E) -> FixedVector<E, BLOCKS, N, SINGLES> {
+        FixedVector(core::array::from_fn(|_| core::array::from_fn(|_| of())))
+    }
+    fn rows<C: Space, T: Scalar>(
+        self,
+        over: C,
+        _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Rows<C, T> {
+        FullRows(over.array(|| self.vector()))
     }
     #[inline(always)]
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
@@ -268,6 +297,8 @@ impl Space for RunTime {
     type Square<T: Real> = RunTimeSquare<T>;
     type Linear<T: Real> = RunTimeSolver<T>;
     type Coupled<const NODES: usize, T: Real> = RunTimeCoupled<T>;
+    type Array<E: Clone + Debug> = alloc::vec::Vec<E>;
+    type Rows<C: Space, T: Scalar> = SparseRows<T>;
     type Permutation = alloc::vec::Vec<usize>;
 
     fn dimension(self) -> usize {
@@ -275,6 +306,16 @@ impl Space for RunTime {
     }
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
         alloc::vec![T::lift(0.0); self.dimension]
+    }
+    fn array<E: Clone + Debug>(self, mut of: impl FnMut() -> E) -> alloc::vec::Vec<E> {
+        (0..self.dimension).map(|_| of()).collect()
+    }
+    fn rows<C: Space, T: Scalar>(
+        self,
+        over: C,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> SparseRows<T> {
+        SparseRows::new(over.dimension(), entries)
     }
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
         let Self { dimension } = self;

@@ -4,14 +4,19 @@
 //! its second derivatives, which is all that a discrete Lagrangian of the quadrature family needs
 //! (its D1, D2, D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to
 //! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
-//! [`RegularLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the force,
-//! and the structure of that matrix.
+//! [`NondegenerateLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the force,
+//! and the structure of that matrix. [`HolonomicLagrangian`] adds the constraints of a system that has some.
 //!
 //! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
 //! order of the declared coordinates, unless a function says that one may be empty; the integrators of
 //! this crate pass no others.
 
+mod constrained;
+mod holonomic;
+mod kind;
 mod names;
+mod nondegenerate;
+mod nonholonomic;
 mod report;
 pub(crate) mod stand_in;
 pub(crate) mod start;
@@ -23,6 +28,11 @@ use crate::space::sink::Sink;
 use crate::{Real, Scalar, Space};
 
 pub use crate::name::Name;
+pub use constrained::ConstrainedSystem;
+pub use holonomic::HolonomicLagrangian;
+pub use kind::{Degenerate, Holonomic, Kind, Nonholonomic, Regular, Unconstrained};
+pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
+pub use nonholonomic::NonholonomicLagrangian;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 
 /// A point, velocity or covector of the space of `S`.
@@ -77,7 +87,7 @@ pub trait System {
     type State<T: Scalar>: State<T> + Clone + Debug;
     /// What the compiler saw: formulas, structure, operation counts, sparsity.
     const REPORT: Report;
-    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`].
+    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`], or regular with constraints, [`Holonomic`].
     type Kind: Kind;
     /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
     const REGULAR: bool = <Self::Kind as Kind>::REGULAR;
@@ -88,7 +98,7 @@ pub trait System {
     /// Whether the time is transformed ([`TimeTransformed`]).
     const TIME_TRANSFORMED: bool = false;
 
-    /// Whether neither L nor a force depends on the time.
+    /// Whether none of L, forces and constraints depends on the time.
     const AUTONOMOUS: bool = false;
 
     /// Whether [forces](Lagrangian::applied_force) act on the system.
@@ -126,29 +136,6 @@ pub trait System {
             .map(|(vector, count)| (0..count).map(move |i| vector[i]));
         Ok(coordinates.chain(velocities))
     }
-}
-
-/// What decides which equations of motion a system has: [`Degenerate`] or [`Regular`].
-pub trait Kind: Debug {
-    /// Whether the mass matrix is regular.
-    const REGULAR: bool;
-}
-
-/// The kind of L = α(q, t)·v − H(q, t): the equations of motion are of first order on Q.
-#[derive(Clone, Copy, Debug)]
-pub enum Degenerate {}
-
-/// The kind of L(q, v, t) with a regular mass matrix: the equations of motion are of second order, or of first order on
-/// T*Q.
-#[derive(Clone, Copy, Debug)]
-pub enum Regular {}
-
-impl Kind for Degenerate {
-    const REGULAR: bool = false;
-}
-
-impl Kind for Regular {
-    const REGULAR: bool = true;
 }
 
 /// The Lagrangian L(q, v, t) of a system, in numbers of type `T`.
@@ -339,49 +326,6 @@ pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
     /// The place of a coordinate, below the dimension n, in the order (x, y): below n/2 if α has a component along it.
     fn place(&self, coordinate: usize) -> usize;
 }
-
-/// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform
-/// (q, v) ↦ (q, p = ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2).
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
-    label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
-    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`"
-)]
-pub trait RegularLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Regular> {
-    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no term is linear in v. Then
-    /// p = M v, whatever forces act.
-    const CONSTANT_MASS: bool;
-    /// Whether, with [`CONSTANT_MASS`](Self::CONSTANT_MASS), no force depends on v either. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
-    /// Störmer and Verlet (Marsden & West 2001, section 2.6).
-    const SEPARABLE: bool;
-    /// Whether M has entries on its diagonal only, so that it is solved by divisions.
-    const DIAGONAL_MASS: bool;
-    /// Whether L is a polynomial of degree at most two in v, so that p = ∂L/∂v is affine in v.
-    const QUADRATIC: bool;
-
-    /// Sets `out` to ∂L/∂q + F alone, with the [force](Lagrangian::applied_force) that acts on the system. Where
-    /// [`SEPARABLE`](Self::SEPARABLE) holds, this is F − ∇V(q, t): `v` is not read, and may be empty.
-    fn force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
-    /// Sets `out` to ∂²L/∂t∂v: the rate at which p = ∂L/∂v changes where q and v do not.
-    fn momentum_rate(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
-}
-
-/// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
-/// [`SEPARABLE`](RegularLagrangian::SEPARABLE) holds.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M, or a force depends on velocities",
-    label = "its report says what the mass matrix and the forces depend on",
-    note = "`Variational` and `Galerkin` step any regular system"
-)]
-pub trait Separable<T: Scalar = f64>: RegularLagrangian<T> {}
-
-/// A system whose L is a polynomial of degree at most two in v. The attribute implements it where
-/// [`QUADRATIC`](RegularLagrangian::QUADRATIC) holds.
-#[diagnostic::on_unimplemented(
-    message = "the Lagrangian of `{Self}` is not quadratic in the velocities",
-    label = "p = ∂L/∂v is not affine in v"
-)]
-pub trait QuadraticInVelocity<T: Scalar = f64>: RegularLagrangian<T> {}
 
 /// A system whose α is affine in q with constant coefficients. The attribute implements it where
 /// [`AFFINE`](DegenerateLagrangian::AFFINE) holds.

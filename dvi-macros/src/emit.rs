@@ -176,6 +176,17 @@ impl Function<'_> {
                 let value = self.signed(value);
                 return quote!(#krate::Sink::add(__sink, #row, #column, #value););
             }
+            Place::Constraint(row) => {
+                let (members, member) =
+                    (local(constraint_members(row.constraint)), self.emitter.index(&row.member));
+                quote!(#members[#member])
+            }
+            Place::ConstraintDerivative(row, column) => {
+                let (first, member) =
+                    (local(first_constraint(row.constraint)), self.emitter.index(&row.member));
+                let (krate, column, value) = (self.emitter.krate(), self.flat(column), self.signed(value));
+                return quote!(#krate::Sink::add(__sink, #first + #member, #column, #value););
+            }
         };
         let register = self.register(value.register);
         if value.negative { quote!(#target -= #register;) } else { quote!(#target += #register;) }
@@ -353,6 +364,16 @@ pub(crate) fn own_function(function: usize, order: usize) -> Ident {
 /// The function that expands a function of several variables.
 pub(crate) fn scalar_field(field: usize) -> Ident {
     format_ident!("__scalar_field{field}")
+}
+
+/// The slice of g with the members of a declared constraint.
+pub(crate) fn constraint_members(constraint: u32) -> String {
+    format!("g{constraint}")
+}
+
+/// The number of the first member of a declared constraint.
+pub(crate) fn first_constraint(constraint: u32) -> String {
+    format!("row{constraint}")
 }
 
 pub(crate) fn output_block(output: Output, block: u32) -> String {

@@ -29,6 +29,11 @@ impl Errors {
         self.found.push(error);
     }
 
+    /// What was read, or nothing where that was reported.
+    pub(crate) fn taken<T>(&mut self, read: syn::Result<T>) -> Option<T> {
+        read.map_err(|error| self.push_syn(error)).ok()
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.found.is_empty()
     }

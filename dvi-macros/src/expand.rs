@@ -124,12 +124,12 @@ fn expanded(
     });
     match system {
         Some(system) if stages.errors.is_empty() => {
-            let warnings = stages.attribute.formulas().map(warnings);
+            let warnings = stages.attribute.scopes().map(warnings);
             quote!(#system #(#warnings)*)
         }
         _ => {
             let errors = std::mem::take(&mut stages.errors);
-            stand_in(&stages.emitter(), errors)
+            stand_in(&stages.emitter(), stages.attribute.constrained, errors)
         }
     }
 }

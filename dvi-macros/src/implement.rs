@@ -14,16 +14,18 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
-use syn::{Generics, Path, parse_quote};
+use syn::{Generics, Ident, Path, parse_quote};
 
 use crate::emit::{Emitter, local, output_block, own_function, scalar_field};
 use crate::program::{Output, Programs};
 use crate::routine::Routine;
 use crate::symbolic::Node;
+use crate::syntax::Kind;
 
 mod check;
 mod degenerate;
 mod document;
+mod holonomic;
 mod regular;
 mod state;
 
@@ -54,19 +56,13 @@ impl Emitter<'_> {
         inputs
     }
 
-    /// `let (__q0, __rest) = __q.split_at(n0); …`
+    /// One slice for each block of coordinates.
     fn split(&self, array: &str, block_name: impl Fn(u32) -> String, method: &str) -> TokenStream {
-        let (method, array) = (format_ident!("{method}"), format_ident!("__{array}"));
-        let rest = local("rest");
-        let mut from = quote!(#array);
-        let mut tokens = TokenStream::new();
-        for block in 0..self.model.blocks.len() {
-            let name = local(block_name(block as u32).trim_start_matches('_'));
-            let size = self.index(&self.model.block_size(block));
-            tokens.extend(quote!(let (#name, #rest) = #from.#method(#size);));
-            from = quote!(#rest);
-        }
-        quote!(#tokens let _ = #rest;)
+        let parts = (0..self.model.blocks.len()).map(|block| {
+            let name = block_name(block as u32);
+            (local(name.trim_start_matches('_')), self.index(&self.model.block_size(block)))
+        });
+        split(&format_ident!("__{array}"), parts, method)
     }
 
     fn read(&self, routine: &Routine) -> TokenStream {
@@ -107,6 +103,18 @@ impl Emitter<'_> {
         let body = self.body(routine);
         quote!(#read #output #body)
     }
+}
+
+/// `let (__q0, __rest) = __q.split_at(n0); …`
+fn split(array: &Ident, parts: impl Iterator<Item = (Ident, TokenStream)>, method: &str) -> TokenStream {
+    let (method, rest) = (format_ident!("{method}"), local("rest"));
+    let mut from = array;
+    let mut tokens = TokenStream::new();
+    for (name, size) in parts {
+        tokens.extend(quote!(let (#name, #rest) = #from.#method(#size);));
+        from = &rest;
+    }
+    quote!(#tokens let _ = #rest;)
 }
 
 /// The item as written with its documentation continued, its state, and its implementations: the one
@@ -232,8 +240,12 @@ fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStr
 }
 
 /// The type that says what kind of Lagrangian it is.
-pub(crate) fn kind(krate: &Path, regular: bool) -> TokenStream {
-    if regular { quote!(#krate::system::Regular) } else { quote!(#krate::system::Degenerate) }
+pub(crate) fn kind(krate: &Path, kind: Kind, constrained: bool) -> TokenStream {
+    match (kind, constrained) {
+        (Kind::Degenerate, _) => quote!(#krate::system::Degenerate),
+        (Kind::Regular, false) => quote!(#krate::system::Regular),
+        (Kind::Regular, true) => quote!(#krate::system::Holonomic),
+    }
 }
 
 /// The implementation of `System`.
@@ -254,7 +266,8 @@ fn configuration(
     let forced = programs.forces.is_some();
     let autonomous = !programs.depends_on_time(emitter.graph);
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
-    let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.has_velocities()));
+    let (check, kind) =
+        (check::check(emitter, programs), kind(krate, emitter.model.kind, programs.constraints.is_some()));
     quote! {
         #[automatically_derived]
         #allow
@@ -290,15 +303,14 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
     // A call costs as much as a few terms of a sum.
     let always = (programs.linearize.code.len() <= SHORT).then(|| quote!((always)));
     let applied_force = programs.forces.as_ref().map(|forces| {
-        let applied = emitter.vector(&forces.applied);
+        let applied = emitter.vector(forces);
         quote! {
             #[inline]
             fn applied_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #applied }
         }
     });
     let outside = (!emitter.model.scalar_fields.is_empty()).then(|| {
-        let probe = programs.forces.as_ref().map_or(&programs.lagrangian, |forces| &forces.probe);
-        let (read, body) = (emitter.read(probe), emitter.guarded(probe));
+        let (read, body) = (emitter.read(&programs.probe), emitter.guarded(&programs.probe));
         quote! {
             fn outside(
                 &self, __q: &[__T], __v: &[__T], __t: __T,

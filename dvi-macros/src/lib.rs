@@ -209,15 +209,17 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and `dvi_core::RegularLagrangian`,
-/// defines `SystemState` with the coordinates `x` and then the velocities `dot_x` as fields, and continues the documentation of
-/// the struct with its formulas.
+/// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
+/// `dvi_core::NondegenerateLagrangian`; `dvi_core::RegularLagrangian` where there are no constraints, else
+/// `dvi_core::ConstrainedSystem` and `dvi_core::HolonomicLagrangian`. It defines `SystemState` with the coordinates `x` and then the
+/// velocities `dot_x` as fields, and continues the documentation of the struct with its formulas.
 ///
 /// | argument | meaning |
 /// |---|---|
 /// | `coordinates(x, y[N])` | single coordinates and arrays, as in [`macro@degenerate_lagrangian`] |
 /// | `lagrangian = …` | L, with the velocities `dot(x)` |
 /// | `force(x) = …`, `force = […]` | forces, as below |
+/// | `constraint = g`, `constraint(i in 0..n) = g(i)` | holonomic constraints, as below |
 /// | `momenta(name = …)` | conserved quantities to watch; velocities may stand in them |
 /// | `functions(f = [f, df, d2f], psi = path)` | functions of your own, as in [`macro@degenerate_lagrangian`] |
 /// | `derive(Trait, …)` | what the state derives beside the usual traits |
@@ -256,6 +258,43 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 ///
 /// The equations of motion are those of Lagrange and d'Alembert, d/dt ∂L/∂v = ∂L/∂q + F, and so are the discrete equations of
 /// every method: `dvi_core::Lagrangian::applied_force` says more.
+///
+/// # Constraints
+///
+/// `constraint = g` declares the holonomic constraint g(q, t) = 0: a rod, a track, a surface. Positions and the time may stand in
+/// it, velocities may not. `constraint = [g1, g2]` declares several, and `constraint(i in 0..n) = g` one for each value of an
+/// index, whose range is written as that of a sum. Such arguments may follow each other: each adds its constraints to those before.
+/// A family whose range is empty in a run has no constraints there.
+///
+/// ```
+/// use dvi_core::prelude::*;
+/// use dvi_core::{HolonomicLagrangian, ConstrainedSystem, Space};
+///
+/// /// A chain of rods that hangs from the origin.
+/// #[lagrangian(
+///     coordinates(x[N], y[N]),
+///     lagrangian = sum(0..N, |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - g * y[i]),
+///     constraint = x[0].powi(2) + y[0].powi(2) - rod * rod,
+///     constraint(i in 1..N) = (x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) - rod * rod,
+/// )]
+/// struct Chain<const N: usize> {
+///     g: f64,
+///     rod: f64,
+/// }
+///
+/// let chain = Chain::<2> { g: 9.81, rod: 1.0 };
+/// assert_eq!(chain.multipliers().dimension(), 2);
+/// // The first rod hangs down, and the second one is too long.
+/// let mut constraints = [0.0; 2];
+/// chain.constraint(&[0.0, 2.0, -1.0, -1.0], 0.0, &mut constraints);
+/// assert_eq!(constraints, [0.0, 3.0]);
+/// ```
+///
+/// The equations of motion are d/dt ∂L/∂v = ∂L/∂q + F + Gᵀλ with G = ∂g/∂q and a multiplier λ for each constraint, numbered as
+/// they are declared. The multipliers are on the stack where the number of constraints is a literal, or a multiple of one const
+/// generic and at most 16 more; that of `constraint(i in 0..N - 1)` is known at run time only. The mass matrix is to be regular as
+/// without constraints. Methods that keep no constraints do not take such
+/// a system: `dvi_core::HolonomicLagrangian` says more.
 ///
 /// # Errors
 ///

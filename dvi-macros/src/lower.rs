@@ -17,6 +17,7 @@ mod admit;
 mod blocks;
 mod calls;
 mod components;
+mod constraints;
 mod habits;
 mod inside;
 mod integers;
@@ -39,6 +40,7 @@ pub(crate) enum Role {
     TimeTransform,
     Lagrangian,
     Force,
+    Constraint,
     Momentum,
 }
 
@@ -52,6 +54,7 @@ impl Role {
             Self::TimeTransform => "the time transformation",
             Self::Lagrangian => "the Lagrangian",
             Self::Force => "a force",
+            Self::Constraint => "a holonomic constraint",
             Self::Momentum => "a momentum",
         }
     }
@@ -145,11 +148,15 @@ impl<'a> Lowering<'a> {
     }
 
     pub(crate) fn formula(&mut self, formula: &Syntax, role: Role) -> Option<Expr> {
+        self.begin(formula, role);
+        self.expr(formula)
+    }
+
+    fn begin(&mut self, formula: &Syntax, role: Role) {
         self.role = role;
         let mut names = IndexNames(HashSet::default());
         names.visit_expr(formula);
         self.index_names = names.0;
-        self.expr(formula)
     }
 
     fn expr(&mut self, syntax: &Syntax) -> Option<Expr> {

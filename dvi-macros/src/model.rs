@@ -282,9 +282,9 @@ impl Model {
         self.functions[function as usize].derivatives.len() > 3
     }
 
-    /// Whether the compiler knows the size of a block.
-    pub(crate) fn is_constant(&self, block: usize) -> bool {
-        self.block_size(block).terms.iter().all(|(atom, _)| match atom {
+    /// Whether the compiler knows a size.
+    pub(crate) fn is_constant(&self, size: &Index) -> bool {
+        size.terms.iter().all(|(atom, _)| match atom {
             crate::symbolic::Atom::Size(size) => self.sizes[size.0 as usize].constant,
             _ => false,
         })

@@ -8,9 +8,11 @@ use crate::internal::internal;
 use crate::routine::Routine;
 use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution, Weight};
 
+mod constraints;
 mod degenerate;
 mod regular;
 
+pub(crate) use constraints::{Constraint, Constraints, Row};
 pub(crate) use degenerate::{DegenerateFormulas, DegeneratePrograms, TimeTransform, dalpha};
 pub(crate) use regular::{RegularFormulas, RegularPrograms};
 
@@ -31,6 +33,10 @@ pub(crate) enum Place {
     Result,
     Entry(Output, Coordinate),
     MatrixEntry(Coordinate, Coordinate),
+    /// An entry of g.
+    Constraint(Row),
+    /// An entry of G = ∂g/∂q.
+    ConstraintDerivative(Row, Coordinate),
 }
 
 #[derive(Clone, Debug)]
@@ -54,20 +60,16 @@ pub(crate) type Force = Vec<Contribution>;
 /// What is generated for every system.
 pub(crate) struct Programs {
     pub(crate) lagrangian: Routine,
-    pub(crate) forces: Option<Forces>,
+    /// F, if there are forces.
+    pub(crate) forces: Option<Routine>,
+    pub(crate) constraints: Option<Constraints>,
+    /// L, all components of F and all constraints, added up: no number where one of them is none.
+    pub(crate) probe: Routine,
     pub(crate) gradient: Routine,
     pub(crate) linearize: Routine,
     pub(crate) momenta: Vec<Routine>,
     /// The second derivative of L, and the first ones of F.
     pub(crate) entries: Vec<SecondContribution>,
-}
-
-/// What is generated for the forces on a system, if there are any.
-pub(crate) struct Forces {
-    /// F
-    pub(crate) applied: Routine,
-    /// L and all components of F, added up: no number where one of them is none.
-    pub(crate) probe: Routine,
 }
 
 /// What a derivative is by.
@@ -80,12 +82,13 @@ pub(crate) fn variable(graph: &Graph, id: Id) -> (Variable, Coordinate) {
 }
 
 impl Programs {
-    /// From L, its second derivative, the force, and the momenta.
+    /// From L, its second derivative, the force, the constraints, and the momenta.
     fn new(
         graph: &mut Graph,
         lagrangian: Expr,
         mut entries: Vec<SecondContribution>,
         force: &Force,
+        constraints: &[Constraint],
         momenta: &[Expr],
     ) -> Self {
         let by_lagrangian = graph.gradient(lagrangian, &[]);
@@ -96,7 +99,9 @@ impl Programs {
         linearize.extend(weighted_hessian(graph, &entries));
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
-            forces: (!force.is_empty()).then(|| Forces::new(graph, lagrangian, force)),
+            forces: (!force.is_empty()).then(|| applied(graph, force)),
+            constraints: (!constraints.is_empty()).then(|| Constraints::new(graph, constraints)),
+            probe: probe(graph, lagrangian, force, constraints),
             gradient: Routine::new(graph, gradient),
             linearize: Routine::new(graph, linearize),
             momenta: momenta.iter().map(|value| Routine::new(graph, result(*value))).collect(),
@@ -105,16 +110,20 @@ impl Programs {
     }
 }
 
-impl Forces {
-    fn new(graph: &mut Graph, lagrangian: Expr, force: &Force) -> Self {
-        let applied = statements(graph, force.clone(), Output::Vector, Output::Lv);
-        let mut sum = lagrangian;
-        for Contribution { loops, value, .. } in force {
-            let added = loops.iter().rev().fold(*value, |value, over| graph.summed(value, over.clone()));
-            sum = graph.add(sum, added);
-        }
-        Self { applied: Routine::new(graph, applied), probe: Routine::new(graph, result(sum)) }
+fn applied(graph: &mut Graph, force: &Force) -> Routine {
+    let applied = statements(graph, force.clone(), Output::Vector, Output::Lv);
+    Routine::new(graph, applied)
+}
+
+fn probe(graph: &mut Graph, lagrangian: Expr, force: &Force, constraints: &[Constraint]) -> Routine {
+    let forces = force.iter().map(|part| (part.loops.clone(), part.value));
+    let constraints = constraints.iter().map(|constraint| (constraint.loops(), constraint.value));
+    let mut sum = lagrangian;
+    for (loops, value) in forces.chain(constraints) {
+        let added = loops.into_iter().rev().fold(value, |value, over| graph.summed(value, over));
+        sum = graph.add(sum, added);
     }
+    Routine::new(graph, result(sum))
 }
 
 /// ∂F/∂q and ∂F/∂v, in the rows of ∂L/∂q.
@@ -133,10 +142,15 @@ fn force_derivatives(graph: &mut Graph, force: &Force) -> Vec<SecondContribution
 }
 
 impl Programs {
-    /// Whether the time stands in L or in a force.
+    /// The values of L, of all forces and of all constraints: what the motion depends on.
+    pub(crate) fn dynamics(&self) -> impl Iterator<Item = &Routine> {
+        let constraints = self.constraints.iter().map(|constraints| &constraints.value);
+        [&self.lagrangian].into_iter().chain(&self.forces).chain(constraints)
+    }
+
+    /// Whether the time stands in L, in a force or in a constraint.
     pub(crate) fn depends_on_time(&self, graph: &Graph) -> bool {
-        let forces = self.forces.iter().flat_map(|forces| &forces.applied.statements);
-        let mut statements = self.lagrangian.statements.iter().chain(forces);
+        let mut statements = self.dynamics().flat_map(|routine| &routine.statements);
         statements.any(|statement| graph.depends(statement.value.node, |node| matches!(node, Node::Time)))
     }
 }

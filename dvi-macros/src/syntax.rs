@@ -11,9 +11,11 @@ use syn::{Expr, Path, Token};
 
 use crate::errors::{Errors, listed, nearest};
 
+mod constraint;
 mod declared;
 pub(crate) mod depth;
 
+pub(crate) use constraint::{Constraint, Family};
 use declared::Declared;
 pub(crate) use declared::{Declaration, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform};
 
@@ -38,6 +40,9 @@ pub(crate) struct Attribute {
     pub(crate) time_transform: Option<TimeTransform>,
     pub(crate) lagrangian: Option<Expr>,
     pub(crate) forces: Vec<Force>,
+    pub(crate) constraints: Vec<Constraint>,
+    /// Whether constraints were declared, readable or not.
+    pub(crate) constrained: bool,
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
     pub(crate) scalar_fields: Vec<ScalarFieldPath>,
@@ -52,7 +57,7 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 11] = [
+const ARGUMENTS: [(&str, &str); 12] = [
     ("coordinates", "coordinates(x, y[n])"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
@@ -60,6 +65,7 @@ const ARGUMENTS: [(&str, &str); 11] = [
     ("time_transform", "time_transform = ρ(q)"),
     ("lagrangian",  "lagrangian = …"),
     ("force",       "force = [F_x, |i| F_y(i)]`, or `force(x) = F_x"),
+    ("constraint",  "constraint = g(q, t)`, or `constraint(i in 0..n) = g(i)"),
     ("momenta",     "momenta(p = …)"),
     ("functions",   "functions(f = [f, df, d2f])"),
     ("derive",      "derive(Trait, path::Trait)"),
@@ -69,8 +75,25 @@ const ARGUMENTS: [(&str, &str); 11] = [
 /// Words for what is a force.
 const FORCES: [&str; 6] = ["damping", "drag", "drive", "forces", "forcing", "friction"];
 
+/// Words for what is a constraint.
+const CONSTRAINTS: [&str; 10] = [
+    "algebraic",
+    "bond",
+    "bonds",
+    "constrain",
+    "constrained",
+    "constraints",
+    "equality",
+    "holonomic",
+    "rod",
+    "rods",
+];
+
 /// The arguments that a regular system does not have.
 const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
+
+/// The arguments that a degenerate system does not have.
+const REGULAR_ONLY: [&str; 1] = ["constraint"];
 
 impl Kind {
     /// The attribute as it is written.
@@ -82,7 +105,10 @@ impl Kind {
     }
 
     fn takes(self, argument: &str) -> bool {
-        self == Self::Degenerate || !DEGENERATE_ONLY.contains(&argument)
+        match self {
+            Self::Degenerate => !REGULAR_ONLY.contains(&argument),
+            Self::Regular => !DEGENERATE_ONLY.contains(&argument),
+        }
     }
 
     fn arguments(self) -> impl Iterator<Item = &'static str> {
@@ -125,6 +151,8 @@ impl Argument {
                 Value::List(list)
             } else if name == "force" {
                 return Err(input.error("a force is written `force(x) = …`"));
+            } else if name == "constraint" {
+                return Err(input.error("a family of constraints is written `constraint(i in 0..n) = g(i)`"));
             } else {
                 return Err(input.error("expected `,`"));
             }
@@ -138,12 +166,15 @@ impl Argument {
         Ok(Self { name, value })
     }
 
-    /// What may be given once: `name`, or `name(of)`.
-    fn given(&self) -> String {
-        match &self.value {
+    /// What may be given once: `name`, or `name(of)`. Every `constraint` is one more.
+    fn given(&self) -> Option<String> {
+        if self.name == "constraint" {
+            return None;
+        }
+        Some(match &self.value {
             Value::AssignedTo { of, .. } => format!("{}({of})", self.name),
             Value::Assigned(_) | Value::List(_) | Value::Neither => self.name.to_string(),
-        }
+        })
     }
 }
 
@@ -157,13 +188,15 @@ pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Erro
     let mut given: Vec<String> = Vec::new();
     for piece in split_at_commas(tokens) {
         match read_by(piece, |input| Argument::parse(input, kind)) {
-            Ok(argument) if given.contains(&argument.given()) => {
-                errors.push(&argument.name, format!("`{}` is given twice", argument.given()));
-            }
-            Ok(argument) => {
-                given.push(argument.given());
-                attribute.accept(argument, errors);
-            }
+            Ok(argument) => match argument.given() {
+                Some(again) if given.contains(&again) => {
+                    errors.push(&argument.name, format!("`{again}` is given twice"));
+                }
+                once => {
+                    given.extend(once);
+                    attribute.accept(argument, errors);
+                }
+            },
             Err(error) => errors.push_syn(error),
         }
     }
@@ -187,18 +220,38 @@ impl Attribute {
 
     /// All formulas as they were written.
     pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expr> {
+        self.scopes().map(|(formula, _)| formula)
+    }
+
+    /// All formulas as they were written, those of a family with its index.
+    pub(crate) fn scopes(&self) -> impl Iterator<Item = (&Expr, Option<&Ident>)> {
         let rate = self.time_transform.as_ref().map(|transform| &transform.rate);
         let dynamics =
             [self.one_form.as_ref(), self.hamiltonian.as_ref(), self.lagrangian.as_ref(), self.gauge(), rate];
         let forces = self.forces.iter().flat_map(Force::formulas);
         let momenta = self.momenta.iter().map(|momentum| &momentum.formula);
-        dynamics.into_iter().flatten().chain(forces).chain(momenta)
+        let constraints = self
+            .constraints
+            .iter()
+            .map(|constraint| (&constraint.formula, constraint.family.as_ref().map(|family| &family.index)));
+        let others = dynamics.into_iter().flatten().chain(forces).chain(momenta);
+        others.map(|formula| (formula, None)).chain(constraints)
     }
 
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
         let Argument { name, value } = argument;
         let keyword = name.to_string();
+        let is_constraint = keyword == "constraint" || CONSTRAINTS.contains(&keyword.as_str());
+        self.constrained |= is_constraint;
         match (keyword.as_str(), value) {
+            _ if is_constraint && self.kind == Kind::Degenerate => {
+                let message = format!(
+                    "holonomic constraints are for regular systems, in `{}`: the coordinates of a degenerate one are to be \
+                     chosen so that they hold",
+                    Kind::Regular.attribute()
+                );
+                errors.push_once("constraints", &name, message);
+            }
             (other, _) if !self.kind.takes(other) => {
                 let message = format!(
                     "`{}` takes all of L as `lagrangian = …`; {} are arguments of `{}`",
@@ -251,6 +304,25 @@ impl Attribute {
                     )),
                 }
             }
+            ("constraint", Value::Assigned(tokens)) => {
+                if let Some(value) = value_of(&name, tokens, errors) {
+                    let declared = Constraint::of_value(value);
+                    self.constraints.extend(declared.into_iter().filter_map(|one| errors.taken(one)));
+                }
+            }
+            ("constraint", Value::AssignedTo { of, value, parentheses }) => {
+                let family = if of.is_empty() {
+                    let message = "a family of constraints is written `constraint(i in 0..n) = g(i)`";
+                    Err(syn::Error::new(parentheses, message))
+                } else {
+                    read(of)
+                };
+                let formula = value_of(&name, value, errors);
+                if let Some((family, formula)) = errors.taken(family).zip(formula) {
+                    let declared = Constraint::of_formula(Some(family), formula);
+                    self.constraints.extend(errors.taken(declared));
+                }
+            }
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),
@@ -269,6 +341,13 @@ impl Attribute {
             _ if FORCES.contains(&keyword.as_str()) => {
                 errors
                     .push(&name, format!("unknown argument `{keyword}`; a force is written `force(x) = …`"));
+            }
+            _ if is_constraint => {
+                let message = format!(
+                    "unknown argument `{keyword}`; a constraint is written `constraint = g(q, t)`, and more of them \
+                     `constraint = [g1, g2]`, or `constraint(i in 0..n) = g(i)`"
+                );
+                errors.push(&name, message);
             }
             _ => {
                 let hint = nearest(&keyword, self.kind.arguments()).map_or_else(

@@ -188,17 +188,20 @@ impl Check<'_> {
     fn locate(&self, point: &Point, functions: &Functions<'_>, output: &Output) -> Option<Difference> {
         const MOST: i64 = 12;
         let model = self.system.model;
-        let entries: Vec<(usize, i64)> = (0..model.blocks.len())
-            .flat_map(|block| {
-                let size = point.length(&model.block_size(block)).unwrap_or(0).min(MOST);
-                (0..size).map(move |index| (block, index))
-            })
-            .collect();
+        let entries = (0..model.blocks.len()).flat_map(|block| {
+            let size = point.length(&model.block_size(block)).unwrap_or(0).min(MOST);
+            (0..size).map(move |index| Support::Entry(block, index))
+        });
+        let entries: Vec<Support> = entries.collect();
+        let rows = functions.constraint_lengths().iter().enumerate().flat_map(|(number, length)| {
+            let length = point.length(length).unwrap_or(0).min(MOST);
+            (0..length).map(move |member| Support::Constraint(number, member))
+        });
+        let rows: Vec<Support> = if output.is_by_constraint() { rows.collect() } else { entries.clone() };
         let mut worst: Option<(f64, Difference)> = None;
-        for first in &entries {
+        for first in &rows {
             for second in if output.is_matrix { entries.as_slice() } else { std::slice::from_ref(first) } {
-                let [first, second] = [first, second].map(|(block, index)| Support::Entry(*block, *index));
-                let directions = Directions { first, second };
+                let directions = Directions { first: *first, second: *second };
                 let Ok(outputs) = self.system.outputs(point, directions, Part::All, 64 * BUDGET) else {
                     continue;
                 };
@@ -230,7 +233,12 @@ impl Check<'_> {
                     None => block.name.to_string(),
                 }
             }
-            _ => String::new(),
+            Support::Constraint(number, member) => format!("constraint {number}, member {member}"),
+            Support::All
+            | Support::Block(_)
+            | Support::Except(..)
+            | Support::Half(..)
+            | Support::OtherHalf(..) => String::new(),
         };
         if is_matrix {
             format!("({}, {})", name(directions.first), name(directions.second))

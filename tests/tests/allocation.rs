@@ -59,6 +59,34 @@ struct Rubbed {
     n: usize,
 }
 
+/// Masses on rods, one below the other.
+#[lagrangian(
+    coordinates(x[rod.len()], y[rod.len()]),
+    lagrangian = sum(0..rod.len(), |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i]),
+    constraint = x[0] * x[0] + y[0] * y[0] - rod[0] * rod[0],
+    constraint(i in 1..rod.len()) = (x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) - rod[i] * rod[i],
+)]
+#[derive(Debug)]
+struct Links {
+    rod: Vec<f64>,
+}
+
+/// A chain of `n` rods, stretched out.
+fn links(n: usize) -> (Links, LinksState) {
+    let (x, zero) = ((1..=n).map(|i| i as f64).collect(), vec![0.0; n]);
+    (Links { rod: vec![1.0; n] }, LinksState { x, y: zero.clone(), dot_x: zero.clone(), dot_y: zero })
+}
+
+/// Bytes that a constrained run of a chain of `n` rods takes.
+fn of_links(n: usize) -> f64 {
+    let (system, start) = links(n);
+    let before = dhat::HeapStats::get().total_bytes;
+    let mut run =
+        Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.01, start).expect("starts");
+    run.take_steps(3).expect("steps");
+    (dhat::HeapStats::get().total_bytes - before) as f64
+}
+
 /// Bytes that a run of `n` such bodies takes.
 fn of_bodies<M: Method<Rubbed, f64>>(method: M, n: usize) -> f64 {
     let (system, q) = (Rubbed { n }, (0..n).map(|j| (j as f64).sin()).collect());
@@ -149,6 +177,17 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let ring_start = BorneState { x: vec![0.3, -0.4, 0.2], y: vec![0.5, 0.1, -0.3] };
     assert_none!(ring, ring_start, OneStep::trapezoid(), OneStep::scheme_a(), OneStepGauss::<2>::new());
     assert_none!(ring, ring_start, Projected::standard(), Projected::symmetric());
+
+    let (rods, rods_start) = links(5);
+    assert_none!(
+        rods,
+        rods_start,
+        Rattle::default(),
+        Constrained::new(Variational::midpoint()),
+        Composition::triple_jump(Constrained::new(Variational::trapezoid()))
+    );
+    let [short, long] = [1000, 4000].map(of_links);
+    assert!(long < 4.1 * short, "{long} bytes for four times as many rods as {short}");
 
     // Of variable length, on the stack and on the heap, with steps that are undone.
     let fitted = || Variational::simpson().phase_fitted(Radial(Reading::Averaged));

@@ -5,6 +5,7 @@ use dvi_core::discrete::Interval;
 use dvi_core::methods::VariationalMethod;
 use dvi_core::methods::{General, Method, Symmetrised};
 use dvi_core::prelude::*;
+use dvi_core::system::Unconstrained;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::larger;
 use dvi_tests::systems::*;
@@ -13,7 +14,10 @@ use dvi_tests::zoo::regular::*;
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Twenty steps of both, forward and back.
-fn check<S: Lagrangian, M: Method<S, f64> + VariationalMethod<S, f64> + Copy + core::fmt::Debug>(
+fn check<
+    S: Lagrangian + System<Kind: Unconstrained>,
+    M: Method<S, f64> + VariationalMethod<S, f64> + Copy + core::fmt::Debug,
+>(
     system: &S,
     method: M,
     start: &S::State<f64>,

@@ -41,7 +41,7 @@ fn run<S: Lagrangian, M: Method<S, f64>>(
     Ok(run.q().to_vec())
 }
 
-fn check_order<S: Separable>(system: &S, start: S::State<f64>) -> Outcome {
+fn check_order<S: Separable + RegularLagrangian>(system: &S, start: S::State<f64>) -> Outcome {
     let reference = run(system, Galerkin::<5>::new(), start.clone(), 2.0, 256)?;
     for beta in BETAS {
         let mut errors = Vec::new();
@@ -192,7 +192,7 @@ fn the_conjugate_two_form_is_preserved() -> Outcome {
     Ok(())
 }
 
-fn check_reversal<S: Separable>(system: &S, start: S::State<f64>, h: f64) -> Outcome {
+fn check_reversal<S: Separable + RegularLagrangian>(system: &S, start: S::State<f64>, h: f64) -> Outcome {
     for beta in [0.0, 0.25, 0.5] {
         let mut forth = Integrator::new(system, Newmark::new(beta), h, start.clone())?;
         let first = forth.q().to_vec();
@@ -294,7 +294,7 @@ fn discrete_lagrangian<S: RegularLagrangian<HyperDual64>>(
 }
 
 /// Its derivatives against hyper-dual numbers, and its general step against the method's own.
-fn check_discrete_lagrangian<S: Separable + RegularLagrangian<HyperDual64>>(
+fn check_discrete_lagrangian<S: Separable + RegularLagrangian + RegularLagrangian<HyperDual64>>(
     system: &S,
     start: &S::State<f64>,
 ) -> Outcome {

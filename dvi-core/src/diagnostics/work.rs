@@ -3,7 +3,7 @@
 //! Between two states the power is taken for the cubic polynomial through the last four of them, which Gauss's rule with two
 //! points integrates exactly.
 
-use crate::mechanics::motion::FirstOrder;
+use crate::mechanics::motion::Rates;
 use crate::run::Run;
 use crate::{Real, System};
 
@@ -57,7 +57,7 @@ impl<T: Real> Work<T> {
     /// None yet, from the present state of `run`.
     pub fn new<R: Run<Scalar = T>>(run: &R) -> Self
     where
-        <R::System as System>::Kind: FirstOrder<R::System, T>,
+        <R::System as System>::Kind: Rates<R::System, T>,
     {
         let start = Sample { t: run.time(), power: run.power() };
         Self { latest: [start; POINTS], known: 1, total: T::lift(0.0) }
@@ -66,7 +66,7 @@ impl<T: Real> Work<T> {
     /// Adds the work up to the present state of `run`, at a time other than that of the state before.
     pub fn record<R: Run<Scalar = T>>(&mut self, run: &R)
     where
-        <R::System as System>::Kind: FirstOrder<R::System, T>,
+        <R::System as System>::Kind: Rates<R::System, T>,
     {
         self.latest.rotate_right(1);
         self.latest[0] = Sample { t: run.time(), power: run.power() };

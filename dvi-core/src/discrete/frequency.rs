@@ -10,7 +10,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::scalar::norm;
 use crate::space::sink::TransposedProduct;
-use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// How a frequency that depends on the motion enters a step from q0 to q1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,7 +152,7 @@ impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
 /// # Errors
 /// [`StartError::Unsupported`] names the method of [`FrequencyIn`] that is missing; else as
 /// [`FrequencyIn::validate`].
-pub(crate) fn admit<S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     frequency: &F,
     system: &S,
 ) -> Result<(), StartError> {
@@ -309,7 +309,7 @@ pub(crate) struct Local<S: System, T: Real> {
     reading: Option<Reading>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Local<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
     pub(crate) fn new(system: &S, reading: Option<Reading>) -> Self {
         let space = system.space();
         Self {

@@ -1,7 +1,7 @@
 //! What can be asked of a system at one state, without a run.
 
 use crate::error::StartError;
-use crate::mechanics::motion::FirstOrder;
+use crate::mechanics::motion::Rates;
 use crate::system::start::{evaluate, flatten, validate, velocities};
 use crate::{Lagrangian, Real, State, System};
 
@@ -34,7 +34,7 @@ pub struct AtTime<'a, S, T = f64> {
 /// # Errors
 /// All of these functions return [`StartError`], as the start of a run does, if an array of the system or of the state has
 /// the wrong length, a coordinate is not finite, or energy or first derivatives of L are not finite there.
-pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: FirstOrder<Self, T>> + Sized {
+pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: Rates<Self, T>> + Sized {
     /// The system at time `t`.
     fn at_time(&self, t: T) -> AtTime<'_, Self, T> {
         AtTime { system: self, t }
@@ -66,7 +66,7 @@ pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: FirstOrder<Self, 
     }
 }
 
-impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> AtState<T> for S {}
+impl<S: Lagrangian<T> + System<Kind: Rates<S, T>>, T: Real> AtState<T> for S {}
 
 impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
     /// See [`AtState::vector_field`].

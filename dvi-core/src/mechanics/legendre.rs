@@ -132,12 +132,13 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
 }
 
 /// ∂²L/∂v∂v d = ∂L/∂v − p
-struct Equations<'a, S, T> {
-    system: &'a S,
+pub(crate) struct Equations<'a, S, T> {
+    pub(crate) system: &'a S,
     /// q, v and p.
-    points: [&'a [T]; 3],
-    t: T,
-    l_q: &'a mut [T],
+    pub(crate) points: [&'a [T]; 3],
+    pub(crate) t: T,
+    /// Work space.
+    pub(crate) l_q: &'a mut [T],
 }
 
 impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {

@@ -8,7 +8,7 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::SquareMatrix;
 use crate::space::sink::{Places, Sink};
-use crate::{Real, RegularLagrangian, Space, Square, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Space, Square, System, Vector, Weights};
 
 /// M and M⁻¹.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ struct Coupled<S: System, T: Real> {
     factors: Square<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Mass<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     /// Of a separable `system`; M does not depend on the point (`q`, `t`) at which it is evaluated.
     ///
     /// # Errors

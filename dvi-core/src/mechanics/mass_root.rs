@@ -3,7 +3,7 @@
 use super::mass::Mass;
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::{Matrix, Real, RegularLagrangian, Scalar, Space, System, Vector};
+use crate::{Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 /// A root of a constant mass matrix.
 #[derive(Debug)]
@@ -14,7 +14,7 @@ pub(crate) enum MassRoot<S: System, T: Real> {
     Lower(Matrix<S, T>),
 }
 
-impl<S: RegularLagrangian<T>, T: Real> MassRoot<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> MassRoot<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] if the matrix is not positive definite.
     pub(crate) fn new(system: &S, mass: &Mass<S, T>) -> Result<Self, StepFailure> {

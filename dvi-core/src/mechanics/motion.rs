@@ -3,6 +3,7 @@
 //! A degenerate system has y = q and Ω q' = ∇H + ∂α/∂t. A regular one has y = (q, p) and Hamilton's equations in terms
 //! of L: q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t) (Marsden & Ratiu 1999, section 7.2).
 
+pub(crate) mod constrained;
 mod flow_on_q;
 mod hamilton;
 
@@ -57,7 +58,26 @@ impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, 
     }
 }
 
+/// The rates of change of a kind of system at a state.
+#[diagnostic::on_unimplemented(
+    message = "the motion of `{S}` cannot be computed in `{T}`",
+    label = "it is no system, or a parameter of it is no number"
+)]
+pub trait Rates<S: System, T: Real>: Kind {
+    /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a degenerate system,
+    /// which has no velocities, the second is zero.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular; [`StepFailure::RedundantConstraint`].
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure>;
+}
+
 /// What the equations of motion of a kind of system are stored in.
+#[diagnostic::on_unimplemented(
+    message = "the equations of motion of `{S}` have constraints beside them, and this would not keep these",
+    label = "it does not know constraints",
+    note = "systems with `constraint = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+)]
 pub trait Motion<S: System, T: Real>: Kind {
     /// y: q, or q and p.
     type Point: Debug + DerefMut<Target = [Vector<S, T>]> + Memory<T>;
@@ -83,7 +103,8 @@ pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point;
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be solved in `{T}`",
-    label = "it is no system, or a parameter of it is no number"
+    label = "it is no system, it has constraints, or a parameter of it is no number",
+    note = "systems with `constraint = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
 )]
 pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// The equations at (`q`, `v`, `t`).
@@ -165,10 +186,4 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure>;
-    /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a degenerate system,
-    /// which has no velocities, the second is zero.
-    ///
-    /// # Errors
-    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular.
-    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure>;
 }

@@ -17,7 +17,9 @@ use crate::space::sink::Places;
 use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
-use crate::{DegenerateLagrangian, Matrix, Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
+use crate::{
+    DegenerateLagrangian, Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights,
+};
 
 /// Ω at the end of the last step; nothing if it is the same everywhere.
 #[derive(Debug)]
@@ -185,7 +187,7 @@ enum Entries<S: System, T: Real> {
     All(Matrix<S, T>),
 }
 
-impl<S: RegularLagrangian<T>, T: Real> MassOrientation<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> MassOrientation<S, T> {
     /// At (`q`, `v`, `t`).
     ///
     /// # Errors
@@ -220,7 +222,7 @@ impl<S: System, T: Real> Memory<T> for MassOrientation<S, T> {
     lasting!(T; part inertia);
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Work<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
     fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<Inertia<T>, StepFailure> {
         let (zero, Self { entries, l_q, l_v }) = (T::lift(0.0), self);
         let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };

@@ -13,9 +13,19 @@ pub(crate) fn of_second_derivatives<S: Lagrangian<T>, T: Real>(
     t: T,
     storing: Storing,
 ) -> Linear<S, T> {
+    system.space().linear(storing, |visit| visit_second_derivatives(system, [q, v], t, visit))
+}
+
+/// Visits the places of all second derivatives of L.
+pub(crate) fn visit_second_derivatives<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    points: [&[T]; 2],
+    t: T,
+    visit: &mut dyn FnMut(usize, usize),
+) {
     let one = T::lift(1.0);
     let weights = Weights { qq: one, qv: one, vq: one, vv: one };
-    system.space().linear(storing, |visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
+    visit_entries(system, points, t, weights, |_| true, visit);
 }
 
 /// A matrix with room for all entries.
@@ -51,9 +61,7 @@ pub(crate) fn coupled_by_second_derivatives<const NODES: usize, S: Lagrangian<T>
     t: T,
     storing: Storing,
 ) -> Coupled<NODES, S, T> {
-    let one = T::lift(1.0);
-    let weights = Weights { qq: one, qv: one, vq: one, vv: one };
-    system.space().coupled(storing, |visit| visit_entries(system, [q, v], t, weights, |_| true, visit))
+    system.space().coupled(storing, |visit| visit_second_derivatives(system, [q, v], t, visit))
 }
 
 fn visit_entries<S: Lagrangian<T>, T: Real>(

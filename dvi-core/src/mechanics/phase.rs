@@ -12,7 +12,7 @@ use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
 use crate::state::summation::{Carried, Summation};
-use crate::{Real, RegularLagrangian, Space, System, Vector};
+use crate::{NondegenerateLagrangian, Real, Space, System, Vector};
 
 /// The momentum and the force at the current point, and the last increments.
 #[derive(Debug)]
@@ -38,7 +38,7 @@ pub(crate) struct Arrival<'a, T> {
 
 impl<T: Real> Arrival<'_, T> {
     #[inline(always)]
-    fn finite<S: RegularLagrangian<T>>(&self) -> Result<(), StepFailure> {
+    fn finite<S: NondegenerateLagrangian<T>>(&self) -> Result<(), StepFailure> {
         norm::finite(self.q).and(norm::finite(self.p))?;
         if S::SEPARABLE { norm::finite(self.force) } else { Ok(()) }
     }
@@ -51,7 +51,7 @@ pub(crate) struct Increments<'a, T> {
     pub(crate) p: &'a [T],
 }
 
-impl<S: RegularLagrangian<T>, T: Real> PhasePoint<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     /// At (`q`, `v`, `t`).
     ///
     /// # Errors
@@ -168,7 +168,7 @@ pub(crate) enum Inertial<S: System, T: Real> {
     Varying(MassOrientation<S, T>),
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Inertial<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
     /// At (`q`, `v`, `t`).
     ///
     /// # Errors

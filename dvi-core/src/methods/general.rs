@@ -10,6 +10,7 @@ use crate::solve::Stopping;
 use crate::state::Statistics;
 use crate::state::history::{History, is_similar};
 use crate::state::memory::{Memory, lasting};
+use crate::system::Unconstrained;
 use crate::system::start::evaluate;
 use crate::{Lagrangian, Linear, Real, Space, System, Vector};
 
@@ -86,7 +87,9 @@ impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for Ge
     type Memory = GeneralMemory<S, M::DiscreteLagrangian, T>;
 }
 
-impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for General<M> {
+impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: VariationalMethod<S, T>> Method<S, T>
+    for General<M>
+{
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.admit(system)?;
         let space = system.space();
@@ -164,7 +167,10 @@ impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Gen
     }
 }
 
-impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T> for General<M> {}
+impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T>
+    for General<M>
+{
+}
 
 impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for General<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;

@@ -19,7 +19,7 @@ use crate::methods::{Carries, Method, PreservedForm, Scheme};
 use crate::scalar::norm;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{Real, Scalar, Separable, Space, System, Vector};
+use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
 
 /// Langevin dynamics, for [`Separable`] systems: friction and noise as of a heat bath, by the splitting BAOAB (Leimkuhler &
 /// Matthews 2013).
@@ -173,7 +173,7 @@ impl<S: System, T: Real> Carries<S, T> for Langevin {
     type Memory = LangevinMemory<S, T>;
 }
 
-impl<S: Separable<T>, T: Real> Method<S, T> for Langevin {
+impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(h)?;
         let vector = || system.space().vector();

@@ -256,7 +256,7 @@ impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
     type Memory = NewmarkMemory<S, T>;
 }
 
-impl<S: Separable<T>, T: Real> Method<S, T> for Newmark<T> {
+impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
         let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };

@@ -23,7 +23,7 @@ use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep
 use crate::solve::{Guess, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Linear, Real, RegularLagrangian, System, Vector};
+use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
 pub use lagrangian::QuadratureLagrangian;
 use memory::Parts;
@@ -146,7 +146,7 @@ struct Step<'a, S, F, R, T> {
     h: T,
 }
 
-impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
+impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
     /// The time of a node.
     #[inline(always)]
     fn node_time(&self, c: f64) -> T {
@@ -208,14 +208,14 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
 
     /// Whether forces are all that a step needs: L is separable, and the interpolation does not mix with M.
     #[inline(always)]
-    fn needs_forces_only<S: RegularLagrangian<T>, T: Real>(&self) -> bool {
+    fn needs_forces_only<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
         let mixes = F::PER_COORDINATE && !S::DIAGONAL_MASS;
         S::SEPARABLE && !mixes && self.frequency.reading() != Some(Reading::Variational)
     }
 
     /// Whether a fixed point is an iteration for the step: with a constant mass matrix, unless each coordinate has a frequency
     /// of its own.
-    fn has_fixed_point<S: RegularLagrangian<T>, T: Real>(&self) -> bool {
+    fn has_fixed_point<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
         self.needs_forces_only::<S, T>() || (S::CONSTANT_MASS && !F::PER_COORDINATE)
     }
 
@@ -224,7 +224,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
     }
 
-    fn validate<S: RegularLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
+    fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
     where
         F: FrequencyIn<T>,
     {
@@ -373,7 +373,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<
 
 impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
 where
-    S: RegularLagrangian<T>,
+    S: NondegenerateLagrangian<T>,
     F: FrequencyIn<T> + GivenFrequency + Clone,
     R: Rule + Clone,
     T: Real,

@@ -24,6 +24,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             StepFailure::NotFinite { .. }
             | StepFailure::NotConverged { .. }
             | StepFailure::Singular { .. }
+            | StepFailure::RedundantConstraint { .. }
+            | StepFailure::Turned { .. }
             | StepFailure::Frequency { .. }
             | StepFailure::StepLength { .. }
             | StepFailure::Density { .. } => true,

@@ -77,7 +77,8 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
 
     #[inline(always)]
     fn cleared(&mut self) -> &mut Self::Entries {
-        self.matrix.fill(T::lift(0.0));
+        // −0 is neutral for every number, so that the first addition to an entry may be dropped.
+        self.matrix.fill(T::lift(-0.0));
         &mut self.matrix
     }
     #[inline(always)]

@@ -2,8 +2,9 @@
 //! the only ones that the compiler reports. None of the functions is ever called, as such a program does not compile.
 
 use super::{
-    AffineOneForm, Degenerate, DegenerateLagrangian, Lagrangian, ProperlyDegenerate, QuadraticInVelocity,
-    Regular, RegularLagrangian, Separable, System, Weights,
+    AffineOneForm, ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian,
+    Lagrangian, NondegenerateLagrangian, Nonholonomic, NonholonomicLagrangian, ProperlyDegenerate,
+    QuadraticInVelocity, Regular, RegularLagrangian, Separable, System, Weights,
 };
 use crate::{Scalar, Sink};
 
@@ -62,7 +63,7 @@ impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> ProperlyDegenerate<T> fo
 }
 
 #[diagnostic::do_not_recommend]
-impl<S: StandIn + System<Kind = Regular>, T: Scalar> RegularLagrangian<T> for S {
+impl<S: StandIn, T: Scalar> NondegenerateLagrangian<T> for S {
     const CONSTANT_MASS: bool = false;
     const SEPARABLE: bool = false;
     const DIAGONAL_MASS: bool = false;
@@ -72,8 +73,37 @@ impl<S: StandIn + System<Kind = Regular>, T: Scalar> RegularLagrangian<T> for S 
 }
 
 #[diagnostic::do_not_recommend]
-impl<S: StandIn + System<Kind = Regular>, T: Scalar> Separable<T> for S {}
+impl<S: StandIn + System<Kind = Regular>, T: Scalar> RegularLagrangian<T> for S {}
 #[diagnostic::do_not_recommend]
-impl<S: StandIn + System<Kind = Regular>, T: Scalar> QuadraticInVelocity<T> for S {}
+impl<S: StandIn, T: Scalar> Separable<T> for S {}
+#[diagnostic::do_not_recommend]
+impl<S: StandIn, T: Scalar> QuadraticInVelocity<T> for S {}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn + ConstrainedSystem + System<Kind = Nonholonomic>, T: Scalar> NonholonomicLagrangian<T>
+    for S
+{
+    fn velocity_constraint(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+    fn velocity_constraint_jacobian<K: Sink<T>>(
+        &self,
+        _: &[T],
+        _: &[T],
+        _: T,
+        _: [T; 2],
+        _: &mut [T],
+        _: &mut K,
+    ) {
+    }
+    fn velocity_constraint_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn + ConstrainedSystem + System<Kind = Holonomic>, T: Scalar> HolonomicLagrangian<T> for S {
+    fn constraint(&self, _: &[T], _: T, _: &mut [T]) {}
+    fn constraint_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: &mut [T], _: &mut K) {}
+    fn constraint_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+    fn constraint_curvature(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+}
+
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> AffineOneForm<T> for S {}

@@ -123,7 +123,7 @@ impl Stages {
         (graph.subtract(one_form, conjugate), graph.multiply(rate, difference))
     }
 
-    /// L and the momenta.
+    /// L, the forces, the constraints and the momenta.
     pub(super) fn regular_formulas(&mut self) -> Option<RegularFormulas> {
         let clean = self.check_coordinates()?;
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
@@ -139,9 +139,11 @@ impl Stages {
         };
         let momenta = momenta(&self.attribute, &mut lowering);
         let force = lowering.forces(&self.attribute.forces);
+        let constraints = lowering.constraints(&self.attribute.constraints);
         let lagrangian = lagrangian?;
         let quadratic = lowering.is_quadratic(lagrangian);
-        Some(RegularFormulas { lagrangian, quadratic, force: force?, momenta: momenta? })
+        let (force, constraints, momenta) = (force?, constraints?, momenta?);
+        Some(RegularFormulas { lagrangian, quadratic, force, constraints, momenta })
     }
 
     /// Whether no mistake was found so far; `None` without coordinates, over which formulas would only

@@ -21,10 +21,11 @@ struct StandIn<'a> {
     space: TokenStream,
     state: TokenStream,
     time_transformed: bool,
+    constrained: bool,
 }
 
 /// With errors in the attribute.
-pub(super) fn stand_in(emitter: &Emitter<'_>, mut errors: Errors) -> TokenStream {
+pub(super) fn stand_in(emitter: &Emitter<'_>, constrained: bool, mut errors: Errors) -> TokenStream {
     let (model, krate) = (emitter.model, emitter.krate());
     let item = &model.item;
     let (space, state, state_item) = if model.lost_coordinates {
@@ -34,7 +35,8 @@ pub(super) fn stand_in(emitter: &Emitter<'_>, mut errors: Errors) -> TokenStream
         (space, type_in_trait, item)
     };
     let (name, generics, time_transformed) = (&item.ident, &item.generics, model.extended.is_some());
-    let stand_in = StandIn { kind: model.kind, name, generics, krate, space, state, time_transformed };
+    let kind = model.kind;
+    let stand_in = StandIn { kind, name, generics, krate, space, state, time_transformed, constrained };
     let implementations = stand_in.implementations();
     let errors = errors.into_tokens();
     quote!(#errors #item #state_item #implementations)
@@ -50,7 +52,9 @@ pub(super) fn without_struct(
 ) -> TokenStream {
     let krate: Path = syn::parse_quote!(::dvi_core);
     let (space, state, state_item) = lost_state(&krate, visibility, name, generics, &mut errors);
-    let stand_in = StandIn { kind, name, generics, krate: &krate, space, state, time_transformed: false };
+    let (time_transformed, constrained) = (false, false);
+    let stand_in =
+        StandIn { kind, name, generics, krate: &krate, space, state, time_transformed, constrained };
     let implementations = stand_in.implementations();
     let errors = errors.into_tokens();
     quote!(#errors #state_item #implementations)
@@ -62,8 +66,9 @@ impl StandIn<'_> {
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         let allow = implement::allow();
         let never = quote!({ ::core::unreachable!() });
-        let kind = implement::kind(krate, self.kind == Kind::Regular);
+        let kind = implement::kind(krate, self.kind, self.constrained);
         let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
+        let holonomic = (self.kind == Kind::Regular && self.constrained).then(|| self.holonomic(&never));
         quote! {
             const _: () = {
                 #[automatically_derived]
@@ -79,7 +84,22 @@ impl StandIn<'_> {
                 }
                 impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause {}
                 #time_transformed
+                #holonomic
             };
+        }
+    }
+
+    /// The trait that systems have with constraints only.
+    fn holonomic(&self, never: &TokenStream) -> TokenStream {
+        let Self { name, krate, .. } = self;
+        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
+        quote! {
+            impl #impl_generics #krate::ConstrainedSystem for #name #type_generics #where_clause {
+                type Multipliers = #krate::Fixed<1usize, 1usize>;
+                type Augmented = #krate::Fixed<1usize, 2usize>;
+                fn multipliers(&self) -> Self::Multipliers #never
+                fn augmented(&self) -> Self::Augmented #never
+            }
         }
     }
 

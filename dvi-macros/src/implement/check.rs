@@ -39,9 +39,7 @@ struct Walk<'a> {
 pub(super) fn check(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     let mut walk =
         Walk { emitter, seen: HashSet::default(), visited: HashSet::default(), tokens: TokenStream::new() };
-    let forces = programs.forces.as_ref().map(|forces| &forces.applied);
-    let routines: Vec<&Routine> =
-        [&programs.lagrangian].into_iter().chain(forces).chain(&programs.momenta).collect();
+    let routines: Vec<&Routine> = programs.dynamics().chain(&programs.momenta).collect();
     for statement in routines.iter().flat_map(|routine| &routine.statements) {
         walk.node(&Place { loops: statement.loops.clone(), names: Vec::new() }, statement.value.node);
     }

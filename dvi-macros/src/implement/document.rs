@@ -6,8 +6,8 @@ use syn::ext::IdentExt as _;
 
 use crate::emit::Emitter;
 use crate::operations::Operations;
-use crate::program::{Output, Place, Programs, Statement, variable};
-use crate::symbolic::{Coordinate, Expr, print_coordinate, print_expr, print_loops};
+use crate::program::{Output, Place, Programs, Row, Statement, variable};
+use crate::symbolic::{Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops};
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
     print_expr(emitter.graph, expr, 0, emitter.model)
@@ -47,7 +47,7 @@ impl Account {
     /// Adds the forces, and what they mean for the methods.
     pub(super) fn forces(&mut self, emitter: &Emitter<'_>, programs: &Programs) {
         let Some(forces) = &programs.forces else { return };
-        self.derived(emitter, &forces.applied.statements, |_, entry| {
+        self.derived(emitter, &forces.statements, |_, entry| {
             format!("force({})", print_coordinate(entry, emitter.model))
         });
         self.sentence(
@@ -65,14 +65,37 @@ impl Account {
     ) {
         for statement in statements {
             if let Place::Entry(output, coordinate) = &statement.place {
-                let mut text =
-                    print_expr(emitter.graph, statement.value, statement.loops.len(), emitter.model);
-                if !statement.loops.is_empty() {
-                    text += &format!("  for {}", print_loops(&statement.loops, emitter.model));
-                }
-                self.formulas.push((name(*output, coordinate), text));
+                self.formulas.push((name(*output, coordinate), in_loops(emitter, statement)));
             }
         }
+    }
+
+    /// Adds the constraints with their derivatives, and how many there are.
+    pub(super) fn constraints(&mut self, emitter: &Emitter<'_>, programs: &Programs) {
+        let Some(constraints) = &programs.constraints else { return };
+        let number = |row: &Row| {
+            let before = &constraints.lengths[..row.constraint as usize];
+            let first = before.iter().fold(Index::default(), |sum, length| sum.plus(length, 1));
+            print_index(&first.plus(&row.member, 1), emitter.model)
+        };
+        for statement in &constraints.jacobian.statements {
+            let name = match &statement.place {
+                Place::Constraint(row) => format!("constraint g[{}]", number(row)),
+                Place::ConstraintDerivative(row, by) => {
+                    format!("∂g[{}]/∂{}", number(row), print_coordinate(by, emitter.model))
+                }
+                Place::Result | Place::Entry(..) | Place::MatrixEntry(..) => continue,
+            };
+            self.formulas.push((name, in_loops(emitter, statement)));
+        }
+        let count = constraints.lengths.iter().fold(Index::default(), |sum, length| sum.plus(length, 1));
+        let noun = if count.as_literal() == Some(1) { "constraint" } else { "constraints" };
+        // A range that ends before it begins has no members, which the sum of the lengths does not show.
+        let may_end_early = constraints.lengths.iter().any(|length| !length.is_natural());
+        let condition =
+            if may_end_early && constraints.lengths.len() > 1 { ", where no range is empty" } else { "" };
+        let count = print_index(&count, emitter.model);
+        self.sentence(format!("{count} holonomic {noun} g(q, t) = 0{condition}."));
     }
 
     pub(super) fn report(&self, emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
@@ -110,6 +133,15 @@ impl Account {
     }
 }
 
+/// The value of a statement, with the loops that it stands in.
+fn in_loops(emitter: &Emitter<'_>, statement: &Statement) -> String {
+    let text = print_expr(emitter.graph, statement.value, statement.loops.len(), emitter.model);
+    if statement.loops.is_empty() {
+        return text;
+    }
+    format!("{text}  for {}", print_loops(&statement.loops, emitter.model))
+}
+
 /// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with another sign; nothing where no
 /// force acts.
 pub(super) fn beside_force(
@@ -120,9 +152,11 @@ pub(super) fn beside_force(
 ) -> String {
     let acts = |statement: &Statement| match &statement.place {
         Place::Entry(_, on) => on.block == entry.block,
-        Place::Result | Place::MatrixEntry(..) => false,
+        Place::Result | Place::MatrixEntry(..) | Place::Constraint(_) | Place::ConstraintDerivative(..) => {
+            false
+        }
     };
-    let is_forced = programs.forces.iter().any(|forces| forces.applied.statements.iter().any(acts));
+    let is_forced = programs.forces.iter().any(|forces| forces.statements.iter().any(acts));
     if is_forced {
         format!(" {sign} force({})", print_coordinate(entry, emitter.model))
     } else {

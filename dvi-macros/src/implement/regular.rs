@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::document::{Account, beside_force, quantity};
+use super::holonomic::holonomic;
 use super::in_numbers;
 use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
@@ -43,11 +44,15 @@ fn account(
     let energy = programs.energy.statements.first().map_or(Expr::ZERO, |statement| statement.value);
     let declared = [("L", formulas.lagrangian), ("E", energy)];
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
-    let mut account =
-        Account::new("L(q, v, t) and its energy E = v·∂L/∂v − L:", declared.to_vec(), structure.sentences());
+    let mut account = Account::new(
+        "L(q, v, t) and its energy E = v·∂L/∂v − L:",
+        declared.to_vec(),
+        structure.sentences(programs.shared.constraints.is_some()),
+    );
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
     account.forces(emitter, &programs.shared);
+    account.constraints(emitter, &programs.shared);
     account.derived(emitter, &programs.shared.gradient.statements, |output, entry| match output {
         Output::Lv => format!("∂L/∂{}", print_velocity(entry, emitter.model)),
         Output::Lq | Output::Vector => {
@@ -58,7 +63,7 @@ fn account(
     account
 }
 
-/// The implementation of `RegularLagrangian`.
+/// The implementation of `NondegenerateLagrangian`, and of what the system is beyond that.
 fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: &MassMatrix) -> TokenStream {
     let MassMatrix { constant, separable, diagonal, quadratic, .. } = *structure;
     let (force, rate) = (emitter.vector(&programs.force), emitter.vector(&programs.momentum_rate));
@@ -76,6 +81,10 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
         #[inline]
         fn momentum_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #rate }
     };
-    let lagrangian = in_numbers(emitter, &quote!(RegularLagrangian), &lagrangian);
-    quote!(#lagrangian #(#traits)*)
+    let lagrangian = in_numbers(emitter, &quote!(NondegenerateLagrangian), &lagrangian);
+    let motion = match &programs.shared.constraints {
+        Some(constraints) => holonomic(emitter, constraints),
+        None => in_numbers(emitter, &quote!(RegularLagrangian), &TokenStream::new()),
+    };
+    quote!(#lagrangian #motion #(#traits)*)
 }

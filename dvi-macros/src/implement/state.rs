@@ -22,13 +22,21 @@ pub(crate) struct State {
 /// state is still on the stack.
 const MOST_SINGLES: usize = 16;
 
-/// Fixed if all sizes are literals, or one const generic beside a few literals; else known at run time.
+/// The space of the coordinates.
 fn space(emitter: &Emitter<'_>) -> (TokenStream, TokenStream) {
+    let sizes: Vec<Index> =
+        (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block)).collect();
+    space_of(emitter, &sizes)
+}
+
+/// The space of as many numbers as these sizes are together, each of which is zero where it is negative: its type and its value.
+/// Fixed if all sizes are literals, or one const generic beside a few literals; else known at run time.
+pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Index]) -> (TokenStream, TokenStream) {
     let (model, krate) = (emitter.model, emitter.krate());
-    let constant = (0..model.blocks.len()).all(|block| model.is_constant(block));
-    let mut names: Vec<Index> = Vec::new();
+    let constant = sizes.iter().all(|size| model.is_constant(size));
+    let mut names: Vec<&Index> = Vec::new();
     let (mut arrays, mut singles) = (0, 0);
-    for size in (0..model.blocks.len()).map(|block| model.block_size(block)) {
+    for size in sizes {
         match size.as_literal() {
             Some(literal) => singles += literal as usize,
             None => {
@@ -46,10 +54,22 @@ fn space(emitter: &Emitter<'_>) -> (TokenStream, TokenStream) {
             (quote!(#krate::Fixed<#blocks, { #size }, #singles>), quote!(#krate::Fixed))
         }
         _ => {
-            let dimension = emitter.index(&model.dimension());
+            let dimension = dimension(emitter, sizes);
             (quote!(#krate::RunTime), quote!(#krate::RunTime { dimension: #dimension }))
         }
     }
+}
+
+/// The sum of the sizes, those below zero taken for zero.
+fn dimension(emitter: &Emitter<'_>, sizes: &[Index]) -> TokenStream {
+    let (natural, others): (Vec<&Index>, Vec<&Index>) = sizes.iter().partition(|size| size.is_natural());
+    let natural = natural.into_iter().fold(Index::default(), |sum, size| sum.plus(size, 1));
+    let mut dimension = emitter.index(&natural);
+    for size in others {
+        let size = emitter.range_bound(size);
+        dimension = quote!(#dimension + #size);
+    }
+    dimension
 }
 
 /// Stable Rust takes a const parameter as it is as an argument, but no expression of it.
@@ -169,7 +189,7 @@ fn constants(emitter: &Emitter<'_>) -> Vec<Ident> {
 
 fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
     let size = emitter.model.block_size(block);
-    size.as_literal().is_some() || (emitter.model.is_constant(block) && is_name(&size))
+    size.as_literal().is_some() || (emitter.model.is_constant(&size) && is_name(&size))
 }
 
 fn field_type(emitter: &Emitter<'_>, block: usize) -> TokenStream {

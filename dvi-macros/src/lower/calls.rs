@@ -257,6 +257,12 @@ impl Lowering<'_> {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
             Role::Momentum | Role::Force if self.model.kind == Kind::Regular => "dot",
+            Role::Constraint => {
+                let message = "a holonomic constraint has no velocities: it is a function g(q, t) of the positions and the time, \
+                               and its rate of change is kept at zero with it";
+                self.errors.push(call, message);
+                return None;
+            }
             role => {
                 let advice = match role {
                     Role::Force => {

@@ -108,6 +108,7 @@ impl Lowering<'_> {
             | Role::TimeTransform
             | Role::Force
             | Role::Momentum => return None,
+            Role::Constraint => "",
         };
         let block = self.model.blocks.iter().find(|block| {
             let (dot, of) = (velocity_name(&block.name), &block.name);
@@ -116,6 +117,7 @@ impl Lowering<'_> {
         })?;
         let entry = if block.array.is_some() { "[j]" } else { "" };
         Some(match written {
+            "" => "a holonomic constraint has no velocities".to_string(),
             "d" => format!("the differential of `{0}` is written `d({0}{entry})`", block.name),
             _ => format!("the velocity of `{0}` is written `dot({0}{entry})`", block.name),
         })

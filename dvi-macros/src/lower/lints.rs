@@ -26,9 +26,18 @@ struct Names {
     hidden: Vec<Ident>,
 }
 
-/// The warnings of a formula as items that the compiler warns of.
-pub(crate) fn warnings(formula: &Expr) -> TokenStream {
+/// Whether a formula names an index that is bound around it.
+pub(super) fn uses(formula: &Expr, index: &Ident) -> bool {
     let mut names = Names::default();
+    names.open.push(Local { name: index.clone(), index: true, used: false });
+    names.visit_expr(formula);
+    names.open.iter().any(|local| local.used)
+}
+
+/// The warnings of a formula, with the index that is bound around it if there is one, as items that the compiler warns of.
+pub(crate) fn warnings((formula, index): (&Expr, Option<&Ident>)) -> TokenStream {
+    let mut names = Names::default();
+    names.open.extend(index.map(|index| Local { name: index.clone(), index: true, used: true }));
     names.visit_expr(formula);
     let unused = names.unused.iter().map(|name| {
         quote!(const _: () = {

@@ -3,7 +3,7 @@
 use quote::ToTokens;
 use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
-use super::{Binding, DEEPEST_SUM, Lowering, bound_name};
+use super::{Binding, DEEPEST_SUM, Lowering, Role, bound_name};
 use crate::symbolic::{Atom, Expr, Fold, Index, Loop, Range};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
@@ -130,7 +130,7 @@ impl Lowering<'_> {
         names
     }
 
-    fn range(&mut self, syntax: &Syntax) -> Option<(Index, Index)> {
+    pub(super) fn range(&mut self, syntax: &Syntax) -> Option<(Index, Index)> {
         let Syntax::Range(range) = syntax else {
             self.errors.push(syntax, "expected a range of indices, as in `0..n`");
             return None;
@@ -266,7 +266,19 @@ impl Lowering<'_> {
             .chain(self.model.sizes.iter().map(|size| size.text.as_str()))
             .collect();
         crate::errors::nearest(name, known).map_or_else(
-            || "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
+            || match self.role {
+                Role::Constraint => "; an index is bound by the constraint, as in `constraint(i in 0..n) = …`, or by a sum, as in \
+                                     `sum(0..n, |j| …)`"
+                    .to_string(),
+                Role::OneForm
+                | Role::Component
+                | Role::Hamiltonian
+                | Role::Gauge
+                | Role::TimeTransform
+                | Role::Lagrangian
+                | Role::Force
+                | Role::Momentum => "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
+            },
             |near| format!("; did you mean `{near}`?"),
         )
     }
@@ -289,7 +301,7 @@ impl Lowering<'_> {
 
 /// A loop over `lower..upper` that counts from zero where `lower` might be negative, and the index as a form
 /// in the open index of that loop.
-fn natural(depth: u32, lower: &Index, upper: &Index) -> (Index, Loop) {
+pub(super) fn natural(depth: u32, lower: &Index, upper: &Index) -> (Index, Loop) {
     let open = Index::open(depth);
     if lower.is_natural() {
         let range = Range { lower: lower.clone(), upper: upper.clone(), except: None, taken: Vec::new() };

@@ -108,6 +108,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         gauge: Gauge::None,
         time_transform: None,
         forces: Vec::new(),
+        constraints: Vec::new(),
         momenta: vec![Formula::Time],
     }
 }

@@ -23,6 +23,7 @@ pub(super) struct Expected {
     pub(super) at_rest: Jet,
     /// The force on each coordinate.
     pub(super) forces: Vec<Jet>,
+    pub(super) constraints: Vec<Jet>,
     pub(super) momenta: Vec<Jet>,
     /// Whether other velocities leave ∂²L/∂v∂v as it is.
     pub(super) is_quadratic: bool,
@@ -136,6 +137,7 @@ fn expected(system: &System, point: Point) -> Result<Expected, Outside> {
     let momenta = system.momenta.iter().map(|formula| Oracle::new(system, &point).value(formula));
     let momenta = momenta.collect::<Result<_, _>>()?;
     let forces = Oracle::new(system, &point).forces()?;
+    let constraints = Oracle::new(system, &point).constraints()?;
     // A regular L need not exist at rest.
     let at_rest =
         if system.is_regular() { lagrangian.clone() } else { Oracle::new(system, &rest).lagrangian()? };
@@ -147,7 +149,7 @@ fn expected(system: &System, point: Point) -> Result<Expected, Outside> {
         }),
         Err(_) => true,
     };
-    Ok(Expected { point, lagrangian, at_rest, forces, momenta, is_quadratic })
+    Ok(Expected { point, lagrangian, at_rest, forces, constraints, momenta, is_quadratic })
 }
 
 /// A difference: the output and both numbers.
@@ -256,7 +258,10 @@ impl<'a> Comparison<'a> {
     fn at(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {
         let compared = match (&self.system.gauge, self.system.is_regular()) {
             (Gauge::Auto, _) => self.motion(expected),
-            (_, true) => self.common(expected, random).and_then(|()| self.regular(expected)),
+            (_, true) => self
+                .common(expected, random)
+                .and_then(|()| self.regular(expected))
+                .and_then(|()| self.constraints(expected, random)),
             (_, false) => self.common(expected, random).and_then(|()| self.degenerate(expected, random)),
         };
         compared.map_err(|(what, details)| {
@@ -348,6 +353,48 @@ impl<'a> Comparison<'a> {
         let call = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]);
         let (_, slices) = call.run("momentum_rate")?;
         self.same_vector("momentum_rate", &slices[2], |i| jet.hessian(n + i, 2 * n))
+    }
+
+    fn constraints(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {
+        let Expected { point: Point { q, v, t }, constraints, .. } = expected;
+        let (n, m) = (self.system.dimension(), constraints.len());
+        if m == 0 {
+            return Ok(());
+        }
+        let before = vec![7.0; m];
+        let (_, slices) = self.call().slice(q).real(*t).slice(&before).run("constraint")?;
+        self.same_vector("constraint", &slices[1], |k| constraints[k].value)?;
+
+        // With room for more rows or columns than there are.
+        let side = n.max(m);
+        let matrix: Vec<f64> = (0..side * side).map(|_| random.between(-1.0, 1.0)).collect();
+        let call = self.call().slice(q).real(*t).slice(&before).slice(&matrix);
+        let (_, slices) = call.run("constraint_jacobian")?;
+        self.same_vector("constraint_jacobian, g", &slices[1], |k| constraints[k].value)?;
+        for (place, found) in slices[2].iter().enumerate() {
+            let (row, column) = (place / side, place % side);
+            let start = Sized::new(matrix[place]);
+            let entry = constraints.get(row).filter(|_| column < n);
+            let wanted = entry.map_or(start, |constraint| start.plus(constraint.gradient(column)));
+            self.same("constraint_jacobian", &[row, column], wanted, *found)?;
+        }
+
+        // Along (v, 1).
+        let along = |i: usize| Sized::new(if i < n { v[i] } else { 1.0 });
+        let variables = || (0..n).chain([2 * n]);
+        let call = self.call().slice(q).slice(v).real(*t).slice(&before);
+        let (_, slices) = call.run("constraint_rate")?;
+        self.same_vector("constraint_rate", &slices[2], |k| {
+            let terms = variables().map(|i| constraints[k].gradient(i).times(along(i)));
+            terms.fold(Sized::default(), Sized::plus)
+        })?;
+        let call = self.call().slice(q).slice(v).real(*t).slice(&before);
+        let (_, slices) = call.run("constraint_curvature")?;
+        self.same_vector("constraint_curvature", &slices[2], |k| {
+            let pairs = variables().flat_map(|i| variables().map(move |j| (i, j)));
+            let terms = pairs.map(|(i, j)| constraints[k].hessian(i, j).times(along(i)).times(along(j)));
+            terms.fold(Sized::default(), Sized::plus)
+        })
     }
 
     fn degenerate(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {

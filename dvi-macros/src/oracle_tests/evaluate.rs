@@ -4,7 +4,7 @@ use super::formula::{Condition, Formula, Index, Loops, Relation};
 use super::functions::{own, scalar_field};
 use super::jet::{Jet, Sized};
 use super::rate;
-use super::system::{Dynamics, Gauge, System};
+use super::system::{Constraint, Dynamics, Gauge, System};
 
 /// Where a formula is evaluated.
 #[derive(Clone, Debug)]
@@ -230,6 +230,23 @@ impl<'a> Oracle<'a> {
     }
 
     /// A body with its indices at these values.
+    /// All constraints, one after the other.
+    pub(super) fn constraints(&mut self) -> Result<Vec<Jet>, Outside> {
+        let system = self.system;
+        let mut values = Vec::new();
+        for Constraint { range, formula } in &system.constraints {
+            match range {
+                None => values.push(self.value(formula)?),
+                Some((lower, upper)) => {
+                    for index in self.index(lower)?..self.index(upper)? {
+                        values.push(self.inside(&[index], formula)?);
+                    }
+                }
+            }
+        }
+        Ok(values)
+    }
+
     fn inside(&mut self, indices: &[i64], body: &Formula) -> Result<Jet, Outside> {
         let outside = self.bound.len();
         self.bound.extend(indices);

@@ -97,6 +97,7 @@ pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
         gauge: Gauge::None,
         time_transform: None,
         forces: Vec::new(),
+        constraints: Vec::new(),
         momenta: Vec::new(),
     }
 }
@@ -123,6 +124,7 @@ pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
         gauge: Gauge::None,
         time_transform: None,
         forces: Vec::new(),
+        constraints: Vec::new(),
         momenta: Vec::new(),
     }
 }

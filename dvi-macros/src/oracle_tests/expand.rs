@@ -62,6 +62,10 @@ const EXPECTED: &[&str] = &[
     // Of the user's functions, one is declared with its third derivative.
     "declare its third derivative too",
     "stands in a gauge",
+    // The coordinates of a constraint may cancel.
+    "no coordinate stands in this constraint",
+    "this constraint is declared twice, up to a factor",
+    "cannot be independent of each other",
     // It may come out as a constant.
     "a time transformation is positive",
 ];

@@ -8,9 +8,9 @@ mod forms;
 mod indices;
 mod values;
 
-use super::formula::{Formula, Index};
+use super::formula::{Formula, Index, Loops};
 use super::random::Random;
-use super::system::{Dynamics, Gauge, System};
+use super::system::{Constraint, Dynamics, Gauge, System};
 use indices::Scope;
 
 /// Whether velocities may stand in a formula.
@@ -51,6 +51,10 @@ pub(super) fn system(random: &mut Random) -> System {
         generator.velocities = if regular { Velocities::Any } else { Velocities::None };
         let momentum = generator.value(&Scope::outside(), 3);
         generator.system.momenta.push(momentum);
+    }
+    if regular && generator.random.chance(25) {
+        generator.velocities = Velocities::None;
+        generator.system.constraints = generator.constraints();
     }
     if generator.random.chance(30) {
         generator.velocities = if regular { Velocities::Any } else { Velocities::None };
@@ -113,6 +117,31 @@ impl Generator<'_> {
         }
         let acts = (0..blocks).rev().filter(|_| self.random.chance(60)).collect::<Vec<_>>();
         acts.into_iter().map(|block| (block, self.entry(block))).collect()
+    }
+
+    fn constraints(&mut self) -> Vec<Constraint> {
+        let count = 1 + self.random.below(3);
+        (0..count).map(|_| self.constraint()).collect()
+    }
+
+    /// A function with a coordinate in it, alone or with an index that it depends on.
+    fn constraint(&mut self) -> Constraint {
+        self.budget = self.budget.max(6);
+        let family = if self.random.chance(50) { self.loops(&Scope::outside(), Loops::Single) } else { None };
+        let (range, scope) = match family {
+            Some((lower, upper, inside)) => (Some((lower, upper)), inside),
+            None => (None, Scope::outside()),
+        };
+        let block = self.random.below(self.system.blocks.len());
+        let index = self.system.blocks[block].size.map(|size| self.index(&scope, size));
+        let coordinate = Formula::Coordinate(block, index);
+        let coordinate = match range {
+            Some(_) => coordinate.times(Formula::Count(Index::bound(0).plus(3))),
+            None => coordinate,
+        };
+        let value = self.value(&scope, 4);
+        let formula = if self.random.chance(70) { value.plus(coordinate) } else { coordinate.times(value) };
+        Constraint { range, formula }
     }
 
     fn regular(&mut self) -> Dynamics {

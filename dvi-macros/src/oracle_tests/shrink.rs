@@ -30,6 +30,11 @@ fn smaller_systems(system: &System) -> Vec<System> {
         smaller.forces.remove(force);
         candidates.push(smaller);
     }
+    for constraint in 0..system.constraints.len() {
+        let mut smaller = system.clone();
+        smaller.constraints.remove(constraint);
+        candidates.push(smaller);
+    }
     if system.time_transform.is_some() {
         candidates.push(system.clone().without_time_transform());
     }

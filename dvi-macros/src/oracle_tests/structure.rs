@@ -50,12 +50,12 @@ fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
     (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)))
 }
 
-/// Whether neither L nor a force changes with the time, and ∂L/∂v does not.
+/// Whether neither L nor a force nor a constraint changes with the time, and ∂L/∂v does not.
 fn autonomous(n: usize, points: &[Expected]) -> bool {
     points.iter().all(|at| {
         is_zero(at.lagrangian.gradient(2 * n))
             && (0..2 * n).all(|i| is_zero(at.lagrangian.hessian(i, 2 * n)))
-            && at.forces.iter().all(|force| is_zero(force.gradient(2 * n)))
+            && at.forces.iter().chain(&at.constraints).all(|value| is_zero(value.gradient(2 * n)))
     })
 }
 

@@ -27,6 +27,9 @@ impl Summary {
         match &verdict {
             Verdict::Agrees { largest, claims } => {
                 self.count("agrees");
+                if !system.constraints.is_empty() {
+                    self.count("agrees, with constraints");
+                }
                 self.largest = self.largest.max(*largest);
                 for (name, declared, possible) in claims {
                     let allowed = if *possible { "true" } else { "false" };

@@ -76,6 +76,13 @@ pub(super) enum Gauge {
     Auto,
 }
 
+/// A constraint as it is declared, alone or one for each index in a range. That index is the one of level 0.
+#[derive(Clone, Debug)]
+pub(super) struct Constraint {
+    pub(super) range: Option<(Index, Index)>,
+    pub(super) formula: Formula,
+}
+
 #[derive(Clone, Debug)]
 pub(super) struct System {
     pub(super) sizes: Vec<Size>,
@@ -87,6 +94,7 @@ pub(super) struct System {
     pub(super) time_transform: Option<Formula>,
     /// The forces, each on a block. The index of an entry is that of level 0.
     pub(super) forces: Vec<(usize, Formula)>,
+    pub(super) constraints: Vec<Constraint>,
     pub(super) momenta: Vec<Formula>,
 }
 
@@ -159,6 +167,7 @@ impl System {
         }
         formulas.extend(&mut self.time_transform);
         formulas.extend(self.forces.iter_mut().map(|(_, force)| force));
+        formulas.extend(self.constraints.iter_mut().map(|constraint| &mut constraint.formula));
         formulas.extend(&mut self.momenta);
         formulas
     }

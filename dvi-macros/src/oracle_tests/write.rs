@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
 use super::functions::{BinaryFunction, OWN, SCALAR_FIELDS};
-use super::system::{Container, Dynamics, Field, Gauge, SizeKind, System};
+use super::system::{Constraint, Container, Dynamics, Field, Gauge, SizeKind, System};
 
 const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
 
@@ -84,6 +84,7 @@ impl System {
                 text += &format!(", force({}) = {entry}", self.blocks[*block].name);
             }
         }
+        text += &self.constraint_arguments(&dot);
         let momenta = self.momenta.iter().enumerate();
         let momenta: Vec<String> = momenta.map(|(n, value)| format!("p{n} = {}", dot.text(value))).collect();
         if !momenta.is_empty() {
@@ -95,6 +96,24 @@ impl System {
         let fields = fields.filter_map(|(_, field)| Some(format!("{} = {}", field.name, field.path?)));
         let own: Vec<String> = used.chain(fields).collect();
         if own.is_empty() { text } else { text + &format!(", functions({})", own.join(", ")) }
+    }
+
+    /// Constraints that follow each other without an index are a list.
+    fn constraint_arguments(&self, writer: &Writer<'_>) -> String {
+        let mut text = String::new();
+        for run in self.constraints.chunk_by(|one, next| one.range.is_none() && next.range.is_none()) {
+            text += &match run {
+                [Constraint { range: Some((lower, upper)), formula }] => {
+                    format!(", constraint(i in {}) = {}", writer.range(lower, upper), writer.text(formula))
+                }
+                [single] => format!(", constraint = {}", writer.text(&single.formula)),
+                several => {
+                    let formulas = several.iter().map(|one| writer.text(&one.formula));
+                    format!(", constraint = [{}]", formulas.collect::<Vec<_>>().join(", "))
+                }
+            };
+        }
+        text
     }
 
     /// The struct.
@@ -231,15 +250,19 @@ impl<'a> Writer<'a> {
                         ("sum_ordered_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1]))
                     }
                 };
-                let lower = self.index(lower);
-                let range = if self.spelling.is_other() {
-                    let last = Index { constant: upper.constant - 1, ..upper.clone() };
-                    format!("{lower}..={}", self.index(&last))
-                } else {
-                    format!("{lower}..{}", self.index(upper))
-                };
+                let range = self.range(lower, upper);
                 postfix(format!("{name}({range}, |{indices}| {})", self.text(body)))
             }
+        }
+    }
+
+    fn range(&self, lower: &Index, upper: &Index) -> String {
+        let lower = self.index(lower);
+        if self.spelling.is_other() {
+            let last = Index { constant: upper.constant - 1, ..upper.clone() };
+            format!("{lower}..={}", self.index(&last))
+        } else {
+            format!("{lower}..{}", self.index(upper))
         }
     }
 

@@ -58,7 +58,7 @@ impl DegeneratePrograms {
     ) -> Self {
         let lagrangian = graph.subtract(formulas.one_form, formulas.hamiltonian);
         let entries = graph.hessian(lagrangian);
-        let shared = Programs::new(graph, lagrangian, entries, &formulas.force, &formulas.momenta);
+        let shared = Programs::new(graph, lagrangian, entries, &formulas.force, &[], &formulas.momenta);
         let by_hamiltonian = graph.gradient(formulas.hamiltonian, &[]);
         let contributions = added(graph, by_hamiltonian, negated(&formulas.force));
         let hamiltonian_gradient = statements(graph, contributions, Output::Vector, Output::Lv);
@@ -138,7 +138,9 @@ fn conjugate_entries(jacobian: &[Statement]) -> Vec<Statement> {
     let entry = |statement: &Statement| match &statement.place {
         Place::MatrixEntry(row, column) => (row.block != column.block)
             .then(|| Statement { place: Place::Entry(Output::Vector, row.clone()), ..statement.clone() }),
-        Place::Result | Place::Entry(..) => internal("an entry of a matrix was expected"),
+        Place::Result | Place::Entry(..) | Place::Constraint(_) | Place::ConstraintDerivative(..) => {
+            internal("an entry of a matrix was expected")
+        }
     };
     jacobian.iter().filter_map(entry).collect()
 }

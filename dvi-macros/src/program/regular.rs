@@ -1,6 +1,6 @@
 //! What is special to a regular L: the energy, the force, and the rate of the momentum.
 
-use super::{Force, Output, Place, Programs, Statement, rates, result};
+use super::{Constraint, Force, Output, Place, Programs, Statement, rates, result};
 use crate::routine::Routine;
 use crate::symbolic::{Expr, Graph, SecondContribution};
 
@@ -11,6 +11,7 @@ pub(crate) struct RegularFormulas {
     /// Whether L is a polynomial of degree at most two in v.
     pub(crate) quadratic: bool,
     pub(crate) force: Force,
+    pub(crate) constraints: Vec<Constraint>,
     pub(crate) momenta: Vec<Expr>,
 }
 
@@ -32,8 +33,9 @@ impl RegularPrograms {
         formulas: &RegularFormulas,
         entries: Vec<SecondContribution>,
     ) -> Self {
-        let shared = Programs::new(graph, formulas.lagrangian, entries, &formulas.force, &formulas.momenta);
-        let energy = result(graph.energy(formulas.lagrangian));
+        let RegularFormulas { lagrangian, force, constraints, momenta, .. } = formulas;
+        let shared = Programs::new(graph, *lagrangian, entries, force, constraints, momenta);
+        let energy = result(graph.energy(*lagrangian));
         let part = |output| shared.gradient.statements.iter().filter_map(move |s| as_vector(s, output));
         let [force, momentum]: [Vec<Statement>; 2] =
             [Output::Lq, Output::Lv].map(|output| part(output).collect());
@@ -49,6 +51,10 @@ fn as_vector(statement: &Statement, output: Output) -> Option<Statement> {
         Place::Entry(found, coordinate) if *found == output => {
             Some(Statement { place: Place::Entry(Output::Vector, coordinate.clone()), ..statement.clone() })
         }
-        Place::Result | Place::Entry(..) | Place::MatrixEntry(..) => None,
+        Place::Result
+        | Place::Entry(..)
+        | Place::MatrixEntry(..)
+        | Place::Constraint(_)
+        | Place::ConstraintDerivative(..) => None,
     }
 }

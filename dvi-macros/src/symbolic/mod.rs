@@ -13,6 +13,7 @@ mod functions;
 mod graph;
 mod index;
 mod limits;
+mod motion;
 mod partial;
 mod polynomial;
 mod powers;
@@ -28,6 +29,8 @@ pub(crate) use functions::{Unary, unary_by_name, unary_names};
 pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Weight};
 pub(crate) use index::{Atom, Free, Index, Loop, Range, Renaming, Size};
 pub(crate) use partial::Partial;
-pub(crate) use print::{Names, print_coordinate, print_expr, print_loops, print_velocity, write_expr};
+pub(crate) use print::{
+    Names, print_coordinate, print_expr, print_index, print_loops, print_velocity, write_expr,
+};
 pub(crate) use rules::{binary_by_name, binary_names};
 pub(crate) use simplify::signed_exponent;

@@ -151,6 +151,11 @@ pub(crate) fn print_loops(loops: &[Loop], names: &dyn Names) -> String {
     loops.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
+/// The text of an index outside of all sums.
+pub(crate) fn print_index(index: &Index, names: &dyn Names) -> String {
+    open_letters(names).index(index)
+}
+
 pub(crate) fn print_velocity(coordinate: &Coordinate, names: &dyn Names) -> String {
     format!("{}({})", names.velocity(), print_coordinate(coordinate, names))
 }

@@ -201,3 +201,143 @@ fn state_of_kepler() {
     "#]],
     );
 }
+
+fn hanging_chain() -> TokenStream {
+    lagrangian(
+        quote! {
+            coordinates(x[n], y[n]),
+            lagrangian = sum(0..n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0,
+            constraint(i in 0..n - 1) = (x[i + 1] - x[i]) * (y[i] - t) - rods[i],
+            constraint = sum(0..n, |j| x[j] * x[j]),
+        },
+        quote! { struct Chain { n: usize, rods: Vec<f64> } },
+    )
+}
+
+#[test]
+fn constraints_of_a_chain_with_their_jacobian() {
+    check_expansion(
+        hanging_chain(),
+        "constraint_jacobian",
+        &expect![[r#"
+        fn constraint_jacobian() {
+            let (__q0, __rest) = __q.split_at(self.n);
+            let (__q1, __rest) = __rest.split_at(self.n);
+            let _ = __rest;
+            __g.fill(T::lift(-0.0));
+            let (__g0, __rest) = __g.split_at_mut((self.n).saturating_sub(1usize));
+            let (__g1, __rest) = __rest.split_at_mut(1usize);
+            let _ = __rest;
+            let __row0: usize = 0usize;
+            let __row1: usize = __row0 + (self.n).saturating_sub(1usize);
+            let __offset0: usize = 0usize;
+            let __offset1: usize = self.n;
+            let __r4 = __t;
+            let mut __r10 = T::lift(-0.0);
+            for __i0 in (0usize)..(self.n) {
+                let __r0 = __q0[__i0];
+                let __r9 = __r0 * __r0;
+                Sink::add(
+                    __sink,
+                    __row1 + 0usize,
+                    __offset0 + __i0,
+                    (T::lift(2f64) * __r0),
+                );
+                __r10 += __r9;
+            }
+            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                let __r0 = __q0[__i0];
+                let __r2 = __q0[__i0 + 1usize] - __r0;
+                let __r5 = __q1[__i0] - __r4;
+                __g0[__i0]
+                    += ((__r2 * __r5)
+                        - T::lift(
+                            __private::Number::number(self.rods[__i0]),
+                        ));
+                Sink::add(__sink, __row0 + __i0, __offset0 + __i0, (-__r5));
+                Sink::add(__sink, __row0 + __i0, __offset1 + __i0, __r2);
+                Sink::add(__sink, __row0 + __i0, __offset0 + __i0 + 1usize, __r5);
+            }
+            __g1[0usize] += __r10;
+        }
+    "#]],
+    );
+}
+
+#[test]
+fn constraints_of_a_chain_along_a_motion() {
+    check_expansion(
+        hanging_chain(),
+        "constraint_curvature",
+        &expect![[r#"
+        fn constraint_curvature() {
+            let (__v0, __rest) = __v.split_at(self.n);
+            let (__v1, __rest) = __rest.split_at(self.n);
+            let _ = __rest;
+            __g.fill(T::lift(-0.0));
+            let (__g0, __rest) = __g.split_at_mut((self.n).saturating_sub(1usize));
+            let (__g1, __rest) = __rest.split_at_mut(1usize);
+            let _ = __rest;
+            let mut __r12 = T::lift(-0.0);
+            for __i0 in (0usize)..(self.n) {
+                let __r0 = __v0[__i0];
+                let __r11 = __r0 * __r0;
+                __r12 += __r11;
+            }
+            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                let __r0 = __v0[__i0];
+                let __r1 = __v0[__i0 + 1usize];
+                let __r2 = __r0 - __r1;
+                let __r4 = __v1[__i0];
+                let __r5 = __r4 - T::lift(1f64);
+                __g0[__i0] += (__r2 + (__r1 * __r5) - (__r0 * __r5) - (__r4 * __r2));
+            }
+            __g1[0usize] += (T::lift(2f64) * __r12);
+        }
+    "#]],
+    );
+}
+
+#[test]
+fn the_rods_of_a_chain_are_checked() {
+    check_expansion(
+        hanging_chain(),
+        "check",
+        &expect![[r#"
+        fn check() {
+            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                __private::check_index("x", (0i64 + 1i64 * (__i0 as i64)), self.n)?;
+            }
+            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                __private::check_index("x", (1i64 + 1i64 * (__i0 as i64)), self.n)?;
+            }
+            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                __private::check_index("y", (0i64 + 1i64 * (__i0 as i64)), self.n)?;
+            }
+            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                __private::check_index(
+                    "rods",
+                    (0i64 + 1i64 * (__i0 as i64)),
+                    self.rods.len(),
+                )?;
+            }
+            ::core::result::Result::Ok(())
+        }
+    "#]],
+    );
+}
+
+#[test]
+fn the_spaces_of_a_chain_are_known_at_run_time() {
+    check_expansion(
+        hanging_chain(),
+        "augmented",
+        &expect![[r#"
+        fn augmented() {
+            RunTime {
+                dimension: 2usize * self.n + 1usize + (self.n).saturating_sub(1usize),
+            }
+        }
+    "#]],
+    );
+}

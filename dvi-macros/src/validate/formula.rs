@@ -15,9 +15,11 @@ use crate::model::{Extended, Model};
 use crate::syntax::Force;
 
 mod calls;
+mod constraints;
 mod indices;
 mod words;
 
+pub(super) use constraints::Combination;
 use words::{constant, literal_number, pattern, place_text};
 
 /// Why there is no value.
@@ -68,6 +70,8 @@ pub(super) struct Evaluation<'a> {
     pub(super) is_still: bool,
     /// Positions move with their velocities, and the time with 1.
     pub(super) moves: bool,
+    /// The first direction of positions is their velocity.
+    follows: bool,
     /// Operations that may still be carried out.
     pub(super) budget: u64,
     pub(super) sides: Sides,
@@ -98,6 +102,7 @@ impl<'a> Evaluation<'a> {
             directions,
             is_still: false,
             moves: false,
+            follows: false,
             budget,
             sides: Sides::default(),
             is_delicate: false,
@@ -353,6 +358,7 @@ impl<'a> Evaluation<'a> {
         let b = self.point.direction(self.directions.second, true, block, index);
         Ok(match kind {
             Variable::Position => {
+                let a = if self.follows { self.point.variable(Variable::Velocity, block, index) } else { a };
                 let position = Jet::variable(value, [a, 0.0, 0.0, 0.0], [b, 0.0]);
                 if self.moves {
                     position.moving(self.variable(Variable::Velocity, block, index)?)

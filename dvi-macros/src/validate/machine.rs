@@ -7,7 +7,7 @@ use super::point::{Branches, Directions, Point, Variable};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
 use crate::model::Model;
-use crate::program::{Output, Place};
+use crate::program::{Output, Place, Row};
 use crate::routine::Routine;
 use crate::schedule::Step;
 use crate::symbolic::{Atom, Coordinate, Fold, Graph, Id, Index, Node, Relation};
@@ -19,6 +19,8 @@ pub(super) struct Results {
     pub(super) value: f64,
     vectors: HashMap<Output, [f64; 2]>,
     pub(super) matrix: f64,
+    /// The constraints along the first direction.
+    pub(super) constraints: f64,
     /// Whether an entry was read that is not there.
     pub(super) reads_outside: bool,
 }
@@ -131,7 +133,21 @@ impl Run<'_> {
                 let along = self.machine.along(false, row, i) * self.machine.along(true, column, j);
                 self.results.matrix += component(along, value);
             }
+            Place::Constraint(row) => {
+                let along = self.along_row(row);
+                self.results.constraints += component(along, value);
+            }
+            Place::ConstraintDerivative(row, column) => {
+                let (block, index) = (column.block as usize, self.index(&column.index));
+                let along = self.along_row(row) * self.machine.along(true, block, index);
+                self.results.matrix += component(along, value);
+            }
         }
+    }
+
+    fn along_row(&self, row: &Row) -> f64 {
+        let Machine { point, directions, .. } = self.machine;
+        point.row(directions.first, row.constraint as usize, self.index(&row.member))
     }
 
     fn register(&self, register: Register) -> f64 {

@@ -28,6 +28,8 @@ pub(super) enum Support {
     OtherHalf(usize, u64),
     /// A single entry of a block.
     Entry(usize, i64),
+    /// No coordinate, but a single constraint: a declared one, and a member of it.
+    Constraint(usize, i64),
 }
 
 /// Two directions of displacement, both for positions and for velocities.
@@ -101,6 +103,11 @@ fn unit(hash: u64) -> f64 {
 
 fn within((low, high): (f64, f64), hash: u64) -> f64 {
     low + (high - low) * unit(hash)
+}
+
+/// Of either sign, and not small.
+fn signed(hash: u64) -> f64 {
+    within((0.5, 1.5), hash) * if hash & 1 == 0 { 1.0 } else { -1.0 }
 }
 
 impl Point {
@@ -210,9 +217,23 @@ impl Point {
             Support::Half(only, number) => block == only && half(number),
             Support::OtherHalf(only, number) => block == only && !half(number),
             Support::Entry(only, at) => return f64::from(u8::from(block == only && index == at)),
+            Support::Constraint(..) => false,
         };
         let hash = mix(self.seed ^ mix(50 + u64::from(is_second)) ^ mix(mix(block as u64) ^ index as u64));
-        if counts { within((0.5, 1.5), hash) * if hash & 1 == 0 { 1.0 } else { -1.0 } } else { 0.0 }
+        if counts { signed(hash) } else { 0.0 }
+    }
+
+    /// The component of the first direction in the row of a constraint.
+    pub(super) fn row(&self, support: Support, constraint: usize, member: i64) -> f64 {
+        match support {
+            Support::All => signed(mix(self.seed ^ mix(60) ^ mix(mix(constraint as u64) ^ member as u64))),
+            Support::Constraint(only, at) => f64::from(u8::from(constraint == only && member == at)),
+            Support::Block(_)
+            | Support::Except(..)
+            | Support::Half(..)
+            | Support::OtherHalf(..)
+            | Support::Entry(..) => 0.0,
+        }
     }
 
     pub(super) fn weight(&self, weight: Weight) -> f64 {

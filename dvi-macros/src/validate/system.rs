@@ -1,6 +1,6 @@
 //! What the formulas of a system say about each generated function, and what the functions give.
 
-use super::formula::{Evaluation, NoValue, Sides, Texts};
+use super::formula::{Combination, Evaluation, NoValue, Sides, Texts};
 use super::jet::{First, Jet, Second, Sized};
 use super::machine::{Machine, Results};
 use super::point::{Directions, Point};
@@ -8,7 +8,7 @@ use crate::internal::internal;
 use crate::model::Model;
 use crate::program::{self, DegeneratePrograms, Programs, RegularPrograms};
 use crate::routine::Routine;
-use crate::symbolic::{Graph, Weight};
+use crate::symbolic::{Graph, Index, Weight};
 use crate::syntax::{Attribute, Kind};
 
 /// The formulas as written, with what their names stand for.
@@ -55,6 +55,10 @@ enum Quantity {
     Force,
     Momentum(usize),
     MomentumGradient(usize),
+    Constraint,
+    ConstraintJacobian,
+    ConstraintRate,
+    ConstraintCurvature,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +78,7 @@ pub(super) struct Outputs {
     time: Option<[Jet; 2]>,
     /// The forces times the displacements along both directions.
     work: [Jet; 2],
+    constraints: Option<Combination>,
     momenta: Vec<Jet>,
     pub(super) sides: Sides,
     is_delicate: bool,
@@ -143,6 +148,10 @@ impl System<'_> {
             }
         };
         let work = evaluation.work(&attribute.forces)?;
+        let constraints = match (part, attribute.constraints.as_slice()) {
+            (Part::Form, _) | (Part::All, []) => None,
+            (Part::All, declared) => Some(evaluation.constraints(declared)?),
+        };
         let momenta = attribute
             .momenta
             .iter()
@@ -151,14 +160,37 @@ impl System<'_> {
         let momenta = momenta.collect::<Result<_, _>>()?;
         let cost = budget - evaluation.budget;
         let Evaluation { sides, is_delicate, .. } = evaluation;
-        Ok(Outputs { lagrangian, form, hamiltonian, time, work, momenta, sides, is_delicate, cost })
+        Ok(Outputs {
+            lagrangian,
+            form,
+            hamiltonian,
+            time,
+            work,
+            constraints,
+            momenta,
+            sides,
+            is_delicate,
+            cost,
+        })
     }
 }
 
 impl Output {
     fn new(function: &'static str, quantity: Quantity) -> Self {
-        let is_matrix = matches!(quantity, Quantity::Hessian | Quantity::OneFormJacobian);
+        let is_matrix =
+            matches!(quantity, Quantity::Hessian | Quantity::OneFormJacobian | Quantity::ConstraintJacobian);
         Self { function, quantity, is_matrix }
+    }
+
+    /// Whether it has an entry, or a row, for each constraint.
+    pub(super) fn is_by_constraint(&self) -> bool {
+        matches!(
+            self.quantity,
+            Quantity::Constraint
+                | Quantity::ConstraintJacobian
+                | Quantity::ConstraintRate
+                | Quantity::ConstraintCurvature
+        )
     }
 
     /// Its name, or that of an entry of it.
@@ -181,6 +213,10 @@ impl Output {
             Quantity::Force => "the force",
             Quantity::Momentum(_) => "J",
             Quantity::MomentumGradient(_) => "∇J",
+            Quantity::Constraint => "g",
+            Quantity::ConstraintJacobian => "∂g/∂q",
+            Quantity::ConstraintRate => "dg/dt",
+            Quantity::ConstraintCurvature => "d²g/dt² without acceleration",
         };
         entry.map_or_else(|| name.to_string(), |entry| format!("{name} at {entry}"))
     }
@@ -192,7 +228,8 @@ impl Outputs {
         let jets = [&self.lagrangian, &self.form, &self.hamiltonian];
         let mut jets =
             jets.into_iter().chain(&self.momenta).chain(self.time.iter().flatten()).chain(&self.work);
-        !self.is_delicate && jets.all(Jet::is_moderate)
+        let constraints = self.constraints.as_ref().is_none_or(Combination::is_moderate);
+        !self.is_delicate && constraints && jets.all(Jet::is_moderate)
     }
 
     /// a Dα + b (Dα)ᵀ between the two directions.
@@ -240,6 +277,10 @@ impl Outputs {
             Some(time) => time[part].value(),
             None => internal("no time transformation"),
         };
+        let constraints = || match &self.constraints {
+            Some(constraints) => constraints,
+            None => internal("no constraints"),
+        };
         match output.quantity {
             Quantity::Lagrangian => lagrangian.value(),
             Quantity::Lq | Quantity::Force => lagrangian.first(First::Q).plus(first_work.value()),
@@ -271,6 +312,10 @@ impl Outputs {
             Quantity::Energy => lagrangian.first(First::Stretch).plus(lagrangian.value().times(-1.0)),
             Quantity::Momentum(number) => momenta[number].value(),
             Quantity::MomentumGradient(number) => momenta[number].first(First::Q),
+            Quantity::Constraint => constraints().value(),
+            Quantity::ConstraintJacobian => constraints().along_second(),
+            Quantity::ConstraintRate => constraints().rate(),
+            Quantity::ConstraintCurvature => constraints().curvature(),
         }
     }
 
@@ -303,16 +348,17 @@ impl Functions<'_> {
         }
     }
 
+    /// How many members each declared constraint has.
+    pub(super) fn constraint_lengths(&self) -> &[Index] {
+        self.shared().constraints.as_ref().map_or(&[], |constraints| &constraints.lengths)
+    }
+
     /// Whether an instruction reads an entry that is not there: one side of a choice may need sizes that the
     /// other does not, and the generated check asks for both.
     pub(super) fn reads_outside(&self, graph: &Graph, model: &Model, point: &Point) -> bool {
         let machine = Machine { graph, model, point, directions: Directions::ALL, conjugates: None };
         let shared = self.shared();
-        [&shared.lagrangian]
-            .into_iter()
-            .chain(shared.forces.as_ref().map(|forces| &forces.applied))
-            .chain(&shared.momenta)
-            .any(|routine| machine.run(routine).reads_outside)
+        shared.dynamics().chain(&shared.momenta).any(|routine| machine.run(routine).reads_outside)
     }
 
     /// Each output of each function, along these directions.
@@ -339,7 +385,16 @@ impl Functions<'_> {
             }
         }
         if let Some(forces) = &shared.forces {
-            add("applied_force", Quantity::AppliedForce, vector(&forces.applied));
+            add("applied_force", Quantity::AppliedForce, vector(forces));
+        }
+        if let Some(constraints) = &shared.constraints {
+            let along = |routine: &Routine| machine.run(routine).constraints;
+            add("constraint", Quantity::Constraint, along(&constraints.value));
+            let jacobian = machine.run(&constraints.jacobian);
+            add("constraint_jacobian", Quantity::Constraint, jacobian.constraints);
+            add("constraint_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
+            add("constraint_rate", Quantity::ConstraintRate, along(&constraints.rate));
+            add("constraint_curvature", Quantity::ConstraintCurvature, along(&constraints.curvature));
         }
         for (number, momentum) in shared.momenta.iter().enumerate() {
             add("momentum", Quantity::Momentum(number), value(momentum));

@@ -2,6 +2,7 @@
 
 mod kepler_by_hand;
 mod predators_by_hand;
+mod rattle_by_hand;
 mod vortices_by_hand;
 
 use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
@@ -15,7 +16,7 @@ use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 10] = [
+pub(crate) const KERNELS: [[&str; 2]; 11] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["explicit, parasitic mode limited/generated", "explicit, parasitic mode limited/by hand"],
@@ -26,6 +27,7 @@ pub(crate) const KERNELS: [[&str; 2]; 10] = [
     ["Kepler, Simpson fitted to √(|a|÷|q|)/generated", "Kepler, Simpson fitted to √(|a|÷|q|)/by hand"],
     ["Kepler, Simpson fitted to r^(−3÷2)/generated", "Kepler, Simpson fitted to r^(−3÷2)/by hand"],
     ["predators, one step/generated", "predators, one step/by hand"],
+    ["sphere, RATTLE/generated", "sphere, RATTLE/by hand"],
 ];
 
 const H: f64 = 0.1;
@@ -82,6 +84,13 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
             let mut scheme = predators_by_hand::OneStepMidpoint::new(H, black_box([2.0, 1.0]));
             (0..steps).for_each(|_| scheme.step());
             scheme.q[0]
+        }
+        "sphere, RATTLE/generated" => rattle(steps),
+        "sphere, RATTLE/by hand" => {
+            let NeumannState { r, dot_r } = black_box(ON_SPHERE);
+            let mut scheme = rattle_by_hand::Rattle::new(H, black_box(NEUMANN), r, dot_r);
+            (0..steps).for_each(|_| scheme.step());
+            scheme.r[0]
         }
         "Kepler, Simpson fitted to √(|a|÷|q|)/generated" => {
             fitted_simpson(Radial(Reading::Averaged), steps)
@@ -158,6 +167,33 @@ fn one_step(steps: u64) -> f64 {
     let Ok(mut run) = Integrator::new(&system, method, H, OneSidedState { x: 2.0, y: 1.0 }) else {
         return f64::NAN;
     };
+    match run.take_steps(steps) {
+        Ok(()) => run.q()[0],
+        Err(_) => f64::NAN,
+    }
+}
+
+/// A mass on a sphere with springs to three planes: Neumann's problem.
+#[lagrangian(
+    coordinates(r[3]),
+    lagrangian = sum(0..3, |i| m * dot(r[i]).powi(2) - k[i] * r[i].powi(2)) / 2.0,
+    constraint = sum(0..3, |i| r[i].powi(2)) - 1.0,
+)]
+#[derive(Clone, Copy, Debug)]
+struct Neumann {
+    m: f64,
+    k: [f64; 3],
+}
+
+const NEUMANN: (f64, [f64; 3]) = (1.0, [1.0, 2.0, 3.5]);
+const ON_SPHERE: NeumannState = NeumannState { r: [0.6, 0.0, -0.8], dot_r: [0.4, 1.0, 0.3] };
+
+#[inline(never)]
+fn rattle(steps: u64) -> f64 {
+    let (m, k) = NEUMANN;
+    let system = black_box(Neumann { m, k });
+    let method = Rattle { stopping: stopping() };
+    let Ok(mut run) = Integrator::new(&system, method, H, ON_SPHERE) else { return f64::NAN };
     match run.take_steps(steps) {
         Ok(()) => run.q()[0],
         Err(_) => f64::NAN,

@@ -31,18 +31,18 @@ fn derivatives([x, y]: [f64; 2], v: f64) -> Second {
 }
 
 /// The criterion of the library: the last correction, or the next as the rate of the last two predicts it.
-struct Tolerance {
+pub(super) struct Tolerance {
     tolerance: f64,
     previous: f64,
 }
 
 impl Tolerance {
-    fn new(scale: f64) -> Self {
+    pub(super) fn new(scale: f64) -> Self {
         Self { tolerance: 1e-12 * scale, previous: 0.0 }
     }
 
     #[inline(always)]
-    fn is_met(&mut self, correction: f64) -> bool {
+    pub(super) fn is_met(&mut self, correction: f64) -> bool {
         let Self { tolerance, previous } = *self;
         self.previous = correction;
         correction <= tolerance

@@ -15,4 +15,14 @@ use dvi_core::prelude::*;
 )]
 pub struct System;
 
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = sum(0..3, |j| dot(x[j]).powi(2)),
+    constraint(i in 0..3) = {
+        let unused = 1.0;
+        x[i] - sum(0..3, |i| x[i])
+    },
+)]
+pub struct Constrained;
+
 fn main() {}

@@ -28,7 +28,7 @@ struct Pushed {
 }
 
 /// The mean of `read` over a run, and its error by the scatter of a hundred parts.
-fn mean<S: dvi_core::Separable>(
+fn mean<S: dvi_core::Separable + RegularLagrangian>(
     system: &S,
     method: Langevin,
     (h, steps): (f64, u64),

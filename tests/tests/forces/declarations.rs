@@ -75,8 +75,17 @@ fn reports_name_the_forces_and_what_they_mean() {
     // Without velocities in the forces the step stays explicit.
     let text = Swirl::REPORT.to_string();
     assert!(text.contains("step is explicit"), "{text}");
-    const { assert!(<Swirl as RegularLagrangian>::CONSTANT_MASS && <Damped as RegularLagrangian>::CONSTANT_MASS) };
-    const { assert!(<Swirl as RegularLagrangian>::SEPARABLE && !<Damped as RegularLagrangian>::SEPARABLE) };
+    const {
+        assert!(
+            <Swirl as NondegenerateLagrangian>::CONSTANT_MASS
+                && <Damped as NondegenerateLagrangian>::CONSTANT_MASS
+        );
+    };
+    const {
+        assert!(
+            <Swirl as NondegenerateLagrangian>::SEPARABLE && !<Damped as NondegenerateLagrangian>::SEPARABLE
+        );
+    };
 }
 
 #[test]

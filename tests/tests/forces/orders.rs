@@ -1,7 +1,7 @@
 //! All methods have their orders with forces, against the motion by another program.
 
 use dvi_core::discrete::Constant;
-use dvi_core::mechanics::motion::FirstOrder;
+use dvi_core::mechanics::motion::Rates;
 use dvi_core::methods::{General, Method, Symmetrised};
 use dvi_core::prelude::*;
 use dvi_tests::larger;
@@ -13,7 +13,7 @@ const TIME: f64 = 2.0;
 
 fn order<const N: usize, S, M>(system: &S, method: &M, steps: u64) -> Result<f64, Box<dyn core::error::Error>>
 where
-    S: ByHand<N> + Lagrangian + System<Kind: FirstOrder<S, f64>>,
+    S: ByHand<N> + Lagrangian + System<Kind: Rates<S, f64>>,
     M: Method<S, f64> + Clone,
 {
     let expected = motion(S::start(), TIME, |y, t| system.rate(y, t));
@@ -42,7 +42,7 @@ macro_rules! of_order {
 fn the_equations_of_motion_are_those_derived_by_hand() -> Outcome {
     fn at_start<const N: usize, S>(system: &S) -> Outcome
     where
-        S: ByHand<N> + Lagrangian + System<Kind: FirstOrder<S, f64>>,
+        S: ByHand<N> + Lagrangian + System<Kind: Rates<S, f64>>,
     {
         for t in [0.0, 0.7] {
             let rates = system.at_time(t).vector_field(&S::state(S::start()))?;

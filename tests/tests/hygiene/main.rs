@@ -3,6 +3,7 @@
 #![deny(clippy::all, clippy::pedantic)]
 #![allow(unreachable_pub)]
 
+mod constraints;
 mod regular;
 
 use dvi_core::Lagrangian;

@@ -18,7 +18,7 @@ fn momentum<F: Formula>(formula: &F, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
     (0..q.len()).map(|i| formula.lagrangian(&dual(q, None), &dual(v, Some(i)), t.into()).eps).collect()
 }
 
-fn check<S: Separable + Formula>(system: &S, q: &[f64], v: &[f64]) -> Outcome {
+fn check<S: Separable + RegularLagrangian + Formula>(system: &S, q: &[f64], v: &[f64]) -> Outcome {
     let name = S::REPORT.system;
     for (h, beta) in STEPS.into_iter().flat_map(|h| [0.0, 1.0 / 12.0, 0.25, 0.5].map(|beta| (h, beta))) {
         for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {

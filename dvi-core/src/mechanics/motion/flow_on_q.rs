@@ -1,6 +1,6 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{FirstOrder, Motion, Point};
+use super::{FirstOrder, Motion, Point, Rates};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -101,6 +101,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         Ok(())
     }
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> Rates<S, T> for Degenerate {
     fn rates(system: &S, q: &Vector<S, T>, _v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
         let [mut velocity, none] = [0, 1].map(|_| system.space().vector());
         let mut field = VectorField::new(system, q, t)?;

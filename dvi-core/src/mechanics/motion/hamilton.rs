@@ -1,6 +1,6 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
-use super::{FirstOrder, Motion, Point};
+use super::{FirstOrder, Motion, Point, Rates};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
@@ -16,7 +16,7 @@ use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
 use crate::system::Regular;
-use crate::{Linear, Real, RegularLagrangian, Sink, Space, System, Vector, Weights};
+use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, Sink, Space, System, Vector, Weights};
 
 /// Hamilton's equations of a regular system, on T*Q, in terms of L.
 #[derive(Debug)]
@@ -231,6 +231,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             }
         }
     }
+}
+
+impl<S: RegularLagrangian<T>, T: Real> Rates<S, T> for Regular {
     fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
         let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] =
             core::array::from_fn(|_| system.space().vector());
@@ -244,15 +247,16 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
 }
 
 /// ∂²L/∂v∂v a = ∂L/∂q − ∂²L/∂v∂q v − ∂²L/∂t∂v, the Euler–Lagrange equations.
-struct SecondOrder<'a, S, T> {
-    system: &'a S,
-    q: &'a [T],
-    v: &'a [T],
-    t: T,
-    l_v: &'a mut [T],
+pub(super) struct SecondOrder<'a, S, T> {
+    pub(super) system: &'a S,
+    pub(super) q: &'a [T],
+    pub(super) v: &'a [T],
+    pub(super) t: T,
+    /// Work space.
+    pub(super) l_v: &'a mut [T],
 }
 
-impl<S: RegularLagrangian<T>, T: Real> LinearEquations<T> for SecondOrder<'_, S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> LinearEquations<T> for SecondOrder<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { system, q, v, t, l_v } = self;
         let (zero, one) = (T::lift(0.0), T::lift(1.0));

@@ -17,7 +17,7 @@ use crate::space::SquareMatrix;
 use crate::space::elimination::multiply_add;
 use crate::space::sink::Sink;
 use crate::state::Statistics;
-use crate::{Linear, Matrix, Real, Separable, Space, Square, System, Vector, Weights};
+use crate::{Linear, Matrix, Real, RegularLagrangian, Separable, Space, Square, System, Vector, Weights};
 
 /// The discrete Lagrangian of [`Newmark`], with the storage that it needs: matrices with room for all entries.
 ///
@@ -149,7 +149,7 @@ impl<S: Separable<T>, T: Real> DiscreteLagrangian<S, T> for NewmarkLagrangian<S,
     }
 }
 
-impl<S: Separable<T>, T: Real> VariationalMethod<S, T> for Newmark<T> {
+impl<S: Separable<T> + RegularLagrangian<T>, T: Real> VariationalMethod<S, T> for Newmark<T> {
     type DiscreteLagrangian = NewmarkLagrangian<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {

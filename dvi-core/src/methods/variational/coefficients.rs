@@ -12,7 +12,7 @@ use crate::discrete::{Ends, NodeWork};
 use crate::error::StepFailure;
 use crate::scalar::norm::reported;
 use crate::space::sink::{Scaled, Sink};
-use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// sin u and S count as zero below this.
 const RESONANCE: f64 = 1e-4;
@@ -38,7 +38,7 @@ pub(super) trait Coefficients<T: Real> {
 }
 
 /// Coefficients that follow a frequency.
-pub(super) trait Adjustable<S: RegularLagrangian<T>, T: Real>: Coefficients<T> {
+pub(super) trait Adjustable<S: NondegenerateLagrangian<T>, T: Real>: Coefficients<T> {
     /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure>;
 
@@ -176,7 +176,7 @@ impl<T: Real> Uniform<T> {
     }
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
     #[inline(always)]
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
         let u = step.method.frequency.fixed(0) * step.h;
@@ -284,7 +284,7 @@ pub(super) struct Each<S: System, T: Real> {
     inverse_kappa: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Each<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Each<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
         let vectors = || core::array::from_fn(|_| space.vector());
@@ -303,7 +303,7 @@ impl<S: RegularLagrangian<T>, T: Real> Each<S, T> {
     }
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Each<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Each<S, T> {
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
         if self.h == step.h {
             return Ok(());
@@ -378,7 +378,7 @@ impl<S: RegularLagrangian<T>, T: Real> Adjustable<S, T> for Each<S, T> {
     }
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Coefficients<T> for Each<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Coefficients<T> for Each<S, T> {
     fn weight(&self, node: usize) -> T {
         self.weights[node]
     }

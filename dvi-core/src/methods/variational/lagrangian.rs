@@ -17,10 +17,10 @@ use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::space::sink::Sink;
 use crate::state::Statistics;
-use crate::{Real, RegularLagrangian, System, Vector};
+use crate::{NondegenerateLagrangian, Real, System, Vector};
 
 /// Rule and interpolation, where the step begins, and storage.
-pub(super) struct Interpolated<'a, S: RegularLagrangian<T>, F, R, C, T: Real> {
+pub(super) struct Interpolated<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
     pub(super) method: &'a Variational<F, R>,
     pub(super) coefficients: &'a mut C,
     /// The frequencies at both ends.
@@ -33,7 +33,7 @@ pub(super) struct Interpolated<'a, S: RegularLagrangian<T>, F, R, C, T: Real> {
     pub(super) next: &'a mut Vector<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
     Interpolated<'_, S, F, R, C, T>
 {
     /// The coefficients for the frequency at these ends.
@@ -93,7 +93,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T
     }
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
     DiscreteLagrangian<S, T> for Interpolated<'_, S, F, R, C, T>
 {
     fn derivatives(
@@ -147,14 +147,14 @@ macro_rules! with_coefficients {
     }};
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
     pub(super) fn new(system: &S, method: Variational<F, R>) -> Self {
         let interpolation = Interpolation::new(system, &method);
         Self { method, interpolation, node: NodeWork::new(system) }
     }
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
     for QuadratureLagrangian<S, F, R, T>
 {
     fn derivatives(
@@ -182,7 +182,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagra
     }
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
     for QuadratureLagrangian<S, F, R, T>
 {
     fn hessian<K: Sink<T>>(
@@ -204,7 +204,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferen
 }
 
 /// Adds D₁ℓ and (D₁ + D₂)ℓ.
-fn add_derivatives<S: RegularLagrangian<T>, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn add_derivatives<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
     step: &Step<'_, S, F, R, T>,
     coefficients: &C,
     ends: Ends<'_, T>,
@@ -228,7 +228,7 @@ fn add_derivatives<S: RegularLagrangian<T>, F: Frequency, R: Rule, C: Adjustable
 
 /// Adds D₁ℓ and D₁D₂ℓ.
 fn add_linearized<
-    S: RegularLagrangian<T>,
+    S: NondegenerateLagrangian<T>,
     F: Frequency,
     R: Rule,
     C: Adjustable<S, T>,
@@ -251,7 +251,7 @@ fn add_linearized<
 }
 
 /// Adds the part of D₁ℓ that a node has, from the derivatives of L there.
-fn add_first<S: RegularLagrangian<T>, C: Coefficients<T>, T: Real>(
+fn add_first<S: NondegenerateLagrangian<T>, C: Coefficients<T>, T: Real>(
     coefficients: &C,
     node: usize,
     h: T,

@@ -10,7 +10,7 @@ use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Inertial, PhasePoint};
 use crate::solve::{Ladder, Solver};
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Linear, Real, RegularLagrangian, Space, System, Vector};
+use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, RegularLagrangian, Space, System, Vector};
 
 /// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
@@ -114,7 +114,7 @@ impl<S: Lagrangian<T>, T: Real> Work<S, T> {
     }
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Interpolation<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Interpolation<S, T> {
     pub(super) fn new<F: Frequency, R: Rule>(system: &S, method: &Variational<F, R>) -> Self {
         if F::PER_COORDINATE {
             Self::Each(Each::new(system))

@@ -20,8 +20,9 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
     let fields = fields(random, &sizes);
     let blocks = blocks(random, regular);
     let dynamics = Dynamics::Regular(Formula::Time);
-    let (forces, momenta) = (Vec::new(), Vec::new());
-    System { sizes, fields, blocks, dynamics, gauge: Gauge::None, time_transform: None, forces, momenta }
+    let (gauge, time_transform) = (Gauge::None, None);
+    let (forces, constraints, momenta) = (Vec::new(), Vec::new(), Vec::new());
+    System { sizes, fields, blocks, dynamics, gauge, time_transform, forces, constraints, momenta }
 }
 
 /// Two sizes that are different from each other, and that of the field `g`.

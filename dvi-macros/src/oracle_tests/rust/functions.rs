@@ -52,7 +52,8 @@ fn sign(x: f64) -> f64 {
 }
 
 /// The traits whose functions are generated.
-const TRAITS: [&str; 3] = ["Lagrangian", "DegenerateLagrangian", "RegularLagrangian"];
+const TRAITS: [&str; 4] =
+    ["Lagrangian", "DegenerateLagrangian", "NondegenerateLagrangian", "HolonomicLagrangian"];
 
 /// What a path calls, by its segments.
 pub(super) fn callee(path: &[String]) -> Callee {

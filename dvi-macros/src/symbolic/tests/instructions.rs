@@ -26,6 +26,11 @@ fn add(written: &mut Written, point: &Point, place: &Place, at: &Bindings, value
             let (i, j) = (point.index(&r.index, at), point.index(&c.index, at));
             format!("matrix {} {i} {} {j}", r.block, c.block)
         }
+        Place::Constraint(row) => format!("constraint {} {}", row.constraint, point.index(&row.member, at)),
+        Place::ConstraintDerivative(row, c) => {
+            let (i, j) = (point.index(&row.member, at), point.index(&c.index, at));
+            format!("constraint {} {i} by {} {j}", row.constraint, c.block)
+        }
     };
     let (sum, size) = written.entry(name).or_default();
     *sum += value;

@@ -1,7 +1,7 @@
 //! Functions of the text, and sums over its indices.
 
 use quote::ToTokens;
-use syn::{Expr, ExprCall, ExprMethodCall, RangeLimits};
+use syn::{Expr, ExprCall, ExprMethodCall, ExprRange, RangeLimits};
 
 use super::super::functions;
 use super::super::jet::Jet;
@@ -86,13 +86,7 @@ impl Evaluation<'_> {
         let (Expr::Range(range), Expr::Closure(closure)) = (&call.args[0], &call.args[1]) else {
             unknown(call)
         };
-        let lower = range.start.as_ref().map_or(Ok(0), |start| self.index(start))?;
-        let Some(end) = &range.end else { unknown(call) };
-        let upper = self.index(end)?;
-        let upper = match range.limits {
-            RangeLimits::HalfOpen(_) => upper,
-            RangeLimits::Closed(_) => upper + 1,
-        };
+        let (lower, upper) = self.bounds(range)?;
         let mut total = if name == "product" { Jet::number(1.0) } else { Jet::empty_sum() };
         for first in self.point.visited(lower, upper) {
             let seconds = match name {
@@ -109,6 +103,17 @@ impl Evaluation<'_> {
             }
         }
         Ok(total)
+    }
+
+    /// The first value of a range, and that behind its last one.
+    pub(super) fn bounds(&mut self, range: &ExprRange) -> Value<(i64, i64)> {
+        let lower = range.start.as_ref().map_or(Ok(0), |start| self.index(start))?;
+        let Some(end) = &range.end else { unknown(range) };
+        let upper = self.index(end)?;
+        Ok(match range.limits {
+            RangeLimits::HalfOpen(_) => (lower, upper),
+            RangeLimits::Closed(_) => (lower, upper + 1),
+        })
     }
 
     pub(super) fn closure(&mut self, closure: &syn::ExprClosure, indices: &[i64]) -> Value<Jet> {

@@ -64,4 +64,13 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("program.rs", "known.value = graph.add(known.value, other.value)", "known.value = other.value"),
     mistake("lower/components.rs", "vec![self.component(block, formula, Role::Force)?]", "vec![Component { block: 0, ..self.component(block, formula, Role::Force)? }]"),
     mistake("structure/mass.rs", "constant && !formulas.force.iter().any(|part| depends_on_velocity(graph, part))", "constant"),
+    // Constraints: the second rate of the constraints themselves, a rate without the time or with sums that are not added up, entries
+    // of the Jacobian in the rows of another constraint or of another member, a family that begins too late.
+    mistake("program/constraints.rs", "let curvatures = changes(graph, &rates);", "let curvatures = changes(graph, constraints);"),
+    mistake("symbolic/motion.rs", "let mut terms = vec![self.derivative(of, time)];", "let _ = time; let mut terms = Vec::new();"),
+    mistake("symbolic/motion.rs", "around.into_iter().skip(loops.len())", "around.into_iter().skip(loops.len() + 1)"),
+    mistake("symbolic/motion.rs", "Node::Velocity(_) => continue,", "Node::Velocity(_) => value,"),
+    mistake("program/constraints.rs", "Place::ConstraintDerivative(row(number, constraint), column)", "Place::ConstraintDerivative(row(0, constraint), column)"),
+    mistake("program/constraints.rs", "Row { constraint: number as u32, member: constraint.member.clone() }", "Row { constraint: number as u32, member: Index::literal(0) }"),
+    mistake("lower/constraints.rs", "Index::open(0).plus(&over.range.lower, -1)", "Index::open(0)"),
 ];

@@ -137,4 +137,19 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
          force(p) = |k| q[k] * q[(k + 1) % N], force(q) = |j| -g * p[j] * q[j].exp() + t.sin()",
         "struct Driven<const N: usize> { g: f64 }",
     ),
+    // Constraints: with the time, a list, and families whose sums stand inside of their loops.
+    (
+        "regular",
+        "coordinates(x, y, z), lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0 - y,
+         constraint = [x * x + (y - t.sin()).powi(2) - l * l, x * y.exp() * z * t * t]",
+        "struct Pendulum { l: f64 }",
+    ),
+    (
+        "regular",
+        "coordinates(x[n], y[n], w), lagrangian = sum(0..n, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0 + dot(w).powi(2),
+         constraint = w - sum(0..n, |j| x[j] * y[j]),
+         constraint(i in 0..n - 1) = (x[i + 1] - x[i]).powi(2) + y[i].powi(3) * y[i + 1] * t - l[i],
+         constraint(k in 1..n) = sum(k..n, |j| x[j] * (y[k] * w).sin() * t)",
+        "struct Chain { n: usize, l: Vec<f64> }",
+    ),
 ];

@@ -1,0 +1,337 @@
+//! Linear equations with Lagrange multipliers, and what is made of them: points on the constraints, velocities along them.
+//!
+//! ```text
+//! ( A   G(q₀)ᵀ ) ( x )   ( b )
+//! ( G(q₁)    0 ) ( ν ) = ( c )
+//! ```
+//!
+//! A is n×n, and there are m constraints. The equations are solved as one system of n + m unknowns, in the storage that their
+//! pattern needs: banded along a chain. [`Constraints`] says what G and c are, for constraints of positions and of velocities.
+
+pub(crate) mod consistent;
+mod holonomic;
+mod nonholonomic;
+pub(crate) mod turning;
+
+use crate::discrete::{Ends, Interval, Span};
+use crate::error::StepFailure;
+use crate::mechanics::legendre;
+use crate::mechanics::pattern::visit_second_derivatives;
+use crate::scalar::norm;
+use crate::solve::{Convergence, Stopping, iterate};
+use crate::space::sink::{Places, TransposedProduct};
+use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
+use crate::state::Statistics;
+use crate::system::Kind;
+use crate::{ConstrainedSystem, NondegenerateLagrangian, Real, Space, System, Weights};
+
+/// One number for each constraint.
+pub(crate) type Multipliers<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Vector<T>;
+/// One number for each coordinate, then one for each constraint.
+pub(crate) type Augmented<S, T> = <<S as ConstrainedSystem>::Augmented as Space>::Vector<T>;
+/// What solves the equations.
+type Solver<S, T> = <<S as ConstrainedSystem>::Augmented as Space>::Linear<T>;
+
+/// How constraints of a kind enter the equations: those of positions, g(q, t) = 0, with A = ∂g/∂q, and those of velocities,
+/// A(q, t) v + b(q, t) = 0. All functions set `out` to one number for each constraint and **add** a matrix with a row for each to
+/// `sink`.
+pub trait Constraints<S: System, T: Real>: Kind {
+    /// Whether positions are constrained.
+    const OF_POSITIONS: bool;
+
+    /// A at (`q`, `t`): Aᵀλ is the force of the constraints. What `out` is set to has no meaning.
+    fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
+    /// What vanishes at a position, and A.
+    fn of_position<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
+    /// What vanishes at the end of a step, with its derivative by Δ. `work` is storage for a point and a velocity.
+    fn of_step<K: Sink<T>>(
+        system: &S,
+        span: Span<'_, S, T>,
+        work: [&mut [T]; 2],
+        out: &mut [T],
+        sink: &mut K,
+    );
+    /// What vanishes with the velocity `v`, and A.
+    fn of_velocity<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K);
+    /// What A times the acceleration is, and A.
+    fn of_acceleration<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K);
+}
+
+/// A regular Lagrangian with constraints of one kind.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no constraints",
+    label = "its attribute has neither `constraint` nor `nonholonomic`, or a parameter is no number",
+    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`"
+)]
+pub trait ConstrainedLagrangian<T: Real = f64>:
+    NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind: Constraints<Self, T>> + Sized
+{
+}
+
+#[diagnostic::do_not_recommend]
+impl<S, T: Real> ConstrainedLagrangian<T> for S where
+    S: NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind: Constraints<S, T>>
+{
+}
+
+/// A point and a time at which constraints are evaluated.
+#[derive(Clone, Copy)]
+pub(crate) struct At<'a, T> {
+    pub(crate) q: &'a [T],
+    pub(crate) t: T,
+}
+
+/// What vanishes at the end of a step.
+pub(crate) struct OfStep<'a, 'b, S, T> {
+    pub(crate) span: Span<'b, S, T>,
+    pub(crate) work: [&'a mut [T]; 2],
+}
+
+/// What vanishes with a velocity.
+pub(crate) struct OfVelocity<'a, S, T> {
+    pub(crate) system: &'a S,
+    pub(crate) at: At<'a, T>,
+    pub(crate) v: &'a [T],
+}
+
+/// What the acceleration with a velocity is to be.
+pub(crate) struct OfAcceleration<'a, S, T> {
+    pub(crate) system: &'a S,
+    pub(crate) at: At<'a, T>,
+    pub(crate) v: &'a [T],
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfStep<'_, '_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let Self { span, work: [point, velocity] } = self;
+        S::Kind::of_step(span.system, *span, [point, velocity], c, sink);
+        Ok(())
+    }
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfVelocity<'_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let Self { system, at, v } = self;
+        S::Kind::of_velocity(system, at.q, v, at.t, c, sink);
+        Ok(())
+    }
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfAcceleration<'_, S, T> {
+    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let Self { system, at, v } = self;
+        S::Kind::of_acceleration(system, at.q, v, at.t, c, sink);
+        Ok(())
+    }
+}
+
+/// The equations, linearised: `upper` evaluates b and the entries of A, to b is added Gᵀν, and `lower` evaluates c and the entries
+/// of the lower rows.
+pub(crate) struct Bordered<'a, S, T, U, W> {
+    pub(crate) system: &'a S,
+    pub(crate) upper: U,
+    pub(crate) lower: W,
+    /// ν.
+    pub(crate) multipliers: &'a [T],
+    /// Where the G is evaluated whose transpose multiplies ν; `None` if it is the matrix of the lower rows.
+    pub(crate) forces: Option<At<'a, T>>,
+    /// The constraints from this one on are left out: each has the equation ν = 0.
+    pub(crate) active: usize,
+}
+
+impl<S, T, U, W> LinearEquations<T> for Bordered<'_, S, T, U, W>
+where
+    S: ConstrainedLagrangian<T>,
+    T: Real,
+    U: LinearEquations<T>,
+    W: LinearEquations<T>,
+{
+    #[inline]
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let Self { system, upper, lower, multipliers, forces, active } = self;
+        let (n, active) = (b.len() - multipliers.len(), *active);
+        let (upper_b, lower_b) = b.split_at_mut(n);
+        upper.evaluate(upper_b, sink)?;
+        if let Some(At { q, t }) = forces {
+            let entries = |k: usize, j: usize, entry: T| {
+                if k < active {
+                    upper_b[j] += entry * multipliers[k];
+                    sink.add(j, n + k, entry);
+                }
+            };
+            S::Kind::forces(system, q, *t, lower_b, &mut Places(entries));
+        }
+        let is_same = forces.is_none();
+        let entries = |k: usize, j: usize, entry: T| {
+            if k < active {
+                sink.add(n + k, j, entry);
+                if is_same {
+                    upper_b[j] += entry * multipliers[k];
+                    sink.add(j, n + k, entry);
+                }
+            }
+        };
+        lower.evaluate(lower_b, &mut Places(entries))?;
+        for (k, c) in lower_b.iter_mut().enumerate().skip(active) {
+            *c = T::lift(0.0);
+            sink.add(n + k, n + k, T::lift(1.0));
+        }
+        Ok(())
+    }
+}
+
+/// What solves equations with multipliers on a system, with the storage that it needs.
+#[derive(Debug)]
+pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
+    solver: Solver<S, T>,
+    /// The last solution: x, then the change of ν.
+    pub(crate) solution: Augmented<S, T>,
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
+    /// For equations whose A has the entries of second derivatives of L, near (`q`, `v`, `t`).
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
+        let (n, space) = (q.len(), system.augmented());
+        let solver = space.linear(Storing::Always, |visit| {
+            visit_second_derivatives(system, [q, v], t, visit);
+            let mut values: Multipliers<S, T> = system.multipliers().vector();
+            let mut work = [0, 1].map(|_| system.space().vector());
+            let [point, velocity] = &mut work;
+            let interval = Interval { t, h: T::lift(1.0) };
+            let span = Span { system, interval, ends: Ends { q0: q, delta: v } };
+            let mut below = Places(|k: usize, j: usize, _: T| visit(n + k, j));
+            S::Kind::of_step(system, span, [point, velocity], &mut values, &mut below);
+            let mut both = Places(|k: usize, j: usize, _: T| {
+                visit(n + k, j);
+                visit(j, n + k);
+            });
+            S::Kind::forces(system, q, t, &mut values, &mut both);
+            (n..space.dimension()).for_each(|k| visit(k, k));
+        });
+        Self { solver, solution: space.vector() }
+    }
+
+    /// Solves the equations; the solution is here, x in its first n entries.
+    ///
+    /// # Errors
+    /// [`StepFailure::RedundantConstraint`] names the first constraint that depends on those before it; others are those of
+    /// [`LinearSolver::solve`].
+    #[inline]
+    pub(crate) fn solve<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        equations: &mut Bordered<'_, S, T, U, W>,
+    ) -> Result<(), StepFailure> {
+        let result = self.solver.solve(equations, &mut self.solution);
+        result.map_err(|failure| self.blamed(failure, equations))
+    }
+
+    /// The failure, with the name of the constraint if one is to blame.
+    #[cold]
+    fn blamed<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        failure: StepFailure,
+        equations: &mut Bordered<'_, S, T, U, W>,
+    ) -> StepFailure {
+        let StepFailure::Singular { pivot, .. } = failure else { return failure };
+        // Without constraints: is it A that is singular?
+        if !self.is_regular(equations, 0) {
+            return failure;
+        }
+        let (mut regular, mut singular) = (0, equations.multipliers.len());
+        while singular - regular > 1 {
+            let middle = regular + (singular - regular) / 2;
+            if self.is_regular(equations, middle) { regular = middle } else { singular = middle }
+        }
+        StepFailure::RedundantConstraint { constraint: regular, pivot }
+    }
+
+    /// Whether the equations with the first `active` constraints have a solution.
+    fn is_regular<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        equations: &mut Bordered<'_, S, T, U, W>,
+        active: usize,
+    ) -> bool {
+        equations.active = active;
+        self.solver.solve(equations, &mut self.solution).is_ok()
+    }
+
+    /// x and the change of the multipliers.
+    pub(crate) fn parts(&self, n: usize) -> (&[T], &[T]) {
+        self.solution.split_at(n)
+    }
+}
+
+/// What is found of a motion along the constraints at one of its points.
+pub(crate) struct Tangent<'a, T> {
+    /// On the way in a momentum with components across the constraints, on the way out one without.
+    pub(crate) p: &'a mut [T],
+    /// On the way in a guess of the velocity.
+    pub(crate) v: &'a mut [T],
+    /// The impulse of the constraints, one number for each; written only.
+    pub(crate) impulse: &'a mut [T],
+    /// Work space, n numbers.
+    pub(crate) work: &'a mut [T],
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
+    /// Adds the impulse Gᵀι to p that makes the velocity v, ∂L/∂v(q, v, t) = p, one that the constraints admit.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve), and [`StepFailure::NotConverged`].
+    pub(crate) fn tangent(
+        &mut self,
+        system: &S,
+        at: At<'_, T>,
+        tangent: Tangent<'_, T>,
+    ) -> Result<(), StepFailure> {
+        let Tangent { p, v, impulse, work } = tangent;
+        impulse.fill(T::lift(0.0));
+        // With an L that is quadratic in v the equations are linear.
+        if S::QUADRATIC {
+            self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
+        } else {
+            let stopping = Stopping::default();
+            let convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
+            iterate(convergence, &mut Statistics::default(), |_| {
+                self.improve_tangent(system, at, Tangent { p, v, impulse, work })
+            })?;
+        }
+        // In the equations the impulse is subtracted.
+        impulse.iter_mut().for_each(|impulse| *impulse = -*impulse);
+        self.add_impulse(system, at, impulse, p);
+        norm::finite(v).and(norm::finite(p))
+    }
+
+    /// One iteration; returns the size of its correction.
+    fn improve_tangent(
+        &mut self,
+        system: &S,
+        at: At<'_, T>,
+        Tangent { p, v, impulse, work }: Tangent<'_, T>,
+    ) -> Result<T, StepFailure> {
+        let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
+        let lower = OfVelocity { system, at, v };
+        let (multipliers, active) = (&*impulse, impulse.len());
+        self.solve(&mut Bordered { system, upper, lower, multipliers, forces: None, active })?;
+        let (change, of_impulse) = self.parts(v.len());
+        for (v, &change) in v.iter_mut().zip(change) {
+            *v -= change;
+        }
+        for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {
+            *impulse -= change;
+        }
+        Ok(norm::largest(change))
+    }
+
+    /// Adds Gᵀι at a point to a momentum.
+    pub(crate) fn add_impulse(&mut self, system: &S, at: At<'_, T>, impulse: &[T], p: &mut [T]) {
+        let (_, values) = self.solution.split_at_mut(at.q.len());
+        S::Kind::forces(system, at.q, at.t, values, &mut TransposedProduct { x: impulse, sum: p });
+    }
+}
+
+/// The weights that leave ∂²L/∂v∂v.
+fn mass_matrix<T: Real>() -> Weights<T> {
+    let zero = T::lift(0.0);
+    Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) }
+}

@@ -1,0 +1,43 @@
+//! a(q, v, t) = A(q, t) v + b(q, t) = 0: of a step h a = 0 at its middle, with the velocity Δ/h (Cortés & Martínez 2001).
+
+use super::Constraints;
+use crate::discrete::{Ends, Span};
+use crate::space::sink::Sink;
+use crate::system::Nonholonomic;
+use crate::{NonholonomicLagrangian, Real};
+
+impl<S: NonholonomicLagrangian<T>, T: Real> Constraints<S, T> for Nonholonomic {
+    const OF_POSITIONS: bool = false;
+
+    fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K) {
+        // A does not depend on the velocity.
+        system.velocity_constraint_jacobian(q, q, t, [T::lift(0.0), T::lift(1.0)], out, sink);
+    }
+    fn of_position<K: Sink<T>>(_system: &S, _q: &[T], _t: T, out: &mut [T], _sink: &mut K) {
+        out.fill(T::lift(0.0));
+    }
+    fn of_step<K: Sink<T>>(
+        system: &S,
+        Span { interval, ends: Ends { q0, delta }, .. }: Span<'_, S, T>,
+        [point, velocity]: [&mut [T]; 2],
+        out: &mut [T],
+        sink: &mut K,
+    ) {
+        let (half, h) = (T::lift(0.5), interval.h);
+        for i in 0..q0.len() {
+            point[i] = q0[i] + half * delta[i];
+            velocity[i] = delta[i] / h;
+        }
+        let (t, weights) = (interval.time(half), [half * h, T::lift(1.0)]);
+        system.velocity_constraint_jacobian(point, velocity, t, weights, out, sink);
+        out.iter_mut().for_each(|c| *c *= h);
+    }
+    fn of_velocity<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K) {
+        system.velocity_constraint_jacobian(q, v, t, [T::lift(0.0), T::lift(1.0)], out, sink);
+    }
+    fn of_acceleration<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K) {
+        system.velocity_constraint_jacobian(q, v, t, [T::lift(0.0), T::lift(1.0)], out, sink);
+        system.velocity_constraint_rate(q, v, t, out);
+        out.iter_mut().for_each(|c| *c = -*c);
+    }
+}

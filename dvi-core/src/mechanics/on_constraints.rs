@@ -1,0 +1,55 @@
+//! What can be asked of a system with constraints at one state, without a run.
+
+use crate::error::StartError;
+use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers, consistent};
+use crate::mechanics::motion::constrained::acceleration;
+use crate::system::start::{evaluate, flatten, validate};
+use crate::{Real, Space};
+
+/// What can be asked of a system with constraints at one state.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A mass on a rod.
+/// #[lagrangian(
+///     coordinates(x, y),
+///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y,
+///     constraint = x * x + y * y - 1.0,
+/// )]
+/// struct Pendulum;
+///
+/// let state = Pendulum.projected(0.0, &PendulumState { x: 0.0, y: -1.1, dot_x: 2.0, dot_y: 0.3 })?;
+/// assert_eq!((state.y, state.dot_y), (-1.0, 0.0));
+/// // The rod pulls by v² + 1 upwards, as the force 2λ(x, y).
+/// let multipliers = Pendulum.multipliers_at(0.0, &state)?;
+/// assert!((multipliers[0] + 2.5).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
+    /// A state near `state` that the constraints admit at time `t`. Newton's method moves the positions, with steps that are the
+    /// shortest in the metric of the mass matrix; the velocity is then changed by as little as possible.
+    ///
+    /// # Errors
+    /// [`StartError::Inconsistent`] where no position is found; [`StartError::Starter`] where a constraint is redundant; others as the
+    /// start of a run has.
+    fn projected(&self, t: T, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
+        consistent::projected(self, t, state)
+    }
+
+    /// The Lagrange multipliers λ at a state that the constraints admit at time `t`, one for each constraint: Gᵀλ is the force of the
+    /// constraints, with G = ∂g/∂q or, of constraints of velocities, A.
+    ///
+    /// # Errors
+    /// [`StartError::Undetermined`] where a constraint is redundant or the mass matrix singular; others as the start of a run has.
+    fn multipliers_at(&self, t: T, state: &Self::State<T>) -> Result<Multipliers<Self, T>, StartError> {
+        validate(self, t)?;
+        let [q, v] = flatten(self, state)?;
+        evaluate(self, &q, &v, t)?;
+        let mut multipliers = self.multipliers().vector();
+        acceleration(self, [&q, &v], t, &mut multipliers).map_err(StartError::Undetermined)?;
+        Ok(multipliers)
+    }
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> OnConstraints<T> for S {}

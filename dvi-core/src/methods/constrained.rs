@@ -1,0 +1,352 @@
+//! The step of a discrete Lagrangian on holonomic constraints:
+//!
+//! p0 = −D₁L_d(q0, q1) − G(q0)ᵀι0, g(q1) = 0      p1 = D₂L_d(q0, q1) + G(q1)ᵀι1, G(q1) v1 + ∂g/∂t = 0 with p1 = ∂L/∂v(q1, v1)
+//!
+//! for q1 and the impulses ι0 and ι1 of the constraints at both ends.
+
+use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::constraints::turning::Gradients;
+use crate::mechanics::constraints::{
+    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Multipliers, OfStep, Tangent, consistent,
+};
+use crate::mechanics::orientation::MassOrientation;
+use crate::methods::VariationalMethod;
+use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::scalar::norm;
+use crate::solve::{Convergence, Guess, Stopping, iterate};
+use crate::state::Statistics;
+use crate::state::history::is_similar;
+use crate::state::memory::{Memory, lasting};
+use crate::system::start::evaluate;
+use crate::{ConstrainedSystem, Real, Space, Vector};
+
+/// The step of a variational method on holonomic constraints, for systems with `constraint = …`. With the trapezoidal rule it is
+/// RATTLE, with the positions of SHAKE; [`Rattle`](crate::methods::Rattle) takes the same steps faster where L is separable.
+///
+/// ```math
+/// \begin{aligned}
+/// p_0 &= -D_1 L_d(q_0, q_1) - G(q_0)^\mathsf{T} \iota_0, & g(q_1) &= 0, \\
+/// p_1 &= D_2 L_d(q_0, q_1) + G(q_1)^\mathsf{T} \iota_1, & G(q_1)\, v_1 + \partial_t g &= 0
+/// \end{aligned}
+/// ```
+///
+/// with p1 = ∂L/∂v(q1, v1), so that positions are on the constraints and velocities along them, both to rounding errors. The impulses ι are those of
+/// the constraints at the two ends of the step, one for each (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997; of RATTLE Andersen
+/// 1983). Each step is solved by Newton's method for q1 and ι0 together; along a chain its equations are banded.
+///
+/// The steps preserve dq ∧ dp on the constraints, and the momentum maps of symmetries that act linearly and leave L and g as they
+/// are. The order is that of the rule, 1 or 2; a [`Composition`](crate::methods::Composition) of symmetric steps has a higher one.
+/// A run begins at a state on the constraints: [`projected`](crate::mechanics::OnConstraints::projected) finds one.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A mass on a rod.
+/// #[lagrangian(
+///     coordinates(x, y),
+///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - g * y,
+///     constraint = x * x + y * y - length * length,
+/// )]
+/// struct Pendulum {
+///     g: f64,
+///     length: f64,
+/// }
+///
+/// let pendulum = Pendulum { g: 9.81, length: 1.0 };
+/// let start: PendulumState = PendulumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+/// let method = Constrained::new(Variational::trapezoid());
+/// let mut run = Integrator::new(&pendulum, method, 0.01, start)?;
+/// run.take_steps(10_000)?;
+/// let PendulumState { x, y, dot_x, dot_y } = run.state();
+/// assert!((x * x + y * y - 1.0).abs() < 1e-14);
+/// assert!((x * dot_x + y * dot_y).abs() < 1e-14);
+/// assert!(run.energy().abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constrained<M> {
+    /// What has a discrete Lagrangian.
+    pub scheme: M,
+    /// The criterion by which a step counts as solved. Default: to rounding errors.
+    pub stopping: Stopping,
+}
+
+impl<M> Constrained<M> {
+    /// The method with default options.
+    pub fn new(scheme: M) -> Self {
+        Self { scheme, stopping: Stopping::default() }
+    }
+}
+
+/// Where a constrained run is, what its next step is guessed from, and work space.
+#[derive(Debug)]
+pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
+    p: Vector<S, T>,
+    /// The velocity at the current point.
+    v: Vector<S, T>,
+    impulses: Impulses<S, T>,
+    /// Δ − h v0 of the last step, and h.
+    bend: Vector<S, T>,
+    last_step: T,
+    gradients: Gradients<S, T>,
+    /// If the mass matrix depends on the state.
+    orientation: Option<MassOrientation<S, T>>,
+    l_d: L,
+    solver: ConstraintSolver<S, T>,
+    arrival: Arrival<S, T>,
+}
+
+/// The impulses of the constraints at both ends of a step.
+#[derive(Debug)]
+pub(super) struct Impulses<S: ConstrainedSystem, T: Real> {
+    pub(super) first: Multipliers<S, T>,
+    pub(super) last: Multipliers<S, T>,
+}
+
+impl<S: ConstrainedSystem, T: Real> Memory<T> for Impulses<S, T> {
+    lasting!(T; numbers first, numbers last);
+}
+
+/// The end of a step as it is being found.
+#[derive(Debug)]
+struct Arrival<S: ConstrainedSystem, T: Real> {
+    increment: Vector<S, T>,
+    q: Vector<S, T>,
+    p: Vector<S, T>,
+    v: Vector<S, T>,
+    impulses: Impulses<S, T>,
+    work: Vector<S, T>,
+}
+
+impl<S: ConstrainedSystem, T: Real> Impulses<S, T> {
+    pub(super) fn new(system: &S) -> Self {
+        Self { first: system.multipliers().vector(), last: system.multipliers().vector() }
+    }
+
+    /// λ of a step of length `h`, zero before the first, which has none.
+    pub(super) fn over(&self, h: T) -> impl Iterator<Item = T> + '_ {
+        let zero = T::lift(0.0);
+        let impulses = self.first.iter().zip(self.last.iter());
+        impulses.map(move |(&first, &last)| if h == zero { zero } else { (first + last) / h })
+    }
+}
+
+impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
+    /// The discrete momentum at the current point, one entry per coordinate.
+    pub fn p(&self) -> &[T] {
+        &self.p
+    }
+
+    /// The Lagrange multipliers λ of the last step, one for each constraint, so that G(q)ᵀλ is the force of the constraints: to order
+    /// h² those in the middle of the step. Zero before the first.
+    pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
+        self.impulses.over(self.last_step)
+    }
+
+    /// The impulses G(q)ᵀι of the constraints at the beginning and at the end of the last step, as numbers ι, one for each constraint.
+    pub fn impulses(&self) -> [&[T]; 2] {
+        let Impulses { first, last } = &self.impulses;
+        [first, last]
+    }
+}
+
+impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> {
+    lasting!(T; numbers p, numbers v, part impulses, numbers bend, number last_step, part gradients, parts orientation);
+}
+
+impl<M: Scheme> Scheme for Constrained<M> {
+    fn order(&self) -> usize {
+        self.scheme.order()
+    }
+    fn is_symmetric(&self) -> bool {
+        self.scheme.is_symmetric()
+    }
+    fn preserved_form(&self) -> PreservedForm {
+        self.scheme.preserved_form()
+    }
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for Constrained<M> {
+    type Memory = ConstrainedMemory<S, M::DiscreteLagrangian, T>;
+}
+
+/// One step: where it begins, and how long it is.
+struct Step<'a, S, T> {
+    system: &'a S,
+    interval: Interval<T>,
+    q: &'a [T],
+    stopping: Stopping,
+}
+
+impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> ConstrainedMemory<S, L, T> {
+    /// Sets Δ to a guess: that of the velocity, bent as in the step before. Newton's method finds the nearest of several solutions, so
+    /// that no guess is extrapolated far.
+    fn guess(&mut self, h: T, guess: Guess) {
+        let Self { v, bend, impulses, last_step, arrival, .. } = self;
+        let ratio = match guess {
+            Guess::Extrapolated if is_similar(h, *last_step) => h / *last_step,
+            Guess::Extrapolated | Guess::Zero => T::lift(0.0),
+        };
+        for ((delta, &v), &bend) in arrival.increment.iter_mut().zip(v.iter()).zip(bend.iter()) {
+            *delta = h * v + ratio * ratio * bend;
+        }
+        for (impulse, &last) in arrival.impulses.first.iter_mut().zip(impulses.first.iter()) {
+            *impulse = ratio * last;
+        }
+    }
+
+    /// Improves Δ and ι0 until q1 is on the constraints.
+    fn solve(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Step { system, interval, q, stopping } = *step;
+        let Self { p, l_d, solver, gradients, arrival, .. } = self;
+        let Arrival { increment, q: next, work, impulses: Impulses { first: impulse, .. }, .. } = arrival;
+        let scale = norm::largest(q) + norm::largest(increment);
+        let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
+        iterate(convergence, statistics, |statistics| {
+            statistics.linearizations += 1;
+            statistics.factorisations += 1;
+            let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
+            let upper = discrete::Equations { l_d, span, p0: p, statistics };
+            let lower = OfStep { span, work: [next, work] };
+            let forces = Some(At { q, t: interval.t });
+            let (multipliers, active) = (&**impulse, impulse.len());
+            solver.solve(&mut Bordered { system, upper, lower, multipliers, forces, active })?;
+            let (change, of_impulse) = solver.parts(q.len());
+            for (delta, &change) in increment.iter_mut().zip(change) {
+                *delta -= change;
+            }
+            for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {
+                *impulse -= change;
+            }
+            Ok(norm::largest(change))
+        })?;
+        reach(q, increment, next);
+        norm::finite(next)?;
+        gradients.check(system, At { q: next, t: interval.time(T::lift(1.0)) })
+    }
+
+    /// Finds p1 = p0 + (D₁ + D₂)L_d + G(q0)ᵀι0 + G(q1)ᵀι1 and v1.
+    fn arrive(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Step { system, interval, q, .. } = *step;
+        let Self { p: p0, l_d, solver, arrival, orientation, .. } = self;
+        let Arrival { increment, q: next, p, v, impulses: Impulses { first, last }, work } = arrival;
+        p.fill(T::lift(0.0));
+        work.fill(T::lift(0.0));
+        let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
+        l_d.derivatives(span, work, p, statistics)?;
+        solver.add_impulse(system, At { q, t: interval.t }, first, p);
+        for ((p, &p0), (v, &delta)) in p.iter_mut().zip(p0.iter()).zip(v.iter_mut().zip(increment.iter())) {
+            *p += p0;
+            *v = delta / interval.h;
+        }
+        let at = At { q: next, t: interval.time(T::lift(1.0)) };
+        statistics.linearizations += 1;
+        statistics.factorisations += 1;
+        solver.tangent(system, at, Tangent { p, v, impulse: last, work })?;
+        match orientation {
+            Some(orientation) => orientation.check(system, next, v, at.t),
+            None => Ok(()),
+        }
+    }
+
+    /// Moves to the end of the step.
+    fn keep(&mut self, q: &mut [T], h: T) {
+        let Self { p, v, impulses, bend, last_step, gradients, arrival, .. } = self;
+        for ((bend, &delta), &v) in bend.iter_mut().zip(arrival.increment.iter()).zip(v.iter()) {
+            *bend = delta - h * v;
+        }
+        gradients.keep();
+        q.copy_from_slice(&arrival.q);
+        p.copy_from_slice(&arrival.p);
+        v.copy_from_slice(&arrival.v);
+        impulses.restore(&arrival.impulses);
+        *last_step = h;
+    }
+}
+
+/// Sets `q1` to q0 + Δ.
+fn reach<T: Real>(q: &[T], increment: &[T], q1: &mut [T]) {
+    for ((q1, &q), &delta) in q1.iter_mut().zip(q).zip(increment) {
+        *q1 = q + delta;
+    }
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Constrained<M> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+        self.stopping.validate()?;
+        self.scheme.admit(system)?;
+        evaluate(system, q, v, t)?;
+        consistent::check(system, q, v, t)?;
+        let vector = || system.space().vector();
+        let [mut p, mut velocity, mut work]: [Vector<S, T>; 3] = core::array::from_fn(|_| vector());
+        system.gradient(q, v, t, &mut work, &mut p);
+        velocity.copy_from_slice(v);
+        let (mut solver, mut impulses) = (ConstraintSolver::new(system, q, v, t), Impulses::new(system));
+        let Impulses { last: impulse, .. } = &mut impulses;
+        let tangent = Tangent { p: &mut p, v: &mut velocity, impulse, work: &mut work };
+        solver.tangent(system, At { q, t }, tangent).map_err(StartError::Starter)?;
+        impulse.fill(T::lift(0.0));
+        let orientation = if S::CONSTANT_MASS {
+            None
+        } else {
+            Some(MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?)
+        };
+        let arrival = Arrival {
+            increment: vector(),
+            q: vector(),
+            p: vector(),
+            v: vector(),
+            impulses: Impulses::new(system),
+            work,
+        };
+        let (gradients, bend) = (Gradients::new(system, At { q, t }, v), vector());
+        let (l_d, last_step) = (self.scheme.discrete_lagrangian(system), T::lift(0.0));
+        Ok(ConstrainedMemory {
+            p,
+            v: velocity,
+            impulses,
+            bend,
+            last_step,
+            gradients,
+            orientation,
+            l_d,
+            solver,
+            arrival,
+        })
+    }
+
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, interval: Interval { t, h }, q, stopping: self.stopping };
+        memory.guess(h, Guess::Extrapolated);
+        if memory.solve(&step, statistics).is_err() {
+            memory.guess(h, Guess::Zero);
+            memory.solve(&step, statistics)?;
+        }
+        memory.arrive(&step, statistics)?;
+        memory.keep(q, h);
+        Ok(())
+    }
+
+    fn velocity(
+        &self,
+        _system: &S,
+        memory: &Self::Memory,
+        _q: &Vector<S, T>,
+        _t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        v.copy_from_slice(&memory.v);
+        Ok(())
+    }
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T> for Constrained<M> {}

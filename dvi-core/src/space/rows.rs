@@ -1,0 +1,140 @@
+//! The rows of a matrix that has one for each constraint and a column for each coordinate.
+//!
+//! With sizes that are fixed at compile time the rows are full and on the stack. With one that is known at run time only, they keep
+//! the entries that their pattern has.
+
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+use core::fmt::Debug;
+use core::ops::DerefMut;
+
+use crate::Scalar;
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
+use crate::space::Sink;
+use crate::state::memory::Memory;
+#[cfg(feature = "alloc")]
+use crate::state::memory::{Reader, Record, lasting};
+
+/// Rows that are filled entry by entry.
+pub trait RowMatrix<T>: Sink<T> + Memory<T> + Debug {
+    /// Sets all entries to zero.
+    fn clear(&mut self);
+    /// Σⱼ wⱼ aₖⱼ bₖⱼ over row `k` of this matrix and of another one with the same pattern, with `weights` w.
+    fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T;
+}
+
+/// Full rows `V`, in an array `A` of them.
+#[derive(Clone, Debug)]
+pub struct FullRows<A>(pub(crate) A);
+
+impl<T: Scalar, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Sink<T> for FullRows<A> {
+    #[inline(always)]
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        self.0[row][column] += entry;
+    }
+}
+
+impl<T: Copy, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Memory<T> for FullRows<A> {
+    fn restore(&mut self, from: &Self) {
+        for (to, from) in self.0.iter_mut().zip(from.0.iter()) {
+            to.copy_from_slice(from);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    fn save(&self, record: &mut Record<T>) {
+        self.0.iter().for_each(|row| record.numbers(row));
+    }
+    #[cfg(feature = "alloc")]
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        self.0.iter_mut().try_for_each(|row| reader.numbers(row))
+    }
+}
+
+impl<T: Scalar, V: DerefMut<Target = [T]> + Debug, A: DerefMut<Target = [V]> + Debug> RowMatrix<T>
+    for FullRows<A>
+{
+    #[inline(always)]
+    fn clear(&mut self) {
+        self.0.iter_mut().for_each(|row| row.fill(T::lift(0.0)));
+    }
+    #[inline(always)]
+    fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
+        weighted(&self.0[k], &other.0[k], weights.iter().copied())
+    }
+}
+
+fn weighted<T: Scalar>(a: &[T], b: &[T], weights: impl Iterator<Item = T>) -> T {
+    a.iter().zip(b).zip(weights).fold(T::lift(0.0), |sum, ((&a, &b), w)| sum + w * a * b)
+}
+
+/// Rows of the entries that a pattern has.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Debug)]
+pub struct SparseRows<T> {
+    /// Where each row begins, and where the last one ends.
+    begins: Vec<u32>,
+    columns: Vec<u32>,
+    entries: Vec<T>,
+    /// Whether an entry was added that has no place: no product is a number then.
+    is_outside: bool,
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> SparseRows<T> {
+    /// So many rows with room for the entries that `entries` visits.
+    pub(crate) fn new(rows: usize, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
+        let mut columns: Vec<Vec<u32>> = alloc::vec![Vec::new(); rows];
+        entries(&mut |row, column| {
+            let column = column as u32;
+            if !columns[row].contains(&column) {
+                columns[row].push(column);
+            }
+        });
+        let begins = core::iter::once(0).chain(columns.iter().scan(0, |end, row| {
+            *end += row.len() as u32;
+            Some(*end)
+        }));
+        let begins = begins.collect();
+        let columns: Vec<u32> = columns.concat();
+        let entries = alloc::vec![T::lift(0.0); columns.len()];
+        Self { begins, columns, entries, is_outside: false }
+    }
+
+    fn places(&self, row: usize) -> core::ops::Range<usize> {
+        self.begins[row] as usize..self.begins[row + 1] as usize
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Sink<T> for SparseRows<T> {
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        let places = self.places(row);
+        let found = self.columns[places.clone()].iter().position(|&known| known as usize == column);
+        match found {
+            Some(place) => self.entries[places.start + place] += entry,
+            None => self.is_outside = true,
+        }
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Copy> Memory<T> for SparseRows<T> {
+    lasting!(T; numbers entries);
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> RowMatrix<T> for SparseRows<T> {
+    fn clear(&mut self) {
+        self.entries.fill(T::lift(0.0));
+        self.is_outside = false;
+    }
+    fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
+        if self.is_outside || other.is_outside {
+            return T::lift(f64::NAN);
+        }
+        let places = self.places(k);
+        let of_columns = self.columns[places.clone()].iter().map(|&column| weights[column as usize]);
+        weighted(&self.entries[places.clone()], &other.entries[places], of_columns)
+    }
+}

@@ -1,0 +1,57 @@
+//! What the compiler knows of a Lagrangian with a regular mass matrix.
+
+use crate::Scalar;
+use crate::system::{Lagrangian, Regular, System};
+
+/// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform
+/// (q, v) ↦ (q, p = ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2). There may be constraints
+/// beside L.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
+    label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`"
+)]
+pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
+    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no term is linear in v. Then
+    /// p = M v, whatever forces act.
+    const CONSTANT_MASS: bool;
+    /// Whether, with [`CONSTANT_MASS`](Self::CONSTANT_MASS), no force depends on v either. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
+    /// Störmer and Verlet (Marsden & West 2001, section 2.6).
+    const SEPARABLE: bool;
+    /// Whether M has entries on its diagonal only, so that it is solved by divisions.
+    const DIAGONAL_MASS: bool;
+    /// Whether L is a polynomial of degree at most two in v, so that p = ∂L/∂v is affine in v.
+    const QUADRATIC: bool;
+
+    /// Sets `out` to ∂L/∂q + F alone, with the [force](Lagrangian::applied_force) that acts on the system. Where
+    /// [`SEPARABLE`](Self::SEPARABLE) holds, this is F − ∇V(q, t): `v` is not read, and may be empty.
+    fn force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
+    /// Sets `out` to ∂²L/∂t∂v: the rate at which p = ∂L/∂v changes where q and v do not.
+    fn momentum_rate(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
+}
+
+/// A system with a regular mass matrix and without constraints.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a regular system without constraints, and this is for systems with `#[lagrangian]`",
+    label = "its Lagrangian is degenerate, it has constraints, a parameter is no number, or it has no attribute",
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`",
+    note = "systems with `constraint = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+)]
+pub trait RegularLagrangian<T: Scalar = f64>: NondegenerateLagrangian<T> + System<Kind = Regular> {}
+
+/// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
+/// [`SEPARABLE`](NondegenerateLagrangian::SEPARABLE) holds.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M, or a force depends on velocities",
+    label = "its report says what the mass matrix and the forces depend on",
+    note = "`Variational` and `Galerkin` step any regular system, and `Constrained` any one with constraints"
+)]
+pub trait Separable<T: Scalar = f64>: NondegenerateLagrangian<T> {}
+
+/// A system whose L is a polynomial of degree at most two in v. The attribute implements it where
+/// [`QUADRATIC`](NondegenerateLagrangian::QUADRATIC) holds.
+#[diagnostic::on_unimplemented(
+    message = "the Lagrangian of `{Self}` is not quadratic in the velocities",
+    label = "p = ∂L/∂v is not affine in v"
+)]
+pub trait QuadraticInVelocity<T: Scalar = f64>: NondegenerateLagrangian<T> {}

@@ -1,0 +1,99 @@
+//! What is generated for a system with holonomic constraints.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::state::space_of;
+use super::{allow, in_numbers};
+use crate::emit::{Emitter, constraint_members, first_constraint, local};
+use crate::program::Constraints;
+use crate::routine::Routine;
+use crate::symbolic::Index;
+
+impl Emitter<'_> {
+    /// Sets g to zero and cuts it into one slice for each declared constraint.
+    fn constraint_output(&self, constraints: &Constraints) -> TokenStream {
+        let krate = self.krate();
+        let parts = constraints.lengths.iter().enumerate().map(|(constraint, length)| {
+            (local(constraint_members(constraint as u32)), self.range_bound(length))
+        });
+        let split = super::split(&format_ident!("__g"), parts, "split_at_mut");
+        quote!(__g.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
+    }
+
+    /// The number of the first member of each declared constraint:
+    /// ```text
+    /// let __row0: usize = 0usize;
+    /// let __row1: usize = __row0 + N.saturating_sub(1usize);
+    /// ```
+    fn first_constraints(&self, constraints: &Constraints) -> TokenStream {
+        let mut first = quote!(0usize);
+        let mut tokens = TokenStream::new();
+        for (constraint, length) in constraints.lengths.iter().enumerate() {
+            let (name, length) = (local(first_constraint(constraint as u32)), self.range_bound(length));
+            tokens.extend(quote!(let #name: usize = #first;));
+            first = quote!(#name + #length);
+        }
+        tokens
+    }
+
+    /// The body of a function that sets one number for each constraint.
+    fn for_constraints(&self, constraints: &Constraints, routine: &Routine) -> TokenStream {
+        let (read, output) = (self.read(routine), self.constraint_output(constraints));
+        let body = self.body(routine);
+        quote!(#read #output #body)
+    }
+}
+
+/// The implementations of `ConstrainedSystem` and `HolonomicLagrangian`.
+pub(super) fn holonomic(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+    let (system, lagrangian) = (system(emitter, constraints), lagrangian(emitter, constraints));
+    quote!(#system #lagrangian)
+}
+
+fn system(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+    let (krate, name, allow) = (emitter.krate(), &emitter.model.item.ident, allow());
+    let (impl_generics, type_generics, where_clause) = emitter.model.item.generics.split_for_impl();
+    let (multipliers, multipliers_value) = space_of(emitter, &constraints.lengths);
+    let sizes = (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block));
+    let both: Vec<Index> = sizes.chain(constraints.lengths.iter().cloned()).collect();
+    let (augmented, augmented_value) = space_of(emitter, &both);
+    quote! {
+        #[automatically_derived]
+        #allow
+        impl #impl_generics #krate::ConstrainedSystem for #name #type_generics #where_clause {
+            type Multipliers = #multipliers;
+            type Augmented = #augmented;
+
+            #[inline(always)]
+            fn multipliers(&self) -> Self::Multipliers { #multipliers_value }
+            #[inline(always)]
+            fn augmented(&self) -> Self::Augmented { #augmented_value }
+        }
+    }
+}
+
+fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+    let krate = emitter.krate();
+    let [value, rate, curvature] = [&constraints.value, &constraints.rate, &constraints.curvature]
+        .map(|routine| emitter.for_constraints(constraints, routine));
+    let jacobian = &constraints.jacobian;
+    let (read, output) = (emitter.read(jacobian), emitter.constraint_output(constraints));
+    let (rows, offsets) = (emitter.first_constraints(constraints), emitter.offsets());
+    let jacobian = emitter.body(jacobian);
+    let items = quote! {
+        #[inline]
+        fn constraint(&self, __q: &[__T], __t: __T, __g: &mut [__T]) { #value }
+        #[inline]
+        fn constraint_jacobian<__K: #krate::Sink<__T>>(
+            &self, __q: &[__T], __t: __T, __g: &mut [__T], __sink: &mut __K,
+        ) {
+            #read #output #rows #offsets #jacobian
+        }
+        #[inline]
+        fn constraint_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
+        #[inline]
+        fn constraint_curvature(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #curvature }
+    };
+    in_numbers(emitter, &quote!(HolonomicLagrangian), &items)
+}

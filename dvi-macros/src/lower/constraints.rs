@@ -1,0 +1,93 @@
+//! Holonomic constraints, single ones and families over an index.
+
+use syn::Expr as Syntax;
+
+use super::lints::uses;
+use super::sums::natural;
+use super::{Lowering, Role};
+use crate::program::Constraint;
+use crate::symbolic::{Expr, Index, Node};
+use crate::syntax::{self, Family};
+
+impl Lowering<'_> {
+    /// The constraints in the order of declaration.
+    pub(crate) fn constraints(&mut self, declared: &[syntax::Constraint]) -> Option<Vec<Constraint>> {
+        let constraints: Vec<Option<Constraint>> = declared.iter().map(|one| self.constraint(one)).collect();
+        let constraints: Vec<Constraint> = constraints.into_iter().collect::<Option<_>>()?;
+        let formulas: Vec<&Syntax> = declared.iter().map(|one| &one.formula).collect();
+        self.are_different(&constraints, &formulas);
+        self.leave_room(&constraints, &formulas);
+        Some(constraints)
+    }
+
+    fn constraint(&mut self, declared: &syntax::Constraint) -> Option<Constraint> {
+        let formula = &declared.formula;
+        let constraint = match &declared.family {
+            None => Constraint::single(self.formula(formula, Role::Constraint)?),
+            Some(family) => self.family(family, formula)?,
+        };
+        self.constrains(formula, constraint.value)?;
+        Some(constraint)
+    }
+
+    fn family(&mut self, Family { index, range }: &Family, formula: &Syntax) -> Option<Constraint> {
+        self.begin(formula, Role::Constraint);
+        let (lower, upper) = self.range(range)?;
+        if !uses(formula, index) {
+            let message = format!(
+                "the index `{index}` stands nowhere in this formula, so that all constraints of the family are the same: \
+                 write `constraint = …` for one"
+            );
+            self.errors.push(index, message);
+            return None;
+        }
+        let (form, over) = natural(0, &lower, &upper);
+        let value = self.inside(&[(index.to_string(), form, &over)], formula)?;
+        Some(Constraint { member: Index::open(0).plus(&over.range.lower, -1), over: Some(over), value })
+    }
+
+    /// Reports a constraint that stands there before, up to a factor.
+    fn are_different(&mut self, constraints: &[Constraint], formulas: &[&Syntax]) {
+        for (number, one) in constraints.iter().enumerate() {
+            let is_same = |known: &Constraint| known.over == one.over && known.value.node == one.value.node;
+            if constraints[..number].iter().any(is_same) {
+                let message = "this constraint is declared twice, up to a factor: the multipliers of the two would not be determined";
+                self.errors.push(formulas[number], message);
+            }
+        }
+    }
+
+    /// Reports the first constraint beyond the number of coordinates, where both numbers are known.
+    fn leave_room(&mut self, constraints: &[Constraint], formulas: &[&Syntax]) {
+        let lengths = constraints.iter().map(|constraint| constraint.length().as_literal());
+        let (Some(dimension), Some(lengths)) =
+            (self.model.dimension().as_literal(), lengths.collect::<Option<Vec<i64>>>())
+        else {
+            return;
+        };
+        let counts = lengths.iter().scan(0, |sum, length| {
+            *sum += length;
+            Some(*sum)
+        });
+        if let Some(number) = counts.into_iter().position(|count| count > dimension) {
+            let (count, coordinates) =
+                (lengths.iter().sum::<i64>(), if dimension == 1 { "coordinate" } else { "coordinates" });
+            let message = format!(
+                "{count} constraints on {dimension} {coordinates} cannot be independent of each other: at most as many as there \
+                 are coordinates"
+            );
+            self.errors.push(formulas[number], message);
+        }
+    }
+
+    /// Reports a constraint that leaves all positions free.
+    fn constrains(&mut self, formula: &Syntax, value: Expr) -> Option<()> {
+        if self.graph.depends(value.node, |node| matches!(node, Node::Coordinate(_))) {
+            return Some(());
+        }
+        let message = "no coordinate stands in this constraint, so that there is nothing to constrain: write a function of the \
+                       coordinates that is to be zero";
+        self.errors.push(formula, message);
+        None
+    }
+}

@@ -1,0 +1,72 @@
+//! Constraints as they are written, one after the other.
+
+use syn::Expr;
+
+use super::super::jet::{First, Jet, Second, Sized};
+use super::{Binding, Evaluation, Value, unknown};
+use crate::syntax::{Constraint, Family};
+
+/// All constraints, each times the component of its row along a direction: what they add up to.
+pub(in super::super) struct Combination {
+    value: Jet,
+    rate: Jet,
+}
+
+impl Combination {
+    pub(in super::super) fn is_moderate(&self) -> bool {
+        self.value.is_moderate() && self.rate.is_moderate()
+    }
+
+    pub(in super::super) fn value(&self) -> Sized {
+        self.value.value()
+    }
+
+    /// The derivative along the second direction of positions.
+    pub(in super::super) fn along_second(&self) -> Sized {
+        self.value.second(Second::Q)
+    }
+
+    /// The rate along the motion.
+    pub(in super::super) fn rate(&self) -> Sized {
+        self.rate.value()
+    }
+
+    /// The rate of the rate along a motion without acceleration: the first direction of positions is the velocity.
+    pub(in super::super) fn curvature(&self) -> Sized {
+        self.rate.first(First::Q).plus(self.rate.first(First::T))
+    }
+}
+
+impl Evaluation<'_> {
+    /// The constraints along the first direction of rows.
+    pub(in super::super) fn constraints(&mut self, declared: &[Constraint]) -> Value<Combination> {
+        (self.moves, self.follows) = (true, true);
+        let mut value = Jet::number(0.0);
+        for (number, constraint) in declared.iter().enumerate() {
+            for (member, entry) in self.members(constraint)? {
+                let weight = self.point.row(self.directions.first, number, member);
+                value = value.plus(&entry.scaled(weight));
+            }
+        }
+        (self.moves, self.follows) = (false, false);
+        // Where g has no value, its rate has none, even if it does not change.
+        let rate = if value.is_moderate() { value.rate() } else { Jet::number(f64::NAN) };
+        Ok(Combination { value, rate })
+    }
+
+    /// The members of a declared constraint with their numbers.
+    fn members(&mut self, Constraint { family, formula }: &Constraint) -> Value<Vec<(i64, Jet)>> {
+        let Some(Family { index, range }) = family else { return Ok(vec![(0, self.number(formula)?)]) };
+        let Expr::Range(bounds) = range else { unknown(range) };
+        let (lower, upper) = self.bounds(bounds)?;
+        let name = self.texts.of(index, || index.to_string());
+        let mut members = Vec::new();
+        for at in self.point.visited(lower, upper) {
+            self.scope.push((name.clone(), Binding::Index(at)));
+            let value = self.number(formula);
+            self.scope.pop();
+            members.push((at - lower, value?));
+        }
+        Ok(members)
+    }
+}

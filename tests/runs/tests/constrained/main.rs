@@ -1,0 +1,9 @@
+//! Steps on holonomic constraints.
+
+mod equations;
+mod orders;
+mod starts;
+mod structure;
+mod systems;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;

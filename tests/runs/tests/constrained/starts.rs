@@ -1,0 +1,174 @@
+//! Where runs with constraints can begin, and what is said where they cannot.
+
+use dvi_core::error::StartError;
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_tests::larger;
+
+use super::Outcome;
+use super::equations::links;
+use super::systems::*;
+
+const PENDULUM: Pendulum = Pendulum { m: 1.0, g: 1.0, length: 1.0 };
+
+#[test]
+fn a_start_off_a_constraint_is_an_error_that_names_it() {
+    let double = Double { m: [1.0, 1.0], rod: 0.7 };
+    let start = DoubleState { x: [0.0, 0.0], y: [-1.0, -1.8], dot_x: [0.0; 2], dot_y: [0.0; 2] };
+    let Err(StartError::OffConstraint { constraint, value }) =
+        Integrator::new(&double, Rattle::default(), 0.1, start).map(drop)
+    else {
+        panic!("a start beside the constraints")
+    };
+    assert!(constraint == 1 && (value - 0.1).abs() < 1e-14, "{constraint} {value}");
+    let start = DoubleState { x: [0.0, 0.0], y: [-1.0, -1.7], dot_x: [0.1, 0.1], dot_y: [0.0, 0.3] };
+    let Err(StartError::AcrossConstraint { constraint, rate }) =
+        Integrator::new(&double, Constrained::new(Variational::midpoint()), 0.1, start).map(drop)
+    else {
+        panic!("a velocity across the constraints")
+    };
+    assert!(constraint == 1 && (rate + 0.3).abs() < 1e-14, "{constraint} {rate}");
+}
+
+#[test]
+fn a_state_is_projected_to_the_constraints() -> Outcome {
+    let (system, mut state) = links(20);
+    for (i, x) in state.x.iter_mut().enumerate() {
+        *x += 0.05 * (i as f64).sin();
+    }
+    state.dot_y = (0..20).map(|i| (i as f64).cos()).collect();
+    let found = system.projected(0.0, &state)?;
+    let mut values = vec![0.0; 20];
+    let [q, v] =
+        [[&found.x, &found.y], [&found.dot_x, &found.dot_y]].map(|parts| parts.map(Vec::as_slice).concat());
+    system.constraint(&q, 0.0, &mut values);
+    assert!(values.iter().all(|g: &f64| g.abs() < 1e-14), "{values:?}");
+    system.constraint_rate(&q, &v, 0.0, &mut values);
+    assert!(values.iter().all(|g: &f64| g.abs() < 1e-14), "{values:?}");
+    // A state on the constraints stays where it is.
+    let again = system.projected(0.0, &found)?;
+    let apart = system.values(&again)?.zip(system.values(&found)?).map(|(a, b): (f64, f64)| (a - b).abs());
+    assert!(apart.fold(0.0, larger) < 1e-14);
+    Integrator::new(&system, Rattle::default(), 0.01, found)?.take_steps(10)?;
+    Ok(())
+}
+
+/// One circle twice, and two that do not meet.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0,
+    constraint = x * x + y * y - 1.0,
+    constraint = [z - x, weight * (x * x + y * y) + (1.0 - weight) * z - offset],
+)]
+#[derive(Clone, Copy, Debug)]
+struct Circles {
+    weight: f64,
+    offset: f64,
+}
+
+#[test]
+fn redundant_and_inconsistent_constraints_are_named() {
+    let state = CirclesState { x: 1.0, y: 0.0, z: 1.0, dot_x: 0.0, dot_y: 0.0, dot_z: 0.0 };
+    let redundant = Circles { weight: 1.0, offset: 1.0 };
+    let named = |error: StartError| match error {
+        StartError::Starter(StepFailure::RedundantConstraint { constraint, .. }) => constraint,
+        other => panic!("{other}"),
+    };
+    for error in [
+        Integrator::new(&redundant, Rattle::default(), 0.1, state).map(drop),
+        Integrator::new(&redundant, Constrained::new(Variational::midpoint()), 0.1, state).map(drop),
+        redundant.projected(0.0, &state).map(drop),
+    ] {
+        assert_eq!(error.map_err(named), Err(2));
+    }
+    let message = redundant.projected(0.0, &state).map(drop).expect_err("redundant").to_string();
+    assert!(message.contains("constraint 2 is redundant"), "{message}");
+    // The gradient of a circle vanishes at its centre.
+    let centre = PENDULUM.projected(0.0, &PendulumState { x: 0.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 });
+    assert_eq!(centre.map(drop).map_err(named), Err(0));
+    // z = x and z = 3 leave no point of the circle.
+    let apart = Circles { weight: 0.0, offset: 3.0 };
+    let near = CirclesState { x: 0.6, y: 0.8, z: 0.6, ..state };
+    let Err(StartError::Inconsistent { constraint, value }) = apart.projected(0.0, &near).map(drop) else {
+        panic!("there is no such state")
+    };
+    assert!(constraint < 3 && value.abs() > 0.1, "{constraint} {value}");
+}
+
+/// A redundant constraint of a chain, whose equations are banded.
+#[test]
+fn redundant_constraints_of_a_chain_are_named() {
+    let (mut system, mut state) = links(30);
+    // A rod without length: its gradient vanishes.
+    system.rod[17] = 0.0;
+    for i in 17..30 {
+        state.x[i] = state.x[i - 1] + system.rod[i];
+    }
+    let error = Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.1, state).map(drop);
+    let Err(StartError::Starter(StepFailure::RedundantConstraint { constraint, .. })) = error else {
+        panic!("{error:?}")
+    };
+    assert_eq!(constraint, 17);
+}
+
+/// A step that fails names the reason, and the run stays where it was.
+#[test]
+fn a_step_that_is_too_long_fails_and_leaves_the_state() -> Outcome {
+    fn fails<M: Method<Pendulum, f64>>(
+        method: M,
+        h: f64,
+    ) -> Result<StepFailure, Box<dyn core::error::Error>> {
+        let start = PendulumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: -1.0 };
+        let mut run = Integrator::new(&PENDULUM, method, h, start)?;
+        let Err(error) = run.advance() else { return Err("a step that is too long".into()) };
+        assert_eq!(run.state(), start);
+        Ok(error.failure)
+    }
+    for h in [1.2, 2.0, 5.0, 1e3] {
+        for failure in [
+            fails(Rattle::default(), h)?,
+            fails(Constrained::new(Variational::trapezoid()), h)?,
+            fails(Constrained::new(Variational::midpoint()), h)?,
+        ] {
+            let is_explained = matches!(
+                failure,
+                StepFailure::Turned { constraint: 0 }
+                    | StepFailure::NotConverged { .. }
+                    | StepFailure::RedundantConstraint { constraint: 0, .. }
+            );
+            assert!(is_explained, "h = {h}: {failure}");
+        }
+    }
+    Ok(())
+}
+
+/// The tension of a rod, m (v²/l + g cos a) at the angle a from below.
+#[test]
+fn multipliers_and_accelerations_at_a_state_in_closed_form() -> Outcome {
+    let system = Pendulum { m: 1.7, g: 2.0, length: 1.3 };
+    for (a, speed) in [(0.3_f64, 0.7), (2.0, -1.1), (-1.0, 0.0)] {
+        let (sin, cos) = a.sin_cos();
+        let state = PendulumState { x: 1.3 * sin, y: -1.3 * cos, dot_x: speed * cos, dot_y: speed * sin };
+        let tension = 1.7 * (speed * speed / 1.3 + 2.0 * cos);
+        let multipliers = system.multipliers_at(0.0, &state)?;
+        // The force of the rod is 2λ(x, y).
+        assert!((multipliers[0] + tension / 2.6).abs() < 1e-14, "{}", multipliers[0]);
+        let PendulumState { dot_x, dot_y, .. } = system.vector_field(&state)?;
+        let [outward, along] = [-speed * speed / 1.3, -2.0 * sin];
+        assert!((dot_x - (outward * sin + along * cos)).abs() < 1e-14);
+        assert!((dot_y - (-outward * cos + along * sin)).abs() < 1e-14);
+    }
+    // A moved pivot: with its time derivatives.
+    let (swing, t) = (Swing { gamma: 0.3 }, 0.8);
+    let angle = SwingAngleState { a: 0.7, dot_a: -0.4 };
+    let state = swinging(&angle, t);
+    let rates = swing.at_time(t).vector_field(&state)?;
+    let of_angle = SwingAngle { gamma: 0.3 }.at_time(t).vector_field(&angle)?;
+    let (sin, cos) = angle.a.sin_cos();
+    let expected = [
+        -1.2 * (2.0 * t).sin() + of_angle.dot_a * cos - angle.dot_a.powi(2) * sin,
+        of_angle.dot_a * sin + angle.dot_a.powi(2) * cos,
+    ];
+    assert!((rates.dot_x - expected[0]).abs() < 1e-14 && (rates.dot_y - expected[1]).abs() < 1e-14);
+    Ok(())
+}

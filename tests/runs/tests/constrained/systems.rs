@@ -1,0 +1,163 @@
+//! Systems with constraints, and the same systems in coordinates that need none.
+
+use dvi_core::prelude::*;
+
+/// A mass on a rod.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - m * g * y,
+    constraint = x * x + y * y - length * length,
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pendulum {
+    pub(crate) m: f64,
+    pub(crate) g: f64,
+    pub(crate) length: f64,
+}
+
+/// Two masses, the first on a rod and the second on a rod at the first.
+#[lagrangian(
+    coordinates(x[2], y[2]),
+    lagrangian = sum(0..2, |i| m[i] * ((dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i])),
+    constraint = [
+        x[0].powi(2) + y[0].powi(2) - 1.0,
+        ((x[1] - x[0]).powi(2) + (y[1] - y[0]).powi(2)).sqrt() - rod,
+    ],
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Double {
+    pub(crate) m: [f64; 2],
+    pub(crate) rod: f64,
+}
+
+/// The same in the angles of the rods.
+#[lagrangian(
+    coordinates(a, b),
+    lagrangian = m[0] * dot(a).powi(2) / 2.0
+        + m[1] * (dot(a).powi(2) + (rod * dot(b)).powi(2) + 2.0 * rod * dot(a) * dot(b) * (a - b).cos()) / 2.0
+        + (m[0] + m[1]) * a.cos() + m[1] * rod * b.cos(),
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DoubleAngles {
+    pub(crate) m: [f64; 2],
+    pub(crate) rod: f64,
+}
+
+impl DoubleAngles {
+    /// Where the masses are.
+    pub(crate) fn masses(&self, state: &DoubleAnglesState) -> DoubleState {
+        let DoubleAnglesState { a, b, dot_a, dot_b } = *state;
+        let Self { rod, .. } = *self;
+        DoubleState {
+            x: [a.sin(), a.sin() + rod * b.sin()],
+            y: [-a.cos(), -a.cos() - rod * b.cos()],
+            dot_x: [dot_a * a.cos(), dot_a * a.cos() + rod * dot_b * b.cos()],
+            dot_y: [dot_a * a.sin(), dot_a * a.sin() + rod * dot_b * b.sin()],
+        }
+    }
+}
+
+/// A pendulum with friction whose pivot is moved.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y,
+    force(x) = -gamma * dot(x),
+    force(y) = -gamma * dot(y),
+    constraint = ((x - 0.3 * (2.0 * t).sin()).powi(2) + y * y - 1.0) * (2.0 + t.cos()),
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Swing {
+    pub(crate) gamma: f64,
+}
+
+/// The same by the angle.
+#[lagrangian(
+    coordinates(a),
+    lagrangian = ((dot(a) * a.cos() + 0.6 * (2.0 * t).cos()).powi(2) + (dot(a) * a.sin()).powi(2)) / 2.0 + a.cos(),
+    force(a) = -gamma * (dot(a) + 0.6 * (2.0 * t).cos() * a.cos()),
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SwingAngle {
+    pub(crate) gamma: f64,
+}
+
+/// Where the mass of a swing is at time `t`.
+pub(crate) fn swinging(state: &SwingAngleState, t: f64) -> SwingState {
+    let SwingAngleState { a, dot_a } = *state;
+    SwingState {
+        x: 0.3 * (2.0 * t).sin() + a.sin(),
+        y: -a.cos(),
+        dot_x: 0.6 * (2.0 * t).cos() + dot_a * a.cos(),
+        dot_y: dot_a * a.sin(),
+    }
+}
+
+/// A relativistic bead on a ring, with a mass that depends on where it is: p is no affine function of v.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = -(2.0 + x) * (1.0 - dot(x).powi(2) - dot(y).powi(2)).sqrt() - y,
+    constraint = x * x + 2.0 * y * y - 1.0,
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bead;
+
+/// The same by the parameter of the ellipse.
+#[lagrangian(
+    coordinates(s),
+    lagrangian = -(2.0 + s.cos()) * (1.0 - dot(s).powi(2) * (s.sin().powi(2) + s.cos().powi(2) / 2.0)).sqrt()
+        - s.sin() / 2.0_f64.sqrt(),
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BeadParameter;
+
+/// Where a bead is.
+pub(crate) fn on_ring(state: &BeadParameterState) -> BeadState {
+    let BeadParameterState { s, dot_s } = *state;
+    let half = 0.5_f64.sqrt();
+    BeadState { x: s.cos(), y: half * s.sin(), dot_x: -dot_s * s.sin(), dot_y: half * dot_s * s.cos() }
+}
+
+/// A charge on a sphere in a magnetic field along z: L has terms linear in v, and is symmetric about z.
+#[lagrangian(
+    coordinates(r[3]),
+    lagrangian = sum(0..3, |i| dot(r[i]).powi(2) / 2.0) + b * (r[0] * dot(r[1]) - r[1] * dot(r[0])) / 2.0 - r[2],
+    constraint = sum(0..3, |i| r[i] * r[i]) - 1.0,
+    momenta(axial = r[0] * dot(r[1]) - r[1] * dot(r[0]) + b * (r[0] * r[0] + r[1] * r[1]) / 2.0),
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Charge {
+    pub(crate) b: f64,
+}
+
+/// The same without the field: separable.
+#[lagrangian(
+    coordinates(r[3]),
+    lagrangian = sum(0..3, |i| dot(r[i]).powi(2) / 2.0) - r[2],
+    constraint = sum(0..3, |i| r[i] * r[i]) - 1.0,
+    momenta(axial = r[0] * dot(r[1]) - r[1] * dot(r[0])),
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spherical;
+
+/// Masses on rods, one below the other, and as many as there are.
+#[lagrangian(
+    coordinates(x[rod.len()], y[rod.len()]),
+    lagrangian = sum(0..rod.len(), |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i]),
+    constraint = x[0] * x[0] + y[0] * y[0] - rod[0] * rod[0],
+    constraint(i in 1..rod.len()) = (x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) - rod[i] * rod[i],
+)]
+#[derive(Clone, Debug)]
+pub(crate) struct Links {
+    pub(crate) rod: Vec<f64>,
+}
+
+/// A closed chain of rods, whose joints may be at any place.
+#[lagrangian(
+    coordinates(x[N], y[N]),
+    lagrangian = sum(0..N, |i| mass[i] * (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - x[i] * x[i] / 4.0),
+    constraint(i in 0..N) = (x[(i + 1) % N] - x[i]).powi(2) + (y[(i + 1) % N] - y[i]).powi(2) - 1.0,
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ring<const N: usize> {
+    pub(crate) mass: [f64; N],
+}

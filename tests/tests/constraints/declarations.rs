@@ -1,0 +1,247 @@
+//! How constraints are declared, what is generated for them, and what is said of them.
+
+use dvi_core::prelude::*;
+use dvi_core::space::sink::Dense;
+use dvi_core::{
+    ConstrainedSystem, Fixed, HolonomicLagrangian, IndexError, NondegenerateLagrangian, RunTime, Space,
+};
+use dvi_core::{Lagrangian, ScalarField, Varied};
+use num_dual::{Dual64, HyperDual64};
+
+use super::Outcome;
+use super::systems::{Beads, ByHand, Chain, Driven, Hung, Linked, Pendulum, Three, surface};
+
+/// Numbers that have nothing to do with each other.
+fn point(n: usize, seed: f64) -> Vec<f64> {
+    (0..n).map(|i| 0.9 * (seed + 1.7 * i as f64).sin() + 0.05).collect()
+}
+
+/// g, G, dg/dt and d²g/dt² of a system, as they are generated.
+struct Generated {
+    g: Vec<f64>,
+    jacobian: Vec<f64>,
+    rate: Vec<f64>,
+    curvature: Vec<f64>,
+}
+
+fn generated<S: HolonomicLagrangian>(system: &S, q: &[f64], v: &[f64], t: f64) -> Generated {
+    let (n, m) = (q.len(), system.multipliers().dimension());
+    let set = || vec![7.0; m];
+    let (mut g, mut again, mut rate, mut curvature) = (set(), set(), set(), set());
+    let mut jacobian = vec![0.0; n * m];
+    system.constraint(q, t, &mut g);
+    system.constraint_jacobian(q, t, &mut again, &mut Dense::new(&mut jacobian, n));
+    system.constraint_rate(q, v, t, &mut rate);
+    system.constraint_curvature(q, v, t, &mut curvature);
+    close(&again, &g, "g beside ∂g/∂q");
+    Generated { g, jacobian, rate, curvature }
+}
+
+fn close(found: &[f64], expected: &[f64], what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert!((found - expected).abs() <= 1e-12 * (1.0 + expected.abs()), "{what} {k}: {found} {expected}");
+    }
+}
+
+/// Compares the four functions with what num-dual makes of the constraints as they are written by hand.
+fn compare<S: ByHand>(system: &S) {
+    let n = system.space().dimension();
+    let (m, both) = (system.multipliers().dimension(), system.augmented().dimension());
+    for seed in [0.3, 1.1, 2.7] {
+        let (q, v, t) = (point(n, seed), point(n, seed + 5.0), 0.4 + seed);
+        let found = generated(system, &q, &v, t);
+        let along = |direction: &[f64], rate: f64| {
+            let seeded = |x: f64, a: f64| HyperDual64::new(x, a, a, 0.0);
+            let q: Vec<HyperDual64> = q.iter().zip(direction).map(|(x, a)| seeded(*x, *a)).collect();
+            system.by_hand(&q, seeded(t, rate))
+        };
+        let moving = along(&v, 1.0);
+        assert_eq!((m, both), (moving.len(), n + moving.len()));
+        let parts =
+            |part: fn(&HyperDual64) -> f64, of: &[HyperDual64]| of.iter().map(part).collect::<Vec<_>>();
+        close(&found.g, &parts(|g| g.re, &moving), "g");
+        close(&found.rate, &parts(|g| g.eps1, &moving), "dg/dt");
+        close(&found.curvature, &parts(|g| g.eps1eps2, &moving), "d²g/dt²");
+        for j in 0..n {
+            let mut unit = vec![0.0; n];
+            unit[j] = 1.0;
+            let column: Vec<f64> = (0..m).map(|k| found.jacobian[k * n + j]).collect();
+            close(&column, &parts(|g| g.eps1, &along(&unit, 0.0)), "∂g/∂q");
+        }
+    }
+}
+
+#[test]
+fn generated_functions_are_those_of_the_formulas() {
+    compare(&Pendulum { g: 9.81, length: 1.3 });
+    compare(&Driven { amplitude: 0.7 });
+    compare(&Three);
+    compare(&Chain::<4> { rods: vec![1.0, 0.5, 0.7] });
+    compare(&Chain::<1> { rods: Vec::new() });
+    for rods in [3, 2, 1, 7] {
+        compare(&Hung { rods: point(rods, 0.9) });
+    }
+    compare(&Linked::<1>);
+    compare(&Linked::<5>);
+}
+
+#[test]
+fn the_pendulum_has_what_stands_in_textbooks() {
+    let system = Pendulum { g: 9.81, length: 2.0 };
+    let found = generated(&system, &[3.0, 4.0], &[0.5, -0.25], 0.0);
+    assert_eq!((found.g, found.jacobian), (vec![21.0], vec![6.0, 8.0]));
+    assert_eq!((found.rate, found.curvature), (vec![1.0], vec![2.0 * (0.25 + 0.0625)]));
+}
+
+#[test]
+fn members_of_a_family_stand_in_its_place() {
+    // x[0] − 0.1 t, two rods, y[0], the sum, no member of the second family, the last one.
+    let system = Hung { rods: vec![1.0, 2.0] };
+    let q = [0.5, 1.5, 3.0, 0.25, 0.5, 0.75];
+    let found = generated(&system, &q, &[0.0; 6], 10.0);
+    assert_eq!(found.g, [-0.5, 0.0625, -1.6875, 0.25, 4.25, 2.25]);
+    let rows: Vec<&[f64]> = found.jacobian.chunks(6).collect();
+    assert_eq!(rows[1], [-2.0, 2.0, 0.0, -0.5, 0.5, 0.0]);
+    assert_eq!(rows[3], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    assert_eq!(rows[5], [0.0, 0.0, 0.75, 0.0, 0.0, 3.0]);
+}
+
+fn is<S: ConstrainedSystem<Multipliers = M, Augmented = A>, M: Space, A: Space>(_: &S, _: M, _: A) {}
+
+#[test]
+fn spaces_are_fixed_where_stable_rust_can_count() {
+    is(&Pendulum { g: 1.0, length: 1.0 }, Fixed::<1, 1>, Fixed::<1, 3>);
+    is(&Three, Fixed::<1, 2>, Fixed::<1, 8>);
+    is(&Linked::<5>, Fixed::<3, 5, 2>, Fixed::<6, 5, 3>);
+    let run_time = |dimension: usize| RunTime { dimension };
+    let chain = Chain::<4> { rods: vec![1.0; 3] };
+    is(&chain, run_time(3), run_time(11));
+    let system = Hung { rods: vec![1.0; 4] };
+    assert_eq!((system.multipliers(), system.augmented()), (run_time(1 + 4 + 2 + 2 + 1), run_time(20)));
+    let system = Hung { rods: vec![1.0] };
+    assert_eq!((system.multipliers(), system.augmented()), (run_time(5), run_time(9)));
+}
+
+#[test]
+fn functions_of_the_user_stand_in_constraints() -> Outcome {
+    let system = Beads { surface: surface()? };
+    let (q, v, t) = ([0.3, -0.2, 0.1], [1.0, 2.0, 3.0], 0.5_f64);
+    let found = generated(&system, &q, &v, t);
+    let [x, y, z] = q;
+    close(&found.g, &[y - (2.0 * x).sin() - 0.2 * (2.0 * t * x).sin(), z - x * y * (1.0 + x)], "g");
+    let slope = |angle: f64| 2.0 * angle.cos();
+    let by_x = -slope(2.0 * x) - 0.2 * t * slope(2.0 * t * x);
+    close(&found.jacobian, &[by_x, 1.0, 0.0, -y * (1.0 + 2.0 * x), -x * (1.0 + x), 1.0], "∂g/∂q");
+    let tangent = t * v[0] + x;
+    close(
+        &found.rate,
+        &[
+            v[1] - slope(2.0 * x) * v[0] - 0.2 * slope(2.0 * t * x) * tangent,
+            v[2] - y * (1.0 + 2.0 * x) * v[0] - x * (1.0 + x) * v[1],
+        ],
+        "dg/dt",
+    );
+    let curvature = |angle: f64| 4.0 * angle.sin();
+    close(
+        &found.curvature,
+        &[
+            curvature(2.0 * x) * v[0] * v[0]
+                + 0.2 * (curvature(2.0 * t * x) * tangent * tangent - slope(2.0 * t * x) * 2.0 * v[0]),
+            -2.0 * y * v[0] * v[0] - 2.0 * (1.0 + 2.0 * x) * v[0] * v[1],
+        ],
+        "d²g/dt²",
+    );
+    Ok(())
+}
+
+#[test]
+fn a_constraint_outside_of_its_table_is_seen() -> Outcome {
+    let system = Beads { surface: surface()? };
+    assert_eq!(system.surface.domain()[0], (-1.0, 1.0));
+    assert!(system.outside(&[0.3, 0.2, 0.0], &[0.0; 3], 0.0).is_none());
+    let outside = system.outside(&[0.3, 1.2, 0.0], &[0.0; 3], 0.0).ok_or("it is outside")?;
+    assert_eq!((outside.bound, outside.value), (1.0, 1.2));
+    Ok(())
+}
+
+#[test]
+fn indices_of_constraints_are_checked_against_their_arrays() {
+    assert_eq!(Chain::<4> { rods: vec![1.0; 3] }.check(), Ok(()));
+    let error = Chain::<4> { rods: vec![1.0; 2] }.check();
+    assert_eq!(error, Err(IndexError { array: "rods", index: 2, len: 2 }));
+}
+
+#[test]
+fn the_time_in_a_constraint_is_seen() {
+    const { assert!(Pendulum::AUTONOMOUS && !Driven::AUTONOMOUS && !Hung::AUTONOMOUS && Three::AUTONOMOUS) };
+}
+
+#[test]
+fn structure_is_that_of_the_lagrangian() {
+    const { assert!(<Pendulum as NondegenerateLagrangian>::SEPARABLE) };
+    const { assert!(!<Driven as NondegenerateLagrangian>::CONSTANT_MASS) };
+}
+
+#[test]
+fn reports_name_the_constraints() {
+    let text = Pendulum::REPORT.to_string();
+    for line in ["constraint g[0] = ", "∂g[0]/∂x = 2·x", "1 holonomic constraint g(q, t) = 0."] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    let text = Chain::<2>::REPORT.to_string();
+    for line in
+        ["constraint g[i] = ", "  for i in 0..N - 1", "∂g[i]/∂x[i + 1] = ", "N - 1 holonomic constraints"]
+    {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    let text = Hung::REPORT.to_string();
+    assert!(
+        text.contains("2·rods.len() + 2 holonomic constraints g(q, t) = 0, where no range is empty."),
+        "{text}"
+    );
+    let text = Linked::<2>::REPORT.to_string();
+    assert!(
+        text.contains("constraint g[i + 2] = ") && text.contains("N + 2 holonomic constraints"),
+        "{text}"
+    );
+    assert!(!text.contains("Variational::trapezoid"), "{text}");
+}
+
+/// A rod whose length is a parameter of any type of numbers.
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2), constraint = x * x + y * y - length * length)]
+struct Rod<P> {
+    length: P,
+}
+
+#[test]
+fn constraints_have_derivatives_by_parameters() {
+    let system = Rod { length: Varied(Dual64::from_re(1.5).derivative()) };
+    let mut g = [Dual64::from_re(0.0)];
+    let q = [Dual64::from_re(2.0), Dual64::from_re(1.0)];
+    system.constraint(&q, Dual64::from_re(0.0), &mut g);
+    assert_eq!((g[0].re, g[0].eps), (2.75, -3.0));
+}
+
+/// Neither a loop of its own nor those of the sums in it run where a family is empty.
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2)),
+    constraint(i in 0..n - 4) = x[i + 4] - x[i] * sum(i..i + 4, |j| x[j]),
+    constraint = x[0],
+)]
+struct Loose {
+    n: usize,
+}
+
+#[test]
+fn an_empty_family_reads_nothing_and_takes_no_place() {
+    for n in [1, 3, 4] {
+        let system = Loose { n };
+        assert_eq!((system.check(), system.multipliers().dimension()), (Ok(()), 1));
+        assert_eq!(system.augmented().dimension(), n + 1);
+        let found = generated(&system, &point(n, 0.2), &point(n, 0.7), 0.0);
+        assert_eq!((found.g, found.curvature), (vec![point(n, 0.2)[0]], vec![0.0]));
+    }
+    assert_eq!(Loose { n: 6 }.multipliers().dimension(), 3);
+}

@@ -1,0 +1,89 @@
+//! The same unfriendliness for systems with constraints.
+
+use dvi_core::{HolonomicLagrangian, Space};
+
+/// Fields and indices with the names of what generated code might use.
+mod names {
+    use dvi_core::lagrangian;
+
+    /// A system.
+    #[lagrangian(
+        coordinates(q, out[3], constraint),
+        lagrangian = dot(q).powi(2) + sum(0..3, |j| dot(out[j]).powi(2)) + dot(constraint).powi(2),
+        constraint(q in 0..3) = out[q] * g - row0 * (q as f64),
+        constraint = constraint * sink - g0[1] * rest - q,
+        momenta(constraint = g * dot(constraint)),
+    )]
+    #[derive(Clone, Debug)]
+    pub struct Names {
+        pub(super) g: f64,
+        pub(super) g0: [f64; 2],
+        pub(super) row0: f64,
+        pub(super) rest: f64,
+        pub(super) sink: f64,
+    }
+}
+
+/// Generics, lifetimes, bounds, and a type of parameters.
+mod generics {
+    use dvi_core::lagrangian;
+
+    /// A system that borrows.
+    #[lagrangian(
+        coordinates(x[n], y[n]),
+        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)),
+        constraint(k in 0..n) = T[k] * x[k] * y[k] - s,
+    )]
+    #[derive(Clone, Debug)]
+    #[allow(non_upper_case_globals, non_snake_case)]
+    pub struct Borrowing<'a, P: Clone, const n: usize>
+    where
+        'a: 'a,
+    {
+        pub(super) T: &'a [f64; n],
+        pub(super) s: P,
+    }
+}
+
+/// A prelude in which nothing means what it should.
+#[allow(dead_code, non_camel_case_types, missing_debug_implementations)]
+mod shadowed {
+    struct Option;
+    struct Result;
+    struct Fixed;
+    struct RunTime;
+    trait Sink {}
+    trait Space {}
+    trait ConstrainedSystem {}
+    trait HolonomicLagrangian {}
+    mod core {}
+    mod dvi_core {}
+
+    /// A system whose size the run knows.
+    #[::dvi_core::lagrangian(
+        coordinates(x[mass.len()]),
+        lagrangian = sum(0..mass.len(), |j| mass[j] * dot(x[j]).powi(2)),
+        constraint(j in 0..mass.len() - 1) = x[j + 1] - mass[j] * x[j],
+    )]
+    pub struct Shadowed {
+        pub(super) mass: ::std::vec::Vec<f64>,
+    }
+}
+
+/// dg/dt where all coordinates are one half and all velocities one quarter.
+fn rate<S: HolonomicLagrangian>(system: &S) -> Vec<f64> {
+    assert!(system.check().is_ok());
+    let (n, m) = (system.space().dimension(), system.multipliers().dimension());
+    let mut rate = vec![f64::NAN; m];
+    system.constraint_rate(&vec![0.5; n], &vec![0.25; n], 0.0, &mut rate);
+    rate
+}
+
+#[test]
+fn systems_with_constraints_and_unfriendly_names_work() {
+    let names = names::Names { g: 2.0, g0: [3.0, 4.0], row0: 5.0, rest: 6.0, sink: 7.0 };
+    assert_eq!(rate(&names), [0.5, 0.5, 0.5, 1.5]);
+    assert_eq!(rate(&generics::Borrowing::<f64, 2> { T: &[1.0, 2.0], s: 3.0 }), [0.25, 0.5]);
+    assert_eq!(rate(&shadowed::Shadowed { mass: vec![2.0, 3.0] }), [-0.25]);
+    assert_eq!(rate(&shadowed::Shadowed { mass: Vec::new() }), [0.0; 0]);
+}
