@@ -131,15 +131,15 @@ pub enum StartError {
         /// Its value, in the units of its formula.
         value: f64,
     },
-    /// The initial velocity leads away from a constraint.
+    /// The initial velocity leads away from a constraint, or is not admitted by one of velocities.
     #[error(
-        "the initial velocity changes constraint {constraint} at the rate {rate:e}, which has to be zero: begin with \
-         `system.projected(t, &state)`"
+        "the initial velocity is not one along constraint {constraint}: its rate of change, or a constraint of velocities itself, is \
+         {rate:e} and has to be zero; begin with `system.projected(t, &state)`"
     )]
     AcrossConstraint {
         /// Its number, counted from 0 in the order of declaration.
         constraint: usize,
-        /// G v + ∂g/∂t, in units of the formula over time.
+        /// G v + ∂g/∂t, in units of the formula over time; of a constraint of velocities its value.
         rate: f64,
     },
     /// No state on the constraints was found near one.

@@ -331,6 +331,8 @@ impl Function<'_> {
                 Weight::Vv => quote!(__w.vv),
                 Weight::A => quote!(__a),
                 Weight::B => quote!(__b),
+                Weight::Q => quote!(__weights[0usize]),
+                Weight::V => quote!(__weights[1usize]),
             },
             Node::Time => quote!(__t),
             other => internal(format!("{other:?} is not a leaf")),
@@ -366,7 +368,7 @@ pub(crate) fn scalar_field(field: usize) -> Ident {
     format_ident!("__scalar_field{field}")
 }
 
-/// The slice of g with the members of a declared constraint.
+/// The slice of g or a with the members of a declared constraint.
 pub(crate) fn constraint_members(constraint: u32) -> String {
     format!("g{constraint}")
 }

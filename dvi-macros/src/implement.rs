@@ -20,12 +20,12 @@ use crate::emit::{Emitter, local, output_block, own_function, scalar_field};
 use crate::program::{Output, Programs};
 use crate::routine::Routine;
 use crate::symbolic::Node;
-use crate::syntax::Kind;
+use crate::syntax::{Constrained, Kind};
 
 mod check;
+mod constraints;
 mod degenerate;
 mod document;
-mod holonomic;
 mod regular;
 mod state;
 
@@ -240,11 +240,12 @@ fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStr
 }
 
 /// The type that says what kind of Lagrangian it is.
-pub(crate) fn kind(krate: &Path, kind: Kind, constrained: bool) -> TokenStream {
+pub(crate) fn kind(krate: &Path, kind: Kind, constrained: Option<Constrained>) -> TokenStream {
     match (kind, constrained) {
         (Kind::Degenerate, _) => quote!(#krate::system::Degenerate),
-        (Kind::Regular, false) => quote!(#krate::system::Regular),
-        (Kind::Regular, true) => quote!(#krate::system::Holonomic),
+        (Kind::Regular, None) => quote!(#krate::system::Regular),
+        (Kind::Regular, Some(Constrained::Positions)) => quote!(#krate::system::Holonomic),
+        (Kind::Regular, Some(Constrained::Velocities)) => quote!(#krate::system::Nonholonomic),
     }
 }
 
@@ -266,8 +267,8 @@ fn configuration(
     let forced = programs.forces.is_some();
     let autonomous = !programs.depends_on_time(emitter.graph);
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
-    let (check, kind) =
-        (check::check(emitter, programs), kind(krate, emitter.model.kind, programs.constraints.is_some()));
+    let constrained = programs.constraints.as_ref().map(|constraints| constraints.of);
+    let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.kind, constrained));
     quote! {
         #[automatically_derived]
         #allow

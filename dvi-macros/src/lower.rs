@@ -12,6 +12,7 @@ use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
 use crate::errors::{Errors, listed, nearest};
 use crate::model::{Model, Shape};
 use crate::symbolic::{Expr, Graph, Id, Index, Loop, Node, Parameter};
+use crate::syntax::Constrained;
 
 mod admit;
 mod blocks;
@@ -40,7 +41,7 @@ pub(crate) enum Role {
     TimeTransform,
     Lagrangian,
     Force,
-    Constraint,
+    Constraint(Constrained),
     Momentum,
 }
 
@@ -54,7 +55,8 @@ impl Role {
             Self::TimeTransform => "the time transformation",
             Self::Lagrangian => "the Lagrangian",
             Self::Force => "a force",
-            Self::Constraint => "a holonomic constraint",
+            Self::Constraint(Constrained::Positions) => "a holonomic constraint",
+            Self::Constraint(Constrained::Velocities) => "a nonholonomic constraint",
             Self::Momentum => "a momentum",
         }
     }

@@ -12,7 +12,7 @@ mod constraints;
 mod degenerate;
 mod regular;
 
-pub(crate) use constraints::{Constraint, Constraints, Row};
+pub(crate) use constraints::{Constraint, Constraints, DeclaredConstraints, Row};
 pub(crate) use degenerate::{DegenerateFormulas, DegeneratePrograms, TimeTransform, dalpha};
 pub(crate) use regular::{RegularFormulas, RegularPrograms};
 
@@ -33,9 +33,9 @@ pub(crate) enum Place {
     Result,
     Entry(Output, Coordinate),
     MatrixEntry(Coordinate, Coordinate),
-    /// An entry of g.
+    /// An entry of g or a.
     Constraint(Row),
-    /// An entry of G = ∂g/∂q.
+    /// An entry of a derivative of g or a.
     ConstraintDerivative(Row, Coordinate),
 }
 
@@ -88,7 +88,7 @@ impl Programs {
         lagrangian: Expr,
         mut entries: Vec<SecondContribution>,
         force: &Force,
-        constraints: &[Constraint],
+        constraints: Option<&DeclaredConstraints>,
         momenta: &[Expr],
     ) -> Self {
         let by_lagrangian = graph.gradient(lagrangian, &[]);
@@ -100,8 +100,8 @@ impl Programs {
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
             forces: (!force.is_empty()).then(|| applied(graph, force)),
-            constraints: (!constraints.is_empty()).then(|| Constraints::new(graph, constraints)),
-            probe: probe(graph, lagrangian, force, constraints),
+            constraints: constraints.map(|declared| Constraints::new(graph, declared)),
+            probe: probe(graph, lagrangian, force, constraints.map_or(&[], |declared| &declared.list)),
             gradient: Routine::new(graph, gradient),
             linearize: Routine::new(graph, linearize),
             momenta: momenta.iter().map(|value| Routine::new(graph, result(*value))).collect(),

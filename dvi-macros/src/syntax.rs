@@ -15,7 +15,7 @@ mod constraint;
 mod declared;
 pub(crate) mod depth;
 
-pub(crate) use constraint::{Constraint, Family};
+pub(crate) use constraint::{Constrained, Constraint, Family};
 use declared::Declared;
 pub(crate) use declared::{Declaration, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform};
 
@@ -41,8 +41,8 @@ pub(crate) struct Attribute {
     pub(crate) lagrangian: Option<Expr>,
     pub(crate) forces: Vec<Force>,
     pub(crate) constraints: Vec<Constraint>,
-    /// Whether constraints were declared, readable or not.
-    pub(crate) constrained: bool,
+    /// What the constraints are of, if some were declared, readable or not.
+    pub(crate) constrained: Option<Constrained>,
     pub(crate) momenta: Vec<Momentum>,
     pub(crate) functions: Vec<Function>,
     pub(crate) scalar_fields: Vec<ScalarFieldPath>,
@@ -57,7 +57,7 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 12] = [
+const ARGUMENTS: [(&str, &str); 13] = [
     ("coordinates", "coordinates(x, y[n])"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
@@ -66,6 +66,7 @@ const ARGUMENTS: [(&str, &str); 12] = [
     ("lagrangian",  "lagrangian = …"),
     ("force",       "force = [F_x, |i| F_y(i)]`, or `force(x) = F_x"),
     ("constraint",  "constraint = g(q, t)`, or `constraint(i in 0..n) = g(i)"),
+    ("nonholonomic", "nonholonomic = a(q, v, t)`, or `nonholonomic(i in 0..n) = a(i)"),
     ("momenta",     "momenta(p = …)"),
     ("functions",   "functions(f = [f, df, d2f])"),
     ("derive",      "derive(Trait, path::Trait)"),
@@ -89,11 +90,42 @@ const CONSTRAINTS: [&str; 10] = [
     "rods",
 ];
 
+/// Words for what is a constraint of the velocities.
+const VELOCITY_CONSTRAINTS: [&str; 10] = [
+    "anholonomic",
+    "no_slip",
+    "non_holonomic",
+    "nonholonomic_constraint",
+    "nonholonomic_constraints",
+    "rolling",
+    "slip",
+    "velocity_constraint",
+    "velocity_constraints",
+    "without_slip",
+];
+
 /// The arguments that a regular system does not have.
 const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
 
 /// The arguments that a degenerate system does not have.
-const REGULAR_ONLY: [&str; 1] = ["constraint"];
+const REGULAR_ONLY: [&str; 2] = ["constraint", "nonholonomic"];
+
+/// What is constrained by an argument of this name, or of one like it.
+fn constrained_by(name: &str) -> Option<Constrained> {
+    let declares = |of: &Constrained| {
+        let others = match of {
+            Constrained::Positions => CONSTRAINTS,
+            Constrained::Velocities => VELOCITY_CONSTRAINTS,
+        };
+        name == of.word() || others.contains(&name)
+    };
+    Constrained::ALL.into_iter().find(declares)
+}
+
+/// What is constrained by an argument of this very name.
+fn declared_by(name: &str) -> Option<Constrained> {
+    Constrained::ALL.into_iter().find(|of| of.word() == name)
+}
 
 impl Kind {
     /// The attribute as it is written.
@@ -151,8 +183,8 @@ impl Argument {
                 Value::List(list)
             } else if name == "force" {
                 return Err(input.error("a force is written `force(x) = …`"));
-            } else if name == "constraint" {
-                return Err(input.error("a family of constraints is written `constraint(i in 0..n) = g(i)`"));
+            } else if let Some(of) = declared_by(&name.to_string()) {
+                return Err(input.error(format!("a family of constraints is written {}", of.family())));
             } else {
                 return Err(input.error("expected `,`"));
             }
@@ -166,9 +198,9 @@ impl Argument {
         Ok(Self { name, value })
     }
 
-    /// What may be given once: `name`, or `name(of)`. Every `constraint` is one more.
+    /// What may be given once: `name`, or `name(of)`. Every `constraint` or `nonholonomic` is one more.
     fn given(&self) -> Option<String> {
-        if self.name == "constraint" {
+        if declared_by(&self.name.to_string()).is_some() {
             return None;
         }
         Some(match &self.value {
@@ -241,17 +273,11 @@ impl Attribute {
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
         let Argument { name, value } = argument;
         let keyword = name.to_string();
-        let is_constraint = keyword == "constraint" || CONSTRAINTS.contains(&keyword.as_str());
-        self.constrained |= is_constraint;
+        if let Some(of) = constrained_by(&keyword) {
+            self.accept_constraints(of, &name, value, errors);
+            return;
+        }
         match (keyword.as_str(), value) {
-            _ if is_constraint && self.kind == Kind::Degenerate => {
-                let message = format!(
-                    "holonomic constraints are for regular systems, in `{}`: the coordinates of a degenerate one are to be \
-                     chosen so that they hold",
-                    Kind::Regular.attribute()
-                );
-                errors.push_once("constraints", &name, message);
-            }
             (other, _) if !self.kind.takes(other) => {
                 let message = format!(
                     "`{}` takes all of L as `lagrangian = …`; {} are arguments of `{}`",
@@ -304,25 +330,6 @@ impl Attribute {
                     )),
                 }
             }
-            ("constraint", Value::Assigned(tokens)) => {
-                if let Some(value) = value_of(&name, tokens, errors) {
-                    let declared = Constraint::of_value(value);
-                    self.constraints.extend(declared.into_iter().filter_map(|one| errors.taken(one)));
-                }
-            }
-            ("constraint", Value::AssignedTo { of, value, parentheses }) => {
-                let family = if of.is_empty() {
-                    let message = "a family of constraints is written `constraint(i in 0..n) = g(i)`";
-                    Err(syn::Error::new(parentheses, message))
-                } else {
-                    read(of)
-                };
-                let formula = value_of(&name, value, errors);
-                if let Some((family, formula)) = errors.taken(family).zip(formula) {
-                    let declared = Constraint::of_formula(Some(family), formula);
-                    self.constraints.extend(errors.taken(declared));
-                }
-            }
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),
@@ -334,20 +341,12 @@ impl Attribute {
                 )),
             },
             (known, _) if ARGUMENTS.iter().any(|(name, _)| *name == known) => {
-                let form = ARGUMENTS.iter().find(|(name, _)| *name == known).map_or("", |(_, form)| form);
                 self.lost_functions |= known == "functions";
-                errors.push(&name, format!("`{known}` is written `{form}`"));
+                errors.push(&name, format!("`{known}` is written `{}`", form_of(known)));
             }
             _ if FORCES.contains(&keyword.as_str()) => {
                 errors
                     .push(&name, format!("unknown argument `{keyword}`; a force is written `force(x) = …`"));
-            }
-            _ if is_constraint => {
-                let message = format!(
-                    "unknown argument `{keyword}`; a constraint is written `constraint = g(q, t)`, and more of them \
-                     `constraint = [g1, g2]`, or `constraint(i in 0..n) = g(i)`"
-                );
-                errors.push(&name, message);
             }
             _ => {
                 let hint = nearest(&keyword, self.kind.arguments()).map_or_else(
@@ -355,6 +354,71 @@ impl Attribute {
                     |near| format!("did you mean `{near}`?"),
                 );
                 errors.push(&name, format!("unknown argument `{keyword}`; {hint}"));
+            }
+        }
+    }
+
+    /// The constraints of an argument whose name says that it declares some.
+    fn accept_constraints(&mut self, of: Constrained, name: &Ident, value: Value, errors: &mut Errors) {
+        if self.kind == Kind::Degenerate {
+            let reason = match of {
+                Constrained::Positions => {
+                    "the coordinates of a degenerate one are to be chosen so that they hold"
+                }
+                Constrained::Velocities => {
+                    "the velocities of a degenerate one are what its equations of motion make of the positions"
+                }
+            };
+            let (adjective, regular) = (of.adjective(), Kind::Regular.attribute());
+            let message =
+                format!("{adjective} constraints are for regular systems, in `{regular}`: {reason}");
+            errors.push_once("constraints", name, message);
+            return;
+        }
+        let (word, function, letter) = (of.word(), of.function(), of.letter());
+        let before = *self.constrained.get_or_insert(of);
+        if name != word {
+            let message = format!(
+                "unknown argument `{name}`; a constraint{} is written `{word} = {function}`, and more of them \
+                 `{word} = [{letter}1, {letter}2]`, or {}",
+                if of == Constrained::Velocities { " of the velocities" } else { "" },
+                of.family()
+            );
+            errors.push(name, message);
+            return;
+        }
+        if before != of {
+            let message = format!(
+                "a system has constraints of one kind, and those before this one are declared by `{}`: choose the coordinates \
+                 so that the constraints of the positions hold, or declare their rates of change by `{} = …` too",
+                before.word(),
+                Constrained::Velocities.word()
+            );
+            errors.push_once("constraints of two kinds", name, message);
+            return;
+        }
+        match value {
+            Value::Assigned(tokens) => {
+                if let Some(value) = value_of(name, tokens, errors) {
+                    let declared = Constraint::of_value(of, value);
+                    self.constraints.extend(declared.into_iter().filter_map(|one| errors.taken(one)));
+                }
+            }
+            Value::AssignedTo { of: index, value, parentheses } => {
+                let family = if index.is_empty() {
+                    let message = format!("a family of constraints is written {}", of.family());
+                    Err(syn::Error::new(parentheses, message))
+                } else {
+                    read_by(index, |input| Family::parse(input, of))
+                };
+                let formula = value_of(name, value, errors);
+                if let Some((family, formula)) = errors.taken(family).zip(formula) {
+                    let declared = Constraint::of_formula(of, Some(family), formula);
+                    self.constraints.extend(errors.taken(declared));
+                }
+            }
+            Value::List(_) | Value::Neither => {
+                errors.push(name, format!("`{word}` is written `{}`", form_of(word)));
             }
         }
     }
@@ -371,6 +435,11 @@ impl Attribute {
             self.forces.push(force);
         }
     }
+}
+
+/// How an argument is written.
+fn form_of(argument: &str) -> &'static str {
+    ARGUMENTS.iter().find(|(name, _)| *name == argument).map_or("", |(_, form)| form)
 }
 
 fn list<T: Parse>(tokens: TokenStream, errors: &mut Errors, lost: &mut bool) -> Vec<T> {

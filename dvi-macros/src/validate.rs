@@ -147,7 +147,7 @@ impl Check<'_> {
                 accepted += 1;
                 sides.extend(&outputs.sides);
                 self.compare(&point, &outputs, functions, &mut checked)?;
-                self.system.check_claims(self.graph, claims, functions, &point, &mut checked)?;
+                self.system.check_claims(self.graph, claims, functions, &point, &outputs, &mut checked)?;
             }
             checked.points += accepted;
         }

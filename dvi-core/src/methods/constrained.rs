@@ -1,8 +1,10 @@
-//! The step of a discrete Lagrangian on holonomic constraints:
+//! The step of a discrete Lagrangian with constraints:
 //!
-//! p0 = −D₁L_d(q0, q1) − G(q0)ᵀι0, g(q1) = 0      p1 = D₂L_d(q0, q1) + G(q1)ᵀι1, G(q1) v1 + ∂g/∂t = 0 with p1 = ∂L/∂v(q1, v1)
+//! p0 = −D₁L_d(q0, q1) − A(q0)ᵀι0      p1 = D₂L_d(q0, q1) + A(q1)ᵀι1, with p1 = ∂L/∂v(q1, v1)
 //!
-//! for q1 and the impulses ι0 and ι1 of the constraints at both ends.
+//! for q1 and the impulses ι0 and ι1 of the constraints at both ends. Of constraints of positions, g(q, t) = 0, A is ∂g/∂q, and
+//! g(q1) = 0 and A(q1) v1 + ∂g/∂t = 0; of those of velocities, A v + b = 0, what vanishes is A Δ + h b in the middle of the step and
+//! A(q1) v1 + b.
 
 use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
@@ -21,23 +23,30 @@ use crate::state::memory::{Memory, lasting};
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Space, Vector};
 
-/// The step of a variational method on holonomic constraints, for systems with `constraint = …`. With the trapezoidal rule it is
-/// RATTLE, with the positions of SHAKE; [`Rattle`](crate::methods::Rattle) takes the same steps faster where L is separable.
+/// The step of a variational method for systems with constraints, of positions by `constraint = …` or of velocities by
+/// `nonholonomic = …`.
 ///
 /// ```math
-/// \begin{aligned}
-/// p_0 &= -D_1 L_d(q_0, q_1) - G(q_0)^\mathsf{T} \iota_0, & g(q_1) &= 0, \\
-/// p_1 &= D_2 L_d(q_0, q_1) + G(q_1)^\mathsf{T} \iota_1, & G(q_1)\, v_1 + \partial_t g &= 0
-/// \end{aligned}
+/// p_0 = -D_1 L_d(q_0, q_1) - A(q_0)^\mathsf{T} \iota_0, \qquad p_1 = D_2 L_d(q_0, q_1) + A(q_1)^\mathsf{T} \iota_1
 /// ```
 ///
-/// with p1 = ∂L/∂v(q1, v1), so that positions are on the constraints and velocities along them, both to rounding errors. The impulses ι are those of
-/// the constraints at the two ends of the step, one for each (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997; of RATTLE Andersen
-/// 1983). Each step is solved by Newton's method for q1 and ι0 together; along a chain its equations are banded.
+/// The impulses ι are those of the constraints at the two ends of the step, one number for each; p1 = ∂L/∂v(q1, v1).
 ///
-/// The steps preserve dq ∧ dp on the constraints, and the momentum maps of symmetries that act linearly and leave L and g as they
-/// are. The order is that of the rule, 1 or 2; a [`Composition`](crate::methods::Composition) of symmetric steps has a higher one.
-/// A run begins at a state on the constraints: [`projected`](crate::mechanics::OnConstraints::projected) finds one.
+/// | constraints | A | q1 and ι0 | v1 and ι1 |
+/// |---|---|---|---|
+/// | g(q, t) = 0 | ∂g/∂q | g(q1, t1) = 0 | A(q1) v1 + ∂g/∂t = 0 |
+/// | A(q, t) v + b(q, t) = 0 | A | A Δ + h b = 0 at (q0 + Δ/2, t + h/2) | A(q1) v1 + b(q1) = 0 |
+///
+/// So positions are on holonomic constraints and velocities agree with both, to rounding errors. With the trapezoidal rule and
+/// holonomic constraints this is RATTLE (Andersen 1983), with the positions of SHAKE; [`Rattle`](crate::methods::Rattle) takes the same
+/// steps faster where L is separable. With nonholonomic constraints it is the discrete principle of Lagrange and d'Alembert
+/// (Cortés & Martínez 2001). Each step is solved by Newton's method for q1 and ι0 together; along a chain its equations are banded.
+///
+/// On holonomic constraints the steps preserve dq ∧ dp, and the momentum maps of symmetries that act linearly and leave L and g as
+/// they are (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997). With nonholonomic ones neither the motion nor the steps
+/// preserve a two-form or, as a rule, momenta; symmetric steps are reversible. The order is that of the rule, 1 or 2; a
+/// [`Composition`](crate::methods::Composition) of symmetric steps has a higher one. A run begins at a state that the constraints admit:
+/// [`projected`](crate::mechanics::OnConstraints::projected) finds one.
 ///
 /// ```
 /// use dvi_core::prelude::*;

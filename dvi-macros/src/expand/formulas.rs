@@ -6,7 +6,7 @@ use super::Stages;
 use crate::internal::internal;
 use crate::lower::{Lowering, Role};
 use crate::model::Extended;
-use crate::program::{DegenerateFormulas, RegularFormulas, TimeTransform};
+use crate::program::{DeclaredConstraints, DegenerateFormulas, RegularFormulas, TimeTransform};
 use crate::structure::gauge::{self, Effort, Search};
 use crate::symbolic::{Coordinate, Expr, Graph, Index, Node};
 use crate::syntax::{self, Attribute, Gauge};
@@ -139,10 +139,14 @@ impl Stages {
         };
         let momenta = momenta(&self.attribute, &mut lowering);
         let force = lowering.forces(&self.attribute.forces);
-        let constraints = lowering.constraints(&self.attribute.constraints);
+        let constraints = self.attribute.constrained.map(|of| {
+            let list = lowering.constraints(of, &self.attribute.constraints)?;
+            Some(DeclaredConstraints { of, list })
+        });
         let lagrangian = lagrangian?;
         let quadratic = lowering.is_quadratic(lagrangian);
-        let (force, constraints, momenta) = (force?, constraints?, momenta?);
+        let (force, constraints, momenta) =
+            (force?, constraints.map_or(Some(None), |declared| declared.map(Some))?, momenta?);
         Some(RegularFormulas { lagrangian, quadratic, force, constraints, momenta })
     }
 

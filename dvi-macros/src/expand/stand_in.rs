@@ -10,7 +10,7 @@ use syn::{GenericParam, Generics, Path, Visibility};
 use crate::emit::Emitter;
 use crate::errors::Errors;
 use crate::implement::{self, State};
-use crate::syntax::Kind;
+use crate::syntax::{Constrained, Kind};
 
 /// A type that takes the place of a system.
 struct StandIn<'a> {
@@ -21,11 +21,15 @@ struct StandIn<'a> {
     space: TokenStream,
     state: TokenStream,
     time_transformed: bool,
-    constrained: bool,
+    constrained: Option<Constrained>,
 }
 
 /// With errors in the attribute.
-pub(super) fn stand_in(emitter: &Emitter<'_>, constrained: bool, mut errors: Errors) -> TokenStream {
+pub(super) fn stand_in(
+    emitter: &Emitter<'_>,
+    constrained: Option<Constrained>,
+    mut errors: Errors,
+) -> TokenStream {
     let (model, krate) = (emitter.model, emitter.krate());
     let item = &model.item;
     let (space, state, state_item) = if model.lost_coordinates {
@@ -52,7 +56,7 @@ pub(super) fn without_struct(
 ) -> TokenStream {
     let krate: Path = syn::parse_quote!(::dvi_core);
     let (space, state, state_item) = lost_state(&krate, visibility, name, generics, &mut errors);
-    let (time_transformed, constrained) = (false, false);
+    let (time_transformed, constrained) = (false, None);
     let stand_in =
         StandIn { kind, name, generics, krate: &krate, space, state, time_transformed, constrained };
     let implementations = stand_in.implementations();
@@ -68,7 +72,8 @@ impl StandIn<'_> {
         let never = quote!({ ::core::unreachable!() });
         let kind = implement::kind(krate, self.kind, self.constrained);
         let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
-        let holonomic = (self.kind == Kind::Regular && self.constrained).then(|| self.holonomic(&never));
+        let constrained =
+            (self.kind == Kind::Regular && self.constrained.is_some()).then(|| self.with_constraints(&never));
         quote! {
             const _: () = {
                 #[automatically_derived]
@@ -84,13 +89,13 @@ impl StandIn<'_> {
                 }
                 impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause {}
                 #time_transformed
-                #holonomic
+                #constrained
             };
         }
     }
 
     /// The trait that systems have with constraints only.
-    fn holonomic(&self, never: &TokenStream) -> TokenStream {
+    fn with_constraints(&self, never: &TokenStream) -> TokenStream {
         let Self { name, krate, .. } = self;
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         quote! {

@@ -6,8 +6,10 @@ use syn::ext::IdentExt as _;
 
 use crate::emit::Emitter;
 use crate::operations::Operations;
-use crate::program::{Output, Place, Programs, Row, Statement, variable};
-use crate::symbolic::{Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops};
+use crate::program::{Output, Place, Programs, Row, Statement, Variable, variable};
+use crate::symbolic::{
+    Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops, print_velocity,
+};
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
     print_expr(emitter.graph, expr, 0, emitter.model)
@@ -78,15 +80,19 @@ impl Account {
             let first = before.iter().fold(Index::default(), |sum, length| sum.plus(length, 1));
             print_index(&first.plus(&row.member, 1), emitter.model)
         };
-        for statement in &constraints.jacobian.statements {
-            let name = match &statement.place {
-                Place::Constraint(row) => format!("constraint g[{}]", number(row)),
-                Place::ConstraintDerivative(row, by) => {
-                    format!("∂g[{}]/∂{}", number(row), print_coordinate(by, emitter.model))
-                }
-                Place::Result | Place::Entry(..) | Place::MatrixEntry(..) => continue,
-            };
+        let (letter, model) = (constraints.of.letter(), emitter.model);
+        for statement in &constraints.value.statements {
+            let Place::Constraint(row) = &statement.place else { continue };
+            let name = format!("constraint {letter}[{}]", number(row));
             self.formulas.push((name, in_loops(emitter, statement)));
+        }
+        for (variable, statement) in &constraints.derivatives {
+            let Place::ConstraintDerivative(row, column) = &statement.place else { continue };
+            let by = match variable {
+                Variable::Position => print_coordinate(column, model),
+                Variable::Velocity => print_velocity(column, model),
+            };
+            self.formulas.push((format!("∂{letter}[{}]/∂{by}", number(row)), in_loops(emitter, statement)));
         }
         let count = constraints.lengths.iter().fold(Index::default(), |sum, length| sum.plus(length, 1));
         let noun = if count.as_literal() == Some(1) { "constraint" } else { "constraints" };
@@ -95,7 +101,8 @@ impl Account {
         let condition =
             if may_end_early && constraints.lengths.len() > 1 { ", where no range is empty" } else { "" };
         let count = print_index(&count, emitter.model);
-        self.sentence(format!("{count} holonomic {noun} g(q, t) = 0{condition}."));
+        let (adjective, function) = (constraints.of.adjective(), constraints.of.function());
+        self.sentence(format!("{count} {adjective} {noun} {function} = 0{condition}."));
     }
 
     pub(super) fn report(&self, emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {

@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::constraints::constraints;
 use super::document::{Account, beside_force, quantity};
-use super::holonomic::holonomic;
 use super::in_numbers;
 use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
@@ -47,7 +47,7 @@ fn account(
     let mut account = Account::new(
         "L(q, v, t) and its energy E = v·∂L/∂v − L:",
         declared.to_vec(),
-        structure.sentences(programs.shared.constraints.is_some()),
+        structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of)),
     );
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
@@ -83,7 +83,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     };
     let lagrangian = in_numbers(emitter, &quote!(NondegenerateLagrangian), &lagrangian);
     let motion = match &programs.shared.constraints {
-        Some(constraints) => holonomic(emitter, constraints),
+        Some(programs) => constraints(emitter, programs),
         None => in_numbers(emitter, &quote!(RegularLagrangian), &TokenStream::new()),
     };
     quote!(#lagrangian #motion #(#traits)*)

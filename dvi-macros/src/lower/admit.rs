@@ -1,5 +1,5 @@
 //! What is admitted as a formula: of a reasonable size, and affine in the velocities where a degenerate
-//! system asks for it, reported on the smallest term that is not.
+//! system or a nonholonomic constraint asks for it, reported on the smallest term that is not.
 
 use rustc_hash::FxHashMap as HashMap;
 
@@ -8,7 +8,7 @@ use syn::Expr as Syntax;
 
 use super::{Lowering, Role};
 use crate::symbolic::{Expr, Fold, Graph, Id, Node};
-use crate::syntax::Kind;
+use crate::syntax::{Constrained, Kind};
 
 /// Far beyond what floating point can tell from 0 or ∞, and far from overflow.
 pub(super) const LARGEST_EXPONENT: u32 = 4096;
@@ -114,11 +114,15 @@ impl Lowering<'_> {
             self.errors.push_once("depth of functions", syntax, message);
             return None;
         }
-        if self.model.kind == Kind::Regular || self.degree(value) < 2 {
+        if !self.is_to_be_affine() || self.degree(value) < 2 {
             return Some(value);
         }
         let message = match self.role {
             Role::OneForm => "a one-form is linear in d(·): this term is not",
+            Role::Constraint(_) => {
+                "this term is not affine in the velocities: a nonholonomic constraint is A(q, t) v + b(q, t) = 0, so that no \
+                 velocity is multiplied by another one or stands in a function"
+            }
             _ => {
                 "this term is not affine in the velocities, so the Lagrangian is not degenerate in the sense of \
                  `#[degenerate_lagrangian]`; a regular Lagrangian belongs to `#[lagrangian]`"
@@ -128,13 +132,22 @@ impl Lowering<'_> {
         None
     }
 
-    /// What is compared does not depend on velocities, where L is to be affine in them.
+    /// Whether the formula is to be affine in the velocities.
+    fn is_to_be_affine(&self) -> bool {
+        self.model.kind == Kind::Degenerate || self.role == Role::Constraint(Constrained::Velocities)
+    }
+
+    /// What is compared does not depend on velocities, where the formula is to be affine in them.
     pub(super) fn check_at_rest(&mut self, at: &impl ToTokens, what: &str, sides: &[Expr]) -> Option<()> {
-        if self.model.kind == Kind::Regular || sides.iter().all(|side| self.degree(*side) == 0) {
+        if !self.is_to_be_affine() || sides.iter().all(|side| self.degree(*side) == 0) {
             return Some(());
         }
+        let formula = match self.role {
+            Role::Constraint(_) => "this constraint",
+            _ => "L",
+        };
         let message = format!(
-            "{what} depends on a velocity, so L is not affine in the velocities; \
+            "{what} depends on a velocity, so {formula} is not affine in the velocities; \
              a condition compares coordinates, parameters and `t`"
         );
         self.errors.push(at, message);

@@ -11,7 +11,7 @@ use crate::errors::{listed, nearest, similar, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Node, Partial, Relation};
-use crate::syntax::Kind;
+use crate::syntax::{Constrained, Kind};
 
 impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Expr> {
@@ -257,9 +257,11 @@ impl Lowering<'_> {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
             Role::Momentum | Role::Force if self.model.kind == Kind::Regular => "dot",
-            Role::Constraint => {
+            Role::Constraint(Constrained::Velocities) => "dot",
+            Role::Constraint(Constrained::Positions) => {
                 let message = "a holonomic constraint has no velocities: it is a function g(q, t) of the positions and the time, \
-                               and its rate of change is kept at zero with it";
+                               and its rate of change is kept at zero with it; a constraint of the velocities is declared by \
+                               `nonholonomic = …`";
                 self.errors.push(call, message);
                 return None;
             }

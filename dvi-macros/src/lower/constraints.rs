@@ -1,4 +1,4 @@
-//! Holonomic constraints, single ones and families over an index.
+//! Constraints of the positions or of the velocities, single ones and families over an index.
 
 use syn::Expr as Syntax;
 
@@ -7,12 +7,17 @@ use super::sums::natural;
 use super::{Lowering, Role};
 use crate::program::Constraint;
 use crate::symbolic::{Expr, Index, Node};
-use crate::syntax::{self, Family};
+use crate::syntax::{self, Constrained, Family};
 
 impl Lowering<'_> {
     /// The constraints in the order of declaration.
-    pub(crate) fn constraints(&mut self, declared: &[syntax::Constraint]) -> Option<Vec<Constraint>> {
-        let constraints: Vec<Option<Constraint>> = declared.iter().map(|one| self.constraint(one)).collect();
+    pub(crate) fn constraints(
+        &mut self,
+        of: Constrained,
+        declared: &[syntax::Constraint],
+    ) -> Option<Vec<Constraint>> {
+        let constraints: Vec<Option<Constraint>> =
+            declared.iter().map(|one| self.constraint(of, one)).collect();
         let constraints: Vec<Constraint> = constraints.into_iter().collect::<Option<_>>()?;
         let formulas: Vec<&Syntax> = declared.iter().map(|one| &one.formula).collect();
         self.are_different(&constraints, &formulas);
@@ -20,23 +25,29 @@ impl Lowering<'_> {
         Some(constraints)
     }
 
-    fn constraint(&mut self, declared: &syntax::Constraint) -> Option<Constraint> {
+    fn constraint(&mut self, of: Constrained, declared: &syntax::Constraint) -> Option<Constraint> {
         let formula = &declared.formula;
         let constraint = match &declared.family {
-            None => Constraint::single(self.formula(formula, Role::Constraint)?),
-            Some(family) => self.family(family, formula)?,
+            None => Constraint::single(self.formula(formula, Role::Constraint(of))?),
+            Some(family) => self.family(of, family, formula)?,
         };
-        self.constrains(formula, constraint.value)?;
+        self.constrains(of, formula, constraint.value)?;
         Some(constraint)
     }
 
-    fn family(&mut self, Family { index, range }: &Family, formula: &Syntax) -> Option<Constraint> {
-        self.begin(formula, Role::Constraint);
+    fn family(
+        &mut self,
+        of: Constrained,
+        Family { index, range }: &Family,
+        formula: &Syntax,
+    ) -> Option<Constraint> {
+        self.begin(formula, Role::Constraint(of));
         let (lower, upper) = self.range(range)?;
         if !uses(formula, index) {
             let message = format!(
                 "the index `{index}` stands nowhere in this formula, so that all constraints of the family are the same: \
-                 write `constraint = …` for one"
+                 write `{} = …` for one",
+                of.word()
             );
             self.errors.push(index, message);
             return None;
@@ -80,13 +91,25 @@ impl Lowering<'_> {
         }
     }
 
-    /// Reports a constraint that leaves all positions free.
-    fn constrains(&mut self, formula: &Syntax, value: Expr) -> Option<()> {
-        if self.graph.depends(value.node, |node| matches!(node, Node::Coordinate(_))) {
+    /// Reports a constraint that leaves all positions free, or all velocities.
+    fn constrains(&mut self, of: Constrained, formula: &Syntax, value: Expr) -> Option<()> {
+        let is_constrained = |node: &Node| match of {
+            Constrained::Positions => matches!(node, Node::Coordinate(_)),
+            Constrained::Velocities => matches!(node, Node::Velocity(_)),
+        };
+        if self.graph.depends(value.node, is_constrained) {
             return Some(());
         }
-        let message = "no coordinate stands in this constraint, so that there is nothing to constrain: write a function of the \
-                       coordinates that is to be zero";
+        let message = match of {
+            Constrained::Positions => {
+                "no coordinate stands in this constraint, so that there is nothing to constrain: write a function of the \
+                 coordinates that is to be zero"
+            }
+            Constrained::Velocities => {
+                "no velocity `dot(x)` stands in this constraint, or none is left: a constraint of the positions is declared by \
+                 `constraint = …`"
+            }
+        };
         self.errors.push(formula, message);
         None
     }

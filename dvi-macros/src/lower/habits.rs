@@ -5,6 +5,7 @@ use syn::{Expr as Syntax, ExprMethodCall, Pat};
 use super::{Lowering, Role};
 use crate::errors::text;
 use crate::model::velocity_name;
+use crate::syntax::Constrained;
 
 /// Functions by other names.
 #[rustfmt::skip]
@@ -108,7 +109,8 @@ impl Lowering<'_> {
             | Role::TimeTransform
             | Role::Force
             | Role::Momentum => return None,
-            Role::Constraint => "",
+            Role::Constraint(Constrained::Velocities) => "dot",
+            Role::Constraint(Constrained::Positions) => "",
         };
         let block = self.model.blocks.iter().find(|block| {
             let (dot, of) = (velocity_name(&block.name), &block.name);
@@ -117,7 +119,8 @@ impl Lowering<'_> {
         })?;
         let entry = if block.array.is_some() { "[j]" } else { "" };
         Some(match written {
-            "" => "a holonomic constraint has no velocities".to_string(),
+            "" => "a holonomic constraint has no velocities; one of the velocities is declared by `nonholonomic = …`"
+                .to_string(),
             "d" => format!("the differential of `{0}` is written `d({0}{entry})`", block.name),
             _ => format!("the velocity of `{0}` is written `dot({0}{entry})`", block.name),
         })

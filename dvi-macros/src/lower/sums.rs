@@ -267,9 +267,10 @@ impl Lowering<'_> {
             .collect();
         crate::errors::nearest(name, known).map_or_else(
             || match self.role {
-                Role::Constraint => "; an index is bound by the constraint, as in `constraint(i in 0..n) = …`, or by a sum, as in \
-                                     `sum(0..n, |j| …)`"
-                    .to_string(),
+                Role::Constraint(of) => format!(
+                    "; an index is bound by the constraint, as in `{}(i in 0..n) = …`, or by a sum, as in `sum(0..n, |j| …)`",
+                    of.word()
+                ),
                 Role::OneForm
                 | Role::Component
                 | Role::Hamiltonian

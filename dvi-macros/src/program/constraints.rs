@@ -1,9 +1,10 @@
-//! Holonomic constraints g(q, t) = 0: their values, the Jacobian G = ∂g/∂q, and how they change along a motion.
+//! Constraints of the positions, g(q, t) = 0, or of the velocities, a(q, v, t) = 0: their values, their derivatives, and how they
+//! change along a motion.
 
 use super::{Place, Statement, Variable, variable};
-use crate::internal::internal;
 use crate::routine::Routine;
-use crate::symbolic::{Contribution, Expr, Graph, Index, Loop};
+use crate::symbolic::{Contribution, Expr, Graph, Index, Loop, Node, Weight};
+use crate::syntax::Constrained;
 
 /// A constraint as it is declared, a single one or a family.
 #[derive(Clone, Debug)]
@@ -15,7 +16,14 @@ pub(crate) struct Constraint {
     pub(crate) value: Expr,
 }
 
-/// An entry of g: the number of a declared constraint, and that of a member of it.
+/// The constraints of a system in the order of declaration, and what they are of.
+#[derive(Clone, Debug)]
+pub(crate) struct DeclaredConstraints {
+    pub(crate) of: Constrained,
+    pub(crate) list: Vec<Constraint>,
+}
+
+/// An entry of g or a: the number of a declared constraint, and that of a member of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) constraint: u32,
@@ -24,16 +32,19 @@ pub(crate) struct Row {
 
 /// What is generated for the constraints of a system.
 pub(crate) struct Constraints {
+    pub(crate) of: Constrained,
     /// The number of members of each declared constraint; one below zero stands for zero.
     pub(crate) lengths: Vec<Index>,
-    /// g
+    /// g or a
     pub(crate) value: Routine,
-    /// g and G
+    /// The entries of ∂g/∂q, or of ∂a/∂q and ∂a/∂v.
+    pub(crate) derivatives: Vec<(Variable, Statement)>,
+    /// g and ∂g/∂q, or a and the weighted sum of ∂a/∂q and ∂a/∂v.
     pub(crate) jacobian: Routine,
-    /// G v + ∂g/∂t
+    /// v·∂g/∂q + ∂g/∂t, and the same of a.
     pub(crate) rate: Routine,
-    /// v·∂²g/∂q∂q v + 2 ∂²g/∂t∂q v + ∂²g/∂t∂t
-    pub(crate) curvature: Routine,
+    /// v·∂²g/∂q∂q v + 2 ∂²g/∂t∂q v + ∂²g/∂t∂t of constraints of the positions.
+    pub(crate) curvature: Option<Routine>,
 }
 
 impl Constraint {
@@ -55,22 +66,31 @@ impl Constraint {
 }
 
 impl Constraints {
-    pub(super) fn new(graph: &mut Graph, constraints: &[Constraint]) -> Self {
+    pub(super) fn new(graph: &mut Graph, declared: &DeclaredConstraints) -> Self {
+        let DeclaredConstraints { of, list: constraints } = declared;
         let values: Vec<Statement> = statements(constraints, |constraint| constraint.value);
         let rates = changes(graph, constraints);
-        let curvatures = changes(graph, &rates);
-        let [rate, curvature] = [&rates, &curvatures].map(|changes| {
-            let changing = statements(changes, |constraint| constraint.value);
-            changing.into_iter().filter(|statement| !statement.value.is_zero()).collect()
+        let curvature = (*of == Constrained::Positions).then(|| {
+            let curvatures = changes(graph, &rates);
+            Routine::new(graph, changing(&curvatures))
         });
+        let derivatives = derivatives(graph, constraints);
         let mut jacobian = values.clone();
-        jacobian.extend(jacobian_entries(graph, constraints));
+        for (variable, statement) in &derivatives {
+            let value = match of {
+                Constrained::Positions => statement.value,
+                Constrained::Velocities => weighted(graph, *variable, statement.value),
+            };
+            jacobian.push(Statement { value, ..statement.clone() });
+        }
         Self {
+            of: *of,
             lengths: constraints.iter().map(Constraint::length).collect(),
             value: Routine::new(graph, values),
             jacobian: Routine::new(graph, jacobian),
-            rate: Routine::new(graph, rate),
-            curvature: Routine::new(graph, curvature),
+            rate: Routine::new(graph, changing(&rates)),
+            curvature,
+            derivatives,
         }
     }
 }
@@ -97,17 +117,30 @@ fn changes(graph: &mut Graph, constraints: &[Constraint]) -> Vec<Constraint> {
     constraints.iter().map(rate).collect()
 }
 
-/// The entries of G.
-fn jacobian_entries(graph: &mut Graph, constraints: &[Constraint]) -> Vec<Statement> {
+fn changing(changes: &[Constraint]) -> Vec<Statement> {
+    let statements = statements(changes, |constraint| constraint.value);
+    statements.into_iter().filter(|statement| !statement.value.is_zero()).collect()
+}
+
+/// The derivatives of all constraints.
+fn derivatives(graph: &mut Graph, constraints: &[Constraint]) -> Vec<(Variable, Statement)> {
     let mut entries = Vec::new();
     for (number, constraint) in constraints.iter().enumerate() {
         for Contribution { loops, target, value } in graph.gradient(constraint.value, &constraint.loops()) {
-            let (Variable::Position, column) = variable(graph, target) else {
-                internal("a velocity in a constraint")
-            };
+            let (by, column) = variable(graph, target);
             let place = Place::ConstraintDerivative(row(number, constraint), column);
-            entries.push(Statement { loops, place, value });
+            entries.push((by, Statement { loops, place, value }));
         }
     }
     entries
+}
+
+/// A derivative by a position or by a velocity, times the weight of these.
+fn weighted(graph: &mut Graph, by: Variable, derivative: Expr) -> Expr {
+    let weight = match by {
+        Variable::Position => Weight::Q,
+        Variable::Velocity => Weight::V,
+    };
+    let weight = graph.intern(Node::Weight(weight)).into();
+    graph.multiply(weight, derivative)
 }

@@ -58,7 +58,7 @@ impl DegeneratePrograms {
     ) -> Self {
         let lagrangian = graph.subtract(formulas.one_form, formulas.hamiltonian);
         let entries = graph.hessian(lagrangian);
-        let shared = Programs::new(graph, lagrangian, entries, &formulas.force, &[], &formulas.momenta);
+        let shared = Programs::new(graph, lagrangian, entries, &formulas.force, None, &formulas.momenta);
         let by_hamiltonian = graph.gradient(formulas.hamiltonian, &[]);
         let contributions = added(graph, by_hamiltonian, negated(&formulas.force));
         let hamiltonian_gradient = statements(graph, contributions, Output::Vector, Output::Lv);

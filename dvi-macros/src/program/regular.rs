@@ -1,6 +1,6 @@
 //! What is special to a regular L: the energy, the force, and the rate of the momentum.
 
-use super::{Constraint, Force, Output, Place, Programs, Statement, rates, result};
+use super::{DeclaredConstraints, Force, Output, Place, Programs, Statement, rates, result};
 use crate::routine::Routine;
 use crate::symbolic::{Expr, Graph, SecondContribution};
 
@@ -11,7 +11,7 @@ pub(crate) struct RegularFormulas {
     /// Whether L is a polynomial of degree at most two in v.
     pub(crate) quadratic: bool,
     pub(crate) force: Force,
-    pub(crate) constraints: Vec<Constraint>,
+    pub(crate) constraints: Option<DeclaredConstraints>,
     pub(crate) momenta: Vec<Expr>,
 }
 
@@ -34,7 +34,7 @@ impl RegularPrograms {
         entries: Vec<SecondContribution>,
     ) -> Self {
         let RegularFormulas { lagrangian, force, constraints, momenta, .. } = formulas;
-        let shared = Programs::new(graph, *lagrangian, entries, force, constraints, momenta);
+        let shared = Programs::new(graph, *lagrangian, entries, force, constraints.as_ref(), momenta);
         let energy = result(graph.energy(*lagrangian));
         let part = |output| shared.gradient.statements.iter().filter_map(move |s| as_vector(s, output));
         let [force, momentum]: [Vec<Statement>; 2] =

@@ -8,7 +8,7 @@ use crate::errors::{Errors, listed};
 use crate::model::Model;
 use crate::program::{RegularFormulas, Variable, variable};
 use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution};
-use crate::syntax::Kind;
+use crate::syntax::{Constrained, Kind};
 
 /// The structure of a regular L; see the constants of `dvi_core::NondegenerateLagrangian`.
 #[derive(Clone, Debug)]
@@ -149,7 +149,7 @@ impl MassMatrix {
     }
 
     /// What is said of the structure in reports, of a system with constraints or without.
-    pub(crate) fn sentences(&self, constrained: bool) -> Vec<String> {
+    pub(crate) fn sentences(&self, constrained: Option<Constrained>) -> Vec<String> {
         let mass = if self.diagonal { "diagonal" } else { "full" };
         let form = match (self.constant, self.depends_on.as_slice()) {
             (true, _) => format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."),
@@ -157,7 +157,9 @@ impl MassMatrix {
             (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
         };
         let step = match (self.separable, self.diagonal) {
-            _ if constrained => "A step solves for the Lagrange multipliers λ, one for each constraint.",
+            _ if constrained.is_some() => {
+                "A step solves for the Lagrange multipliers λ, one for each constraint."
+            }
             (true, true) => {
                 "The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no \
                  factorisation."
@@ -175,10 +177,12 @@ impl MassMatrix {
             false => "L is no polynomial of degree two in v: v is found from p = ∂L/∂v by iteration.",
         };
         let begin = match (constrained, self.separable) {
-            (false, true) => "Begin with `Variational::trapezoid()`.",
-            (false, false) => "Begin with `Variational::midpoint()`.",
-            (true, true) => "Begin with `Rattle`.",
-            (true, false) => "Begin with `Constrained` around `Variational::midpoint()`.",
+            (None, true) => "Begin with `Variational::trapezoid()`.",
+            (None, false) => "Begin with `Variational::midpoint()`.",
+            (Some(Constrained::Positions), true) => "Begin with `Rattle`.",
+            (Some(Constrained::Positions), false) | (Some(Constrained::Velocities), _) => {
+                "Begin with `Constrained` around `Variational::midpoint()`."
+            }
         };
         vec![form, step.to_string(), degree.to_string(), begin.to_string()]
     }

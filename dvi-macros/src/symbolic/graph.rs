@@ -45,6 +45,9 @@ pub(crate) enum Weight {
     Vv,
     A,
     B,
+    /// Of ∂a/∂q and of ∂a/∂v.
+    Q,
+    V,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

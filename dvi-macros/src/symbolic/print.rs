@@ -378,6 +378,8 @@ fn weight_name(weight: Weight) -> &'static str {
         Weight::Vv => "w.vv",
         Weight::A => "a",
         Weight::B => "b",
+        Weight::Q => "weights[0]",
+        Weight::V => "weights[1]",
     }
 }
 

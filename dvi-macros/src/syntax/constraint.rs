@@ -1,13 +1,22 @@
-//! Holonomic constraints g(q, t) = 0, as they are declared.
+//! Constraints of the positions, g(q, t) = 0, and of the velocities, a(q, v, t) = 0, as they are declared.
 
 use proc_macro2::Ident;
 use quote::ToTokens;
-use syn::parse::{Parse, ParseStream};
+use syn::parse::ParseStream;
 use syn::{BinOp, Expr, Lit, Token};
 
 use crate::errors::text;
 
-/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`.
+/// What the constraints of a system are functions of; the word of the argument says it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Constrained {
+    /// `constraint`: g(q, t) = 0.
+    Positions,
+    /// `nonholonomic`: a(q, v, t) = A(q, t) v + b(q, t) = 0.
+    Velocities,
+}
+
+/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`; or the same by `nonholonomic`.
 #[derive(Debug)]
 pub(crate) struct Constraint {
     pub(crate) family: Option<Family>,
@@ -21,18 +30,57 @@ pub(crate) struct Family {
     pub(crate) range: Expr,
 }
 
-/// How a family is written.
-const FAMILY: &str = "`constraint(i in 0..n) = g(i)`";
+impl Constrained {
+    pub(crate) const ALL: [Self; 2] = [Self::Positions, Self::Velocities];
 
-impl Parse for Family {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let advice = format!("a family of constraints is written {FAMILY}");
+    /// The word that declares such constraints.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Positions => "constraint",
+            Self::Velocities => "nonholonomic",
+        }
+    }
+
+    /// What such a constraint is called.
+    pub(crate) fn adjective(self) -> &'static str {
+        match self {
+            Self::Positions => "holonomic",
+            Self::Velocities => "nonholonomic",
+        }
+    }
+
+    /// The function that is zero.
+    pub(crate) fn letter(self) -> &'static str {
+        match self {
+            Self::Positions => "g",
+            Self::Velocities => "a",
+        }
+    }
+
+    /// That function of its variables.
+    pub(crate) fn function(self) -> &'static str {
+        match self {
+            Self::Positions => "g(q, t)",
+            Self::Velocities => "a(q, v, t)",
+        }
+    }
+
+    /// How a family is written.
+    pub(super) fn family(self) -> String {
+        format!("`{}(i in 0..n) = {}(i)`", self.word(), self.letter())
+    }
+}
+
+impl Family {
+    pub(super) fn parse(input: ParseStream<'_>, of: Constrained) -> syn::Result<Self> {
+        let (form, word, function) = (of.family(), of.word(), of.function());
+        let advice = format!("a family of constraints is written {form}");
         let at = input.span();
         let index: Ident = input.parse().map_err(|_| syn::Error::new(at, &advice))?;
         if input.is_empty() {
             let message = format!(
-                "a constraint holds for the whole system, not for `{index}` alone: write `constraint = g(q, t)`; one for \
-                 each value of an index is {FAMILY}"
+                "a constraint holds for the whole system, not for `{index}` alone: write `{word} = {function}`; one for \
+                 each value of an index is {form}"
             );
             return Err(syn::Error::new(index.span(), message));
         }
@@ -42,47 +90,54 @@ impl Parse for Family {
         input.parse::<Token![in]>()?;
         let range = input.parse()?;
         if !input.is_empty() {
-            return Err(input.error(format!("a family of constraints has one index, {FAMILY}")));
+            return Err(input.error(format!("a family of constraints has one index, {form}")));
         }
         Ok(Self { index, range })
     }
 }
 
 impl Constraint {
-    /// The constraints of `constraint = …`, and what is wrong with the others.
-    pub(super) fn of_value(value: Expr) -> Vec<syn::Result<Self>> {
+    /// The constraints of `constraint = …` or `nonholonomic = …`, and what is wrong with the others.
+    pub(super) fn of_value(of: Constrained, value: Expr) -> Vec<syn::Result<Self>> {
         match value {
             Expr::Array(list) if list.elems.is_empty() => {
-                let message =
-                    "there is no constraint in this list: write `constraint = [g1, g2]`, or leave it out";
+                let (word, letter) = (of.word(), of.letter());
+                let message = format!(
+                    "there is no constraint in this list: write `{word} = [{letter}1, {letter}2]`, or leave it out"
+                );
                 vec![Err(syn::Error::new_spanned(list, message))]
             }
             Expr::Array(list) => {
-                list.elems.into_iter().map(|formula| Self::of_formula(None, formula)).collect()
+                list.elems.into_iter().map(|formula| Self::of_formula(of, None, formula)).collect()
             }
-            formula => vec![Self::of_formula(None, formula)],
+            formula => vec![Self::of_formula(of, None, formula)],
         }
     }
 
     /// A constraint with this formula, if it may be one.
-    pub(super) fn of_formula(family: Option<Family>, formula: Expr) -> syn::Result<Self> {
+    pub(super) fn of_formula(of: Constrained, family: Option<Family>, formula: Expr) -> syn::Result<Self> {
         let refused = |at: &dyn ToTokens, message: String| Err(syn::Error::new_spanned(at, message));
         match unwrapped(&formula) {
             Expr::Assign(equation) => {
-                refused(&equation.eq_token, one_side(&family, &equation.left, &equation.right))
+                refused(&equation.eq_token, one_side(of, &family, &equation.left, &equation.right))
             }
             Expr::Binary(binary) => match binary.op {
-                BinOp::Eq(_) => refused(&binary.op, one_side(&family, &binary.left, &binary.right)),
+                BinOp::Eq(_) => refused(&binary.op, one_side(of, &family, &binary.left, &binary.right)),
                 BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) | BinOp::Ne(_) => {
-                    let message = "a holonomic constraint is an equation g(q, t) = 0, of which g is written: no inequality is \
-                                   one";
-                    refused(&binary.op, message.to_string())
+                    let message = format!(
+                        "a {} constraint is an equation {} = 0, of which {} is written: no inequality is one",
+                        of.adjective(),
+                        of.function(),
+                        of.letter()
+                    );
+                    refused(&binary.op, message)
                 }
                 _ => Ok(Self { family, formula }),
             },
-            Expr::Closure(closure) => {
-                refused(closure, format!("one constraint for each value of an index is written {FAMILY}"))
-            }
+            Expr::Closure(closure) => refused(
+                closure,
+                format!("one constraint for each value of an index is written {}", of.family()),
+            ),
             Expr::Array(list) => {
                 let message = match family {
                     Some(_) => "a family of constraints has one formula: write a family for each of these",
@@ -105,10 +160,10 @@ fn unwrapped(formula: &Expr) -> &Expr {
 }
 
 /// What to write for the equation left = right.
-fn one_side(family: &Option<Family>, left: &Expr, right: &Expr) -> String {
+fn one_side(of: Constrained, family: &Option<Family>, left: &Expr, right: &Expr) -> String {
     let head = match family {
-        Some(Family { index, range }) => format!("constraint({index} in {})", text(range)),
-        None => "constraint".to_string(),
+        Some(Family { index, range }) => format!("{}({index} in {})", of.word(), text(range)),
+        None => of.word().to_string(),
     };
     let left = text(left);
     let all = match right {
@@ -118,7 +173,10 @@ fn one_side(family: &Option<Family>, left: &Expr, right: &Expr) -> String {
         }
         right => format!("{left} - {}", text(right)),
     };
-    format!("a constraint is g(q, t) = 0, of which g is written: bring all to one side, `{head} = {all}`")
+    let (function, letter) = (of.function(), of.letter());
+    format!(
+        "a constraint is {function} = 0, of which {letter} is written: bring all to one side, `{head} = {all}`"
+    )
 }
 
 fn is_zero(value: &Expr) -> bool {

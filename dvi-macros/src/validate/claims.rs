@@ -37,6 +37,7 @@ impl System<'_> {
         claims: &Claims<'_>,
         functions: &Functions<'_>,
         point: &Point,
+        outputs: &Outputs,
         checked: &mut Checked,
     ) -> Result<(), Difference> {
         match (claims, functions) {
@@ -58,7 +59,12 @@ impl System<'_> {
                 }
                 Ok(())
             }
-            (Claims::Regular(mass), Functions::Regular(_)) => self.check_mass(mass, point),
+            (Claims::Regular(mass), Functions::Regular(_)) => {
+                if let Some(bend) = outputs.constraint_bend() {
+                    vanishes("velocity_constraint", "∂²a/∂v∂v", bend)?;
+                }
+                self.check_mass(mass, point)
+            }
             _ => Ok(()),
         }
     }

@@ -244,6 +244,8 @@ impl Point {
             Weight::Vv => 3,
             Weight::A => 4,
             Weight::B => 5,
+            Weight::Q => 6,
+            Weight::V => 7,
         };
         within((-1.5, 1.5), mix(self.seed ^ mix(70 + number)))
     }

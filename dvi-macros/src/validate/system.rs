@@ -59,6 +59,9 @@ enum Quantity {
     ConstraintJacobian,
     ConstraintRate,
     ConstraintCurvature,
+    VelocityConstraint,
+    VelocityConstraintJacobian,
+    VelocityConstraintRate,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,8 +180,13 @@ impl System<'_> {
 
 impl Output {
     fn new(function: &'static str, quantity: Quantity) -> Self {
-        let is_matrix =
-            matches!(quantity, Quantity::Hessian | Quantity::OneFormJacobian | Quantity::ConstraintJacobian);
+        let is_matrix = matches!(
+            quantity,
+            Quantity::Hessian
+                | Quantity::OneFormJacobian
+                | Quantity::ConstraintJacobian
+                | Quantity::VelocityConstraintJacobian
+        );
         Self { function, quantity, is_matrix }
     }
 
@@ -190,6 +198,9 @@ impl Output {
                 | Quantity::ConstraintJacobian
                 | Quantity::ConstraintRate
                 | Quantity::ConstraintCurvature
+                | Quantity::VelocityConstraint
+                | Quantity::VelocityConstraintJacobian
+                | Quantity::VelocityConstraintRate
         )
     }
 
@@ -217,6 +228,9 @@ impl Output {
             Quantity::ConstraintJacobian => "∂g/∂q",
             Quantity::ConstraintRate => "dg/dt",
             Quantity::ConstraintCurvature => "d²g/dt² without acceleration",
+            Quantity::VelocityConstraint => "a",
+            Quantity::VelocityConstraintJacobian => "the weighted sum of ∂a/∂q and ∂a/∂v",
+            Quantity::VelocityConstraintRate => "da/dt without acceleration",
         };
         entry.map_or_else(|| name.to_string(), |entry| format!("{name} at {entry}"))
     }
@@ -252,6 +266,11 @@ impl Outputs {
     /// What couples positions and velocities in L.
     pub(super) fn coupling(&self) -> [Sized; 2] {
         [self.lagrangian.both(First::Q, Second::V), self.lagrangian.both(First::V, Second::Q)]
+    }
+
+    /// ∂²a/∂v∂v of constraints of the velocities.
+    pub(super) fn constraint_bend(&self) -> Option<Sized> {
+        self.constraints.as_ref().map(Combination::bend)
     }
 
     /// ∂F/∂v between the two directions.
@@ -312,9 +331,15 @@ impl Outputs {
             Quantity::Energy => lagrangian.first(First::Stretch).plus(lagrangian.value().times(-1.0)),
             Quantity::Momentum(number) => momenta[number].value(),
             Quantity::MomentumGradient(number) => momenta[number].first(First::Q),
-            Quantity::Constraint => constraints().value(),
-            Quantity::ConstraintJacobian => constraints().along_second(),
-            Quantity::ConstraintRate => constraints().rate(),
+            Quantity::Constraint | Quantity::VelocityConstraint => constraints().value(),
+            Quantity::ConstraintJacobian => constraints().along_positions(),
+            Quantity::VelocityConstraintJacobian => {
+                let [by_positions, by_velocities] = [Weight::Q, Weight::V].map(|weight| point.weight(weight));
+                let constraints = constraints();
+                let along = constraints.along_positions().times(by_positions);
+                along.plus(constraints.along_velocities().times(by_velocities))
+            }
+            Quantity::ConstraintRate | Quantity::VelocityConstraintRate => constraints().rate(),
             Quantity::ConstraintCurvature => constraints().curvature(),
         }
     }
@@ -389,12 +414,24 @@ impl Functions<'_> {
         }
         if let Some(constraints) = &shared.constraints {
             let along = |routine: &Routine| machine.run(routine).constraints;
-            add("constraint", Quantity::Constraint, along(&constraints.value));
+            let (value, rate) = (along(&constraints.value), along(&constraints.rate));
             let jacobian = machine.run(&constraints.jacobian);
-            add("constraint_jacobian", Quantity::Constraint, jacobian.constraints);
-            add("constraint_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
-            add("constraint_rate", Quantity::ConstraintRate, along(&constraints.rate));
-            add("constraint_curvature", Quantity::ConstraintCurvature, along(&constraints.curvature));
+            match &constraints.curvature {
+                Some(curvature) => {
+                    add("constraint", Quantity::Constraint, value);
+                    add("constraint_jacobian", Quantity::Constraint, jacobian.constraints);
+                    add("constraint_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
+                    add("constraint_rate", Quantity::ConstraintRate, rate);
+                    add("constraint_curvature", Quantity::ConstraintCurvature, along(curvature));
+                }
+                None => {
+                    let function = "velocity_constraint_jacobian";
+                    add("velocity_constraint", Quantity::VelocityConstraint, value);
+                    add(function, Quantity::VelocityConstraint, jacobian.constraints);
+                    add(function, Quantity::VelocityConstraintJacobian, jacobian.matrix);
+                    add("velocity_constraint_rate", Quantity::VelocityConstraintRate, rate);
+                }
+            }
         }
         for (number, momentum) in shared.momenta.iter().enumerate() {
             add("momentum", Quantity::Momentum(number), value(momentum));

@@ -87,6 +87,8 @@ impl Point {
                 Weight::Vv => 1.1,
                 Weight::A => -0.9,
                 Weight::B => 0.6,
+                Weight::Q => -1.2,
+                Weight::V => 0.8,
             },
             other => unreachable!("{other:?} has operands"),
         }

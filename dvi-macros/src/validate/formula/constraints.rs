@@ -22,8 +22,18 @@ impl Combination {
     }
 
     /// The derivative along the second direction of positions.
-    pub(in super::super) fn along_second(&self) -> Sized {
+    pub(in super::super) fn along_positions(&self) -> Sized {
         self.value.second(Second::Q)
+    }
+
+    /// The derivative along the second direction of velocities.
+    pub(in super::super) fn along_velocities(&self) -> Sized {
+        self.value.second(Second::V)
+    }
+
+    /// The second derivative by velocities, between both directions.
+    pub(in super::super) fn bend(&self) -> Sized {
+        self.value.both(First::V, Second::V)
     }
 
     /// The rate along the motion.

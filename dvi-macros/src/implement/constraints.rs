@@ -1,4 +1,4 @@
-//! What is generated for a system with holonomic constraints.
+//! What is generated for a system with constraints.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -11,7 +11,7 @@ use crate::routine::Routine;
 use crate::symbolic::Index;
 
 impl Emitter<'_> {
-    /// Sets g to zero and cuts it into one slice for each declared constraint.
+    /// Sets g, or a in its place, to zero and cuts it into one slice for each declared constraint.
     fn constraint_output(&self, constraints: &Constraints) -> TokenStream {
         let krate = self.krate();
         let parts = constraints.lengths.iter().enumerate().map(|(constraint, length)| {
@@ -43,11 +43,24 @@ impl Emitter<'_> {
         let body = self.body(routine);
         quote!(#read #output #body)
     }
+
+    /// The body of the function that sets one number for each constraint and adds its derivatives to a sink.
+    fn constraint_jacobian(&self, constraints: &Constraints) -> TokenStream {
+        let routine = &constraints.jacobian;
+        let (read, output) = (self.read(routine), self.constraint_output(constraints));
+        let (rows, offsets) = (self.first_constraints(constraints), self.offsets());
+        let body = self.body(routine);
+        quote!(#read #output #rows #offsets #body)
+    }
 }
 
-/// The implementations of `ConstrainedSystem` and `HolonomicLagrangian`.
-pub(super) fn holonomic(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
-    let (system, lagrangian) = (system(emitter, constraints), lagrangian(emitter, constraints));
+/// The implementations of `ConstrainedSystem` and of `HolonomicLagrangian` or `NonholonomicLagrangian`.
+pub(super) fn constraints(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+    let system = system(emitter, constraints);
+    let lagrangian = match &constraints.curvature {
+        Some(curvature) => holonomic(emitter, constraints, curvature),
+        None => nonholonomic(emitter, constraints),
+    };
     quote!(#system #lagrangian)
 }
 
@@ -73,14 +86,11 @@ fn system(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     }
 }
 
-fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+fn holonomic(emitter: &Emitter<'_>, constraints: &Constraints, curvature: &Routine) -> TokenStream {
     let krate = emitter.krate();
-    let [value, rate, curvature] = [&constraints.value, &constraints.rate, &constraints.curvature]
+    let [value, rate, curvature] = [&constraints.value, &constraints.rate, curvature]
         .map(|routine| emitter.for_constraints(constraints, routine));
-    let jacobian = &constraints.jacobian;
-    let (read, output) = (emitter.read(jacobian), emitter.constraint_output(constraints));
-    let (rows, offsets) = (emitter.first_constraints(constraints), emitter.offsets());
-    let jacobian = emitter.body(jacobian);
+    let jacobian = emitter.constraint_jacobian(constraints);
     let items = quote! {
         #[inline]
         fn constraint(&self, __q: &[__T], __t: __T, __g: &mut [__T]) { #value }
@@ -88,7 +98,7 @@ fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
         fn constraint_jacobian<__K: #krate::Sink<__T>>(
             &self, __q: &[__T], __t: __T, __g: &mut [__T], __sink: &mut __K,
         ) {
-            #read #output #rows #offsets #jacobian
+            #jacobian
         }
         #[inline]
         fn constraint_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
@@ -96,4 +106,24 @@ fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
         fn constraint_curvature(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #curvature }
     };
     in_numbers(emitter, &quote!(HolonomicLagrangian), &items)
+}
+
+fn nonholonomic(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+    let krate = emitter.krate();
+    let [value, rate] =
+        [&constraints.value, &constraints.rate].map(|routine| emitter.for_constraints(constraints, routine));
+    let jacobian = emitter.constraint_jacobian(constraints);
+    let items = quote! {
+        #[inline]
+        fn velocity_constraint(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #value }
+        #[inline]
+        fn velocity_constraint_jacobian<__K: #krate::Sink<__T>>(
+            &self, __q: &[__T], __v: &[__T], __t: __T, __weights: [__T; 2], __g: &mut [__T], __sink: &mut __K,
+        ) {
+            #jacobian
+        }
+        #[inline]
+        fn velocity_constraint_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
+    };
+    in_numbers(emitter, &quote!(NonholonomicLagrangian), &items)
 }

@@ -1,0 +1,320 @@
+//! Steps on constraints of the velocities.
+
+use dvi_core::error::StartError;
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_tests::larger;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// A blade on an inclined plane, which slides along itself only. The slope leads along x.
+#[lagrangian(
+    coordinates(x, y, angle),
+    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + inertia * dot(angle).powi(2) / 2.0 + m * slope * x,
+    nonholonomic = dot(x) * angle.sin() - dot(y) * angle.cos(),
+)]
+#[derive(Clone, Copy, Debug)]
+struct KnifeEdge {
+    m: f64,
+    inertia: f64,
+    slope: f64,
+}
+
+const BLADE: KnifeEdge = KnifeEdge { m: 1.5, inertia: 0.7, slope: 0.8 };
+
+/// It goes down and up again while it turns, and drifts across the slope (Bloch 2015, section 1.6).
+fn blade(t: f64) -> KnifeEdgeState {
+    let (omega, slope) = (1.3, BLADE.slope);
+    let ((sin, cos), a) = ((omega * t).sin_cos(), slope / (2.0 * omega * omega));
+    KnifeEdgeState {
+        x: a * sin * sin,
+        y: a * (omega * t - sin * cos),
+        angle: omega * t,
+        dot_x: slope / omega * sin * cos,
+        dot_y: slope / omega * sin * sin,
+        dot_angle: omega,
+    }
+}
+
+/// A disc that rolls upright: its place, the direction in which it rolls, and the angle by which it has rolled.
+#[lagrangian(
+    coordinates(x, y, heading, roll),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 0.25 * dot(heading).powi(2) / 2.0 + 0.5 * dot(roll).powi(2) / 2.0,
+    nonholonomic = [dot(x) - radius * heading.cos() * dot(roll), dot(y) - radius * heading.sin() * dot(roll)],
+    momenta(spin = dot(heading)),
+)]
+#[derive(Clone, Copy, Debug)]
+struct Disc {
+    radius: f64,
+}
+
+/// A particle in space with ż = y ẋ, in a potential (x² + y²)/2.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0 - (x * x + y * y) / 2.0,
+    nonholonomic = dot(z) - y * dot(x),
+)]
+#[derive(Clone, Copy, Debug)]
+struct Particle;
+
+/// The acceleration of the particle and its multiplier, derived by hand from ẍ = −x − λy, ÿ = −y, z̈ = λ.
+fn of_particle([x, y, _]: [f64; 3], [u, v, _]: [f64; 3]) -> ([f64; 3], f64) {
+    let multiplier = (u * v - x * y) / (1.0 + y * y);
+    ([-x - multiplier * y, -y, multiplier], multiplier)
+}
+
+/// A constraint that depends on the time, A v + b(t) = 0, and friction.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - x * x / 2.0,
+    force(x) = -0.2 * dot(x),
+    nonholonomic = (dot(y) - x * dot(x) - t.cos()) * (2.0 + x.sin()),
+)]
+#[derive(Clone, Copy, Debug)]
+struct Driven;
+
+fn apart<S: Lagrangian>(system: &S, one: &S::State<f64>, other: &S::State<f64>) -> f64 {
+    let (Ok(one), Ok(other)) = (system.values(one), system.values(other)) else { return f64::NAN };
+    one.zip(other).map(|(a, b): (f64, f64)| (a - b).abs()).fold(0.0, larger)
+}
+
+fn order<S: Lagrangian, M: Method<S, f64> + Clone>(
+    system: &S,
+    method: &M,
+    [start, end]: [&S::State<f64>; 2],
+    (time, steps): (f64, u64),
+) -> Result<f64, Box<dyn core::error::Error>> {
+    let mut errors = Vec::new();
+    for steps in [steps, steps * 5 / 4, steps * 3 / 2, 2 * steps] {
+        let h = time / steps as f64;
+        let mut run = Integrator::new(system, method.clone(), h, start.clone())?;
+        run.take_steps(steps)?;
+        errors.push((h, apart(system, &run.state(), end)));
+    }
+    convergence_order(&errors).ok_or_else(|| "no slope".into())
+}
+
+/// `of_order!(system, ends, (time, steps) => method, expected order; …)`
+macro_rules! of_order {
+    ($system:expr, $ends:expr, $time:expr => $($method:expr, $expected:literal;)*) => {$(
+        let found = order(&$system, &$method, $ends, $time)?;
+        assert!((found - $expected).abs() < 0.12, "{}: {found}", stringify!($method));
+    )*};
+}
+
+#[test]
+fn a_knife_edge_moves_as_in_closed_form() -> Outcome {
+    let ends = [&blade(0.4), &blade(2.4)];
+    of_order! { BLADE, ends, (2.0, 60) =>
+        Constrained::new(Variational::midpoint()), 2.0;
+        Constrained::new(Variational::trapezoid()), 2.0;
+        Constrained::new(Variational::simpson()), 2.0;
+        Composition::triple_jump(Constrained::new(Variational::midpoint())), 4.0;
+    }
+    of_order! { BLADE, ends, (2.0, 20) => Composition::kahan_li_6(Constrained::new(Variational::midpoint())), 6.0; }
+    of_order! { BLADE, ends, (2.0, 800) => Constrained::new(Variational::sigma(0.2)), 1.0; }
+    // The multiplier is the force across the blade: ẍ = λ sin/m + slope.
+    for t in [0.4, 1.1, 2.9] {
+        let (state, sin) = (blade(t), (1.3 * t).sin());
+        let rates = BLADE.vector_field(&state)?;
+        let acceleration = BLADE.slope * (2.0 * 1.3 * t).cos();
+        assert!((rates.dot_x - acceleration).abs() < 1e-14, "{} {acceleration}", rates.dot_x);
+        let multiplier = BLADE.multipliers_at(0.0, &state)?[0];
+        assert!((multiplier * sin / BLADE.m + BLADE.slope - acceleration).abs() < 1e-14);
+    }
+    Ok(())
+}
+
+/// A classical Runge-Kutta step of the particle, by hand.
+fn classical(q: [f64; 3], v: [f64; 3], h: f64) -> ([f64; 3], [f64; 3]) {
+    let moved = |x: [f64; 3], by: [f64; 3], h: f64| [0, 1, 2].map(|i| x[i] + h * by[i]);
+    let k1 = (v, of_particle(q, v).0);
+    let second = (moved(q, k1.0, h / 2.0), moved(v, k1.1, h / 2.0));
+    let k2 = (second.1, of_particle(second.0, second.1).0);
+    let third = (moved(q, k2.0, h / 2.0), moved(v, k2.1, h / 2.0));
+    let k3 = (third.1, of_particle(third.0, third.1).0);
+    let fourth = (moved(q, k3.0, h), moved(v, k3.1, h));
+    let k4 = (fourth.1, of_particle(fourth.0, fourth.1).0);
+    let mean =
+        |k: [[f64; 3]; 4]| [0, 1, 2].map(|i| (k[0][i] + 2.0 * k[1][i] + 2.0 * k[2][i] + k[3][i]) / 6.0);
+    (moved(q, mean([k1.0, k2.0, k3.0, k4.0]), h), moved(v, mean([k1.1, k2.1, k3.1, k4.1]), h))
+}
+
+const PARTICLE: ParticleState = ParticleState { x: 1.0, y: 0.5, z: 0.2, dot_x: 0.4, dot_y: -0.8, dot_z: 0.2 };
+
+#[test]
+fn a_particle_against_equations_by_hand() -> Outcome {
+    let (mut q, mut v) = ([1.0, 0.5, 0.2], [0.4, -0.8, 0.2]);
+    let (_, multiplier) = of_particle(q, v);
+    assert!((Particle.multipliers_at(0.0, &PARTICLE)?[0] - multiplier).abs() < 1e-15);
+    for _ in 0..4000 {
+        (q, v) = classical(q, v, 2.0 / 4000.0);
+    }
+    let end = ParticleState { x: q[0], y: q[1], z: q[2], dot_x: v[0], dot_y: v[1], dot_z: v[2] };
+    of_order! { Particle, [&PARTICLE, &end], (2.0, 50) =>
+        Constrained::new(Variational::midpoint()), 2.0;
+        Constrained::new(Variational::trapezoid()), 2.0;
+        Composition::suzuki(Constrained::new(Variational::trapezoid())), 4.0;
+    }
+    Ok(())
+}
+
+/// p0 = −D₁L_d − Aᵀ(q0)ι0 and p1 = D₂L_d + Aᵀ(q1)ι1, the constraint at the middle of the step and that of v1.
+#[test]
+fn the_equations_of_a_step_by_hand() -> Outcome {
+    let h = 0.1;
+    let mut run = Integrator::new(&Particle, Constrained::new(Variational::trapezoid()), h, PARTICLE)?;
+    for _ in 0..50 {
+        let (q0, p0) = (run.q().to_vec(), run.memory().p().to_vec());
+        run.advance()?;
+        let (q1, p1) = (run.q().to_vec(), run.memory().p().to_vec());
+        let [first, last] = run.memory().impulses().map(|impulse| impulse[0]);
+        let v: Vec<f64> = (0..3).map(|i| (q1[i] - q0[i]) / h).collect();
+        let middle = v[2] - (q0[1] + q1[1]) / 2.0 * v[0];
+        let along = p1[2] - q1[1] * p1[0];
+        assert!(middle.abs() < 1e-14 && along.abs() < 1e-15, "{middle:e} {along:e}");
+        for i in 0..3 {
+            let row = |q: &[f64]| [-q[1], 0.0, 1.0][i];
+            let force = |q: &[f64]| [-q[0], -q[1], 0.0][i];
+            let left = p0[i] + h / 2.0 * force(&q0) - v[i] + row(&q0) * first;
+            let right = v[i] + h / 2.0 * force(&q1) + row(&q1) * last - p1[i];
+            assert!(left.abs() < 1e-14 && right.abs() < 1e-14, "{left:e} {right:e}");
+        }
+    }
+    Ok(())
+}
+
+/// Steps back undo symmetric steps, and a run with its velocities turned around goes the same way back.
+#[test]
+fn symmetric_steps_are_reversible() -> Outcome {
+    let method = Constrained::new(Variational::midpoint());
+    let mut run = Integrator::new(&Particle, method, 0.05, PARTICLE)?;
+    run.take_steps(200)?;
+    let end = run.state();
+    let mut back = Integrator::new(&Particle, method, -0.05, end)?;
+    back.take_steps(200)?;
+    assert!(apart(&Particle, &back.state(), &PARTICLE) < 1e-12);
+    let turned = |state: ParticleState| {
+        let ParticleState { dot_x, dot_y, dot_z, .. } = state;
+        ParticleState { dot_x: -dot_x, dot_y: -dot_y, dot_z: -dot_z, ..state }
+    };
+    let mut home = Integrator::new(&Particle, method, 0.05, turned(end))?;
+    home.take_steps(200)?;
+    assert!(apart(&Particle, &turned(home.state()), &PARTICLE) < 1e-12);
+    let weighted = Constrained::new(Variational::sigma(0.3));
+    let mut run = Integrator::new(&Particle, weighted, 0.05, PARTICLE)?;
+    run.take_steps(200)?;
+    let mut back = Integrator::new(&Particle, weighted, -0.05, run.state())?;
+    back.take_steps(200)?;
+    assert!(apart(&Particle, &back.state(), &PARTICLE) > 1e-4);
+    Ok(())
+}
+
+/// The energy of the particle has no trend over a hundred thousand steps.
+#[test]
+fn the_energy_of_a_reversible_motion_has_no_trend() -> Outcome {
+    let mut run = Integrator::new(&Particle, Constrained::new(Variational::midpoint()), 0.1, PARTICLE)?;
+    let begin = run.energy();
+    let mut quarters = [0.0_f64; 4];
+    for quarter in &mut quarters {
+        for _ in 0..25_000 {
+            run.advance()?;
+            *quarter = larger(*quarter, (run.energy() - begin).abs());
+        }
+    }
+    assert!(quarters.iter().all(|&error| error < 4e-3), "{quarters:?}");
+    assert!((quarters[3] / quarters[0] - 1.0).abs() < 0.02, "{quarters:?}");
+    Ok(())
+}
+
+/// A disc that is pushed rolls in a circle; how fast it turns and rolls does not change.
+#[test]
+fn a_disc_rolls_in_a_circle() -> Outcome {
+    let (disc, turn, roll) = (Disc { radius: 0.4 }, 0.9_f64, 2.0);
+    let start = DiscState {
+        x: 0.0,
+        y: 0.0,
+        heading: 0.0,
+        roll: 0.0,
+        dot_x: 0.8,
+        dot_y: 0.0,
+        dot_heading: turn,
+        dot_roll: roll,
+    };
+    let h = 0.05;
+    let mut run = Integrator::new(&disc, Constrained::new(Variational::midpoint()), h, start)?;
+    let mut first = 0.0;
+    for step in 1..=1000 {
+        run.advance()?;
+        let DiscState { heading, roll: angle, dot_x, dot_y, dot_heading, dot_roll, .. } = run.state();
+        assert!((dot_heading - turn).abs() < 1e-13 && (dot_roll - roll).abs() < 1e-12);
+        assert!((heading - turn * h * f64::from(step)).abs() < 1e-11);
+        // By how much it rolls in a step differs from h times that by a factor of order h², the same in all steps.
+        first = if step == 1 { angle } else { first };
+        assert!((angle - first * f64::from(step)).abs() < 1e-11 && (first / (roll * h) - 1.0).abs() < h * h);
+        let off = [dot_x - 0.4 * heading.cos() * dot_roll, dot_y - 0.4 * heading.sin() * dot_roll];
+        assert!(off[0].abs() < 1e-15 && off[1].abs() < 1e-15, "{off:?}");
+    }
+    let DiscState { x, y, .. } = run.state();
+    // To order h² the points lie on the circle of the motion.
+    let (radius, distance) = (0.8 / turn, x.hypot(y - 0.8 / turn));
+    assert!((distance - radius).abs() < 2e-3, "{distance} {radius}");
+    Ok(())
+}
+
+/// Where the constraint moves, v1 moves with it; friction takes energy.
+#[test]
+fn constraints_may_depend_on_time() -> Outcome {
+    let start = DrivenState { x: 0.5, y: 0.0, dot_x: 1.0, dot_y: 0.5 + 1.0 };
+    let mut run = Integrator::new(&Driven, Constrained::new(Variational::midpoint()), 0.01, start)?;
+    for _ in 0..1000 {
+        run.advance()?;
+        let DrivenState { x, dot_x, dot_y, .. } = run.state();
+        let (t, off): (f64, f64) = (run.time(), dot_y - x * dot_x);
+        let off = off - t.cos();
+        assert!(off.abs() < 1e-14, "{off:e}");
+    }
+    // ẍ = −x − 0.2 ẋ − λx(2 + sin x), ÿ = λ(2 + sin x) = ẋ² + xẍ − sin t
+    let rates = Driven.at_time(0.3).vector_field(&DrivenState { dot_y: 0.5 + 0.3_f64.cos(), ..start })?;
+    let (x, u) = (0.5, 1.0);
+    let acceleration = (-x - 0.2 * u - x * (u * u - 0.3_f64.sin())) / (1.0 + x * x);
+    assert!((rates.dot_x - acceleration).abs() < 1e-14, "{} {acceleration}", rates.dot_x);
+    assert!((rates.dot_y - (u * u + x * acceleration - 0.3_f64.sin())).abs() < 1e-14);
+    Ok(())
+}
+
+#[test]
+fn a_velocity_across_a_constraint_is_an_error_that_names_it() -> Outcome {
+    let disc = Disc { radius: 0.4 };
+    let state = DiscState {
+        x: 0.0,
+        y: 0.0,
+        heading: 0.0,
+        roll: 0.0,
+        dot_x: 0.8,
+        dot_y: 0.5,
+        dot_heading: 1.0,
+        dot_roll: 2.0,
+    };
+    let begun = Integrator::new(&disc, Constrained::new(Variational::midpoint()), 0.1, state).map(drop);
+    let Err(StartError::AcrossConstraint { constraint, rate }) = begun else { panic!("{begun:?}") };
+    assert!(constraint == 1 && (rate - 0.5).abs() < 1e-15, "{constraint} {rate}");
+    let projected: DiscState = disc.projected(0.0, &state)?;
+    assert!((projected.dot_y).abs() < 1e-15 && (projected.dot_heading - 1.0).abs() < 1e-15);
+    Integrator::new(&disc, Constrained::new(Variational::midpoint()), 0.1, projected)?.take_steps(10)?;
+    Ok(())
+}
+
+#[test]
+fn runs_go_on_from_checkpoints() -> Outcome {
+    let method = Constrained::new(Variational::midpoint());
+    let mut run = Integrator::new(&BLADE, method, 0.05, blade(0.4))?;
+    run.take_steps(17)?;
+    let mut resumed = Integrator::resume(&BLADE, method, &run.checkpoint())?;
+    for _ in 0..20 {
+        run.advance()?;
+        resumed.advance()?;
+        assert_eq!(run.state(), resumed.state());
+    }
+    Ok(())
+}
