@@ -255,3 +255,52 @@ fn steps_that_keep_the_discrete_energy_do_what_is_said() {
         ),
     ]);
 }
+
+#[test]
+fn constrained_steps_of_many_links_do_what_is_said() {
+    let rows = rows();
+    let links = |quantity: &str| value(&rows, "links", quantity);
+    let apart = |other: &str| links(&format!("trapezoid and {other}: largest distance of the free ends"));
+    let iterations = |method: &str, n: u32| links(&format!("{method}: iterations of a step with {n} links"));
+    let all = ["trapezoid", "midpoint"].map(|method| [25, 50, 100].map(|n| iterations(method, n)));
+    let (fewest, most) =
+        all.iter().flatten().fold((f64::INFINITY, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)));
+    let many = iterations("RATTLE", 100);
+    assert_said(&[
+        format!(
+            "the length of a rod is wrong by at most {} of itself, and the velocity along a rod is at most {}.",
+            at_most(links("constrained: largest relative deviation of the length of a rod")),
+            at_most(links("constrained: largest velocity along a rod"))
+        ),
+        format!(
+            "a rod is wrong by {:.0} % at the end.",
+            100.0 * links("RK4: largest relative deviation of the length of a rod")
+        ),
+        format!(
+            "The energy error of constrained steps is at most {}, and reaches that before t = 5; the one of RK4 grows to {}.",
+            at_most(links("constrained: max|ΔE|")),
+            about(links("RK4: max|ΔE|"))
+        ),
+        format!("their free ends stay together within {}.", at_most(apart("midpoint").max(apart("RATTLE")))),
+        format!(
+            "Newton's method takes {fewest:.1} to {most:.1} iterations in a step with 25, 50 and 100 links; RATTLE takes {:.1} with \
+             25 and {many:.1} with 100.",
+            many - links("RATTLE: the same less those with 25")
+        ),
+    ]);
+}
+
+#[test]
+fn rods_allow_the_steps_that_are_said() {
+    let rows = rows();
+    let molecules = |quantity: &str| value(&rows, "molecules", quantity);
+    let ratio = |k: &str| molecules(&format!("k = {k}: longest step with rods / with springs"));
+    assert_said(&[
+        format!("in 50 units of time the longest step is {:.3}.", molecules("rods: longest step")),
+        format!(
+            "it must be {:.1} times shorter for springs of stiffness 10⁴, and {:.1} times for 10⁵:",
+            ratio("10000"),
+            ratio("100000")
+        ),
+    ]);
+}

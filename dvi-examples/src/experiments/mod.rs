@@ -1,5 +1,6 @@
 //! The experiments, a file each: one model and one picture.
 
+mod accelerations;
 mod barnes;
 mod chaotic;
 mod double_pendulum;
@@ -14,8 +15,10 @@ mod kepler_long;
 mod kepler_steps;
 mod kepler_work;
 mod leapfrogging;
+mod links;
 mod lotka_volterra;
 mod massless;
+mod molecules;
 mod momenta;
 mod order;
 mod oscillator;
@@ -54,6 +57,8 @@ pub const ALL: &[Experiment] = &[
     double_pendulum::EXPERIMENT,
     friction::EXPERIMENT,
     energy_momentum::EXPERIMENT,
+    links::EXPERIMENT,
+    molecules::EXPERIMENT,
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,
