@@ -264,11 +264,11 @@ pub enum StepFailure {
         /// The largest candidate.
         pivot: f64,
     },
-    /// A constraint says nothing that those before it do not say: its gradient depends linearly on theirs, or vanishes. Its
-    /// multiplier is not determined then.
+    /// The gradient of a constraint vanishes, or depends linearly on those of the constraints before it: it says nothing that these do
+    /// not say, or contradicts them. Its multiplier is not determined then.
     #[error(
-        "constraint {constraint} is redundant here: its gradient vanishes or depends on those of the constraints before it \
-         (pivot {pivot:e})"
+        "constraint {constraint} is redundant here, or contradicts those before it: its gradient vanishes or depends on theirs \
+         (pivot {pivot:e} in units of the others)"
     )]
     RedundantConstraint {
         /// Its number, counted from 0 in the order of declaration.
@@ -276,16 +276,24 @@ pub enum StepFailure {
         /// The pivot without which the equations have no solution.
         pivot: f64,
     },
-    /// A step turns the gradient of a constraint by a right angle or more, in the metric of the mass matrix: the equations of the
-    /// step have several solutions then, and this one need not be that of the motion.
+    /// A step turns the gradient of a constraint by a right angle or more, or leads away from a constraint that does not move by more than
+    /// 45°, in the metric of the mass matrix: the equations of the step have several solutions then, and this one need not be that of the
+    /// motion.
     #[error(
         "the step turns the gradient of constraint {constraint} by a right angle or more, where its equations have other solutions \
-         than the motion: a smaller step helps"
+         than the motion: a smaller step helps, unless the constraint is singular on the way"
     )]
     Turned {
         /// Its number, counted from 0 in the order of declaration.
         constraint: usize,
     },
+    /// The equations of a step with constraints have been solved on another branch than that of the motion, as a rod may point to
+    /// either side: the determinant of G(q1) M⁻¹ G(q0)ᵀ has another sign than that of a short step.
+    #[error(
+        "the step comes out at another solution of its constraints than that of the motion: a smaller step helps, unless the \
+         constraints are singular on the way"
+    )]
+    Branch,
     /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::methods::EnergyLimit)).
     #[error(
         "the energy was {start:e} at the start and would become {now:e}; the limit of its change is {limit:e}"

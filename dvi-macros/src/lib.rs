@@ -211,8 +211,9 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 ///
 /// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
 /// `dvi_core::NondegenerateLagrangian`; `dvi_core::RegularLagrangian` where there are no constraints, else
-/// `dvi_core::ConstrainedSystem` and `dvi_core::HolonomicLagrangian`. It defines `SystemState` with the coordinates `x` and then the
-/// velocities `dot_x` as fields, and continues the documentation of the struct with its formulas.
+/// `dvi_core::ConstrainedSystem` and `dvi_core::HolonomicLagrangian` or `dvi_core::NonholonomicLagrangian`. It defines `SystemState`
+/// with the coordinates `x` and then the velocities `dot_x` as fields, and continues the documentation of the struct with its
+/// formulas.
 ///
 /// | argument | meaning |
 /// |---|---|
@@ -220,6 +221,7 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// | `lagrangian = …` | L, with the velocities `dot(x)` |
 /// | `force(x) = …`, `force = […]` | forces, as below |
 /// | `constraint = g`, `constraint(i in 0..n) = g(i)` | holonomic constraints, as below |
+/// | `nonholonomic = a`, `nonholonomic(i in 0..n) = a(i)` | constraints of the velocities, as below |
 /// | `momenta(name = …)` | conserved quantities to watch; velocities may stand in them |
 /// | `functions(f = [f, df, d2f], psi = path)` | functions of your own, as in [`macro@degenerate_lagrangian`] |
 /// | `derive(Trait, …)` | what the state derives beside the usual traits |
@@ -295,6 +297,36 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// generic and at most 16 more; that of `constraint(i in 0..N - 1)` is known at run time only. The mass matrix is to be regular as
 /// without constraints. Methods that keep no constraints do not take such
 /// a system: `dvi_core::HolonomicLagrangian` says more.
+///
+/// `nonholonomic = a` declares the constraint a(q, v, t) = A(q, t) v + b(q, t) = 0 of the velocities, which no function of the
+/// positions gives: a blade does not slip to the side, a wheel rolls. Its formula is affine in the velocities `dot(x)`, and at least
+/// one of them stands in it. Lists and families are written as those of `constraint`. A system has constraints of one kind, of the
+/// positions or of the velocities.
+///
+/// ```
+/// use dvi_core::prelude::*;
+/// use dvi_core::NonholonomicLagrangian;
+///
+/// /// A blade on ice, which moves along its edge.
+/// #[lagrangian(
+///     coordinates(x, y, theta),
+///     lagrangian = (dot(x).powi(2) + dot(y).powi(2) + inertia * dot(theta).powi(2)) / 2.0,
+///     nonholonomic = dot(x) * theta.sin() - dot(y) * theta.cos(),
+/// )]
+/// struct KnifeEdge {
+///     inertia: f64,
+/// }
+///
+/// // The edge lies along x: the blade moves along it, not across.
+/// let (blade, mut slip) = (KnifeEdge { inertia: 0.1 }, [0.0]);
+/// blade.velocity_constraint(&[0.0; 3], &[1.0, 0.0, 2.0], 0.0, &mut slip);
+/// assert_eq!(slip, [0.0]);
+/// blade.velocity_constraint(&[0.0; 3], &[1.0, 0.5, 2.0], 0.0, &mut slip);
+/// assert_eq!(slip, [-0.5]);
+/// ```
+///
+/// By the principle of Lagrange and d'Alembert the equations of motion are d/dt ∂L/∂v = ∂L/∂q + F + Aᵀλ:
+/// `dvi_core::NonholonomicLagrangian` says more.
 ///
 /// # Errors
 ///

@@ -76,56 +76,11 @@ const ARGUMENTS: [(&str, &str); 13] = [
 /// Words for what is a force.
 const FORCES: [&str; 6] = ["damping", "drag", "drive", "forces", "forcing", "friction"];
 
-/// Words for what is a constraint.
-const CONSTRAINTS: [&str; 10] = [
-    "algebraic",
-    "bond",
-    "bonds",
-    "constrain",
-    "constrained",
-    "constraints",
-    "equality",
-    "holonomic",
-    "rod",
-    "rods",
-];
-
-/// Words for what is a constraint of the velocities.
-const VELOCITY_CONSTRAINTS: [&str; 10] = [
-    "anholonomic",
-    "no_slip",
-    "non_holonomic",
-    "nonholonomic_constraint",
-    "nonholonomic_constraints",
-    "rolling",
-    "slip",
-    "velocity_constraint",
-    "velocity_constraints",
-    "without_slip",
-];
-
 /// The arguments that a regular system does not have.
 const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
 
 /// The arguments that a degenerate system does not have.
 const REGULAR_ONLY: [&str; 2] = ["constraint", "nonholonomic"];
-
-/// What is constrained by an argument of this name, or of one like it.
-fn constrained_by(name: &str) -> Option<Constrained> {
-    let declares = |of: &Constrained| {
-        let others = match of {
-            Constrained::Positions => CONSTRAINTS,
-            Constrained::Velocities => VELOCITY_CONSTRAINTS,
-        };
-        name == of.word() || others.contains(&name)
-    };
-    Constrained::ALL.into_iter().find(declares)
-}
-
-/// What is constrained by an argument of this very name.
-fn declared_by(name: &str) -> Option<Constrained> {
-    Constrained::ALL.into_iter().find(|of| of.word() == name)
-}
 
 impl Kind {
     /// The attribute as it is written.
@@ -183,7 +138,7 @@ impl Argument {
                 Value::List(list)
             } else if name == "force" {
                 return Err(input.error("a force is written `force(x) = …`"));
-            } else if let Some(of) = declared_by(&name.to_string()) {
+            } else if let Some(of) = Constrained::named(&name.to_string()) {
                 return Err(input.error(format!("a family of constraints is written {}", of.family())));
             } else {
                 return Err(input.error("expected `,`"));
@@ -200,7 +155,7 @@ impl Argument {
 
     /// What may be given once: `name`, or `name(of)`. Every `constraint` or `nonholonomic` is one more.
     fn given(&self) -> Option<String> {
-        if declared_by(&self.name.to_string()).is_some() {
+        if Constrained::named(&self.name.to_string()).is_some() {
             return None;
         }
         Some(match &self.value {
@@ -273,7 +228,7 @@ impl Attribute {
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
         let Argument { name, value } = argument;
         let keyword = name.to_string();
-        if let Some(of) = constrained_by(&keyword) {
+        if let Some(of) = Constrained::named_like(&keyword) {
             self.accept_constraints(of, &name, value, errors);
             return;
         }
@@ -354,71 +309,6 @@ impl Attribute {
                     |near| format!("did you mean `{near}`?"),
                 );
                 errors.push(&name, format!("unknown argument `{keyword}`; {hint}"));
-            }
-        }
-    }
-
-    /// The constraints of an argument whose name says that it declares some.
-    fn accept_constraints(&mut self, of: Constrained, name: &Ident, value: Value, errors: &mut Errors) {
-        if self.kind == Kind::Degenerate {
-            let reason = match of {
-                Constrained::Positions => {
-                    "the coordinates of a degenerate one are to be chosen so that they hold"
-                }
-                Constrained::Velocities => {
-                    "the velocities of a degenerate one are what its equations of motion make of the positions"
-                }
-            };
-            let (adjective, regular) = (of.adjective(), Kind::Regular.attribute());
-            let message =
-                format!("{adjective} constraints are for regular systems, in `{regular}`: {reason}");
-            errors.push_once("constraints", name, message);
-            return;
-        }
-        let (word, function, letter) = (of.word(), of.function(), of.letter());
-        let before = *self.constrained.get_or_insert(of);
-        if name != word {
-            let message = format!(
-                "unknown argument `{name}`; a constraint{} is written `{word} = {function}`, and more of them \
-                 `{word} = [{letter}1, {letter}2]`, or {}",
-                if of == Constrained::Velocities { " of the velocities" } else { "" },
-                of.family()
-            );
-            errors.push(name, message);
-            return;
-        }
-        if before != of {
-            let message = format!(
-                "a system has constraints of one kind, and those before this one are declared by `{}`: choose the coordinates \
-                 so that the constraints of the positions hold, or declare their rates of change by `{} = …` too",
-                before.word(),
-                Constrained::Velocities.word()
-            );
-            errors.push_once("constraints of two kinds", name, message);
-            return;
-        }
-        match value {
-            Value::Assigned(tokens) => {
-                if let Some(value) = value_of(name, tokens, errors) {
-                    let declared = Constraint::of_value(of, value);
-                    self.constraints.extend(declared.into_iter().filter_map(|one| errors.taken(one)));
-                }
-            }
-            Value::AssignedTo { of: index, value, parentheses } => {
-                let family = if index.is_empty() {
-                    let message = format!("a family of constraints is written {}", of.family());
-                    Err(syn::Error::new(parentheses, message))
-                } else {
-                    read_by(index, |input| Family::parse(input, of))
-                };
-                let formula = value_of(name, value, errors);
-                if let Some((family, formula)) = errors.taken(family).zip(formula) {
-                    let declared = Constraint::of_formula(of, Some(family), formula);
-                    self.constraints.extend(errors.taken(declared));
-                }
-            }
-            Value::List(_) | Value::Neither => {
-                errors.push(name, format!("`{word}` is written `{}`", form_of(word)));
             }
         }
     }

@@ -11,26 +11,26 @@
 pub(crate) mod consistent;
 mod holonomic;
 mod nonholonomic;
+mod solver;
 pub(crate) mod turning;
 
-use crate::discrete::{Ends, Interval, Span};
+use crate::discrete::Span;
 use crate::error::StepFailure;
 use crate::mechanics::legendre;
-use crate::mechanics::pattern::visit_second_derivatives;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::sink::{Places, TransposedProduct};
-use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
+use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
 use crate::system::Kind;
 use crate::{ConstrainedSystem, NondegenerateLagrangian, Real, Space, System, Weights};
+
+pub(crate) use solver::ConstraintSolver;
 
 /// One number for each constraint.
 pub(crate) type Multipliers<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Vector<T>;
 /// One number for each coordinate, then one for each constraint.
 pub(crate) type Augmented<S, T> = <<S as ConstrainedSystem>::Augmented as Space>::Vector<T>;
-/// What solves the equations.
-type Solver<S, T> = <<S as ConstrainedSystem>::Augmented as Space>::Linear<T>;
 
 /// How constraints of a kind enter the equations: those of positions, g(q, t) = 0, with A = ∂g/∂q, and those of velocities,
 /// A(q, t) v + b(q, t) = 0. All functions set `out` to one number for each constraint and **add** a matrix with a row for each to
@@ -180,87 +180,6 @@ where
     }
 }
 
-/// What solves equations with multipliers on a system, with the storage that it needs.
-#[derive(Debug)]
-pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
-    solver: Solver<S, T>,
-    /// The last solution: x, then the change of ν.
-    pub(crate) solution: Augmented<S, T>,
-}
-
-impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
-    /// For equations whose A has the entries of second derivatives of L, near (`q`, `v`, `t`).
-    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
-        let (n, space) = (q.len(), system.augmented());
-        let solver = space.linear(Storing::Always, |visit| {
-            visit_second_derivatives(system, [q, v], t, visit);
-            let mut values: Multipliers<S, T> = system.multipliers().vector();
-            let mut work = [0, 1].map(|_| system.space().vector());
-            let [point, velocity] = &mut work;
-            let interval = Interval { t, h: T::lift(1.0) };
-            let span = Span { system, interval, ends: Ends { q0: q, delta: v } };
-            let mut below = Places(|k: usize, j: usize, _: T| visit(n + k, j));
-            S::Kind::of_step(system, span, [point, velocity], &mut values, &mut below);
-            let mut both = Places(|k: usize, j: usize, _: T| {
-                visit(n + k, j);
-                visit(j, n + k);
-            });
-            S::Kind::forces(system, q, t, &mut values, &mut both);
-            (n..space.dimension()).for_each(|k| visit(k, k));
-        });
-        Self { solver, solution: space.vector() }
-    }
-
-    /// Solves the equations; the solution is here, x in its first n entries.
-    ///
-    /// # Errors
-    /// [`StepFailure::RedundantConstraint`] names the first constraint that depends on those before it; others are those of
-    /// [`LinearSolver::solve`].
-    #[inline]
-    pub(crate) fn solve<U: LinearEquations<T>, W: LinearEquations<T>>(
-        &mut self,
-        equations: &mut Bordered<'_, S, T, U, W>,
-    ) -> Result<(), StepFailure> {
-        let result = self.solver.solve(equations, &mut self.solution);
-        result.map_err(|failure| self.blamed(failure, equations))
-    }
-
-    /// The failure, with the name of the constraint if one is to blame.
-    #[cold]
-    fn blamed<U: LinearEquations<T>, W: LinearEquations<T>>(
-        &mut self,
-        failure: StepFailure,
-        equations: &mut Bordered<'_, S, T, U, W>,
-    ) -> StepFailure {
-        let StepFailure::Singular { pivot, .. } = failure else { return failure };
-        // Without constraints: is it A that is singular?
-        if !self.is_regular(equations, 0) {
-            return failure;
-        }
-        let (mut regular, mut singular) = (0, equations.multipliers.len());
-        while singular - regular > 1 {
-            let middle = regular + (singular - regular) / 2;
-            if self.is_regular(equations, middle) { regular = middle } else { singular = middle }
-        }
-        StepFailure::RedundantConstraint { constraint: regular, pivot }
-    }
-
-    /// Whether the equations with the first `active` constraints have a solution.
-    fn is_regular<U: LinearEquations<T>, W: LinearEquations<T>>(
-        &mut self,
-        equations: &mut Bordered<'_, S, T, U, W>,
-        active: usize,
-    ) -> bool {
-        equations.active = active;
-        self.solver.solve(equations, &mut self.solution).is_ok()
-    }
-
-    /// x and the change of the multipliers.
-    pub(crate) fn parts(&self, n: usize) -> (&[T], &[T]) {
-        self.solution.split_at(n)
-    }
-}
-
 /// What is found of a motion along the constraints at one of its points.
 pub(crate) struct Tangent<'a, T> {
     /// On the way in a momentum with components across the constraints, on the way out one without.
@@ -312,7 +231,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
         let lower = OfVelocity { system, at, v };
         let (multipliers, active) = (&*impulse, impulse.len());
-        self.solve(&mut Bordered { system, upper, lower, multipliers, forces: None, active })?;
+        let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
+        self.solve(equations, T::lift(1.0))?;
         let (change, of_impulse) = self.parts(v.len());
         for (v, &change) in v.iter_mut().zip(change) {
             *v -= change;
@@ -325,7 +245,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
 
     /// Adds Gᵀι at a point to a momentum.
     pub(crate) fn add_impulse(&mut self, system: &S, at: At<'_, T>, impulse: &[T], p: &mut [T]) {
-        let (_, values) = self.solution.split_at_mut(at.q.len());
+        let values = self.values(at.q.len());
         S::Kind::forces(system, at.q, at.t, values, &mut TransposedProduct { x: impulse, sum: p });
     }
 }

@@ -76,7 +76,7 @@ pub trait Rates<S: System, T: Real>: Kind {
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` have constraints beside them, and this would not keep these",
     label = "it does not know constraints",
-    note = "systems with `constraint = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
 )]
 pub trait Motion<S: System, T: Real>: Kind {
     /// y: q, or q and p.
@@ -104,7 +104,7 @@ pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point;
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be solved in `{T}`",
     label = "it is no system, it has constraints, or a parameter of it is no number",
-    note = "systems with `constraint = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
 )]
 pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// The equations at (`q`, `v`, `t`).

@@ -21,7 +21,7 @@ use crate::state::Statistics;
 use crate::state::history::is_similar;
 use crate::state::memory::{Memory, lasting};
 use crate::system::start::evaluate;
-use crate::{ConstrainedSystem, Real, Space, Vector};
+use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
 /// The step of a variational method for systems with constraints, of positions by `constraint = …` or of velocities by
 /// `nonholonomic = …`.
@@ -99,6 +99,8 @@ pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
     bend: Vector<S, T>,
     last_step: T,
     gradients: Gradients<S, T>,
+    /// Whether the determinant of the equations for the velocity is positive.
+    is_positive: bool,
     /// If the mass matrix depends on the state.
     orientation: Option<MassOrientation<S, T>>,
     l_d: L,
@@ -161,7 +163,7 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
 }
 
 impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> {
-    lasting!(T; numbers p, numbers v, part impulses, numbers bend, number last_step, part gradients, parts orientation);
+    lasting!(T; numbers p, numbers v, part impulses, numbers bend, number last_step, part gradients, part solver, parts orientation);
 }
 
 impl<M: Scheme> Scheme for Constrained<M> {
@@ -208,7 +210,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     /// Improves Δ and ι0 until q1 is on the constraints.
     fn solve(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Step { system, interval, q, stopping } = *step;
-        let Self { p, l_d, solver, gradients, arrival, .. } = self;
+        let Self { p, l_d, solver, is_positive, gradients, arrival, .. } = self;
         let Arrival { increment, q: next, work, impulses: Impulses { first: impulse, .. }, .. } = arrival;
         let scale = norm::largest(q) + norm::largest(increment);
         let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
@@ -220,7 +222,8 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             let lower = OfStep { span, work: [next, work] };
             let forces = Some(At { q, t: interval.t });
             let (multipliers, active) = (&**impulse, impulse.len());
-            solver.solve(&mut Bordered { system, upper, lower, multipliers, forces, active })?;
+            let equations = &mut Bordered { system, upper, lower, multipliers, forces, active };
+            solver.solve(equations, Scalar::abs(interval.h))?;
             let (change, of_impulse) = solver.parts(q.len());
             for (delta, &change) in increment.iter_mut().zip(change) {
                 *delta -= change;
@@ -232,7 +235,12 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         })?;
         reach(q, increment, next);
         norm::finite(next)?;
-        gradients.check(system, At { q: next, t: interval.time(T::lift(1.0)) })
+        // On the way from a step of no length the determinant of its equations changes its sign where solutions meet.
+        let is_odd = (if interval.h > T::lift(0.0) { q.len() + impulse.len() } else { 0 }) % 2 == 1;
+        if solver.is_positive() != (*is_positive ^ is_odd) {
+            return Err(StepFailure::Branch);
+        }
+        gradients.check(system, q, increment, At { q: next, t: interval.time(T::lift(1.0)) })
     }
 
     /// Finds p1 = p0 + (D₁ + D₂)L_d + G(q0)ᵀι0 + G(q1)ᵀι1 and v1.
@@ -282,11 +290,11 @@ fn reach<T: Real>(q: &[T], increment: &[T], q1: &mut [T]) {
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Constrained<M> {
-    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         self.scheme.admit(system)?;
         evaluate(system, q, v, t)?;
-        consistent::check(system, q, v, t)?;
+        consistent::check(system, [q, v], t, h)?;
         let vector = || system.space().vector();
         let [mut p, mut velocity, mut work]: [Vector<S, T>; 3] = core::array::from_fn(|_| vector());
         system.gradient(q, v, t, &mut work, &mut p);
@@ -296,6 +304,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S,
         let tangent = Tangent { p: &mut p, v: &mut velocity, impulse, work: &mut work };
         solver.tangent(system, At { q, t }, tangent).map_err(StartError::Starter)?;
         impulse.fill(T::lift(0.0));
+        let is_positive = solver.is_positive();
         let orientation = if S::CONSTANT_MASS {
             None
         } else {
@@ -309,7 +318,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S,
             impulses: Impulses::new(system),
             work,
         };
-        let (gradients, bend) = (Gradients::new(system, At { q, t }, v), vector());
+        let (gradients, bend) =
+            (Gradients::new(system, At { q, t }, solver.of_coordinates(q.len())), vector());
         let (l_d, last_step) = (self.scheme.discrete_lagrangian(system), T::lift(0.0));
         Ok(ConstrainedMemory {
             p,
@@ -318,6 +328,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S,
             bend,
             last_step,
             gradients,
+            is_positive,
             orientation,
             l_d,
             solver,

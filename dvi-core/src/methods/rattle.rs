@@ -6,6 +6,7 @@
 //! ι0 is found by Newton's method, whose matrix is h G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with G(q1) M⁻¹ G(q1)ᵀ.
 
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::constraints::{Multipliers, consistent};
 use crate::mechanics::mass::Mass;
 use crate::methods::constrained::Impulses;
@@ -21,8 +22,10 @@ use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vect
 /// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of [`Constrained`](crate::methods::Constrained) around
 /// [`Variational::trapezoid`](crate::methods::Variational::trapezoid), without second derivatives of L.
 ///
-/// A step evaluates the force once. Its linear equations have one unknown for each constraint and a full matrix; along a chain of many
-/// links the banded equations of `Constrained` are cheaper. What is said there of structure and order is true of it. Positions are
+/// A step evaluates the force once. Its linear equations have one unknown for each constraint and a full matrix, and the gradients of
+/// all constraints are kept with an entry for each coordinate; along a chain of many links the banded equations of `Constrained` are
+/// cheaper. With sizes that are fixed at compile time all of that is part of the run: with a hundred rods in the plane 0.7 MB, on the
+/// stack of the thread that begins it. With sizes that are known at run time only it is on the heap. What is said there of structure and order is true of it. Positions are
 /// those of SHAKE (Ryckaert, Ciccotti & Berendsen 1977) with a start on the constraints.
 ///
 /// ```
@@ -79,6 +82,10 @@ struct Place<S: ConstrainedSystem, T: Real> {
     rows: Rows<S, T>,
     /// M⁻¹ times each of them.
     solved: Rows<S, T>,
+    /// The products of both, row by row: the diagonal of G M⁻¹ Gᵀ.
+    squares: Multipliers<S, T>,
+    /// Whether the determinant of that matrix is positive, as it is along a run if it is where that begins.
+    is_positive: bool,
 }
 
 /// The end of a step as it is being found.
@@ -95,7 +102,7 @@ struct Work<S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
-    lasting!(T; numbers p, numbers force, vectors rows, vectors solved);
+    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, flag is_positive);
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for RattleMemory<S, T> {
@@ -124,7 +131,8 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let rows = || system.multipliers().array(vector);
-        Self { p: vector(), force: vector(), rows: rows(), solved: rows() }
+        let squares = system.multipliers().vector();
+        Self { p: vector(), force: vector(), rows: rows(), solved: rows(), squares, is_positive: true }
     }
 }
 
@@ -163,6 +171,21 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
 }
 
+/// Sets a matrix to `factor` A Bᵀ, where A and B have these rows.
+#[inline(always)]
+fn fill<T: Real, V: core::ops::Deref<Target = [T]>, Q: SquareMatrix<T>>(
+    gram: &mut Q,
+    [a, b]: [&[V]; 2],
+    factor: T,
+) {
+    let entries = gram.cleared();
+    for (k, a) in a.iter().enumerate() {
+        for (l, b) in b.iter().enumerate() {
+            entries.add(k, l, factor * dot(a, b));
+        }
+    }
+}
+
 /// Overwrites `x` with the solution of (`factor` A Bᵀ) y = x, where A and B have these rows.
 ///
 /// # Errors
@@ -170,22 +193,56 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
 #[inline(always)]
 fn solve<T: Real, V: core::ops::Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
-    [a, b]: [&[V]; 2],
+    rows: [&[V]; 2],
     factor: T,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
-    let entries = gram.cleared();
-    for (k, a) in a.iter().enumerate() {
-        for (l, b) in b.iter().enumerate() {
-            entries.add(k, l, factor * dot(a, b));
-        }
-    }
-    gram.eliminate(x).map_err(|failure| match failure {
+    fill(gram, rows, factor);
+    gram.eliminate(x).map_err(named)
+}
+
+/// The failure of a matrix over the constraints, with the name of one.
+#[cold]
+fn named(failure: StepFailure) -> StepFailure {
+    match failure {
         StepFailure::Singular { column, pivot } => {
             StepFailure::RedundantConstraint { constraint: column, pivot }
         }
         other => other,
-    })
+    }
+}
+
+/// Whether the solution of a step, with G(q1) = `rows`, lies on the branch of the motion: where no gradient has turned by a right
+/// angle in the metric of M, the displacement makes no larger angle than 45° with the constraints, and the determinant of G(q1) M⁻¹ G(q0)ᵀ has the sign of that of G(q0) M⁻¹ G(q0)ᵀ.
+///
+/// # Errors
+/// [`StepFailure::Turned`] and [`StepFailure::Branch`].
+#[inline(always)]
+fn is_on_branch<S: ConstrainedSystem, T: Real>(
+    gram: &mut Gram<S, T>,
+    rows: &Rows<S, T>,
+    here: &Place<S, T>,
+    (increment, norms): (&[T], [T; 2]),
+) -> Result<(), StepFailure> {
+    for (constraint, (row, solved)) in rows.iter().zip(here.solved.iter()).enumerate() {
+        let square = here.squares[constraint];
+        // What is no number is no turn by less than a right angle either.
+        let is_small = dot(row, solved) * square > T::lift(0.0);
+        let is_here =
+            is_small && (!S::AUTONOMOUS || is_along(dot(&here.rows[constraint], increment), square, norms));
+        if !is_here {
+            return Err(StepFailure::Turned { constraint });
+        }
+    }
+    // Of one constraint that is the determinant.
+    if rows.len() > 1 {
+        fill(gram, [rows, &here.solved], T::lift(1.0));
+        gram.factor().map_err(named)?;
+        if gram.is_positive() != here.is_positive {
+            return Err(StepFailure::Branch);
+        }
+    }
+    Ok(())
 }
 
 /// One step: where it begins, and how long it is.
@@ -240,12 +297,13 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         })?;
         add(q, increment, q1);
         constrain(system, q1, t + h, values, &mut place.rows);
-        // What is no number is no turn by less than a right angle either.
-        let is_small = |(row, solved): (&Vector<S, T>, &Vector<S, T>)| dot(row, solved) > T::lift(0.0);
-        match place.rows.iter().zip(here.solved.iter()).position(|pair| !is_small(pair)) {
-            None => Ok(()),
-            Some(constraint) => norm::finite(q1).and(Err(StepFailure::Turned { constraint })),
-        }
+        let norms = [&*increment, q].map(|x| {
+            vector.fill(T::lift(NEUTRAL));
+            mass.multiply_add(T::lift(1.0), x, vector);
+            dot(vector, x)
+        });
+        let is_here = is_on_branch(gram, &place.rows, here, (increment, norms));
+        is_here.map_err(|failure| norm::finite(q1).err().unwrap_or(failure))
     }
 
     /// Sets p1, with its velocity along the constraints, and ι1.
@@ -255,6 +313,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         let Self { q, place, impulses, .. } = self;
         let (t1, half) = (t + h, T::lift(0.5) * h);
         combine(&here.rows, &impulses.first, &mut place.p);
+        place.is_positive = here.is_positive;
         system.force(q, &[], t1, &mut place.force);
         for (p, &f) in place.p.iter_mut().zip(place.force.iter()) {
             *p += half * f;
@@ -265,9 +324,14 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
     /// Makes the velocity of p at q one along the constraints, of which the gradients are here.
     #[inline(always)]
     fn align(&mut self, system: &S, mass: &Mass<S, T>, t: T) -> Result<(), StepFailure> {
-        let Self { q, place: Place { p, rows, solved, .. }, impulses, vector: v, values, gram, .. } = self;
+        let Self {
+            q, place: Place { p, rows, solved, squares, .. }, impulses, vector: v, values, gram, ..
+        } = self;
         for (row, solved) in rows.iter().zip(solved.iter_mut()) {
             mass.solve(row, solved);
+        }
+        for (square, (row, solved)) in squares.iter_mut().zip(rows.iter().zip(solved.iter())) {
+            *square = dot(row, solved);
         }
         mass.solve(p, v);
         if S::AUTONOMOUS {
@@ -285,6 +349,15 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         combine(rows, values, p);
         norm::finite(p)
     }
+}
+
+/// With so many entries of G a step has its work space on the stack, where it can stay in registers.
+const SHORT: usize = 64;
+
+/// Whether the work space of a step is on the stack, with `entries` in G: a question that is answered when compiled.
+#[inline(always)]
+fn is_short<S: ConstrainedSystem>(entries: usize) -> bool {
+    <S::Space as Space>::ON_STACK && <S::Multipliers as Space>::ON_STACK && entries <= SHORT
 }
 
 /// Sets `g` and the rows of G at (`q`, `t`).
@@ -325,9 +398,9 @@ impl<S: ConstrainedSystem, T: Real> Carries<S, T> for Rattle {
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle {
-    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        consistent::check(system, q, v, t)?;
+        consistent::check(system, [q, v], t, h)?;
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
         let mut work = Work::new(system);
         let Work { q: at, place, values, .. } = &mut work;
@@ -336,6 +409,10 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         system.force(q, &[], t, &mut place.force);
         mass.multiply_add(T::lift(1.0), v, &mut place.p);
         work.align(system, &mass, t).map_err(StartError::Starter)?;
+        let Work { place, gram, .. } = &mut work;
+        fill(gram, [&place.rows, &place.solved], T::lift(1.0));
+        gram.factor().map_err(named).map_err(StartError::Starter)?;
+        place.is_positive = gram.is_positive();
         let mut here = Place::new(system);
         here.restore(&work.place);
         let (last_step, impulses) = (T::lift(0.0), Impulses::new(system));
@@ -354,7 +431,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
     ) -> Result<(), StepFailure> {
         let RattleMemory { here, last_step, impulses, mass, work } = memory;
         let mut on_stack;
-        let work: &mut Work<S, T> = if <S::Space as Space>::ON_STACK && <S::Multipliers as Space>::ON_STACK {
+        let work: &mut Work<S, T> = if is_short::<S>(q.len() * system.multipliers().dimension()) {
             on_stack = Work::new(system);
             &mut on_stack
         } else {

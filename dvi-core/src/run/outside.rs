@@ -26,6 +26,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::Singular { .. }
             | StepFailure::RedundantConstraint { .. }
             | StepFailure::Turned { .. }
+            | StepFailure::Branch
             | StepFailure::Frequency { .. }
             | StepFailure::StepLength { .. }
             | StepFailure::Density { .. } => true,

@@ -77,6 +77,14 @@ pub(crate) fn solve<T: Real>(matrix: &[T], permutation: &[usize], x: &mut [T]) {
     }
 }
 
+/// Whether the determinant of a matrix is positive, as it is left behind by [`factor`].
+#[inline]
+pub(crate) fn is_positive<T: Real>(matrix: &[T], permutation: &[usize]) -> bool {
+    let n = permutation.len();
+    let is_negative = |k: usize| matrix[k * n + k] < T::lift(0.0);
+    (0..n).fold(true, |positive, k| positive ^ is_negative(k) ^ (permutation[k] != k))
+}
+
 /// The length of a row below which its end is not worth a loop of its own.
 const SHORT: usize = 8;
 

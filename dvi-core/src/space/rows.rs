@@ -22,6 +22,8 @@ pub trait RowMatrix<T>: Sink<T> + Memory<T> + Debug {
     fn clear(&mut self);
     /// Σⱼ wⱼ aₖⱼ bₖⱼ over row `k` of this matrix and of another one with the same pattern, with `weights` w.
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T;
+    /// Σⱼ aₖⱼ xⱼ over row `k`.
+    fn times(&self, k: usize, x: &[T]) -> T;
 }
 
 /// Full rows `V`, in an array `A` of them.
@@ -61,6 +63,10 @@ impl<T: Scalar, V: DerefMut<Target = [T]> + Debug, A: DerefMut<Target = [V]> + D
     #[inline(always)]
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
         weighted(&self.0[k], &other.0[k], weights.iter().copied())
+    }
+    #[inline(always)]
+    fn times(&self, k: usize, x: &[T]) -> T {
+        self.0[k].iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x)
     }
 }
 
@@ -136,5 +142,10 @@ impl<T: Scalar> RowMatrix<T> for SparseRows<T> {
         let places = self.places(k);
         let of_columns = self.columns[places.clone()].iter().map(|&column| weights[column as usize]);
         weighted(&self.entries[places.clone()], &other.entries[places], of_columns)
+    }
+    fn times(&self, k: usize, x: &[T]) -> T {
+        let places = self.places(k);
+        let of_columns = self.columns[places.clone()].iter().map(|&column| x[column as usize]);
+        self.entries[places].iter().zip(of_columns).fold(T::lift(0.0), |sum, (&a, x)| sum + a * x)
     }
 }

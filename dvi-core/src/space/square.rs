@@ -50,6 +50,9 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// Overwrites `x` with the solution of A y = x, for an A that has been factored.
     fn solve(&self, x: &mut [T]);
 
+    /// Whether the determinant of an A that has been factored is positive.
+    fn is_positive(&self) -> bool;
+
     /// Adds `factor` A x to `sum`, for an A that has not been factored.
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]);
 }
@@ -92,6 +95,10 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
     #[inline]
     fn solve(&self, x: &mut [T]) {
         elimination::solve(&self.matrix, &self.permutation, x);
+    }
+    #[inline]
+    fn is_positive(&self) -> bool {
+        elimination::is_positive(&self.matrix, &self.permutation)
     }
     #[inline]
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {

@@ -35,7 +35,7 @@ pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     message = "`{Self}` is not a regular system without constraints, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, it has constraints, a parameter is no number, or it has no attribute",
     note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`",
-    note = "systems with `constraint = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
 )]
 pub trait RegularLagrangian<T: Scalar = f64>: NondegenerateLagrangian<T> + System<Kind = Regular> {}
 

@@ -47,6 +47,21 @@ fn regular_systems() -> Vec<(TokenStream, TokenStream)> {
             quote! {
                 coordinates(x[n], y),
                 lagrangian = sum(0..n, |j| dot(x[j]).powi(2)) / 2.0 + dot(y).powi(2),
+                nonholonomic(i in 1..n) = dot(x[i]) * y.sin() - rods[i - 1] * dot(x[i - 1]) * t,
+                nonholonomic = [dot(y) - x[0], sum(0..n, |j| x[j] * dot(x[j])) / (1.0 + y * y)],
+                nonholonomic = if y > 0.0 { y * dot(x[0]) } else { let z = dot(y) / 2.0; z - t },
+            },
+            quote!(
+                struct System {
+                    n: usize,
+                    rods: Vec<f64>,
+                }
+            ),
+        ),
+        (
+            quote! {
+                coordinates(x[n], y),
+                lagrangian = sum(0..n, |j| dot(x[j]).powi(2)) / 2.0 + dot(y).powi(2),
                 force(y) = -dot(y),
                 constraint(i in 1..n) = (x[i] - x[i - 1]).powi(2) - rods[i - 1] * t,
                 constraint = [y - x[0], sum(0..n, |j| x[j]) - y.sin()],

@@ -112,7 +112,7 @@ impl Lowering<'_> {
                 Some(Component { block, index: Index::literal(0), over: None, value })
             }
             (Some((size, _)), Syntax::Closure(closure)) => {
-                self.role = role;
+                self.begin(component, role);
                 let [index] = self.closure_indices::<1>(closure)?;
                 let over = Loop { depth: 0, range: Range::up_to(size) };
                 let value = self.inside(&[(index, Index::open(0), &over)], &closure.body)?;

@@ -6,7 +6,7 @@ use super::lints::uses;
 use super::sums::natural;
 use super::{Lowering, Role};
 use crate::program::Constraint;
-use crate::symbolic::{Expr, Index, Node};
+use crate::symbolic::{Expr, Graph, Id, Index, Node};
 use crate::syntax::{self, Constrained, Family};
 
 impl Lowering<'_> {
@@ -60,7 +60,9 @@ impl Lowering<'_> {
     /// Reports a constraint that stands there before, up to a factor.
     fn are_different(&mut self, constraints: &[Constraint], formulas: &[&Syntax]) {
         for (number, one) in constraints.iter().enumerate() {
-            let is_same = |known: &Constraint| known.over == one.over && known.value.node == one.value.node;
+            let is_same = |known: &Constraint| {
+                known.over == one.over && are_multiples(self.graph, known.value.node, one.value.node)
+            };
             if constraints[..number].iter().any(is_same) {
                 let message = "this constraint is declared twice, up to a factor: the multipliers of the two would not be determined";
                 self.errors.push(formulas[number], message);
@@ -112,5 +114,15 @@ impl Lowering<'_> {
         };
         self.errors.push(formula, message);
         None
+    }
+}
+
+/// Whether one is a multiple of the other: they are the same, or sums of opposite terms.
+fn are_multiples(graph: &Graph, one: Id, other: Id) -> bool {
+    let opposite = |(a, b): (&Expr, &Expr)| a.node == b.node && a.scale == -b.scale;
+    match (graph.node(one), graph.node(other)) {
+        _ if one == other => true,
+        (Node::Sum(a), Node::Sum(b)) => a.len() == b.len() && a.iter().zip(b).all(opposite),
+        _ => false,
     }
 }

@@ -6,6 +6,7 @@ use super::random::Random;
 use super::read::Reader;
 use super::summary::describe;
 use super::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
+use crate::syntax::Constrained;
 
 const CONJUGATE: &str = "u * d(w) + sum(0..N, |j| x[j] * d(y[j]))";
 
@@ -109,6 +110,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         time_transform: None,
         forces: Vec::new(),
         constraints: Vec::new(),
+        constrained: Constrained::Positions,
         momenta: vec![Formula::Time],
     }
 }

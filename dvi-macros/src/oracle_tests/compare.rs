@@ -7,6 +7,7 @@ use super::random::Random;
 use super::rust::{Environment, Expansion, Kind, Machine, Value};
 use super::structure::{self, Claims};
 use super::system::{Gauge, System};
+use crate::syntax::Constrained;
 
 /// Rounding errors stay below this, relative to the size of the terms.
 const TOLERANCE: f64 = 1e-10;
@@ -362,32 +363,25 @@ impl<'a> Comparison<'a> {
             return Ok(());
         }
         let before = vec![7.0; m];
-        let (_, slices) = self.call().slice(q).real(*t).slice(&before).run("constraint")?;
-        self.same_vector("constraint", &slices[1], |k| constraints[k].value)?;
-
         // With room for more rows or columns than there are.
         let side = n.max(m);
         let matrix: Vec<f64> = (0..side * side).map(|_| random.between(-1.0, 1.0)).collect();
+        if self.system.constrained == Constrained::Velocities {
+            return self.velocity_constraints(expected, random, &before, &matrix);
+        }
+        let (_, slices) = self.call().slice(q).real(*t).slice(&before).run("constraint")?;
+        self.same_vector("constraint", &slices[1], |k| constraints[k].value)?;
+
         let call = self.call().slice(q).real(*t).slice(&before).slice(&matrix);
         let (_, slices) = call.run("constraint_jacobian")?;
         self.same_vector("constraint_jacobian, g", &slices[1], |k| constraints[k].value)?;
-        for (place, found) in slices[2].iter().enumerate() {
-            let (row, column) = (place / side, place % side);
-            let start = Sized::new(matrix[place]);
-            let entry = constraints.get(row).filter(|_| column < n);
-            let wanted = entry.map_or(start, |constraint| start.plus(constraint.gradient(column)));
-            self.same("constraint_jacobian", &[row, column], wanted, *found)?;
-        }
+        self.same_rows("constraint_jacobian", &slices[2], &matrix, constraints, |constraint, column| {
+            constraint.gradient(column)
+        })?;
 
-        // Along (v, 1).
+        self.constraint_rate(expected, "constraint_rate", &before)?;
         let along = |i: usize| Sized::new(if i < n { v[i] } else { 1.0 });
         let variables = || (0..n).chain([2 * n]);
-        let call = self.call().slice(q).slice(v).real(*t).slice(&before);
-        let (_, slices) = call.run("constraint_rate")?;
-        self.same_vector("constraint_rate", &slices[2], |k| {
-            let terms = variables().map(|i| constraints[k].gradient(i).times(along(i)));
-            terms.fold(Sized::default(), Sized::plus)
-        })?;
         let call = self.call().slice(q).slice(v).real(*t).slice(&before);
         let (_, slices) = call.run("constraint_curvature")?;
         self.same_vector("constraint_curvature", &slices[2], |k| {
@@ -395,6 +389,65 @@ impl<'a> Comparison<'a> {
             let terms = pairs.map(|(i, j)| constraints[k].hessian(i, j).times(along(i)).times(along(j)));
             terms.fold(Sized::default(), Sized::plus)
         })
+    }
+
+    fn velocity_constraints(
+        &mut self,
+        expected: &Expected,
+        random: &mut Random,
+        before: &[f64],
+        matrix: &[f64],
+    ) -> Result<(), Difference> {
+        let Expected { point: Point { q, v, t }, constraints, .. } = expected;
+        let n = self.system.dimension();
+        let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(before).run("velocity_constraint")?;
+        self.same_vector("velocity_constraint", &slices[2], |k| constraints[k].value)?;
+
+        let weights = [0; 2].map(|_| random.between(-1.7, 1.7));
+        let call = self.call().slice(q).slice(v).real(*t).slice(&weights).slice(before).slice(matrix);
+        let (_, slices) = call.run("velocity_constraint_jacobian")?;
+        self.same_vector("velocity_constraint_jacobian, a", &slices[3], |k| constraints[k].value)?;
+        let [by_q, by_v] = weights;
+        self.same_rows("velocity_constraint_jacobian", &slices[4], matrix, constraints, |constraint, j| {
+            constraint.gradient(j).scaled(by_q).plus(constraint.gradient(n + j).scaled(by_v))
+        })?;
+        self.constraint_rate(expected, "velocity_constraint_rate", before)
+    }
+
+    /// The rates of change of all constraints along (v, 1).
+    fn constraint_rate(
+        &mut self,
+        expected: &Expected,
+        function: &str,
+        before: &[f64],
+    ) -> Result<(), Difference> {
+        let Expected { point: Point { q, v, t }, constraints, .. } = expected;
+        let n = self.system.dimension();
+        let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(before).run(function)?;
+        self.same_vector(function, &slices[2], |k| {
+            let terms = (0..n).map(|i| constraints[k].gradient(i).times(Sized::new(v[i])));
+            terms.fold(constraints[k].gradient(2 * n), Sized::plus)
+        })
+    }
+
+    /// A square matrix with an entry for each constraint and each coordinate added to what was there before.
+    fn same_rows(
+        &mut self,
+        what: &str,
+        found: &[f64],
+        before: &[f64],
+        constraints: &[Jet],
+        entry: impl Fn(&Jet, usize) -> Sized,
+    ) -> Result<(), Difference> {
+        let (n, side) = (self.system.dimension(), before.len().isqrt());
+        for (place, found) in found.iter().enumerate() {
+            let (row, column) = (place / side, place % side);
+            let start = Sized::new(before[place]);
+            let constraint = constraints.get(row).filter(|_| column < n);
+            let wanted = constraint.map_or(start, |constraint| start.plus(entry(constraint, column)));
+            self.same(what, &[row, column], wanted, *found)?;
+        }
+        Ok(())
     }
 
     fn degenerate(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {

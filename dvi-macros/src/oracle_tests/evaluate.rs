@@ -229,7 +229,6 @@ impl<'a> Oracle<'a> {
         Ok(forces)
     }
 
-    /// A body with its indices at these values.
     /// All constraints, one after the other.
     pub(super) fn constraints(&mut self) -> Result<Vec<Jet>, Outside> {
         let system = self.system;
@@ -247,6 +246,7 @@ impl<'a> Oracle<'a> {
         Ok(values)
     }
 
+    /// A body with its indices at these values.
     fn inside(&mut self, indices: &[i64], body: &Formula) -> Result<Jet, Outside> {
         let outside = self.bound.len();
         self.bound.extend(indices);

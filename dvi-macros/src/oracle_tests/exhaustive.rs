@@ -10,6 +10,7 @@
 
 use super::formula::{Atom, Formula, Index, Loops};
 use super::system::{Block, Dynamics, Gauge, Size, SizeKind, System};
+use crate::syntax::Constrained;
 
 /// The sums that a formula may still hold.
 const SUMS: usize = 2;
@@ -98,6 +99,7 @@ pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
         time_transform: None,
         forces: Vec::new(),
         constraints: Vec::new(),
+        constrained: Constrained::Positions,
         momenta: Vec::new(),
     }
 }
@@ -125,6 +127,7 @@ pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
         time_transform: None,
         forces: Vec::new(),
         constraints: Vec::new(),
+        constrained: Constrained::Positions,
         momenta: Vec::new(),
     }
 }

@@ -62,8 +62,9 @@ const EXPECTED: &[&str] = &[
     // Of the user's functions, one is declared with its third derivative.
     "declare its third derivative too",
     "stands in a gauge",
-    // The coordinates of a constraint may cancel.
+    // The coordinates or velocities of a constraint may cancel.
     "no coordinate stands in this constraint",
+    "no velocity `dot(x)` stands in this constraint, or none is left",
     "this constraint is declared twice, up to a factor",
     "cannot be independent of each other",
     // It may come out as a constant.

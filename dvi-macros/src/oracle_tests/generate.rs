@@ -11,6 +11,7 @@ mod values;
 use super::formula::{Formula, Index, Loops};
 use super::random::Random;
 use super::system::{Constraint, Dynamics, Gauge, System};
+use crate::syntax::Constrained;
 use indices::Scope;
 
 /// Whether velocities may stand in a formula.
@@ -52,7 +53,10 @@ pub(super) fn system(random: &mut Random) -> System {
         let momentum = generator.value(&Scope::outside(), 3);
         generator.system.momenta.push(momentum);
     }
-    if regular && generator.random.chance(25) {
+    if regular && generator.random.chance(30) {
+        if generator.random.chance(35) {
+            generator.system.constrained = Constrained::Velocities;
+        }
         generator.velocities = Velocities::None;
         generator.system.constraints = generator.constraints();
     }
@@ -124,7 +128,7 @@ impl Generator<'_> {
         (0..count).map(|_| self.constraint()).collect()
     }
 
-    /// A function with a coordinate in it, alone or with an index that it depends on.
+    /// A function with a coordinate in it, or affine with a velocity in it, alone or with an index that it depends on.
     fn constraint(&mut self) -> Constraint {
         self.budget = self.budget.max(6);
         let family = if self.random.chance(50) { self.loops(&Scope::outside(), Loops::Single) } else { None };
@@ -134,13 +138,20 @@ impl Generator<'_> {
         };
         let block = self.random.below(self.system.blocks.len());
         let index = self.system.blocks[block].size.map(|size| self.index(&scope, size));
-        let coordinate = Formula::Coordinate(block, index);
-        let coordinate = match range {
-            Some(_) => coordinate.times(Formula::Count(Index::bound(0).plus(3))),
-            None => coordinate,
+        let variable = match self.system.constrained {
+            Constrained::Positions => Formula::Coordinate(block, index),
+            Constrained::Velocities => Formula::Velocity(block, index),
         };
-        let value = self.value(&scope, 4);
-        let formula = if self.random.chance(70) { value.plus(coordinate) } else { coordinate.times(value) };
+        let variable = match range {
+            Some(_) => variable.times(Formula::Count(Index::bound(0).plus(3))),
+            None => variable,
+        };
+        let is_sum = self.random.chance(70);
+        let value = match self.system.constrained {
+            Constrained::Velocities if is_sum => self.affine(&scope, 4),
+            Constrained::Positions | Constrained::Velocities => self.value(&scope, 4),
+        };
+        let formula = if is_sum { value.plus(variable) } else { variable.times(value) };
         Constraint { range, formula }
     }
 

@@ -28,7 +28,7 @@ impl Summary {
             Verdict::Agrees { largest, claims } => {
                 self.count("agrees");
                 if !system.constraints.is_empty() {
-                    self.count("agrees, with constraints");
+                    self.count(&format!("agrees, with {} constraints", system.constrained.adjective()));
                 }
                 self.largest = self.largest.max(*largest);
                 for (name, declared, possible) in claims {

@@ -1,6 +1,7 @@
 //! A system under test: its declarations, its formulas, and the numbers that its struct holds.
 
 use super::formula::{Formula, Index};
+use crate::syntax::Constrained;
 
 /// How the size of an array is written, and what it is in the test.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,6 +96,7 @@ pub(super) struct System {
     /// The forces, each on a block. The index of an entry is that of level 0.
     pub(super) forces: Vec<(usize, Formula)>,
     pub(super) constraints: Vec<Constraint>,
+    pub(super) constrained: Constrained,
     pub(super) momenta: Vec<Formula>,
 }
 

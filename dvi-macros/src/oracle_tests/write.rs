@@ -100,16 +100,16 @@ impl System {
 
     /// Constraints that follow each other without an index are a list.
     fn constraint_arguments(&self, writer: &Writer<'_>) -> String {
-        let mut text = String::new();
+        let (mut text, word) = (String::new(), self.constrained.word());
         for run in self.constraints.chunk_by(|one, next| one.range.is_none() && next.range.is_none()) {
             text += &match run {
                 [Constraint { range: Some((lower, upper)), formula }] => {
-                    format!(", constraint(i in {}) = {}", writer.range(lower, upper), writer.text(formula))
+                    format!(", {word}(i in {}) = {}", writer.range(lower, upper), writer.text(formula))
                 }
-                [single] => format!(", constraint = {}", writer.text(&single.formula)),
+                [single] => format!(", {word} = {}", writer.text(&single.formula)),
                 several => {
                     let formulas = several.iter().map(|one| writer.text(&one.formula));
-                    format!(", constraint = [{}]", formulas.collect::<Vec<_>>().join(", "))
+                    format!(", {word} = [{}]", formulas.collect::<Vec<_>>().join(", "))
                 }
             };
         }

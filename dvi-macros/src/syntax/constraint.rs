@@ -5,7 +5,8 @@ use quote::ToTokens;
 use syn::parse::ParseStream;
 use syn::{BinOp, Expr, Lit, Token};
 
-use crate::errors::text;
+use super::{Attribute, Kind, Value, form_of, read_by, value_of};
+use crate::errors::{Errors, text};
 
 /// What the constraints of a system are functions of; the word of the argument says it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +16,34 @@ pub(crate) enum Constrained {
     /// `nonholonomic`: a(q, v, t) = A(q, t) v + b(q, t) = 0.
     Velocities,
 }
+
+/// Words for what is a constraint.
+const CONSTRAINTS: [&str; 10] = [
+    "algebraic",
+    "bond",
+    "bonds",
+    "constrain",
+    "constrained",
+    "constraints",
+    "equality",
+    "holonomic",
+    "rod",
+    "rods",
+];
+
+/// Words for what is a constraint of the velocities.
+const VELOCITY_CONSTRAINTS: [&str; 10] = [
+    "anholonomic",
+    "no_slip",
+    "non_holonomic",
+    "nonholonomic_constraint",
+    "nonholonomic_constraints",
+    "rolling",
+    "slip",
+    "velocity_constraint",
+    "velocity_constraints",
+    "without_slip",
+];
 
 /// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`; or the same by `nonholonomic`.
 #[derive(Debug)]
@@ -31,7 +60,24 @@ pub(crate) struct Family {
 }
 
 impl Constrained {
-    pub(crate) const ALL: [Self; 2] = [Self::Positions, Self::Velocities];
+    const ALL: [Self; 2] = [Self::Positions, Self::Velocities];
+
+    /// What is constrained by an argument of this name, or of one like it.
+    pub(super) fn named_like(name: &str) -> Option<Self> {
+        let declares = |of: &Self| {
+            let others = match of {
+                Self::Positions => CONSTRAINTS,
+                Self::Velocities => VELOCITY_CONSTRAINTS,
+            };
+            name == of.word() || others.contains(&name)
+        };
+        Self::ALL.into_iter().find(declares)
+    }
+
+    /// What is constrained by an argument of this very name.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|of| of.word() == name)
+    }
 
     /// The word that declares such constraints.
     pub(crate) fn word(self) -> &'static str {
@@ -68,6 +114,79 @@ impl Constrained {
     /// How a family is written.
     pub(super) fn family(self) -> String {
         format!("`{}(i in 0..n) = {}(i)`", self.word(), self.letter())
+    }
+}
+
+impl Attribute {
+    /// The constraints of an argument whose name says that it declares some.
+    pub(super) fn accept_constraints(
+        &mut self,
+        of: Constrained,
+        name: &Ident,
+        value: Value,
+        errors: &mut Errors,
+    ) {
+        if self.kind == Kind::Degenerate {
+            let reason = match of {
+                Constrained::Positions => {
+                    "the coordinates of a degenerate one are to be chosen so that they hold"
+                }
+                Constrained::Velocities => {
+                    "the velocities of a degenerate one are what its equations of motion make of the positions"
+                }
+            };
+            let (adjective, regular) = (of.adjective(), Kind::Regular.attribute());
+            let message =
+                format!("{adjective} constraints are for regular systems, in `{regular}`: {reason}");
+            errors.push_once("constraints", name, message);
+            return;
+        }
+        let (word, function, letter) = (of.word(), of.function(), of.letter());
+        let before = *self.constrained.get_or_insert(of);
+        if name != word {
+            let message = format!(
+                "unknown argument `{name}`; a constraint{} is written `{word} = {function}`, and more of them \
+                 `{word} = [{letter}1, {letter}2]`, or {}",
+                if of == Constrained::Velocities { " of the velocities" } else { "" },
+                of.family()
+            );
+            errors.push(name, message);
+            return;
+        }
+        if before != of {
+            let message = format!(
+                "a system has constraints of one kind, and those before this one are declared by `{}`: choose the coordinates \
+                 so that the constraints of the positions hold, or declare their rates of change by `{} = …` too",
+                before.word(),
+                Constrained::Velocities.word()
+            );
+            errors.push_once("constraints of two kinds", name, message);
+            return;
+        }
+        match value {
+            Value::Assigned(tokens) => {
+                if let Some(value) = value_of(name, tokens, errors) {
+                    let declared = Constraint::of_value(of, value);
+                    self.constraints.extend(declared.into_iter().filter_map(|one| errors.taken(one)));
+                }
+            }
+            Value::AssignedTo { of: index, value, parentheses } => {
+                let family = if index.is_empty() {
+                    let message = format!("a family of constraints is written {}", of.family());
+                    Err(syn::Error::new(parentheses, message))
+                } else {
+                    read_by(index, |input| Family::parse(input, of))
+                };
+                let formula = value_of(name, value, errors);
+                if let Some((family, formula)) = errors.taken(family).zip(formula) {
+                    let declared = Constraint::of_formula(of, Some(family), formula);
+                    self.constraints.extend(errors.taken(declared));
+                }
+            }
+            Value::List(_) | Value::Neither => {
+                errors.push(name, format!("`{word}` is written `{}`", form_of(word)));
+            }
+        }
     }
 }
 

@@ -341,3 +341,101 @@ fn the_spaces_of_a_chain_are_known_at_run_time() {
     "#]],
     );
 }
+
+fn train() -> TokenStream {
+    lagrangian(
+        quote! {
+            coordinates(x[n], y[n]),
+            lagrangian = sum(0..n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0,
+            nonholonomic(i in 0..n) = dot(x[i]) * y[i] - slope * t,
+            nonholonomic = dot(x[0]) - sum(0..n, |j| x[j] * dot(y[j])),
+        },
+        quote! { struct Train { n: usize, slope: f64 } },
+    )
+}
+
+#[test]
+fn constraints_of_velocities_with_their_weighted_derivatives() {
+    check_expansion(
+        train(),
+        "velocity_constraint_jacobian",
+        &expect![[r#"
+        fn velocity_constraint_jacobian() {
+            let (__q0, __rest) = __q.split_at(self.n);
+            let (__q1, __rest) = __rest.split_at(self.n);
+            let _ = __rest;
+            let (__v0, __rest) = __v.split_at(self.n);
+            let (__v1, __rest) = __rest.split_at(self.n);
+            let _ = __rest;
+            __g.fill(T::lift(-0.0));
+            let (__g0, __rest) = __g.split_at_mut(self.n);
+            let (__g1, __rest) = __rest.split_at_mut(1usize);
+            let _ = __rest;
+            let __row0: usize = 0usize;
+            let __row1: usize = __row0 + self.n;
+            let __offset0: usize = 0usize;
+            let __offset1: usize = self.n;
+            let __r5 = T::lift(
+                __private::Number::number(self.slope),
+            ) * __t;
+            let __r13 = __weights[1usize];
+            let __r15 = __weights[0usize];
+            let mut __r11 = T::lift(-0.0);
+            for __i0 in (0usize)..(self.n) {
+                let __r0 = __v0[__i0];
+                let __r1 = __q1[__i0];
+                let __r8 = __q0[__i0];
+                let __r9 = __v1[__i0];
+                let __r10 = __r8 * __r9;
+                __g0[__i0] += ((__r0 * __r1) - __r5);
+                Sink::add(__sink, __row0 + __i0, __offset0 + __i0, (__r13 * __r1));
+                Sink::add(__sink, __row0 + __i0, __offset1 + __i0, (__r15 * __r0));
+                Sink::add(
+                    __sink,
+                    __row1 + 0usize,
+                    __offset0 + __i0,
+                    (-(__r15 * __r9)),
+                );
+                Sink::add(
+                    __sink,
+                    __row1 + 0usize,
+                    __offset1 + __i0,
+                    (-(__r13 * __r8)),
+                );
+                __r11 += __r10;
+            }
+            __g1[0usize] += (__v0[0usize] - __r11);
+            Sink::add(__sink, __row1 + 0usize, __offset0 + 0usize, __r13);
+        }
+    "#]],
+    );
+}
+
+#[test]
+fn constraints_of_velocities_along_a_motion() {
+    check_expansion(
+        train(),
+        "velocity_constraint_rate",
+        &expect![[r#"
+        fn velocity_constraint_rate() {
+            let (__v0, __rest) = __v.split_at(self.n);
+            let (__v1, __rest) = __rest.split_at(self.n);
+            let _ = __rest;
+            __g.fill(T::lift(-0.0));
+            let (__g0, __rest) = __g.split_at_mut(self.n);
+            let (__g1, __rest) = __rest.split_at_mut(1usize);
+            let _ = __rest;
+            let __r0 = T::lift(
+                __private::Number::number(self.slope),
+            );
+            let mut __r5 = T::lift(-0.0);
+            for __i0 in (0usize)..(self.n) {
+                let __r3 = __v0[__i0] * __v1[__i0];
+                __g0[__i0] -= (__r0 - __r3);
+                __r5 += __r3;
+            }
+            __g1[0usize] -= __r5;
+        }
+    "#]],
+    );
+}

@@ -169,4 +169,30 @@ mod explicit_methods {
     }
 }
 
+/// Names of indices are those of the formula that they stand in, not of one before.
+mod indices_of_other_formulas {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x[3]),
+        lagrangian = sum(0..3, |k| dot(x[k]).powi(2)),
+        force(x) = |i| k - sum(0..3, |j| x[j]) * x[i],
+    )]
+    struct S;
+
+    #[lagrangian(
+        coordinates(x[3]),
+        lagrangian = sum(0..3, |k| dot(x[k]).powi(2)),
+        force(x) = |i| x[i] * j - sum(0..3, |j| x[j]),
+    )]
+    struct T;
+
+    #[degenerate_lagrangian(
+        coordinates(x[3], y[3]),
+        one_form = [|i| y[i] + sum(0..3, |k| x[k]), |i| k],
+        hamiltonian = x[0],
+    )]
+    struct U;
+}
+
 fn main() {}

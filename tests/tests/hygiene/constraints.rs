@@ -1,6 +1,7 @@
 //! The same unfriendliness for systems with constraints.
 
-use dvi_core::{HolonomicLagrangian, Space};
+use dvi_core::space::sink::Dense;
+use dvi_core::{ConstrainedSystem, HolonomicLagrangian, NonholonomicLagrangian, Space, System};
 
 /// Fields and indices with the names of what generated code might use.
 mod names {
@@ -68,6 +69,21 @@ mod shadowed {
     pub struct Shadowed {
         pub(super) mass: ::std::vec::Vec<f64>,
     }
+
+    trait NonholonomicLagrangian {}
+
+    /// One with constraints of the velocities, and names that generated code might use.
+    #[::dvi_core::lagrangian(
+        coordinates(q[weights.len()], nonholonomic),
+        lagrangian = sum(0..weights.len(), |v| dot(q[v]).powi(2)) + dot(nonholonomic).powi(2),
+        nonholonomic(v in 0..weights.len()) = weights[v] * dot(q[v]) - g0 * nonholonomic * q[v],
+        nonholonomic = nonholonomic * dot(nonholonomic) - sink,
+    )]
+    pub struct Rolling {
+        pub(super) weights: ::std::vec::Vec<f64>,
+        pub(super) g0: f64,
+        pub(super) sink: f64,
+    }
 }
 
 /// dg/dt where all coordinates are one half and all velocities one quarter.
@@ -86,4 +102,16 @@ fn systems_with_constraints_and_unfriendly_names_work() {
     assert_eq!(rate(&generics::Borrowing::<f64, 2> { T: &[1.0, 2.0], s: 3.0 }), [0.25, 0.5]);
     assert_eq!(rate(&shadowed::Shadowed { mass: vec![2.0, 3.0] }), [-0.25]);
     assert_eq!(rate(&shadowed::Shadowed { mass: Vec::new() }), [0.0; 0]);
+}
+
+#[test]
+fn systems_with_constraints_of_velocities_and_unfriendly_names_work() {
+    let rolling = shadowed::Rolling { weights: vec![2.0, 3.0], g0: 4.0, sink: 5.0 };
+    assert!(rolling.check().is_ok());
+    let m = rolling.multipliers().dimension();
+    let (mut a, mut jacobian) = (vec![f64::NAN; m], vec![0.0; 3 * m]);
+    let (q, v, weights) = ([0.5; 3], [0.25; 3], [1.0, 10.0]);
+    rolling.velocity_constraint_jacobian(&q, &v, 0.0, weights, &mut a, &mut Dense::new(&mut jacobian, 3));
+    assert_eq!(a, [-0.5, -0.25, -4.875]);
+    assert_eq!(jacobian, [18.0, 0.0, -2.0, 0.0, 28.0, -2.0, 0.0, 0.0, 5.25]);
 }

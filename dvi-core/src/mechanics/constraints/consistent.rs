@@ -11,10 +11,10 @@ use crate::space::sink::Places;
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
 use crate::system::start::{evaluate, flatten, validate};
-use crate::{Real, Space, State, Vector};
+use crate::{Real, Scalar, Space, State, Vector};
 
-/// A start may be so far from the constraints, relative to its largest coordinate or velocity.
-const TOLERANCE: f64 = 1e-8;
+/// A start may be off the constraints by so many rounding errors.
+const ROUNDINGS: f64 = 1e4;
 
 /// ∂²L/∂v∂v as A, and b = 0: the solution is the shortest change in the metric of the mass matrix.
 struct Shortest<'a, S, T>(legendre::Equations<'a, S, T>);
@@ -60,27 +60,11 @@ impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
         let Self { system, t, solver, none, work: [l_q, p] } = self;
         let upper = Shortest(legendre::Equations { system: *system, points: [q, v, p], t: *t, l_q });
         let (multipliers, active) = (&**none, none.len());
-        solver.solve(&mut Bordered { system: *system, upper, lower, multipliers, forces: None, active })?;
+        let equations = &mut Bordered { system: *system, upper, lower, multipliers, forces: None, active };
+        solver.solve(equations, T::lift(1.0))?;
         let (change, _) = solver.parts(q.len());
         norm::finite(change)?;
         Ok(change)
-    }
-
-    /// The constraint whose value is farthest from zero, and that value.
-    fn worst(&self, mut of: impl LinearEquations<T>) -> (usize, f64) {
-        let mut values: Multipliers<S, T> = self.system.multipliers().vector();
-        // None of what is evaluated here can fail.
-        let evaluated = of.evaluate(&mut values, &mut Places(|_, _, _: T| {}));
-        let mut worst = (0, if evaluated.is_ok() { 0.0 } else { f64::NAN });
-        for (constraint, value) in values.iter().map(|&value| reported(value)).enumerate() {
-            if value.is_nan() {
-                return (constraint, value);
-            }
-            if value.abs() > f64::abs(worst.1) {
-                worst = (constraint, value);
-            }
-        }
-        worst
     }
 }
 
@@ -97,32 +81,59 @@ impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfPosition<'_,
     }
 }
 
-/// Whether a run can begin at (`q`, `v`, `t`).
+/// The constraint that is farthest from being kept, of those that are off by more than rounding errors, and its value. Errors of
+/// rounding are those of the coordinates, `scale`, times the derivatives by them.
+fn worst<S: ConstrainedLagrangian<T>, T: Real>(
+    system: &S,
+    mut of: impl LinearEquations<T>,
+    scale: impl Fn(usize) -> T,
+) -> Result<Option<(usize, f64)>, StepFailure> {
+    let [mut values, mut sizes]: [Multipliers<S, T>; 2] = [0, 1].map(|_| system.multipliers().vector());
+    of.evaluate(
+        &mut values,
+        &mut Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * scale(j)),
+    )?;
+    let rounding = ROUNDINGS * reported(T::default_epsilon());
+    let mut worst = None;
+    for (constraint, (&value, &size)) in values.iter().zip(sizes.iter()).enumerate() {
+        let (value, size) = (reported(value), reported(size));
+        if value.is_nan() {
+            return Ok(Some((constraint, value)));
+        }
+        let off = value.abs() / size;
+        let is_worse = worst.is_none_or(|(_, _, known)| off > known);
+        if value.abs() > rounding * size && is_worse {
+            worst = Some((constraint, value, off));
+        }
+    }
+    Ok(worst.map(|(constraint, value, _)| (constraint, value)))
+}
+
+/// Whether a run with steps of length `h` can begin at (`q`, `v`, `t`).
 ///
 /// # Errors
-/// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] with the constraint that is farthest from being kept;
-/// [`StartError::Starter`] with the constraint that is redundant, or a singular mass matrix.
+/// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] with the constraint that is farthest from being kept, relative
+/// to its rounding errors.
 pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
-    q: &[T],
-    v: &[T],
+    [q, v]: [&[T]; 2],
     t: T,
+    h: T,
 ) -> Result<(), StartError> {
-    let mut projection = Projection::new(system, q, v, t);
-    let (tolerance, at) = (T::lift(TOLERANCE), At { q, t });
+    let at = At { q, t };
     if S::Kind::OF_POSITIONS {
-        let off = norm::largest(projection.of_position(q, v).map_err(StartError::Starter)?);
-        if off > tolerance * norm::largest(q) {
-            let (constraint, value) = projection.worst(OfPosition { system, at });
+        let off = worst(system, OfPosition { system, at }, |j| Scalar::abs(q[j]));
+        if let Some((constraint, value)) = off.map_err(StartError::Starter)? {
             return Err(StartError::OffConstraint { constraint, value });
         }
     }
-    let across = norm::largest(projection.of_velocity(q, v).map_err(StartError::Starter)?);
-    if across > tolerance * norm::largest(v) {
-        let (constraint, rate) = projection.worst(OfVelocity { system, at, v });
-        return Err(StartError::AcrossConstraint { constraint, rate });
+    // A velocity is rounded where it is small against those that move a coordinate by itself in a step.
+    let speed = |j: usize| Scalar::abs(v[j]) + Scalar::abs(q[j] / h);
+    let across = worst(system, OfVelocity { system, at, v }, speed).map_err(StartError::Starter)?;
+    match across {
+        None => Ok(()),
+        Some((constraint, rate)) => Err(StartError::AcrossConstraint { constraint, rate }),
     }
-    Ok(())
 }
 
 /// See [`OnConstraints::projected`](super::OnConstraints::projected).
@@ -164,8 +175,9 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
     match result.and(norm::finite(q)) {
         Ok(()) => Ok(()),
         Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. }) => {
-            let at = At { q, t: projection.t };
-            let (constraint, value) = projection.worst(OfPosition { system: projection.system, at });
+            let Projection { system, t, .. } = *projection;
+            let found = worst(system, OfPosition { system, at: At { q, t } }, |_| T::lift(0.0));
+            let (constraint, value) = found.map_err(StartError::Starter)?.unwrap_or((0, 0.0));
             Err(StartError::Inconsistent { constraint, value })
         }
         Err(failure) => Err(StartError::Starter(failure)),

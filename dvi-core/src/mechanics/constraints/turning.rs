@@ -1,10 +1,11 @@
-//! How far a step turns the gradients of the constraints.
+//! Whether a step has come out where the motion leads.
 //!
 //! The equations of a step on constraints have several solutions: a rod that is to have its length again may point to one side or to
-//! the other. Along the motion the gradients turn little in a step.
+//! the other, and a bead on a narrow loop may sit on its far side. Along the motion gradients turn little in a step, and the
+//! displacement Δ leads along the constraints.
 
 use crate::error::StepFailure;
-use crate::mechanics::constraints::{At, ConstrainedLagrangian, Constraints, Multipliers, mass_matrix};
+use crate::mechanics::constraints::{At, ConstrainedLagrangian, Constraints, Multipliers};
 use crate::space::RowMatrix;
 use crate::space::sink::Places;
 use crate::state::memory::{Memory, lasting};
@@ -25,24 +26,15 @@ pub(crate) struct Gradients<S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Gradients<S, T> {
-    lasting!(T; part here);
+    lasting!(T; part here, numbers weights);
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
-    /// At a point, with a velocity there.
-    pub(crate) fn new(system: &S, at: At<'_, T>, v: &[T]) -> Self {
-        let [mut weights, mut l_q, mut l_v]: [Vector<S, T>; 3] =
-            core::array::from_fn(|_| system.space().vector());
-        let diagonal = |i: usize, j: usize, entry: T| {
-            if i == j {
-                weights[i] += entry;
-            }
-        };
-        system.linearize(at.q, v, at.t, mass_matrix(), &mut l_q, &mut l_v, &mut Places(diagonal));
-        for weight in weights.iter_mut() {
-            let mass = Scalar::abs(*weight);
-            // A zero on the diagonal says nothing of the metric.
-            *weight = T::lift(1.0) / if mass > T::lift(0.0) { mass } else { T::lift(1.0) };
+    /// At a point, in the metric that `scales`, 1/√|Mⱼⱼ| for each coordinate, make.
+    pub(crate) fn new(system: &S, at: At<'_, T>, scales: &[T]) -> Self {
+        let mut weights: Vector<S, T> = system.space().vector();
+        for (weight, &scale) in weights.iter_mut().zip(scales) {
+            *weight = scale * scale;
         }
         let mut values: Multipliers<S, T> = system.multipliers().vector();
         let mut rows = || {
@@ -56,17 +48,30 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
         Self { here, next, weights, values }
     }
 
-    /// Looks at the gradients at the end of a step.
+    /// Looks at the end of a step from `q0` with Δ = `increment`.
     ///
     /// # Errors
     /// [`StepFailure::Turned`].
-    pub(crate) fn check(&mut self, system: &S, at: At<'_, T>) -> Result<(), StepFailure> {
+    pub(crate) fn check(
+        &mut self,
+        system: &S,
+        q0: &[T],
+        increment: &[T],
+        at: At<'_, T>,
+    ) -> Result<(), StepFailure> {
         let Self { here, next, weights, values } = self;
         next.clear();
         S::Kind::forces(system, at.q, at.t, values, next);
-        // What is no number is no turn by less than a right angle either.
-        let is_small = |&constraint: &usize| next.dot(constraint, here, weights) > T::lift(0.0);
-        match (0..values.len()).find(|constraint| !is_small(constraint)) {
+        let [length, size] = [increment, q0].map(|x| {
+            x.iter().zip(weights.iter()).fold(T::lift(0.0), |sum, (&x, &weight)| sum + x * x / weight)
+        });
+        let is_here = |&constraint: &usize| {
+            let square = here.dot(constraint, here, weights);
+            // What is no number is no turn by less than a right angle either.
+            next.dot(constraint, here, weights) > T::lift(0.0)
+                && (!S::AUTONOMOUS || is_along(here.times(constraint, increment), square, [length, size]))
+        };
+        match (0..values.len()).find(|constraint| !is_here(constraint)) {
             None => Ok(()),
             Some(constraint) => Err(StepFailure::Turned { constraint }),
         }
@@ -76,4 +81,14 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
     pub(crate) fn keep(&mut self) {
         core::mem::swap(&mut self.here, &mut self.next);
     }
+}
+
+/// Of the size of q: what may be rounding of a displacement.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a displacement makes an angle of at most 45° with a constraint that does not move: |G Δ|² ≤ ½ |G|²|Δ|², from its product G Δ
+/// with the gradient, |G|², and |Δ|² and |q|², in the metric of the mass matrix. A rod that turns by an angle makes half that angle.
+#[inline(always)]
+pub(crate) fn is_along<T: Real>(product: T, square: T, [length, size]: [T; 2]) -> bool {
+    product * product <= Scalar::abs(square) * (T::lift(0.5) * length + T::lift(ROUNDING * ROUNDING) * size)
 }

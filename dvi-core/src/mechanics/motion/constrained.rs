@@ -25,7 +25,8 @@ pub(crate) fn acceleration<S: ConstrainedLagrangian<T>, T: Real>(
     let upper = SecondOrder { system, q, v, t, l_v: &mut l_v };
     let lower = OfAcceleration { system, at: At { q, t }, v };
     let active = multipliers.len();
-    solver.solve(&mut Bordered { system, upper, lower, multipliers, forces: None, active })?;
+    let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
+    solver.solve(equations, T::lift(1.0))?;
     let (found, of_constraints) = solver.parts(q.len());
     norm::finite(found)?;
     acceleration.copy_from_slice(found);

@@ -136,6 +136,13 @@ impl<T: Real> Banded<T> {
         Ok(())
     }
 
+    /// Whether the determinant is positive: the order of the coordinates is that of rows and of columns and does not count.
+    pub(super) fn is_positive(&self) -> bool {
+        let is_negative = |k: usize| self.entries[k * self.width() + self.bandwidth] < T::lift(0.0);
+        let pivots = self.pivots.iter().enumerate();
+        pivots.fold(true, |positive, (k, &row)| positive ^ is_negative(k) ^ (row as usize != k))
+    }
+
     pub(super) fn solve(&self, x: &mut [T]) {
         let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
         for (k, &from) in self.exchanges.iter().enumerate() {

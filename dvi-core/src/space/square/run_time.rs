@@ -88,6 +88,12 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             Storage::Banded(banded) => banded.solve(x),
         }
     }
+    fn is_positive(&self) -> bool {
+        match &self.0 {
+            Storage::Dense(matrix, permutation) => elimination::is_positive(matrix, permutation),
+            Storage::Banded(banded) => banded.is_positive(),
+        }
+    }
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
         match &self.0 {
             Storage::Dense(matrix, _) => super::multiply_add(matrix, factor, x, sum),

@@ -3,6 +3,7 @@
 use crate::oracle_tests::formula::Formula;
 use crate::oracle_tests::random::Random;
 use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
+use crate::syntax::Constrained;
 
 /// How sizes are written.
 #[derive(Clone, Copy, PartialEq)]
@@ -22,7 +23,19 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
     let dynamics = Dynamics::Regular(Formula::Time);
     let (gauge, time_transform) = (Gauge::None, None);
     let (forces, constraints, momenta) = (Vec::new(), Vec::new(), Vec::new());
-    System { sizes, fields, blocks, dynamics, gauge, time_transform, forces, constraints, momenta }
+    let constrained = Constrained::Positions;
+    System {
+        sizes,
+        fields,
+        blocks,
+        dynamics,
+        gauge,
+        time_transform,
+        forces,
+        constraints,
+        constrained,
+        momenta,
+    }
 }
 
 /// Two sizes that are different from each other, and that of the field `g`.

@@ -52,8 +52,13 @@ fn sign(x: f64) -> f64 {
 }
 
 /// The traits whose functions are generated.
-const TRAITS: [&str; 4] =
-    ["Lagrangian", "DegenerateLagrangian", "NondegenerateLagrangian", "HolonomicLagrangian"];
+const TRAITS: [&str; 5] = [
+    "Lagrangian",
+    "DegenerateLagrangian",
+    "NondegenerateLagrangian",
+    "HolonomicLagrangian",
+    "NonholonomicLagrangian",
+];
 
 /// What a path calls, by its segments.
 pub(super) fn callee(path: &[String]) -> Callee {

@@ -24,8 +24,14 @@ pub(crate) struct Expansion {
 /// Functions that are not interpreted.
 const UNREAD: [&str; 3] = ["space", "outside", "time_transform"];
 
-const TRAITS: [&str; 5] =
-    ["System", "Lagrangian", "DegenerateLagrangian", "NondegenerateLagrangian", "HolonomicLagrangian"];
+const TRAITS: [&str; 6] = [
+    "System",
+    "Lagrangian",
+    "DegenerateLagrangian",
+    "NondegenerateLagrangian",
+    "HolonomicLagrangian",
+    "NonholonomicLagrangian",
+];
 
 fn unknown(what: &str, tokens: &impl ToTokens) -> ! {
     panic!("the interpreter does not know this {what}: {}", tokens.to_token_stream())

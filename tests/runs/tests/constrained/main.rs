@@ -1,5 +1,6 @@
 //! Steps on holonomic constraints.
 
+mod branches;
 mod equations;
 mod orders;
 mod starts;

@@ -53,6 +53,73 @@ fn a_state_is_projected_to_the_constraints() -> Outcome {
     Ok(())
 }
 
+/// Two atoms on a rod of their size, and two moons: the same motion in units of any size.
+#[test]
+fn units_do_not_matter() -> Outcome {
+    let expected = {
+        let mut run = Integrator::new(&PENDULUM, Rattle::default(), 0.05, RELEASED)?;
+        run.take_steps(100)?;
+        run.state()
+    };
+    for (mass, length) in [(1.67e-27, 1e-10), (7.3e22, 3.8e8), (1e12, 1.0), (1.0, 1e-15), (1e-20, 1e20)] {
+        let system = Pendulum { m: mass, g: length, length };
+        let start: PendulumState =
+            PendulumState { x: 0.8 * length, y: -0.6 * length, dot_x: 0.0, dot_y: 0.0 };
+        let mut rattle = Integrator::new(&system, Rattle::default(), 0.05, start)?;
+        let method = Constrained::new(Variational::trapezoid());
+        let mut general = Integrator::new(&system, method, 0.05, start)?;
+        rattle.take_steps(100)?;
+        general.take_steps(100)?;
+        for state in [rattle.state(), general.state()] {
+            let off = [state.x / length - expected.x, state.dot_y / length - expected.dot_y];
+            assert!(off[0].abs() < 1e-12 && off[1].abs() < 1e-12, "{mass:e} {length:e}: {off:?}");
+        }
+        // The tension, from 2λ(x, y).
+        let multiplier = system.multipliers_at(0.0, &start)?[0];
+        assert!((multiplier * 2.0 * length / (mass * length) + 0.6).abs() < 1e-14, "{multiplier:e}");
+    }
+    Ok(())
+}
+
+const RELEASED: PendulumState = PendulumState { x: 0.8, y: -0.6, dot_x: 0.0, dot_y: 0.0 };
+
+/// What is projected is a start, in double and in single precision, whatever was thrown away; and starts that are off by more than
+/// rounding are none.
+#[test]
+fn starts_are_judged_by_rounding_errors() -> Outcome {
+    for number in 0..500 {
+        let (angle, speed) = (0.013 * f64::from(number), (0.7 * f64::from(number)).sin());
+        let (sin, cos) = angle.sin_cos();
+        let radial = PendulumState { x: 1.3 * sin, y: -1.3 * cos, dot_x: speed * sin, dot_y: -speed * cos };
+        let start = PENDULUM.projected(0.0, &radial)?;
+        Integrator::new(&PENDULUM, Rattle::default(), 0.01, start)?;
+        let single = PendulumState {
+            x: radial.x as f32,
+            y: radial.y as f32,
+            dot_x: radial.dot_x as f32,
+            dot_y: radial.dot_y as f32,
+        };
+        let start: PendulumState<f32> = PENDULUM.projected(0.0, &single)?;
+        Integrator::new(&PENDULUM, Constrained::new(Variational::midpoint()), 0.01_f32, start)?;
+    }
+    // Beside a large coordinate that has nothing to do with it.
+    let state = BesideState { far: 1e9, a: 1.0, b: 3.0, dot_far: 1e9, dot_a: 1.0, dot_b: -2.0 };
+    let begun = Integrator::new(&Beside, Rattle::default(), 0.1, state).map(drop);
+    assert!(matches!(begun, Err(StartError::OffConstraint { constraint: 0, .. })), "{begun:?}");
+    let begun = Integrator::new(&Beside, Rattle::default(), 0.1, BesideState { a: 6.0, ..state }).map(drop);
+    assert!(matches!(begun, Err(StartError::AcrossConstraint { constraint: 0, .. })), "{begun:?}");
+    Ok(())
+}
+
+/// A coordinate that is not constrained, and two that are.
+#[lagrangian(
+    coordinates(far, a, b),
+    lagrangian = (dot(far).powi(2) + dot(a).powi(2) + dot(b).powi(2)) / 2.0,
+    constraint = a - 2.0 * b,
+)]
+#[derive(Clone, Copy, Debug)]
+struct Beside;
+
 /// One circle twice, and two that do not meet.
 #[lagrangian(
     coordinates(x, y, z),

@@ -73,4 +73,10 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("program/constraints.rs", "Place::ConstraintDerivative(row(number, constraint), column)", "Place::ConstraintDerivative(row(0, constraint), column)"),
     mistake("program/constraints.rs", "Row { constraint: number as u32, member: constraint.member.clone() }", "Row { constraint: number as u32, member: Index::literal(0) }"),
     mistake("lower/constraints.rs", "Index::open(0).plus(&over.range.lower, -1)", "Index::open(0)"),
+    // Constraints of the velocities: derivatives with the weights of others, or without themselves, and without those by velocities
+    // in families and sums.
+    mistake("program/constraints.rs", "Variable::Position => Weight::Q,", "Variable::Position => Weight::V,"),
+    mistake("program/constraints.rs", "Variable::Velocity => Weight::V,", "Variable::Velocity => Weight::Q,"),
+    mistake("program/constraints.rs", "weighted(graph, *variable, statement.value)", "weighted(graph, *variable, Expr::ONE)"),
+    mistake("program/constraints.rs", "entries.push((by, Statement { loops, place, value }));", "if by == Variable::Position || loops.is_empty() { entries.push((by, Statement { loops, place, value })); }"),
 ];

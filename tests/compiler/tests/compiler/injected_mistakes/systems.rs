@@ -152,4 +152,12 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
          constraint(k in 1..n) = sum(k..n, |j| x[j] * (y[k] * w).sin() * t)",
         "struct Chain { n: usize, l: Vec<f64> }",
     ),
+    // Constraints of the velocities, alike.
+    (
+        "regular",
+        "coordinates(x[n], y[n], w), lagrangian = sum(0..n, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0 + dot(w).powi(2),
+         nonholonomic = [dot(w) - sum(0..n, |j| x[j] * dot(y[j])), w * t.sin() * dot(w) + x[0]],
+         nonholonomic(i in 1..n) = dot(x[i]) * (l[i] + w * t).sin() - dot(y[i - 1]) * (l[i] + w * t).cos()",
+        "struct Train { n: usize, l: Vec<f64> }",
+    ),
 ];

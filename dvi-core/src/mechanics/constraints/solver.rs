@@ -1,0 +1,196 @@
+//! What solves the equations with multipliers, in units in which their matrix has entries of about one.
+//!
+//! A and G have units of their own, and so has each row of G. With D = 1/√|Mⱼⱼ|, S = 1/|GD| for each row of G where a run begins, and A
+//! of the size of M/α, what is solved are
+//!
+//! ```text
+//! ( α D A D   D GᵀS ) (   D⁻¹ x )   ( α D b )
+//! ( S G D       0   ) ( α S⁻¹ ν ) = (   S c )
+//! ```
+
+use super::{Augmented, Bordered, ConstrainedLagrangian, Constraints, Multipliers, mass_matrix};
+use crate::discrete::{Ends, Interval, Span};
+use crate::error::StepFailure;
+use crate::mechanics::pattern::visit_second_derivatives;
+use crate::scalar::norm::{self, reported};
+use crate::space::sink::{Places, Scaled};
+use crate::space::{LinearEquations, SquareMatrix};
+use crate::state::memory::{Memory, lasting};
+use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
+
+/// What solves equations with multipliers on a system, with the storage that it needs.
+#[derive(Debug)]
+pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
+    matrix: <S::Augmented as Space>::Square<T>,
+    /// The last solution: x, then the change of ν.
+    solution: Augmented<S, T>,
+    /// D, then S.
+    scales: Augmented<S, T>,
+}
+
+/// In other units a run would be rounded in another way.
+impl<S: ConstrainedSystem, T: Real> Memory<T> for ConstraintSolver<S, T> {
+    lasting!(T; numbers scales);
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
+    /// For equations whose A has the entries of second derivatives of L, near (`q`, `v`, `t`).
+    pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
+        let (n, space) = (q.len(), system.augmented());
+        let mut values: Multipliers<S, T> = system.multipliers().vector();
+        let matrix = space.square(|visit| {
+            visit_second_derivatives(system, [q, v], t, visit);
+            let mut work: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+            let [point, velocity] = &mut work;
+            let interval = Interval { t, h: T::lift(1.0) };
+            let span = Span { system, interval, ends: Ends { q0: q, delta: v } };
+            let mut below = Places(|k: usize, j: usize, _: T| visit(n + k, j));
+            S::Kind::of_step(system, span, [point, velocity], &mut values, &mut below);
+            let mut both = Places(|k: usize, j: usize, _: T| {
+                visit(n + k, j);
+                visit(j, n + k);
+            });
+            S::Kind::forces(system, q, t, &mut values, &mut both);
+            (n..space.dimension()).for_each(|k| visit(k, k));
+        });
+        let mut scales: Augmented<S, T> = space.vector();
+        let (of_coordinates, of_constraints) = scales.split_at_mut(n);
+        scale_coordinates(system, [q, v], t, of_coordinates);
+        let mut squares = Places(|k: usize, j: usize, entry: T| {
+            let entry = entry * of_coordinates[j];
+            of_constraints[k] += entry * entry;
+        });
+        S::Kind::forces(system, q, t, &mut values, &mut squares);
+        of_constraints.iter_mut().for_each(|square| *square = scale(*square));
+        Self { matrix, solution: space.vector(), scales }
+    }
+
+    /// 1/√|Mⱼⱼ| for each coordinate.
+    pub(crate) fn of_coordinates(&self, n: usize) -> &[T] {
+        &self.scales[..n]
+    }
+
+    /// Solves the equations, whose A is of the size of M/`alpha` with a positive `alpha`; the solution is here, x in its first n
+    /// entries.
+    ///
+    /// # Errors
+    /// [`StepFailure::RedundantConstraint`] names the first constraint that depends on those before it;
+    /// [`StepFailure::Singular`] where A is singular.
+    #[inline]
+    pub(crate) fn solve<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        equations: &mut Bordered<'_, S, T, U, W>,
+        alpha: T,
+    ) -> Result<(), StepFailure> {
+        let result = self.eliminate(equations, alpha);
+        result.map_err(|failure| self.blamed(failure, equations, alpha))
+    }
+
+    fn eliminate<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        equations: &mut Bordered<'_, S, T, U, W>,
+        alpha: T,
+    ) -> Result<(), StepFailure> {
+        let Self { matrix, solution, scales } = self;
+        let n = solution.len() - equations.multipliers.len();
+        let factor = |row: usize, column: usize| {
+            let scale = scales[row] * scales[column];
+            match (row < n, column < n) {
+                (true, true) => scale * alpha,
+                (true, false) | (false, true) => scale,
+                (false, false) => scale / alpha,
+            }
+        };
+        equations.evaluate(solution, &mut Scaled { sink: matrix.cleared(), factor })?;
+        let finite = norm::finite(solution);
+        matrix.factor().map_err(|singular| finite.err().unwrap_or(singular))?;
+        let (x, multipliers) = solution.split_at_mut(n);
+        let (of_coordinates, of_constraints) = scales.split_at(n);
+        for (b, &scale) in x.iter_mut().zip(of_coordinates) {
+            *b *= scale * alpha;
+        }
+        for (c, &scale) in multipliers.iter_mut().zip(of_constraints) {
+            *c *= scale;
+        }
+        matrix.solve(solution);
+        let (x, multipliers) = solution.split_at_mut(n);
+        for (x, &scale) in x.iter_mut().zip(of_coordinates) {
+            *x *= scale;
+        }
+        for (multiplier, &scale) in multipliers.iter_mut().zip(of_constraints) {
+            *multiplier *= scale / alpha;
+        }
+        Ok(())
+    }
+
+    /// The failure, with the name of the constraint if one is to blame.
+    #[cold]
+    fn blamed<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        failure: StepFailure,
+        equations: &mut Bordered<'_, S, T, U, W>,
+        alpha: T,
+    ) -> StepFailure {
+        let StepFailure::Singular { pivot, .. } = failure else { return failure };
+        // Without constraints: is it A that is singular?
+        if !self.is_regular(equations, alpha, 0) {
+            return failure;
+        }
+        let (mut regular, mut singular) = (0, equations.multipliers.len());
+        while singular - regular > 1 {
+            let middle = regular + (singular - regular) / 2;
+            if self.is_regular(equations, alpha, middle) { regular = middle } else { singular = middle }
+        }
+        StepFailure::RedundantConstraint { constraint: regular, pivot }
+    }
+
+    /// Whether the equations with the first `active` constraints have a solution.
+    fn is_regular<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        equations: &mut Bordered<'_, S, T, U, W>,
+        alpha: T,
+        active: usize,
+    ) -> bool {
+        equations.active = active;
+        self.eliminate(equations, alpha).is_ok()
+    }
+
+    /// Whether the determinant of the equations that were solved last is positive.
+    pub(crate) fn is_positive(&self) -> bool {
+        self.matrix.is_positive()
+    }
+
+    /// x and the change of the multipliers.
+    pub(crate) fn parts(&self, n: usize) -> (&[T], &[T]) {
+        self.solution.split_at(n)
+    }
+
+    /// Work space with a number for each constraint.
+    pub(super) fn values(&mut self, n: usize) -> &mut [T] {
+        &mut self.solution[n..]
+    }
+}
+
+/// Sets `scales` to 1/√|Mⱼⱼ|.
+fn scale_coordinates<S: ConstrainedLagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    t: T,
+    scales: &mut [T],
+) {
+    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+    let mut diagonal = Places(|i: usize, j: usize, entry: T| {
+        if i == j {
+            scales[i] += entry;
+        }
+    });
+    system.linearize(q, v, t, mass_matrix(), &mut l_q, &mut l_v, &mut diagonal);
+    scales.iter_mut().for_each(|mass| *mass = scale(Scalar::abs(*mass)));
+}
+
+/// 1/√`square`; one where that is no positive number, which says nothing of units. It carries no derivatives.
+fn scale<T: Real>(square: T) -> T {
+    let scale = T::lift(1.0) / Scalar::sqrt(T::lift(reported(square)));
+    let is_usable = scale > T::lift(0.0) && scale.is_finite();
+    if is_usable { scale } else { T::lift(1.0) }
+}
