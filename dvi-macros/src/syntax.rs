@@ -4,17 +4,18 @@
 //! them leaves the others readable.
 
 use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
-use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::spanned::Spanned;
-use syn::{Expr, Path, Token};
+use syn::{Expr, Path};
 
 use crate::errors::{Errors, listed, nearest};
 
+mod argument;
 mod constraint;
 mod declared;
 pub(crate) mod depth;
 
+use argument::{Argument, Value};
 pub(crate) use constraint::{Constrained, Constraint, Family};
 use declared::Declared;
 pub(crate) use declared::{Declaration, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform};
@@ -100,68 +101,6 @@ impl Kind {
 
     fn arguments(self) -> impl Iterator<Item = &'static str> {
         ARGUMENTS.into_iter().map(|(name, _)| name).filter(move |name| self.takes(name))
-    }
-}
-
-/// One argument: its name, then `= value` or `(values)`.
-struct Argument {
-    name: Ident,
-    value: Value,
-}
-
-enum Value {
-    Assigned(TokenStream),
-    List(TokenStream),
-    /// `name(of) = value`
-    AssignedTo {
-        of: TokenStream,
-        value: TokenStream,
-        parentheses: Span,
-    },
-    Neither,
-}
-
-impl Argument {
-    fn parse(input: ParseStream<'_>, kind: Kind) -> syn::Result<Self> {
-        let name = input.call(Ident::parse_any).map_err(|error| {
-            let names = listed(kind.arguments());
-            syn::Error::new(error.span(), format!("expected an argument; the arguments are {names}"))
-        })?;
-        let value = if input.peek(syn::token::Paren) {
-            let content;
-            let parentheses = syn::parenthesized!(content in input).span.join();
-            let list = content.parse()?;
-            if input.peek(Token![=]) && !input.peek(Token![==]) {
-                input.parse::<Token![=]>()?;
-                Value::AssignedTo { of: list, value: input.parse()?, parentheses }
-            } else if input.is_empty() {
-                Value::List(list)
-            } else if name == "force" {
-                return Err(input.error("a force is written `force(x) = …`"));
-            } else if let Some(of) = Constrained::named(&name.to_string()) {
-                return Err(input.error(format!("a family of constraints is written {}", of.family())));
-            } else {
-                return Err(input.error("expected `,`"));
-            }
-        } else if input.peek(Token![=]) && !input.peek(Token![==]) {
-            input.parse::<Token![=]>()?;
-            Value::Assigned(input.parse()?)
-        } else {
-            input.parse::<TokenStream>()?;
-            Value::Neither
-        };
-        Ok(Self { name, value })
-    }
-
-    /// What may be given once: `name`, or `name(of)`. Every `constraint` or `nonholonomic` is one more.
-    fn given(&self) -> Option<String> {
-        if Constrained::named(&self.name.to_string()).is_some() {
-            return None;
-        }
-        Some(match &self.value {
-            Value::AssignedTo { of, .. } => format!("{}({of})", self.name),
-            Value::Assigned(_) | Value::List(_) | Value::Neither => self.name.to_string(),
-        })
     }
 }
 

@@ -67,6 +67,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         S::DIAGONAL_MASS.then_some(&*self.reciprocals)
     }
 
+    /// x·M x, if M is diagonal and positive.
+    #[inline(always)]
+    pub(crate) fn squared(&self, x: &[T]) -> T {
+        x.iter().zip(self.masses.iter()).fold(T::lift(-0.0), |sum, (&x, &mass)| sum + mass * x * x)
+    }
+
     /// Sets `v` to M⁻¹`p`.
     #[inline(always)]
     pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {

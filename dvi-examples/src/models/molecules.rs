@@ -67,7 +67,7 @@ impl RigidMolecules {
     /// of the atom, of magnitude `speed` and then made those of rigid molecules.
     ///
     /// # Errors
-    /// Those of [`projected`](HolonomicLagrangian::projected).
+    /// Those of [`projected`](dvi_core::mechanics::OnConstraints::projected).
     pub fn chain(&self, speed: f64) -> Result<RigidMoleculesState, StartError> {
         let (mut x, mut y, mut dot_x, mut dot_y) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let radius = 1.0 / 3.0_f64.sqrt();

@@ -9,7 +9,7 @@ use crate::mechanics::constraints::{At, ConstrainedLagrangian, Constraints, Mult
 use crate::space::RowMatrix;
 use crate::space::sink::Places;
 use crate::state::memory::{Memory, lasting};
-use crate::{ConstrainedSystem, Real, Scalar, Space, System, Vector};
+use crate::{ConstrainedSystem, Real, Space, System, Vector};
 
 type Rows<S, T> = <<S as System>::Space as Space>::Rows<<S as ConstrainedSystem>::Multipliers, T>;
 
@@ -62,14 +62,16 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
         let Self { here, next, weights, values } = self;
         next.clear();
         S::Kind::forces(system, at.q, at.t, values, next);
-        let [length, size] = [increment, q0].map(|x| {
+        let squared = |x: &[T]| {
             x.iter().zip(weights.iter()).fold(T::lift(0.0), |sum, (&x, &weight)| sum + x * x / weight)
-        });
+        };
+        let length = squared(increment);
         let is_here = |&constraint: &usize| {
             let square = here.dot(constraint, here, weights);
             // What is no number is no turn by less than a right angle either.
             next.dot(constraint, here, weights) > T::lift(0.0)
-                && (!S::AUTONOMOUS || is_along(here.times(constraint, increment), square, [length, size]))
+                && (!S::AUTONOMOUS
+                    || is_along(here.times(constraint, increment), square, length, || squared(q0)))
         };
         match (0..values.len()).find(|constraint| !is_here(constraint)) {
             None => Ok(()),
@@ -87,8 +89,11 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
 const ROUNDING: f64 = 1e-12;
 
 /// Whether a displacement makes an angle of at most 45° with a constraint that does not move: |G Δ|² ≤ ½ |G|²|Δ|², from its product G Δ
-/// with the gradient, |G|², and |Δ|² and |q|², in the metric of the mass matrix. A rod that turns by an angle makes half that angle.
+/// with the gradient, |G|², |Δ|² and, where that is needed, |q|², in the metric of the mass matrix. A rod that turns by an angle makes
+/// half that angle.
 #[inline(always)]
-pub(crate) fn is_along<T: Real>(product: T, square: T, [length, size]: [T; 2]) -> bool {
-    product * product <= Scalar::abs(square) * (T::lift(0.5) * length + T::lift(ROUNDING * ROUNDING) * size)
+pub(crate) fn is_along<T: Real>(product: T, square: T, length: T, size: impl FnOnce() -> T) -> bool {
+    let most = T::lift(0.5) * length;
+    let squared = product * product;
+    squared <= square * most || squared <= square * (most + T::lift(ROUNDING * ROUNDING) * size())
 }

@@ -40,7 +40,7 @@ fn trend(measured: &Measured) -> Claim {
             .check(
                 format!("{name}: mean ΔE in the last tenth of the run less that in the first, over max|ΔE|"),
                 (last - first).abs() / series.energy.largest,
-                Bound::AtMost(0.1),
+                Bound::AtMost(0.25),
             )
             .check(
                 format!("{name}: max|ΔE| over all / in the first tenth"),

@@ -1,0 +1,216 @@
+//! Steps that fail.
+
+use thiserror::Error;
+
+use crate::error::OutsideError;
+
+/// Why a step could not be completed.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// The iteration ran out of its budget or moved away from a solution.
+    #[error(
+        "no convergence: after {iterations} iterations the correction is {correction:e}, \
+         {tolerance:e} was asked for; a smaller step helps"
+    )]
+    NotConverged {
+        /// Iterations taken.
+        iterations: usize,
+        /// The largest component of the last correction.
+        correction: f64,
+        /// The largest correction that would have been accepted.
+        tolerance: f64,
+    },
+    /// A phase-fitted interpolation does not exist, or does not determine the step, near this step length.
+    #[error(
+        "phase fitting breaks down at u = ωh = {u}: sin u = {sine:e}, Σ w cos((1 − 2c)u) = {cosine_sum:e}; a smaller \
+         step helps"
+    )]
+    Resonance {
+        /// ωh, in radians.
+        u: f64,
+        /// sin u, by which the interpolation divides.
+        sine: f64,
+        /// S = Σ w cos((1 − 2c)u), which multiplies the new point; with interior displacements, what multiplies
+        /// it in place of S.
+        cosine_sum: f64,
+    },
+    /// A matrix has an entry where its pattern, which decided its storage when the run began, has none.
+    #[error("the matrix of the step has an entry ({row}, {column}) that its pattern does not have")]
+    Pattern {
+        /// The coordinate of its row, counted from 0.
+        row: usize,
+        /// That of its column.
+        column: usize,
+    },
+    /// The frequency of a phase-fitted interpolation is not a number, or infinite.
+    #[error("phase fitting breaks down: the frequency is {omega}; it is not defined at this state")]
+    Frequency {
+        /// The frequency, or its product with the step.
+        omega: f64,
+    },
+    /// A matrix that must be solved with is singular to working precision.
+    #[error(
+        "singular matrix: pivot {pivot:e} in column {column}; Ω, the mass matrix, or the discrete Lagrangian is degenerate here"
+    )]
+    Singular {
+        /// The column without a usable pivot.
+        column: usize,
+        /// The largest candidate.
+        pivot: f64,
+    },
+    /// The gradient of a constraint vanishes, or depends linearly on those of the constraints before it: it says nothing that these do
+    /// not say, or contradicts them. Its multiplier is not determined then.
+    #[error(
+        "constraint {constraint} is redundant here, or contradicts those before it: its gradient vanishes or depends on theirs \
+         (pivot {pivot:e} in units of the others)"
+    )]
+    RedundantConstraint {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// The pivot without which the equations have no solution.
+        pivot: f64,
+    },
+    /// A step turns the gradient of a constraint by a right angle or more, or leads away from a constraint that does not move by more than
+    /// 45°, in the metric of the mass matrix: the equations of the step have several solutions then, and this one need not be that of the
+    /// motion.
+    #[error(
+        "the step turns the gradient of constraint {constraint} by a right angle or more, where its equations have other solutions \
+         than the motion: a smaller step helps, unless the constraint is singular on the way"
+    )]
+    Turned {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+    },
+    /// The equations of a step with constraints have been solved on another branch than that of the motion, as a rod may point to
+    /// either side: the determinant of G(q1) M⁻¹ G(q0)ᵀ has another sign than that of a short step.
+    #[error(
+        "the step comes out at another solution of its constraints than that of the motion: a smaller step helps, unless the \
+         constraints are singular on the way"
+    )]
+    Branch,
+    /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::methods::EnergyLimit)).
+    #[error(
+        "the energy was {start:e} at the start and would become {now:e}; the limit of its change is {limit:e}"
+    )]
+    Energy {
+        /// The energy at the start of the run.
+        start: f64,
+        /// The energy after the step that failed.
+        now: f64,
+        /// The largest change that was allowed.
+        limit: f64,
+    },
+    /// The parasitic mode of a two-step method has taken over: what the run computes is no longer its motion.
+    #[error(
+        "the parasitic mode has reached {relative:.3} times a quarter of the smooth second differences, amplitude \
+         {amplitude:e}; the limit is {limit}: take another sigma or method, or smaller steps for a later end"
+    )]
+    ParasiticMode {
+        /// Its amplitude in the coordinates.
+        amplitude: f64,
+        /// Its size, relative to h²q̈/4: see [`ParasiticMode::relative`](crate::methods::ParasiticMode::relative).
+        relative: f64,
+        /// The largest relative size that was allowed.
+        limit: f64,
+    },
+    /// A two-step method has no smooth orbit here: what was found alternates too much for its increments. The step is too
+    /// long for [`Start::Smooth`](crate::methods::Start::Smooth) and [`Reinitialisation`](crate::methods::Reinitialisation).
+    #[error(
+        "the scheme has no smooth orbit at this step: {alternating:e} alternates beside an increment of {increment:e}; a \
+         smaller step helps"
+    )]
+    NotSmooth {
+        /// The largest entry of the central difference of eighth order of the points.
+        alternating: f64,
+        /// That of the increment h q'.
+        increment: f64,
+    },
+    /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the
+    /// motion does not lead across. What is watched is the sign of a pair of coordinates, the sign of the Pfaffian of Ω, or
+    /// the number of negative eigenvalues of the mass matrix, at the end of each step. So two passages within one step are
+    /// not seen, nor a positive and a negative eigenvalue of a mass matrix that change their signs in one step, nor two
+    /// pivots of Ω that vanish together, unless Ω couples the coordinates in pairs.
+    #[error(
+        "{matrix} has changed its sign within the step, from {before:e} to {after:e}: it is singular in between, and \
+         the motion is not determined there"
+    )]
+    Orientation {
+        /// Which matrix.
+        matrix: &'static str,
+        /// At the start of the step: the entry of Ω that has changed its sign, if Ω couples the coordinates in pairs; else
+        /// the smallest pivot of Ω, with the sign of the Pfaffian; or the smallest pivot of the mass matrix on the side of
+        /// zero that has been left.
+        before: f64,
+        /// The same at the end of the step.
+        after: f64,
+    },
+    /// The density of steps that a step control carries along is no density any more.
+    #[error(
+        "the density of steps became {density:e}; it must be positive and finite: a smaller epsilon helps"
+    )]
+    Density {
+        /// Its value.
+        density: f64,
+    },
+    /// No length of the step near the last one gives the discrete energy of the run.
+    #[error(
+        "no step keeps the discrete energy: the best length found, h = {h:e}, leaves a defect of {defect:e}; a shorter first step \
+         or another rule may help"
+    )]
+    EnergyStep {
+        /// The length with the smallest defect that was found.
+        h: f64,
+        /// The discrete energy of that step without that of the run.
+        defect: f64,
+    },
+    /// A step control asks for a step that does not advance the time.
+    #[error(
+        "the step control asks for h = {h:e}, which does not advance the time: a collision, or a demand out of reach"
+    )]
+    StepLength {
+        /// The step, perhaps not finite.
+        h: f64,
+    },
+    /// The physical time would stand still or run backwards: the time transformation is not positive any more at the end of
+    /// the step, or was negative on the way.
+    #[error(
+        "the physical time went at the rate {rate:e} in the step and must go forward: the time transformation is not positive on \
+         the way, or the step is too short for the digits of the time"
+    )]
+    TimeRate {
+        /// ρ at the end of the step, or its mean over the step if that is smaller.
+        rate: f64,
+    },
+    /// A function that holds data was evaluated outside of its table. The argument is the one at the state where the step began
+    /// or, if that lies inside, at the first point outside on a parabola that the motion follows from there, up to two steps
+    /// ahead: iterates of a step and their guesses lie beyond it. Where the motion itself stays inside, a smaller step helps.
+    #[error("the step leaves a table: {0}")]
+    Outside(OutsideError),
+    /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.
+    #[error(
+        "coordinate {coordinate} became {value}: a collision, a formula that left its domain, or a step that is too long"
+    )]
+    NotFinite {
+        /// The flat index of the coordinate.
+        coordinate: usize,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// A step that failed, and where. The run keeps the last good state.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("step {step} from t = {time}: {failure}")]
+pub struct StepError {
+    /// The number of steps completed before this one.
+    pub step: u64,
+    /// The time at which the failed step began.
+    pub time: f64,
+    /// Why.
+    pub failure: StepFailure,
+}
+
+/// The result of a step is returned through every call of a run: with failures of seven words in place of five, steps of
+/// phase-fitted schemes took 13 % to 16 % more instructions.
+const _: () = assert!(size_of::<StepFailure>() <= 40);
