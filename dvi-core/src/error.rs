@@ -146,6 +146,17 @@ pub enum StartError {
         /// G v + ∂g/∂t, in units of the formula over time; of a constraint of velocities its value.
         rate: f64,
     },
+    /// A constraint, or its rate of change, is infinite or not a number at the initial state.
+    #[error(
+        "constraint {constraint} is {value} at the initial state: a parameter is not a number, or the state lies outside of the \
+         domain of its formula"
+    )]
+    UndefinedConstraint {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// Its value.
+        value: f64,
+    },
     /// No state on the constraints was found near one.
     #[error(
         "no state on all constraints was found near this one: constraint {constraint} is still {value:e}; the constraints \
@@ -156,6 +167,16 @@ pub enum StartError {
         constraint: usize,
         /// That value.
         value: f64,
+    },
+    /// The initial state is beyond a surface of impacts.
+    #[error(
+        "gap {surface} is {gap:e} at the initial state and must not be negative: the state is beyond this surface of impacts"
+    )]
+    Beyond {
+        /// The number of the surface, counted from 0 in the order of declaration.
+        surface: usize,
+        /// Its gap function, in the units of its formula.
+        gap: f64,
     },
     /// A function that holds data is not known at the initial state.
     #[error(transparent)]
@@ -169,6 +190,9 @@ pub enum StartError {
     /// The step that computes the starting values failed.
     #[error("the starting step failed: {0}")]
     Starter(StepFailure),
+    /// The equations for a state on the constraints near another one have no solution.
+    #[error("no state on the constraints can be computed near this one: {0}")]
+    Projection(StepFailure),
     /// The rates of change of a state cannot be computed.
     #[error("the motion is not determined at this state: {0}")]
     Undetermined(StepFailure),

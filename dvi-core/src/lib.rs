@@ -127,5 +127,5 @@ pub use system::{
     AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula,
     HolonomicLagrangian, Lagrangian, Linear, Matrix, NondegenerateLagrangian, NonholonomicLagrangian,
     OperationCount, Permutation, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report,
-    Separable, Square, State, System, TimeTransformed, Vector, Weights,
+    Separable, Square, State, System, TimeTransformed, UnilateralLagrangian, Vector, Weights,
 };

@@ -10,9 +10,11 @@ mod collocation;
 mod composition;
 mod constrained;
 mod energy_limit;
+mod flight;
 mod galerkin;
 mod gauss;
 mod general;
+mod impacts;
 #[cfg(feature = "random")]
 mod langevin;
 mod newmark;
@@ -27,16 +29,20 @@ mod walk;
 
 use crate::discrete::{DiscreteLagrangian, Span};
 use crate::error::{StartError, StepFailure};
+use crate::solve::{Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::memory::Memory;
+use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::{Composition, CompositionMemory};
 pub use constrained::{Constrained, ConstrainedMemory};
 pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
+pub use flight::FreeFlight;
 pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use general::{General, GeneralMemory};
+pub use impacts::{Collision, Impact, Impacts, ImpactsMemory};
 #[cfg(feature = "random")]
 pub use langevin::{Langevin, LangevinMemory};
 pub use newmark::{Newmark, NewmarkLagrangian, NewmarkMemory};
@@ -75,7 +81,8 @@ pub trait Scheme {
     fn order(&self) -> usize;
     /// Whether a step with −h undoes a step with h.
     fn is_symmetric(&self) -> bool;
-    /// What is preserved.
+    /// What is preserved on systems without friction or drives and, with constraints, where these are holonomic. Constraints of the
+    /// velocities leave no two-form to preserve, and a method does not know of them before it meets a system.
     fn preserved_form(&self) -> PreservedForm;
 }
 
@@ -269,4 +276,51 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 
     /// The discrete Lagrangian on `system`, with the storage that it needs.
     fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
+}
+
+/// A variational method that [`General`] and [`Constrained`] take steps of: all that these know of it is its discrete Lagrangian.
+///
+/// [`EnergyLimit`] is none, because its limit would not be watched: it goes around them, as in
+/// `EnergyLimit { method: Constrained::new(…), limit }`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no discrete Lagrangian that `General` and `Constrained` could take steps of",
+    label = "its steps are not variational, it reads a frequency from the motion, or it watches steps",
+    note = "such methods are `Variational` and `Symmetrised` and, without constraints, `Sigma`, `Galerkin` and `Newmark`; `EnergyLimit` goes around `General` and `Constrained`"
+)]
+pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
+    /// Refuses options that have no effect there.
+    ///
+    /// # Errors
+    /// [`StartError::Unsupported`] names the first that is not left at its default.
+    fn admit_inside(&self) -> Result<(), StartError> {
+        Ok(())
+    }
+}
+
+/// Refuses options of the steps of a method itself, if they are not those that it has by default.
+pub(crate) fn without_effect_inside(
+    solver: Solver,
+    stopping: Stopping,
+    summation: Summation,
+) -> Result<(), StartError> {
+    let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
+    if summation != Summation::default() {
+        return unsupported(
+            "Summation::Compensated",
+            "`General` and `Constrained` add up the increments of their steps plainly",
+        );
+    }
+    if solver != Solver::default() {
+        return unsupported(
+            "the solver of the inner method",
+            "`General` and `Constrained` solve their steps by Newton's method",
+        );
+    }
+    if stopping != Stopping::default() {
+        return unsupported(
+            "the `stopping` of the inner method",
+            "`General` and `Constrained` have one of their own, which counts",
+        );
+    }
+    Ok(())
 }

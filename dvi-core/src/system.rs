@@ -5,7 +5,8 @@
 //! (its D1, D2, D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to
 //! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
 //! [`NondegenerateLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the force,
-//! and the structure of that matrix. [`HolonomicLagrangian`] adds the constraints of a system that has some.
+//! and the structure of that matrix. [`HolonomicLagrangian`] adds the constraints of a system that has some, [`UnilateralLagrangian`] its
+//! impacts.
 //!
 //! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
 //! order of the declared coordinates, unless a function says that one may be empty; the integrators of
@@ -20,6 +21,7 @@ mod nonholonomic;
 mod report;
 pub(crate) mod stand_in;
 pub(crate) mod start;
+mod unilateral;
 
 use core::fmt::Debug;
 
@@ -30,10 +32,11 @@ use crate::{Real, Scalar, Space};
 pub use crate::name::Name;
 pub use constrained::ConstrainedSystem;
 pub use holonomic::HolonomicLagrangian;
-pub use kind::{Degenerate, Holonomic, Kind, Nonholonomic, Regular, Unconstrained};
+pub use kind::{Degenerate, Holonomic, Kind, Nonholonomic, Regular, Smooth, Unconstrained, Unilateral};
 pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
+pub use unilateral::UnilateralLagrangian;
 
 /// A point, velocity or covector of the space of `S`.
 pub type Vector<S, T> = <<S as System>::Space as Space>::Vector<T>;
@@ -87,7 +90,7 @@ pub trait System {
     type State<T: Scalar>: State<T> + Clone + Debug;
     /// What the compiler saw: formulas, structure, operation counts, sparsity.
     const REPORT: Report;
-    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`], or regular with constraints, [`Holonomic`].
+    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`], or regular with constraints or impacts.
     type Kind: Kind;
     /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
     const REGULAR: bool = <Self::Kind as Kind>::REGULAR;
@@ -98,7 +101,7 @@ pub trait System {
     /// Whether the time is transformed ([`TimeTransformed`]).
     const TIME_TRANSFORMED: bool = false;
 
-    /// Whether none of L, forces and constraints depends on the time.
+    /// Whether none of L, forces and constraints depends on the time; gap functions may.
     const AUTONOMOUS: bool = false;
 
     /// Whether [forces](Lagrangian::applied_force) act on the system.

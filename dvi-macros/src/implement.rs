@@ -246,6 +246,7 @@ pub(crate) fn kind(krate: &Path, kind: Kind, constrained: Option<Constrained>) -
         (Kind::Regular, None) => quote!(#krate::system::Regular),
         (Kind::Regular, Some(Constrained::Positions)) => quote!(#krate::system::Holonomic),
         (Kind::Regular, Some(Constrained::Velocities)) => quote!(#krate::system::Nonholonomic),
+        (Kind::Regular, Some(Constrained::Gaps)) => quote!(#krate::system::Unilateral),
     }
 }
 

@@ -210,8 +210,9 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// ```
 ///
 /// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
-/// `dvi_core::NondegenerateLagrangian`; `dvi_core::RegularLagrangian` where there are no constraints, else
-/// `dvi_core::ConstrainedSystem` and `dvi_core::HolonomicLagrangian` or `dvi_core::NonholonomicLagrangian`. It defines `SystemState`
+/// `dvi_core::NondegenerateLagrangian`; `dvi_core::RegularLagrangian` where there are no constraints and no impacts, else
+/// `dvi_core::ConstrainedSystem` and `dvi_core::HolonomicLagrangian`, `dvi_core::NonholonomicLagrangian` or
+/// `dvi_core::UnilateralLagrangian`. It defines `SystemState`
 /// with the coordinates `x` and then the velocities `dot_x` as fields, and continues the documentation of the struct with its
 /// formulas.
 ///
@@ -222,6 +223,7 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// | `force(x) = …`, `force = […]` | forces, as below |
 /// | `constraint = g`, `constraint(i in 0..n) = g(i)` | holonomic constraints, as below |
 /// | `nonholonomic = a`, `nonholonomic(i in 0..n) = a(i)` | constraints of the velocities, as below |
+/// | `impact = g`, `impact(i in 0..n) = g(i)` | surfaces that the motion bounces off, as below |
 /// | `momenta(name = …)` | conserved quantities to watch; velocities may stand in them |
 /// | `functions(f = [f, df, d2f], psi = path)` | functions of your own, as in [`macro@degenerate_lagrangian`] |
 /// | `derive(Trait, …)` | what the state derives beside the usual traits |
@@ -327,6 +329,41 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 ///
 /// By the principle of Lagrange and d'Alembert the equations of motion are d/dt ∂L/∂v = ∂L/∂q + F + Aᵀλ:
 /// `dvi_core::NonholonomicLagrangian` says more.
+///
+/// # Impacts
+///
+/// `impact = g` declares a surface g(q, t) = 0 that the motion does not pass: it stays where the gap g(q, t) is not negative, and bounces off
+/// where the gap closes. A floor is `impact = y`, the wall of a billiard `impact = 1.0 - x * x - y * y`. Positions and the time may
+/// stand in it, velocities may not. Lists and families are written as those of `constraint`: `impact(i in 1..n) = x[i] - x[i - 1] - d` for
+/// balls of diameter d on a line. There may be more surfaces than coordinates. A system has either constraints or impacts.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A ball between the floor and a table that moves above it.
+/// #[lagrangian(
+///     coordinates(y),
+///     lagrangian = m * dot(y).powi(2) / 2.0 - m * y,
+///     impact = [y, height + 0.1 * t.sin() - y],
+/// )]
+/// struct Ball {
+///     m: f64,
+///     height: f64,
+/// }
+///
+/// let (ball, mut gaps) = (Ball { m: 1.0, height: 2.0 }, [0.0; 2]);
+/// ball.gap(&[0.5], 0.0, &mut gaps);
+/// assert_eq!(gaps, [0.5, 1.5]);
+/// let method = Impacts::reflecting(Variational::trapezoid());
+/// let mut run = Integrator::new(&ball, method, 0.01, BallState { y: 1.0, dot_y: -0.5 })?;
+/// run.take_steps(2000)?;
+/// // It never reaches the table: it falls for one unit of time, and then hits the floor every three.
+/// assert_eq!(run.memory().total(), 7);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Such systems are stepped by `Impacts` around a variational method. Methods that know no impacts do not take them:
+/// `dvi_core::UnilateralLagrangian` says more.
 ///
 /// # Errors
 ///

@@ -57,6 +57,7 @@ impl Role {
             Self::Force => "a force",
             Self::Constraint(Constrained::Positions) => "a holonomic constraint",
             Self::Constraint(Constrained::Velocities) => "a nonholonomic constraint",
+            Self::Constraint(Constrained::Gaps) => "a gap function",
             Self::Momentum => "a momentum",
         }
     }

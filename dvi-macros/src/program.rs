@@ -7,6 +7,7 @@
 use crate::internal::internal;
 use crate::routine::Routine;
 use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution, Weight};
+use crate::syntax::Constrained;
 
 mod constraints;
 mod degenerate;
@@ -148,9 +149,12 @@ impl Programs {
         [&self.lagrangian].into_iter().chain(&self.forces).chain(constraints)
     }
 
-    /// Whether the time stands in L, in a force or in a constraint.
+    /// Whether the time stands in L, in a force or in a constraint; not whether it stands in a gap.
     pub(crate) fn depends_on_time(&self, graph: &Graph) -> bool {
-        let mut statements = self.dynamics().flat_map(|routine| &routine.statements);
+        let constraints = self.constraints.iter().filter(|constraints| constraints.of != Constrained::Gaps);
+        let constraints = constraints.map(|constraints| &constraints.value);
+        let routines = [&self.lagrangian].into_iter().chain(&self.forces).chain(constraints);
+        let mut statements = routines.flat_map(|routine| &routine.statements);
         statements.any(|statement| graph.depends(statement.value.node, |node| matches!(node, Node::Time)))
     }
 }

@@ -58,7 +58,7 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 13] = [
+const ARGUMENTS: [(&str, &str); 14] = [
     ("coordinates", "coordinates(x, y[n])"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
@@ -68,6 +68,7 @@ const ARGUMENTS: [(&str, &str); 13] = [
     ("force",       "force = [F_x, |i| F_y(i)]`, or `force(x) = F_x"),
     ("constraint",  "constraint = g(q, t)`, or `constraint(i in 0..n) = g(i)"),
     ("nonholonomic", "nonholonomic = a(q, v, t)`, or `nonholonomic(i in 0..n) = a(i)"),
+    ("impact",      "impact = g(q, t)`, or `impact(i in 0..n) = g(i)"),
     ("momenta",     "momenta(p = …)"),
     ("functions",   "functions(f = [f, df, d2f])"),
     ("derive",      "derive(Trait, path::Trait)"),
@@ -81,7 +82,7 @@ const FORCES: [&str; 6] = ["damping", "drag", "drive", "forces", "forcing", "fri
 const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
 
 /// The arguments that a degenerate system does not have.
-const REGULAR_ONLY: [&str; 2] = ["constraint", "nonholonomic"];
+const REGULAR_ONLY: [&str; 3] = ["constraint", "nonholonomic", "impact"];
 
 impl Kind {
     /// The attribute as it is written.

@@ -77,6 +77,23 @@ fn links(n: usize) -> (Links, LinksState) {
     (Links { rod: vec![1.0; n] }, LinksState { x, y: zero.clone(), dot_x: zero.clone(), dot_y: zero })
 }
 
+/// Balls on a line between two walls.
+#[lagrangian(
+    coordinates(x[m.len()]),
+    lagrangian = sum(0..m.len(), |i| m[i] * dot(x[i]).powi(2) / 2.0 - m[i] * x[i]),
+    impact = [x[0], 10.0 - x[m.len() - 1]],
+    impact(i in 1..m.len()) = x[i] - x[i - 1] - 1.0,
+)]
+#[derive(Debug)]
+struct Balls {
+    m: Vec<f64>,
+}
+
+/// A relativistic ball above the floor, whose momentum is no affine function of its velocity.
+#[lagrangian(coordinates(y), lagrangian = -(1.0 - dot(y).powi(2)).sqrt() - y, impact = y)]
+#[derive(Debug)]
+struct FastBall;
+
 /// Bytes that a constrained run of a chain of `n` rods takes.
 fn of_links(n: usize) -> f64 {
     let (system, start) = links(n);
@@ -186,6 +203,18 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Constrained::new(Variational::midpoint()),
         Composition::triple_jump(Constrained::new(Variational::trapezoid()))
     );
+    let balls = Balls { m: vec![1.0, 2.0, 0.5] };
+    let balls_start = BallsState { x: vec![0.5, 3.0, 6.0], dot_x: vec![0.0, -3.0, 2.0] };
+    assert_none!(
+        balls,
+        balls_start,
+        Impacts::new(Variational::trapezoid()),
+        Impacts::new(Variational::midpoint()),
+        Impacts::reflecting(Variational::trapezoid()),
+        Impacts::reflecting(Galerkin::<3>::new())
+    );
+    let fast_start = FastBallState { y: 0.2, dot_y: 0.0 };
+    assert_none!(FastBall, fast_start, Impacts::reflecting(Variational::midpoint()));
     let [short, long] = [1000, 4000].map(of_links);
     assert!(long < 4.1 * short, "{long} bytes for four times as many rods as {short}");
 

@@ -2,7 +2,7 @@
 
 use dvi_core::Lagrangian;
 use dvi_core::discrete::Interval;
-use dvi_core::methods::VariationalMethod;
+use dvi_core::methods::InnerScheme;
 use dvi_core::methods::{General, Method, Symmetrised};
 use dvi_core::prelude::*;
 use dvi_core::system::Unconstrained;
@@ -16,15 +16,27 @@ type Outcome = Result<(), Box<dyn core::error::Error>>;
 /// Twenty steps of both, forward and back.
 fn check<
     S: Lagrangian + System<Kind: Unconstrained>,
-    M: Method<S, f64> + VariationalMethod<S, f64> + Copy + core::fmt::Debug,
+    M: Method<S, f64> + InnerScheme<S, f64> + Copy + core::fmt::Debug,
 >(
     system: &S,
     method: M,
     start: &S::State<f64>,
 ) -> Outcome {
+    compare(system, [method, method], start)
+}
+
+/// The same of a method with options that the general step refuses, and of one without.
+fn compare<
+    S: Lagrangian + System<Kind: Unconstrained>,
+    M: Method<S, f64> + InnerScheme<S, f64> + Copy + core::fmt::Debug,
+>(
+    system: &S,
+    [method, inner]: [M; 2],
+    start: &S::State<f64>,
+) -> Outcome {
     for h in [0.05, -0.05] {
         let mut fast = Integrator::new_at(system, method, 0.3, h, start.clone())?;
-        let mut general = Integrator::new_at(system, General::new(method), 0.3, h, start.clone())?;
+        let mut general = Integrator::new_at(system, General::new(inner), 0.3, h, start.clone())?;
         for _ in 0..20 {
             fast.advance()?;
             general.advance()?;
@@ -42,12 +54,11 @@ fn steps_on_degenerate_systems_equal_the_general_step() -> Outcome {
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     for solver in [Solver::FixedPoint, Solver::Newton] {
         // The affine midpoint, which starts from p = α(q) as the general step does.
-        check(&vortices, Sigma { solver, ..Sigma::midpoint() }, &start)?;
-        check(
-            &Oscillator { omega: 1.3 },
-            Sigma { solver, ..Sigma::midpoint() },
-            &OscillatorState { x: 0.3, y: 1.0 },
-        )?;
+        let both = [Sigma { solver, ..Sigma::midpoint() }, Sigma::midpoint()];
+        compare(&vortices, both, &start)?;
+        compare(&Oscillator { omega: 1.3 }, both, &OscillatorState { x: 0.3, y: 1.0 })?;
+        let refused = Integrator::new(&vortices, General::new(both[0]), 0.1, start).map(drop);
+        assert!(matches!(refused, Err(StartError::Unsupported { .. })), "{refused:?}");
     }
     // With a start of their own: the explicit leapfrog, other σ, a nonlinear α.
     for sigma in [0.0, 0.25, 1.0] {
@@ -100,7 +111,7 @@ fn steps_on_regular_systems_equal_the_general_step() -> Outcome {
     check(&kepler, Variational::simpson().phase_fitted(Constant(1.3)), &start)?;
     check(&kepler, Variational::simpson().phase_fitted(PerCoordinate([0.8, 1.7])), &start)?;
     let compensated = Variational { summation: Summation::Compensated, ..Variational::simpson() };
-    check(&kepler, compensated, &start)?;
+    compare(&kepler, [compensated, Variational::simpson()], &start)?;
     let pendulums = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
     check(
         &pendulums,

@@ -10,6 +10,7 @@
 use crate::error::StepError;
 use crate::run::Run;
 use crate::scalar::norm::larger;
+use crate::system::Smooth;
 use crate::{Real, Scalar, Space, State, System, Vector};
 
 const WINDOW: usize = 8;
@@ -79,7 +80,10 @@ impl<R: Run + core::fmt::Debug, G> core::fmt::Debug for Section<'_, R, G> {
 impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
     /// The crossings of `run`, from its current state on, with g(q) = 0 in the given direction. All
     /// memory is allocated here.
-    pub fn new(run: &'r mut R, direction: Direction, g: G) -> Self {
+    pub fn new(run: &'r mut R, direction: Direction, g: G) -> Self
+    where
+        <R::System as System>::Kind: Smooth,
+    {
         let space = run.system().space();
         Self {
             g,

@@ -5,6 +5,7 @@
 
 use crate::mechanics::motion::Rates;
 use crate::run::Run;
+use crate::system::Smooth;
 use crate::{Real, System};
 
 /// The states through which the power is interpolated.
@@ -57,7 +58,7 @@ impl<T: Real> Work<T> {
     /// None yet, from the present state of `run`.
     pub fn new<R: Run<Scalar = T>>(run: &R) -> Self
     where
-        <R::System as System>::Kind: Rates<R::System, T>,
+        <R::System as System>::Kind: Rates<R::System, T> + Smooth,
     {
         let start = Sample { t: run.time(), power: run.power() };
         Self { latest: [start; POINTS], known: 1, total: T::lift(0.0) }
@@ -66,7 +67,7 @@ impl<T: Real> Work<T> {
     /// Adds the work up to the present state of `run`, at a time other than that of the state before.
     pub fn record<R: Run<Scalar = T>>(&mut self, run: &R)
     where
-        <R::System as System>::Kind: Rates<R::System, T>,
+        <R::System as System>::Kind: Rates<R::System, T> + Smooth,
     {
         self.latest.rotate_right(1);
         self.latest[0] = Sample { t: run.time(), power: run.power() };

@@ -60,7 +60,8 @@ pub enum StepFailure {
         pivot: f64,
     },
     /// The gradient of a constraint vanishes, or depends linearly on those of the constraints before it: it says nothing that these do
-    /// not say, or contradicts them. Its multiplier is not determined then.
+    /// not say, or contradicts them. Its multiplier is not determined then. In a gradient of size one, a part of 10⁻⁹ that those before it do
+    /// not have is lost in rounding, one of 10⁻⁶ as a rule not.
     #[error(
         "constraint {constraint} is redundant here, or contradicts those before it: its gradient vanishes or depends on theirs \
          (pivot {pivot:e} in units of the others)"
@@ -71,12 +72,12 @@ pub enum StepFailure {
         /// The pivot without which the equations have no solution.
         pivot: f64,
     },
-    /// A step turns the gradient of a constraint by a right angle or more, or leads away from a constraint that does not move by more than
-    /// 45°, in the metric of the mass matrix: the equations of the step have several solutions then, and this one need not be that of the
-    /// motion.
+    /// A step turns the gradient of a constraint of positions by a right angle or more, or leads away from one that does not move by more
+    /// than 45°, in the metric of the mass matrix: the equations of the step have several solutions then, and this one need not be that of
+    /// the motion.
     #[error(
-        "the step turns the gradient of constraint {constraint} by a right angle or more, where its equations have other solutions \
-         than the motion: a smaller step helps, unless the constraint is singular on the way"
+        "the step turns the gradient of constraint {constraint} by a right angle or more, or leads away from it by more than 45°, where \
+         its equations have other solutions than the motion: a smaller step helps, unless the constraint is singular on the way"
     )]
     Turned {
         /// Its number, counted from 0 in the order of declaration.
@@ -89,6 +90,65 @@ pub enum StepFailure {
          constraints are singular on the way"
     )]
     Branch,
+    /// Impacts follow each other so fast that a step has too many of them: they accumulate where the motion comes to rest on a
+    /// surface, or the step is too long.
+    #[error(
+        "a step has more than {impacts} impacts, the last on surface {surface} at t = {time}: they accumulate, as those of a ball that \
+         comes to rest, or the step is too long"
+    )]
+    Accumulation {
+        /// The surface of the last one, counted from 0 in the order of declaration.
+        surface: usize,
+        /// How many impacts a step of this method may have.
+        impacts: usize,
+        /// The time of the last one.
+        time: f64,
+    },
+    /// A gap function, or its rate of change, is infinite or not a number.
+    #[error(
+        "the gap of surface {surface}, or its rate of change, became {value}: its formula left its domain"
+    )]
+    Gap {
+        /// The surface, counted from 0 in the order of declaration.
+        surface: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The motion lies on a surface and is pressed on it: it neither leaves nor bounces.
+    #[error(
+        "the motion lies on surface {surface} and does not leave it: its gap is {gap:e}, and the rate of change of it {rate:e}; such a \
+         contact is no impact, a constraint would keep it"
+    )]
+    Contact {
+        /// The surface, counted from 0 in the order of declaration.
+        surface: usize,
+        /// Its gap function.
+        gap: f64,
+        /// The rate of change of that.
+        rate: f64,
+    },
+    /// A velocity does not keep a constraint to rounding errors, however often its equations are solved: they say too little of what is
+    /// asked.
+    #[error(
+        "constraint {constraint} of the velocity, or its rate of change, is still {value:e}, more than rounding errors: it depends on those \
+         before it but for rounding, or masses differ by too much"
+    )]
+    OffConstraint {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A constraint is infinite or not a number.
+    #[error(
+        "constraint {constraint} became {value}: a formula that left its domain, or a step that is too long"
+    )]
+    UndefinedConstraint {
+        /// Its number, counted from 0 in the order of declaration.
+        constraint: usize,
+        /// Its value.
+        value: f64,
+    },
     /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::methods::EnergyLimit)).
     #[error(
         "the energy was {start:e} at the start and would become {now:e}; the limit of its change is {limit:e}"

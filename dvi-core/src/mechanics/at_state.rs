@@ -44,7 +44,9 @@ pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: Rates<Self, T>> +
     /// Ω q' = ∇H + ∂α/∂t, for a degenerate system; velocities and accelerations for a regular one.
     ///
     /// # Errors
-    /// Besides those of the trait, [`StartError::Undetermined`] where Ω or the mass matrix is singular.
+    /// Besides those of the trait, [`StartError::Undetermined`] where Ω or the mass matrix is singular. With constraints the state need
+    /// not keep them: the accelerations are those with which their rates of change stay as they are, as other integrators
+    /// need them for states in between.
     fn vector_field(&self, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
         self.at_time(T::lift(0.0)).vector_field(state)
     }

@@ -11,6 +11,8 @@
 pub(crate) mod consistent;
 mod holonomic;
 mod nonholonomic;
+pub(crate) mod residuals;
+pub(crate) mod scales;
 mod solver;
 pub(crate) mod turning;
 
@@ -23,7 +25,7 @@ use crate::space::sink::{Places, TransposedProduct};
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
 use crate::system::Kind;
-use crate::{ConstrainedSystem, NondegenerateLagrangian, Real, Space, System, Weights};
+use crate::{ConstrainedSystem, NondegenerateLagrangian, Real, Scalar, Space, System};
 
 pub(crate) use solver::ConstraintSolver;
 
@@ -215,10 +217,28 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
                 self.improve_tangent(system, at, Tangent { p, v, impulse, work })
             })?;
         }
+        self.refine_tangent(system, at, Tangent { p, v, impulse, work })?;
         // In the equations the impulse is subtracted.
         impulse.iter_mut().for_each(|impulse| *impulse = -*impulse);
         self.add_impulse(system, at, impulse, p);
         norm::finite(v).and(norm::finite(p))
+    }
+
+    /// Iterates again where rounding has left the velocity off the constraints.
+    fn refine_tangent(
+        &mut self,
+        system: &S,
+        at: At<'_, T>,
+        Tangent { p, v, impulse, work }: Tangent<'_, T>,
+    ) -> Result<(), StepFailure> {
+        loop {
+            let Self { residuals, solution, .. } = self;
+            residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + Scalar::abs(solution[j]));
+            if residuals.are_settled() {
+                return residuals.admit(system, at, v);
+            }
+            self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
+        }
     }
 
     /// One iteration; returns the size of its correction.
@@ -248,10 +268,4 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         let values = self.values(at.q.len());
         S::Kind::forces(system, at.q, at.t, values, &mut TransposedProduct { x: impulse, sum: p });
     }
-}
-
-/// The weights that leave ∂²L/∂v∂v.
-fn mass_matrix<T: Real>() -> Weights<T> {
-    let zero = T::lift(0.0);
-    Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) }
 }

@@ -74,9 +74,10 @@ pub trait Rates<S: System, T: Real>: Kind {
 
 /// What the equations of motion of a kind of system are stored in.
 #[diagnostic::on_unimplemented(
-    message = "the equations of motion of `{S}` have constraints beside them, and this would not keep these",
-    label = "it does not know constraints",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+    message = "the equations of motion of `{S}` have constraints or impacts beside them, and this would not keep these",
+    label = "it knows neither constraints nor impacts",
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
+    note = "systems with `impact = …` are stepped by `Impacts` around a variational method"
 )]
 pub trait Motion<S: System, T: Real>: Kind {
     /// y: q, or q and p.
@@ -103,8 +104,9 @@ pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point;
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be solved in `{T}`",
-    label = "it is no system, it has constraints, or a parameter of it is no number",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+    label = "it is no system, it has constraints or impacts, or a parameter of it is no number",
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
+    note = "systems with `impact = …` are stepped by `Impacts` around a variational method"
 )]
 pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// The equations at (`q`, `v`, `t`).

@@ -1,7 +1,8 @@
 //! What can be asked of a system with constraints at one state, without a run.
 
 use crate::error::StartError;
-use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers, consistent};
+use crate::mechanics::constraints::consistent::{self, Among, check};
+use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers};
 use crate::mechanics::motion::constrained::acceleration;
 use crate::system::start::{evaluate, flatten, validate};
 use crate::{Real, Space};
@@ -28,11 +29,12 @@ use crate::{Real, Space};
 /// ```
 pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
     /// A state near `state` that the constraints admit at time `t`. Newton's method moves the positions, with steps that are the
-    /// shortest in the metric of the mass matrix; the velocity is then changed by as little as possible.
+    /// shortest in the metric of the mass matrix; the velocity is then changed by as little as possible. A run can begin at what is
+    /// returned, and what it returns of that is the same but for rounding.
     ///
     /// # Errors
-    /// [`StartError::Inconsistent`] where no position is found; [`StartError::Starter`] where a constraint is redundant; others as the
-    /// start of a run has.
+    /// [`StartError::Inconsistent`] where no position or no velocity is found; [`StartError::Projection`] where a constraint is
+    /// redundant; others as the start of a run has.
     fn projected(&self, t: T, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
         consistent::projected(self, t, state)
     }
@@ -41,11 +43,13 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
     /// constraints, with G = ∂g/∂q or, of constraints of velocities, A.
     ///
     /// # Errors
-    /// [`StartError::Undetermined`] where a constraint is redundant or the mass matrix singular; others as the start of a run has.
+    /// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] at other states; [`StartError::Undetermined`] where a constraint
+    /// is redundant or the mass matrix singular; others as the start of a run has.
     fn multipliers_at(&self, t: T, state: &Self::State<T>) -> Result<Multipliers<Self, T>, StartError> {
         validate(self, t)?;
         let [q, v] = flatten(self, state)?;
         evaluate(self, &q, &v, t)?;
+        check(self, [&q, &v], t, Among::States)?;
         let mut multipliers = self.multipliers().vector();
         acceleration(self, [&q, &v], t, &mut multipliers).map_err(StartError::Undetermined)?;
         Ok(multipliers)

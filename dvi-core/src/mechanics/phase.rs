@@ -135,6 +135,15 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         Ok(())
     }
 
+    /// Adds an impulse to the momentum. The next step is guessed from `velocity`, about what the impulse leads to.
+    pub(crate) fn jump(&mut self, impulse: &[T], velocity: &[T]) {
+        for (p, &impulse) in self.p.iter_mut().zip(impulse) {
+            *p += impulse;
+        }
+        self.history.begin_again(velocity);
+        self.last_step = T::lift(0.0);
+    }
+
     #[inline(always)]
     fn remember(&mut self, increment: &[T], h: T) {
         if !self.extrapolates_to(h) {

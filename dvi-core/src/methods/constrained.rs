@@ -8,13 +8,14 @@
 
 use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::constraints::turning::Gradients;
 use crate::mechanics::constraints::{
-    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Multipliers, OfStep, Tangent, consistent,
+    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, OfStep, Tangent,
 };
 use crate::mechanics::orientation::MassOrientation;
-use crate::methods::VariationalMethod;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Stopping, iterate};
 use crate::state::Statistics;
@@ -24,7 +25,9 @@ use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
 /// The step of a variational method for systems with constraints, of positions by `constraint = …` or of velocities by
-/// `nonholonomic = …`.
+/// `nonholonomic = …`. The method is [`Variational`](crate::methods::Variational) with any rule, fitted to a frequency that is given or not
+/// fitted, or [`Symmetrised`](crate::methods::Symmetrised). Its solver, its `stopping` and its summation would have no effect here, and are
+/// errors of the start if they are not left at their defaults.
 ///
 /// ```math
 /// p_0 = -D_1 L_d(q_0, q_1) - A(q_0)^\mathsf{T} \iota_0, \qquad p_1 = D_2 L_d(q_0, q_1) + A(q_1)^\mathsf{T} \iota_1
@@ -44,7 +47,9 @@ use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 ///
 /// On holonomic constraints the steps preserve dq ∧ dp, and the momentum maps of symmetries that act linearly and leave L and g as
 /// they are (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997). With nonholonomic ones neither the motion nor the steps
-/// preserve a two-form or, as a rule, momenta; symmetric steps are reversible. The order is that of the rule, 1 or 2; a
+/// preserve a two-form or, as a rule, momenta, whatever [`preserved_form`](Scheme::preserved_form) says, which knows the method only;
+/// symmetric steps are reversible. In a chaotic motion the energy of a nonholonomic run
+/// may drift: [what can go wrong](crate::guide::what_can_go_wrong) measures one. The order is that of the rule, 1 or 2; a
 /// [`Composition`](crate::methods::Composition) of symmetric steps has a higher one. A run begins at a state that the constraints admit:
 /// [`projected`](crate::mechanics::OnConstraints::projected) finds one.
 ///
@@ -98,7 +103,8 @@ pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
     /// Δ − h v0 of the last step, and h.
     bend: Vector<S, T>,
     last_step: T,
-    gradients: Gradients<S, T>,
+    /// Of constraints of positions.
+    gradients: Option<Gradients<S, T>>,
     /// Whether the determinant of the equations for the velocity is positive.
     is_positive: bool,
     /// If the mass matrix depends on the state.
@@ -163,7 +169,7 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
 }
 
 impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> {
-    lasting!(T; numbers p, numbers v, part impulses, numbers bend, number last_step, part gradients, part solver, parts orientation);
+    lasting!(T; numbers p, numbers v, part impulses, numbers bend, number last_step, part solver, parts gradients, parts orientation);
 }
 
 impl<M: Scheme> Scheme for Constrained<M> {
@@ -240,7 +246,12 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         if solver.is_positive() != (*is_positive ^ is_odd) {
             return Err(StepFailure::Branch);
         }
-        gradients.check(system, q, increment, At { q: next, t: interval.time(T::lift(1.0)) })
+        match gradients {
+            Some(gradients) => {
+                gradients.check(system, q, increment, At { q: next, t: interval.time(T::lift(1.0)) })
+            }
+            None => Ok(()),
+        }
     }
 
     /// Finds p1 = p0 + (D₁ + D₂)L_d + G(q0)ᵀι0 + G(q1)ᵀι1 and v1.
@@ -273,7 +284,9 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         for ((bend, &delta), &v) in bend.iter_mut().zip(arrival.increment.iter()).zip(v.iter()) {
             *bend = delta - h * v;
         }
-        gradients.keep();
+        if let Some(gradients) = gradients {
+            gradients.keep();
+        }
         q.copy_from_slice(&arrival.q);
         p.copy_from_slice(&arrival.p);
         v.copy_from_slice(&arrival.v);
@@ -289,12 +302,13 @@ fn reach<T: Real>(q: &[T], increment: &[T], q1: &mut [T]) {
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S, T> for Constrained<M> {
+impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> for Constrained<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         self.scheme.admit(system)?;
+        self.scheme.admit_inside()?;
         evaluate(system, q, v, t)?;
-        consistent::check(system, [q, v], t, h)?;
+        consistent::check(system, [q, v], t, Among::Steps(h))?;
         let vector = || system.space().vector();
         let [mut p, mut velocity, mut work]: [Vector<S, T>; 3] = core::array::from_fn(|_| vector());
         system.gradient(q, v, t, &mut work, &mut p);
@@ -318,9 +332,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S,
             impulses: Impulses::new(system),
             work,
         };
-        let (gradients, bend) =
-            (Gradients::new(system, At { q, t }, solver.of_coordinates(q.len())), vector());
-        let (l_d, last_step) = (self.scheme.discrete_lagrangian(system), T::lift(0.0));
+        let gradients =
+            <S::Kind as Constraints<S, T>>::OF_POSITIONS.then(|| Gradients::new(system, At { q, t }, v));
+        let (l_d, bend, last_step) = (self.scheme.discrete_lagrangian(system), vector(), T::lift(0.0));
         Ok(ConstrainedMemory {
             p,
             v: velocity,
@@ -369,4 +383,4 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Method<S,
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T> for Constrained<M> {}
+impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> VariableStep<S, T> for Constrained<M> {}

@@ -16,11 +16,11 @@ mod separable;
 
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, FreeFlight, Method, PreservedForm, Scheme, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Real, RegularLagrangian, System, Vector};
+use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
 pub use lagrangian::GalerkinLagrangian;
 pub use memory::GalerkinMemory;
@@ -90,7 +90,7 @@ struct Step<'a, const NODES: usize, S, F, T> {
     h: T,
 }
 
-impl<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real> Step<'_, NODES, S, F, T> {
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real> Step<'_, NODES, S, F, T> {
     /// The time of a node.
     #[inline(always)]
     fn node_time(&self, c: f64) -> T {
@@ -99,7 +99,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real> Step<'_
 }
 
 impl<const NODES: usize, F: Frequency> Galerkin<NODES, F> {
-    fn validate<S: RegularLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
+    fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
     where
         F: FrequencyIn<T>,
     {
@@ -122,6 +122,53 @@ impl<const NODES: usize, F: Frequency> Galerkin<NODES, F> {
         }
         frequency::admit(&self.frequency, system)?;
         self.stopping.validate()
+    }
+}
+
+impl<const NODES: usize, F: Frequency> Galerkin<NODES, F> {
+    fn start<S: NondegenerateLagrangian<T>, T: Real>(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        v: &[T],
+        [t, h]: [T; 2],
+    ) -> Result<GalerkinMemory<NODES, S, T>, StartError>
+    where
+        F: FrequencyIn<T>,
+    {
+        const { assert!(NODES >= 3 && NODES <= 5, "interior displacements are available with 3, 4 or 5 nodes") };
+        self.validate::<S, T>(system)?;
+        GalerkinMemory::new(&Step { system, method: self, t, h }, q, v)
+    }
+
+    /// Takes a step from t to t + h.
+    #[inline(always)]
+    fn take<S: NondegenerateLagrangian<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut GalerkinMemory<NODES, S, T>,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>
+    where
+        F: FrequencyIn<T>,
+    {
+        let step = Step { system, method: self, t, h };
+        let GalerkinMemory { ladder, path } = memory;
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
+        let q0 = &*q;
+        ladder.solve(
+            path,
+            statistics,
+            |path, statistics| separable::fixed_point(&step, path, q0, budget, statistics),
+            |path, newton, guess, statistics| general::newton(&step, path, q0, newton, guess, statistics),
+        )?;
+        if S::SEPARABLE {
+            separable::finish(&step, path, q, statistics)
+        } else {
+            general::finish(&step, path, q, statistics)
+        }
     }
 }
 
@@ -148,9 +195,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Me
     for Galerkin<NODES, F>
 {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        const { assert!(NODES >= 3 && NODES <= 5, "interior displacements are available with 3, 4 or 5 nodes") };
-        self.validate::<S, T>(system)?;
-        GalerkinMemory::new(&Step { system, method: self, t, h }, q, v)
+        self.start(system, q, v, [t, h])
     }
 
     #[inline]
@@ -163,21 +208,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Me
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, method: self, t, h };
-        let GalerkinMemory { ladder, path } = memory;
-        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        let q0 = &*q;
-        ladder.solve(
-            path,
-            statistics,
-            |path, statistics| separable::fixed_point(&step, path, q0, budget, statistics),
-            |path, newton, guess, statistics| general::newton(&step, path, q0, newton, guess, statistics),
-        )?;
-        if S::SEPARABLE {
-            separable::finish(&step, path, q, statistics)
-        } else {
-            general::finish(&step, path, q, statistics)
-        }
+        self.take(system, memory, q, [t, h], statistics)
     }
 
     fn velocity(
@@ -188,11 +219,42 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Me
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.path.inertial.velocity(system, &memory.path.phase, q, t, v)
+        memory.path.velocity(system, q, t, v)
     }
 }
 
 impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> VariableStep<S, T>
     for Galerkin<NODES, F>
 {
+}
+
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real> FreeFlight<S, T>
+    for Galerkin<NODES, Unfitted>
+{
+    fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        self.start(system, q, v, [t, h])
+    }
+    fn fly(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        interval: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.take(system, memory, q, interval, statistics)
+    }
+    fn velocity_in_flight(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        memory.path.velocity(system, q, t, v)
+    }
+    fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
+        memory.path.phase.jump(impulse, velocity);
+    }
 }

@@ -3,8 +3,8 @@
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, Span, solve_by_newton};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
-use crate::methods::VariationalMethod;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
 use crate::solve::Stopping;
 use crate::state::Statistics;
@@ -20,6 +20,7 @@ use crate::{Lagrangian, Linear, Real, Space, System, Vector};
 /// The methods of this crate have faster steps of the same equations, and guards and starts of their own. This one is for
 /// discrete Lagrangians that have no method yet, and what the others are tested against. It has no guards: a parasitic mode
 /// is not limited, and a step across a place where Ω or the mass matrix changes its sign passes if it has a solution.
+/// What is inside may not have options that have no effect here: see [`InnerScheme`].
 /// [`EnergyLimit`](crate::methods::EnergyLimit) around it ends a run whose energy tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct General<M> {
@@ -87,11 +88,12 @@ impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for Ge
     type Memory = GeneralMemory<S, M::DiscreteLagrangian, T>;
 }
 
-impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: VariationalMethod<S, T>> Method<S, T>
+impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: InnerScheme<S, T>> Method<S, T>
     for General<M>
 {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.admit(system)?;
+        self.scheme.admit_inside()?;
         let space = system.space();
         let [mut p, mut seed, mut l_q]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
         seed[..v.len()].copy_from_slice(v);
@@ -167,7 +169,7 @@ impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: VariationalMeth
     }
 }
 
-impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: VariationalMethod<S, T>> VariableStep<S, T>
+impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: InnerScheme<S, T>> VariableStep<S, T>
     for General<M>
 {
 }

@@ -5,18 +5,20 @@
 //!
 //! ι0 is found by Newton's method, whose matrix is h G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with G(q1) M⁻¹ G(q1)ᵀ.
 
+mod refinement;
 mod work;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::constraints::consistent;
+use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::mass::Mass;
 use crate::methods::constrained::Impulses;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
 use crate::solve::Stopping;
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
+use refinement::Refinement;
 use work::{Place, Step, Work, constrain, fill, named};
 
 /// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of [`Constrained`](crate::methods::Constrained) around
@@ -26,6 +28,9 @@ use work::{Place, Step, Work, constrain, fill, named};
 /// all constraints are kept with an entry for each coordinate; from about ten constraints on, the equations of `Constrained` are cheaper,
 /// which are banded along a chain. With sizes that are fixed at compile time all of that is part of the run: with a hundred rods in the
 /// plane 0.7 MB, on the stack of the thread that begins it. With sizes that are known at run time only it is on the heap.
+///
+/// Where a coordinate is light against others that a constraint couples with it as a run begins, velocities are corrected until they keep
+/// the constraints. With masses that differ by a factor of 10¹⁶ and more its matrix is singular to rounding, and `Constrained` goes on.
 ///
 /// What is said of `Constrained`, of its structure and its order, is true of this method. Positions are those of SHAKE (Ryckaert,
 /// Ciccotti & Berendsen 1977) with a start on the constraints.
@@ -65,6 +70,8 @@ pub struct RattleMemory<S: ConstrainedSystem, T: Real> {
     mass: Mass<S, T>,
     /// Whether M is diagonal and positive.
     is_metric: bool,
+    /// If coordinates are light against the others.
+    refinement: Option<Refinement<S, T>>,
     work: Work<S, T>,
 }
 
@@ -114,10 +121,85 @@ impl<S: ConstrainedSystem, T: Real> Carries<S, T> for Rattle {
     type Memory = RattleMemory<S, T>;
 }
 
+impl Rattle {
+    /// A step without light coordinates.
+    #[inline(always)]
+    fn plain_step<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut RattleMemory<S, T>,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let RattleMemory { here, last_step, impulses, mass, is_metric, work, .. } = memory;
+        let mut on_stack;
+        let work: &mut Work<S, T> = if is_short::<S>(q.len() * system.multipliers().dimension()) {
+            on_stack = Work::new(system);
+            &mut on_stack
+        } else {
+            work
+        };
+        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping: self.stopping };
+        take(work, &step, (*last_step, &impulses.first), statistics)?;
+        q.copy_from_slice(&work.q);
+        here.restore(&work.place);
+        impulses.restore(&work.impulses);
+        *last_step = h;
+        Ok(())
+    }
+
+    /// A step with light coordinates, apart from the others, whose work space stays in registers.
+    #[cold]
+    #[inline(never)]
+    fn refined_step<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut RattleMemory<S, T>,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let RattleMemory { here, last_step, impulses, mass, is_metric, refinement, work } = memory;
+        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping: self.stopping };
+        take(work, &step, (*last_step, &impulses.first), statistics)?;
+        if let Some(refinement) = refinement {
+            work.refine(system, mass, t + h, refinement)?;
+        }
+        q.copy_from_slice(&work.q);
+        here.restore(&work.place);
+        impulses.restore(&work.impulses);
+        *last_step = h;
+        Ok(())
+    }
+}
+
+/// Finds the end of a step, after one of length `last_step` with the impulses `last`.
+#[inline(always)]
+fn take<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+    work: &mut Work<S, T>,
+    step: &Step<'_, S, T>,
+    (last_step, last): (T, &[T]),
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let zero = T::lift(0.0);
+    let mut ratio = if last_step == zero { zero } else { step.h / last_step };
+    // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
+    while let Err(failure) = work.shake(step, (ratio, last), statistics) {
+        if ratio == zero {
+            return Err(failure);
+        }
+        ratio = zero;
+    }
+    work.rattle(step)?;
+    statistics.gradients += 1;
+    Ok(())
+}
+
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        consistent::check(system, [q, v], t, h)?;
+        consistent::check(system, [q, v], t, Among::Steps(h))?;
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
         let mut work = Work::new(system);
         let Work { q: at, place, values, .. } = &mut work;
@@ -130,11 +212,15 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         fill(gram, [&place.rows, &place.solved], T::lift(1.0));
         gram.factor().map_err(named).map_err(StartError::Starter)?;
         place.is_positive = gram.is_positive();
+        let mut refinement = Refinement::for_light_coordinates(system, [q, v], t);
+        if let Some(refinement) = &mut refinement {
+            work.refine(system, &mass, t, refinement).map_err(StartError::Starter)?;
+        }
         let mut here = Place::new(system);
         here.restore(&work.place);
         let (last_step, impulses) = (T::lift(0.0), Impulses::new(system));
         let is_metric = mass.reciprocals().is_some_and(|all| all.iter().all(|&one| one > T::lift(0.0)));
-        Ok(RattleMemory { here, last_step, impulses, mass, is_metric, work })
+        Ok(RattleMemory { here, last_step, impulses, mass, is_metric, refinement, work })
     }
 
     #[inline]
@@ -147,30 +233,30 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let RattleMemory { here, last_step, impulses, mass, is_metric, work } = memory;
-        let mut on_stack;
-        let work: &mut Work<S, T> = if is_short::<S>(q.len() * system.multipliers().dimension()) {
-            on_stack = Work::new(system);
-            &mut on_stack
-        } else {
-            work
-        };
-        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping: self.stopping };
-        let zero = T::lift(0.0);
-        let mut ratio = if *last_step == zero { zero } else { h / *last_step };
-        // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
-        while let Err(failure) = work.shake(&step, (ratio, &impulses.first), statistics) {
-            if ratio == zero {
-                return Err(failure);
-            }
-            ratio = zero;
+        if memory.refinement.is_some() {
+            return self.refined_step(system, memory, q, [t, h], statistics);
         }
-        work.rattle(&step)?;
-        statistics.gradients += 1;
-        q.copy_from_slice(&work.q);
-        here.restore(&work.place);
-        impulses.restore(&work.impulses);
-        *last_step = h;
+        self.plain_step(system, memory, q, [t, h], statistics)
+    }
+
+    #[inline]
+    fn steps(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        if memory.refinement.is_some() {
+            return one_by_one(self, system, memory, q, clock, count, statistics);
+        }
+        for taken in 0..count {
+            let times = [clock.after(taken).time(), clock.step_size()];
+            self.plain_step(system, memory, q, times, statistics)?;
+            statistics.steps += 1;
+        }
         Ok(())
     }
 

@@ -19,8 +19,8 @@ mod start;
 
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
-use crate::methods::VariationalMethod;
 use crate::methods::{Carries, Clock, Gauss, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
+use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::sink::Places;
@@ -362,6 +362,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
 
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
         OneNode::new(system, self.sigma)
+    }
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> InnerScheme<S, T> for Sigma<T> {
+    fn admit_inside(&self) -> Result<(), StartError> {
+        without_effect_inside(self.solver, self.stopping, self.summation)
     }
 }
 

@@ -4,7 +4,7 @@
 
 use crate::discrete::{DiscreteLagrangian, OneNode, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
-use crate::methods::VariationalMethod;
+use crate::methods::{InnerScheme, VariationalMethod};
 use crate::methods::{PreservedForm, Scheme};
 use crate::scalar::norm;
 use crate::space::sink::{Scaled, Sink};
@@ -64,6 +64,8 @@ impl<S: Lagrangian<T>, T: Real> VariationalMethod<S, T> for Symmetrised<T> {
         SymmetrisedLagrangian { nodes, twice: [system.space().vector(), system.space().vector()] }
     }
 }
+
+impl<S: Lagrangian<T>, T: Real> InnerScheme<S, T> for Symmetrised<T> {}
 
 impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for SymmetrisedLagrangian<S, T> {
     fn derivatives(

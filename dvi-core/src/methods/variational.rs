@@ -18,8 +18,8 @@ use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
-use crate::methods::VariationalMethod;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::methods::{FreeFlight, InnerScheme, VariationalMethod, without_effect_inside};
 use crate::solve::{Guess, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -172,7 +172,7 @@ struct Attempt<'a, S: System, F, R, T: Real> {
     budget: usize,
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
     #[inline(always)]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         if self.step.method.needs_forces_only::<S, T>() && self.step.method.summation == Summation::Plain {
@@ -222,6 +222,56 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     #[inline(always)]
     fn reads_both_ends(&self) -> bool {
         matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
+    }
+
+    /// Takes a step from t to t + h.
+    #[inline(always)]
+    fn take<S: NondegenerateLagrangian<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut VariationalMemory<S, T>,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>
+    where
+        F: FrequencyIn<T>,
+    {
+        let step = Step { system, method: self, t, h };
+        let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
+        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && S::SEPARABLE, &*inertial) {
+            if self.summation == Summation::Compensated {
+                statistics.gradients += 1;
+                return verlet::compensated(&step, mass, phase, work, q);
+            }
+            let (taken, result) = verlet::steps(system, mass, phase, work, q, Clock::new(t, h), 1);
+            statistics.gradients += taken;
+            return result;
+        }
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
+        let parts = Parts { interpolation, ends, phase, inertial, work, q };
+        let mut attempt = Attempt { step, parts, budget };
+        ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
+    }
+
+    /// Σ wⱼ E(qʲ, Δ/h), the discrete energy with linear interpolation.
+    fn energy_of<S: NondegenerateLagrangian<T>, T: Real>(
+        &self,
+        Span { system, interval, ends: Ends { q0, delta } }: Span<'_, S, T>,
+        [point, velocity]: &mut [Vector<S, T>; 2],
+    ) -> T {
+        let per_h = T::lift(1.0) / interval.h;
+        for (velocity, &delta) in velocity.iter_mut().zip(delta) {
+            *velocity = delta * per_h;
+        }
+        let nodes = self.rule.nodes().iter().zip(self.rule.weights());
+        nodes.fold(T::lift(0.0), |sum, (&c, &weight)| {
+            let c = T::lift(c);
+            for (point, (&q0, &delta)) in point.iter_mut().zip(q0.iter().zip(delta)) {
+                *point = q0 + c * delta;
+            }
+            sum + T::lift(weight) * system.energy(point, velocity, interval.time(c))
+        })
     }
 
     fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
@@ -291,21 +341,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, method: self, t, h };
-        let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
-        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && S::SEPARABLE, &*inertial) {
-            if self.summation == Summation::Compensated {
-                statistics.gradients += 1;
-                return verlet::compensated(&step, mass, phase, work, q);
-            }
-            let (taken, result) = verlet::steps(system, mass, phase, work, q, Clock::new(t, h), 1);
-            statistics.gradients += taken;
-            return result;
-        }
-        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        let parts = Parts { interpolation, ends, phase, inertial, work, q };
-        let mut attempt = Attempt { step, parts, budget };
-        ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
+        self.take(system, memory, q, [t, h], statistics)
     }
 
     fn velocity(
@@ -316,7 +352,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.inertial.velocity(system, &memory.phase, q, t, v)
+        memory.velocity(system, q, t, v)
     }
 
     #[inline]
@@ -347,27 +383,44 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<
         F::UNFITTED
     }
 
-    /// Σ wⱼ E(qʲ, Δ/h), of linear interpolation.
-    fn discrete_energy(
+    fn discrete_energy(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> Option<T> {
+        F::UNFITTED.then(|| self.energy_of(span, work))
+    }
+}
+
+impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Variational<Unfitted, R> {
+    fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        self.validate::<S, T>(system)?;
+        VariationalMemory::new(system, self, q, v, t, h)
+    }
+    fn fly(
         &self,
-        Span { system, interval, ends: Ends { q0, delta } }: Span<'_, S, T>,
-        [point, velocity]: &mut [Vector<S, T>; 2],
-    ) -> Option<T> {
-        if !F::UNFITTED {
-            return None;
-        }
-        let per_h = T::lift(1.0) / interval.h;
-        for (velocity, &delta) in velocity.iter_mut().zip(delta) {
-            *velocity = delta * per_h;
-        }
-        let nodes = self.rule.nodes().iter().zip(self.rule.weights());
-        Some(nodes.fold(T::lift(0.0), |sum, (&c, &weight)| {
-            let c = T::lift(c);
-            for (point, (&q0, &delta)) in point.iter_mut().zip(q0.iter().zip(delta)) {
-                *point = q0 + c * delta;
-            }
-            sum + T::lift(weight) * system.energy(point, velocity, interval.time(c))
-        }))
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.take(system, memory, q, [t, h], statistics)
+    }
+    fn velocity_in_flight(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        q: &Vector<S, T>,
+        t: T,
+        v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        memory.velocity(system, q, t, v)
+    }
+    fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
+        memory.phase.jump(impulse, velocity);
+    }
+    fn has_energy_of_flight(&self) -> bool {
+        true
+    }
+    fn energy_of_flight(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> Option<T> {
+        Some(self.energy_of(span, work))
     }
 }
 
@@ -386,5 +439,14 @@ where
 
     fn discrete_lagrangian(&self, system: &S) -> QuadratureLagrangian<S, F, R, T> {
         QuadratureLagrangian::new(system, self.clone())
+    }
+}
+
+impl<S: NondegenerateLagrangian<T>, F, R, T: Real> InnerScheme<S, T> for Variational<F, R>
+where
+    Self: VariationalMethod<S, T>,
+{
+    fn admit_inside(&self) -> Result<(), StartError> {
+        without_effect_inside(self.solver, self.stopping, self.summation)
     }
 }

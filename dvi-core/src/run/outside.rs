@@ -27,8 +27,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::RedundantConstraint { .. }
             | StepFailure::Turned { .. }
             | StepFailure::Branch
+            | StepFailure::OffConstraint { .. }
+            | StepFailure::UndefinedConstraint { .. }
             | StepFailure::Frequency { .. }
             | StepFailure::StepLength { .. }
+            | StepFailure::Gap { .. }
             | StepFailure::Density { .. } => true,
             StepFailure::TimeRate { rate } => rate.is_nan(),
             StepFailure::EnergyStep { defect, .. } => defect.is_nan(),
@@ -38,6 +41,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::Pattern { .. }
             | StepFailure::ParasiticMode { .. }
             | StepFailure::NotSmooth { .. }
+            | StepFailure::Accumulation { .. }
+            | StepFailure::Contact { .. }
             | StepFailure::Outside(_) => false,
         };
         if !S::HAS_SCALAR_FIELDS || !is_suspect {

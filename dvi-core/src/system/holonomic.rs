@@ -14,9 +14,10 @@ use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Syste
 /// Constraint k is counted from 0 in the order of declaration, the members of `constraint(i in …)` one after the other in its
 /// place. All functions take slices of n coordinates and m constraints.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no constraints in `{T}`",
+    message = "`{Self}` has no constraints of positions in `{T}`",
     label = "its attribute has no `constraint`, or a parameter is no number",
-    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`"
+    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`",
+    note = "systems with `nonholonomic = …` are stepped by `Constrained` around `Variational`"
 )]
 pub trait HolonomicLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind = Holonomic>

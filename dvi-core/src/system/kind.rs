@@ -2,7 +2,8 @@
 
 use core::fmt::Debug;
 
-/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Holonomic`] or [`Nonholonomic`].
+/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Holonomic`] [`Nonholonomic`] or
+/// [`Unilateral`].
 pub trait Kind: Debug {
     /// Whether the mass matrix is regular.
     const REGULAR: bool;
@@ -25,6 +26,10 @@ pub enum Holonomic {}
 #[derive(Clone, Copy, Debug)]
 pub enum Nonholonomic {}
 
+/// The kind of L(q, v, t) with a regular mass matrix whose motion stays where g(q, t) ≥ 0: between impacts that of [`Regular`].
+#[derive(Clone, Copy, Debug)]
+pub enum Unilateral {}
+
 impl Kind for Degenerate {
     const REGULAR: bool = false;
 }
@@ -41,13 +46,31 @@ impl Kind for Nonholonomic {
     const REGULAR: bool = true;
 }
 
+impl Kind for Unilateral {
+    const REGULAR: bool = true;
+}
+
 /// The kinds of systems without constraints.
 #[diagnostic::on_unimplemented(
-    message = "the system has constraints, and this would not keep them",
-    label = "it does not know constraints",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+    message = "the system has constraints or impacts, and this would not keep them",
+    label = "it knows neither constraints nor impacts",
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
+    note = "systems with `impact = …` are stepped by `Impacts` around a variational method"
 )]
 pub trait Unconstrained: Kind {}
 
 impl Unconstrained for Degenerate {}
 impl Unconstrained for Regular {}
+
+/// The kinds of systems whose motion is smooth: all but [`Unilateral`].
+#[diagnostic::on_unimplemented(
+    message = "the motion of the system jumps at impacts, and this follows a smooth one",
+    label = "it would go through the impacts",
+    note = "the memory of a run with `Impacts` has the impacts of the last step, with their times and states"
+)]
+pub trait Smooth: Kind {}
+
+impl Smooth for Degenerate {}
+impl Smooth for Regular {}
+impl Smooth for Holonomic {}
+impl Smooth for Nonholonomic {}

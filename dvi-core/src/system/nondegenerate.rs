@@ -30,12 +30,13 @@ pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     fn momentum_rate(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
 }
 
-/// A system with a regular mass matrix and without constraints.
+/// A system with a regular mass matrix and without constraints or impacts.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a regular system without constraints, and this is for systems with `#[lagrangian]`",
-    label = "its Lagrangian is degenerate, it has constraints, a parameter is no number, or it has no attribute",
+    message = "`{Self}` is not a regular system without constraints or impacts, and this is for systems with `#[lagrangian]`",
+    label = "its Lagrangian is degenerate, it has constraints or impacts, a parameter is no number, or it has no attribute",
     note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around a variational method, and by `Rattle`"
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
+    note = "systems with `impact = …` are stepped by `Impacts` around a variational method"
 )]
 pub trait RegularLagrangian<T: Scalar = f64>: NondegenerateLagrangian<T> + System<Kind = Regular> {}
 

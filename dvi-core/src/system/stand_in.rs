@@ -4,7 +4,8 @@
 use super::{
     AffineOneForm, ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian,
     Lagrangian, NondegenerateLagrangian, Nonholonomic, NonholonomicLagrangian, ProperlyDegenerate,
-    QuadraticInVelocity, Regular, RegularLagrangian, Separable, System, Weights,
+    QuadraticInVelocity, Regular, RegularLagrangian, Separable, System, Unilateral, UnilateralLagrangian,
+    Weights,
 };
 use crate::{Scalar, Sink};
 
@@ -103,6 +104,13 @@ impl<S: StandIn + ConstrainedSystem + System<Kind = Holonomic>, T: Scalar> Holon
     fn constraint_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: &mut [T], _: &mut K) {}
     fn constraint_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
     fn constraint_curvature(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+}
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn + ConstrainedSystem + System<Kind = Unilateral>, T: Scalar> UnilateralLagrangian<T> for S {
+    fn gap(&self, _: &[T], _: T, _: &mut [T]) {}
+    fn gap_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: &mut [T], _: &mut K) {}
+    fn gap_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
 }
 
 #[diagnostic::do_not_recommend]

@@ -2,7 +2,11 @@
 
 mod accelerations;
 mod barnes;
+mod beam;
+mod billiard;
+mod bounces;
 mod chaotic;
+mod disc;
 mod double_pendulum;
 mod energy;
 mod energy_momentum;
@@ -30,6 +34,7 @@ mod round_off;
 mod schroedinger;
 mod sections;
 mod sphere_vortices;
+mod spring_chain;
 mod stability;
 mod symmetry;
 mod tabulated_field;
@@ -59,6 +64,11 @@ pub const ALL: &[Experiment] = &[
     energy_momentum::EXPERIMENT,
     links::EXPERIMENT,
     molecules::EXPERIMENT,
+    disc::EXPERIMENT,
+    spring_chain::EXPERIMENT,
+    beam::EXPERIMENT,
+    bounces::EXPERIMENT,
+    billiard::EXPERIMENT,
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,

@@ -1,5 +1,9 @@
 //! The systems of the gallery and the initial data of the papers.
 
+mod beam;
+mod billiard;
+mod bouncer;
+mod disc;
 mod double_pendulum;
 mod drift;
 mod field_lines;
@@ -12,10 +16,15 @@ mod oscillators;
 mod predators;
 mod sphere;
 mod spring;
+mod spring_chain;
 mod tabulated;
 mod tokamak;
 mod vortices;
 
+pub use beam::*;
+pub use billiard::*;
+pub use bouncer::*;
+pub use disc::*;
 pub use double_pendulum::*;
 pub use drift::*;
 pub use field_lines::*;
@@ -28,6 +37,7 @@ pub use oscillators::*;
 pub use predators::*;
 pub use sphere::*;
 pub use spring::*;
+pub use spring_chain::*;
 pub use tabulated::*;
 pub use tokamak::*;
 pub use vortices::*;

@@ -9,6 +9,7 @@ use crate::emit::{Emitter, constraint_members, first_constraint, local};
 use crate::program::Constraints;
 use crate::routine::Routine;
 use crate::symbolic::Index;
+use crate::syntax::Constrained;
 
 impl Emitter<'_> {
     /// Sets g, or a in its place, to zero and cuts it into one slice for each declared constraint.
@@ -54,12 +55,13 @@ impl Emitter<'_> {
     }
 }
 
-/// The implementations of `ConstrainedSystem` and of `HolonomicLagrangian` or `NonholonomicLagrangian`.
+/// The implementations of `ConstrainedSystem` and of `HolonomicLagrangian`, `NonholonomicLagrangian` or `UnilateralLagrangian`.
 pub(super) fn constraints(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let system = system(emitter, constraints);
-    let lagrangian = match &constraints.curvature {
-        Some(curvature) => holonomic(emitter, constraints, curvature),
-        None => nonholonomic(emitter, constraints),
+    let lagrangian = match (constraints.of, &constraints.curvature) {
+        (Constrained::Gaps, _) => unilateral(emitter, constraints),
+        (_, Some(curvature)) => holonomic(emitter, constraints, curvature),
+        (_, None) => nonholonomic(emitter, constraints),
     };
     quote!(#system #lagrangian)
 }
@@ -126,4 +128,24 @@ fn nonholonomic(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream
         fn velocity_constraint_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
     };
     in_numbers(emitter, &quote!(NonholonomicLagrangian), &items)
+}
+
+fn unilateral(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+    let krate = emitter.krate();
+    let [value, rate] =
+        [&constraints.value, &constraints.rate].map(|routine| emitter.for_constraints(constraints, routine));
+    let jacobian = emitter.constraint_jacobian(constraints);
+    let items = quote! {
+        #[inline]
+        fn gap(&self, __q: &[__T], __t: __T, __g: &mut [__T]) { #value }
+        #[inline]
+        fn gap_jacobian<__K: #krate::Sink<__T>>(
+            &self, __q: &[__T], __t: __T, __g: &mut [__T], __sink: &mut __K,
+        ) {
+            #jacobian
+        }
+        #[inline]
+        fn gap_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
+    };
+    in_numbers(emitter, &quote!(UnilateralLagrangian), &items)
 }

@@ -10,6 +10,7 @@ use crate::program::{Output, Place, Programs, Row, Statement, Variable, variable
 use crate::symbolic::{
     Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops, print_velocity,
 };
+use crate::syntax::Constrained;
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
     print_expr(emitter.graph, expr, 0, emitter.model)
@@ -83,7 +84,7 @@ impl Account {
         let (letter, model) = (constraints.of.letter(), emitter.model);
         for statement in &constraints.value.statements {
             let Place::Constraint(row) = &statement.place else { continue };
-            let name = format!("constraint {letter}[{}]", number(row));
+            let name = format!("{} {letter}[{}]", constraints.of.nouns()[0], number(row));
             self.formulas.push((name, in_loops(emitter, statement)));
         }
         for (variable, statement) in &constraints.derivatives {
@@ -95,14 +96,19 @@ impl Account {
             self.formulas.push((format!("∂{letter}[{}]/∂{by}", number(row)), in_loops(emitter, statement)));
         }
         let count = constraints.lengths.iter().fold(Index::default(), |sum, length| sum.plus(length, 1));
-        let noun = if count.as_literal() == Some(1) { "constraint" } else { "constraints" };
+        let nouns = constraints.of.nouns();
+        let noun = if count.as_literal() == Some(1) { nouns[0] } else { nouns[1] };
         // A range that ends before it begins has no members, which the sum of the lengths does not show.
         let may_end_early = constraints.lengths.iter().any(|length| !length.is_natural());
         let condition =
             if may_end_early && constraints.lengths.len() > 1 { ", where no range is empty" } else { "" };
         let count = print_index(&count, emitter.model);
-        let (adjective, function) = (constraints.of.adjective(), constraints.of.function());
-        self.sentence(format!("{count} {adjective} {noun} {function} = 0{condition}."));
+        let adjective = match constraints.of {
+            Constrained::Positions | Constrained::Velocities => format!("{} ", constraints.of.adjective()),
+            Constrained::Gaps => String::new(),
+        };
+        let (function, relation) = (constraints.of.function(), constraints.of.relation());
+        self.sentence(format!("{count} {adjective}{noun} {function} {relation}{condition}."));
     }
 
     pub(super) fn report(&self, emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {

@@ -265,6 +265,12 @@ impl Lowering<'_> {
                 self.errors.push(call, message);
                 return None;
             }
+            Role::Constraint(Constrained::Gaps) => {
+                let message = "a gap has no velocities: it is a function g(q, t) of the positions and the time, which no motion makes \
+                               negative";
+                self.errors.push(call, message);
+                return None;
+            }
             role => {
                 let advice = match role {
                     Role::Force => {

@@ -1,4 +1,4 @@
-//! Constraints of the positions or of the velocities, single ones and families over an index.
+//! Constraints of the positions or of the velocities, and gaps, single ones and families over an index.
 
 use syn::Expr as Syntax;
 
@@ -20,8 +20,10 @@ impl Lowering<'_> {
             declared.iter().map(|one| self.constraint(of, one)).collect();
         let constraints: Vec<Constraint> = constraints.into_iter().collect::<Option<_>>()?;
         let formulas: Vec<&Syntax> = declared.iter().map(|one| &one.formula).collect();
-        self.are_different(&constraints, &formulas);
-        self.leave_room(&constraints, &formulas);
+        self.are_different(of, &constraints, &formulas);
+        if of != Constrained::Gaps {
+            self.leave_room(&constraints, &formulas);
+        }
         Some(constraints)
     }
 
@@ -45,8 +47,9 @@ impl Lowering<'_> {
         let (lower, upper) = self.range(range)?;
         if !uses(formula, index) {
             let message = format!(
-                "the index `{index}` stands nowhere in this formula, so that all constraints of the family are the same: \
-                 write `{} = …` for one",
+                "the index `{index}` stands nowhere in this formula, so that all {} of the family are the same: write `{} = …` for \
+                 one",
+                of.nouns()[1],
                 of.word()
             );
             self.errors.push(index, message);
@@ -58,13 +61,20 @@ impl Lowering<'_> {
     }
 
     /// Reports a constraint that stands there before, up to a factor.
-    fn are_different(&mut self, constraints: &[Constraint], formulas: &[&Syntax]) {
+    fn are_different(&mut self, of: Constrained, constraints: &[Constraint], formulas: &[&Syntax]) {
         for (number, one) in constraints.iter().enumerate() {
             let is_same = |known: &Constraint| {
                 known.over == one.over && are_multiples(self.graph, known.value.node, one.value.node)
             };
             if constraints[..number].iter().any(is_same) {
-                let message = "this constraint is declared twice, up to a factor: the multipliers of the two would not be determined";
+                let message = match of {
+                    Constrained::Positions | Constrained::Velocities => {
+                        "this constraint is declared twice, up to a factor: the multipliers of the two would not be determined"
+                    }
+                    Constrained::Gaps => {
+                        "this gap is declared twice, up to a factor: it would be two surfaces at one place, or leave no room between them"
+                    }
+                };
                 self.errors.push(formulas[number], message);
             }
         }
@@ -96,13 +106,17 @@ impl Lowering<'_> {
     /// Reports a constraint that leaves all positions free, or all velocities.
     fn constrains(&mut self, of: Constrained, formula: &Syntax, value: Expr) -> Option<()> {
         let is_constrained = |node: &Node| match of {
-            Constrained::Positions => matches!(node, Node::Coordinate(_)),
+            Constrained::Positions | Constrained::Gaps => matches!(node, Node::Coordinate(_)),
             Constrained::Velocities => matches!(node, Node::Velocity(_)),
         };
         if self.graph.depends(value.node, is_constrained) {
             return Some(());
         }
         let message = match of {
+            Constrained::Gaps => {
+                "no coordinate stands in this gap, so that no motion closes it: write a function of the coordinates that is zero on the \
+                 surface and positive where the motion is"
+            }
             Constrained::Positions => {
                 "no coordinate stands in this constraint, so that there is nothing to constrain: write a function of the \
                  coordinates that is to be zero"

@@ -110,7 +110,7 @@ impl Lowering<'_> {
             | Role::Force
             | Role::Momentum => return None,
             Role::Constraint(Constrained::Velocities) => "dot",
-            Role::Constraint(Constrained::Positions) => "",
+            Role::Constraint(Constrained::Positions | Constrained::Gaps) => "",
         };
         let block = self.model.blocks.iter().find(|block| {
             let (dot, of) = (velocity_name(&block.name), &block.name);
@@ -119,6 +119,9 @@ impl Lowering<'_> {
         })?;
         let entry = if block.array.is_some() { "[j]" } else { "" };
         Some(match written {
+            "" if self.role == Role::Constraint(Constrained::Gaps) => {
+                "a gap is a function of the positions and the time, without velocities".to_string()
+            }
             "" => "a holonomic constraint has no velocities; one of the velocities is declared by `nonholonomic = …`"
                 .to_string(),
             "d" => format!("the differential of `{0}` is written `d({0}{entry})`", block.name),

@@ -369,17 +369,26 @@ impl<'a> Comparison<'a> {
         if self.system.constrained == Constrained::Velocities {
             return self.velocity_constraints(expected, random, &before, &matrix);
         }
-        let (_, slices) = self.call().slice(q).real(*t).slice(&before).run("constraint")?;
-        self.same_vector("constraint", &slices[1], |k| constraints[k].value)?;
+        let [value, jacobian, rate] = match self.system.constrained {
+            Constrained::Gaps => ["gap", "gap_jacobian", "gap_rate"],
+            Constrained::Positions | Constrained::Velocities => {
+                ["constraint", "constraint_jacobian", "constraint_rate"]
+            }
+        };
+        let (_, slices) = self.call().slice(q).real(*t).slice(&before).run(value)?;
+        self.same_vector(value, &slices[1], |k| constraints[k].value)?;
 
         let call = self.call().slice(q).real(*t).slice(&before).slice(&matrix);
-        let (_, slices) = call.run("constraint_jacobian")?;
-        self.same_vector("constraint_jacobian, g", &slices[1], |k| constraints[k].value)?;
-        self.same_rows("constraint_jacobian", &slices[2], &matrix, constraints, |constraint, column| {
+        let (_, slices) = call.run(jacobian)?;
+        self.same_vector(jacobian, &slices[1], |k| constraints[k].value)?;
+        self.same_rows(jacobian, &slices[2], &matrix, constraints, |constraint, column| {
             constraint.gradient(column)
         })?;
 
-        self.constraint_rate(expected, "constraint_rate", &before)?;
+        self.constraint_rate(expected, rate, &before)?;
+        if self.system.constrained == Constrained::Gaps {
+            return Ok(());
+        }
         let along = |i: usize| Sized::new(if i < n { v[i] } else { 1.0 });
         let variables = || (0..n).chain([2 * n]);
         let call = self.call().slice(q).slice(v).real(*t).slice(&before);

@@ -66,6 +66,8 @@ const EXPECTED: &[&str] = &[
     "no coordinate stands in this constraint",
     "no velocity `dot(x)` stands in this constraint, or none is left",
     "this constraint is declared twice, up to a factor",
+    "no coordinate stands in this gap",
+    "this gap is declared twice, up to a factor",
     "cannot be independent of each other",
     // It may come out as a constant.
     "a time transformation is positive",

@@ -54,9 +54,11 @@ pub(super) fn system(random: &mut Random) -> System {
         generator.system.momenta.push(momentum);
     }
     if regular && generator.random.chance(30) {
-        if generator.random.chance(35) {
-            generator.system.constrained = Constrained::Velocities;
-        }
+        generator.system.constrained = match generator.random.below(3) {
+            0 => Constrained::Velocities,
+            1 => Constrained::Gaps,
+            _ => Constrained::Positions,
+        };
         generator.velocities = Velocities::None;
         generator.system.constraints = generator.constraints();
     }
@@ -139,7 +141,7 @@ impl Generator<'_> {
         let block = self.random.below(self.system.blocks.len());
         let index = self.system.blocks[block].size.map(|size| self.index(&scope, size));
         let variable = match self.system.constrained {
-            Constrained::Positions => Formula::Coordinate(block, index),
+            Constrained::Positions | Constrained::Gaps => Formula::Coordinate(block, index),
             Constrained::Velocities => Formula::Velocity(block, index),
         };
         let variable = match range {
@@ -149,7 +151,7 @@ impl Generator<'_> {
         let is_sum = self.random.chance(70);
         let value = match self.system.constrained {
             Constrained::Velocities if is_sum => self.affine(&scope, 4),
-            Constrained::Positions | Constrained::Velocities => self.value(&scope, 4),
+            Constrained::Positions | Constrained::Velocities | Constrained::Gaps => self.value(&scope, 4),
         };
         let formula = if is_sum { value.plus(variable) } else { variable.times(value) };
         Constraint { range, formula }

@@ -5,6 +5,7 @@ use super::compare::{Difference, Expected};
 use super::jet::Sized;
 use super::rust::Expansion;
 use super::system::System;
+use crate::syntax::Constrained;
 
 /// Each constant as it is declared, and as the numbers allow it.
 pub(super) type Claims = Vec<(&'static str, bool, bool)>;
@@ -29,7 +30,7 @@ pub(super) fn hold(
     let n = system.dimension();
     let numbers = if system.is_regular() { regular(n, points) } else { degenerate(n, conjugates, points) };
     let mut claims = Claims::new();
-    for (name, possible) in numbers.into_iter().chain([("AUTONOMOUS", autonomous(n, points))]) {
+    for (name, possible) in numbers.into_iter().chain([("AUTONOMOUS", autonomous(system, n, points))]) {
         let declared = expansion.constants[name];
         if declared && !possible {
             let q: Vec<&Vec<f64>> = points.iter().map(|expected| &expected.point.q).collect();
@@ -50,12 +51,16 @@ fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
     (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)))
 }
 
-/// Whether neither L nor a force nor a constraint changes with the time, and ∂L/∂v does not.
-fn autonomous(n: usize, points: &[Expected]) -> bool {
+/// Whether neither L nor a force nor a constraint changes with the time, and ∂L/∂v does not; gaps may.
+fn autonomous(system: &System, n: usize, points: &[Expected]) -> bool {
+    let constraints = |at: &Expected| match system.constrained {
+        Constrained::Gaps => Vec::new(),
+        Constrained::Positions | Constrained::Velocities => at.constraints.clone(),
+    };
     points.iter().all(|at| {
         is_zero(at.lagrangian.gradient(2 * n))
             && (0..2 * n).all(|i| is_zero(at.lagrangian.hessian(i, 2 * n)))
-            && at.forces.iter().chain(&at.constraints).all(|value| is_zero(value.gradient(2 * n)))
+            && at.forces.iter().chain(&constraints(at)).all(|value| is_zero(value.gradient(2 * n)))
     })
 }
 

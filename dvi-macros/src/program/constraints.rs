@@ -1,5 +1,5 @@
-//! Constraints of the positions, g(q, t) = 0, or of the velocities, a(q, v, t) = 0: their values, their derivatives, and how they
-//! change along a motion.
+//! Constraints of the positions, g(q, t) = 0, or of the velocities, a(q, v, t) = 0, or gaps, g(q, t) ≥ 0: their values, their
+//! derivatives, and how they change along a motion.
 
 use super::{Place, Statement, Variable, variable};
 use crate::routine::Routine;
@@ -78,7 +78,7 @@ impl Constraints {
         let mut jacobian = values.clone();
         for (variable, statement) in &derivatives {
             let value = match of {
-                Constrained::Positions => statement.value,
+                Constrained::Positions | Constrained::Gaps => statement.value,
                 Constrained::Velocities => weighted(graph, *variable, statement.value),
             };
             jacobian.push(Statement { value, ..statement.clone() });

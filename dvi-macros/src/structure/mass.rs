@@ -157,7 +157,7 @@ impl MassMatrix {
             (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
         };
         let step = match (self.separable, self.diagonal) {
-            _ if constrained.is_some() => {
+            _ if matches!(constrained, Some(Constrained::Positions | Constrained::Velocities)) => {
                 "A step solves for the Lagrange multipliers λ, one for each constraint."
             }
             (true, true) => {
@@ -179,6 +179,8 @@ impl MassMatrix {
         let begin = match (constrained, self.separable) {
             (None, true) => "Begin with `Variational::trapezoid()`.",
             (None, false) => "Begin with `Variational::midpoint()`.",
+            (Some(Constrained::Gaps), true) => "Begin with `Impacts` around `Variational::trapezoid()`.",
+            (Some(Constrained::Gaps), false) => "Begin with `Impacts` around `Variational::midpoint()`.",
             (Some(Constrained::Positions), true) => "Begin with `Rattle`.",
             (Some(Constrained::Positions), false) | (Some(Constrained::Velocities), _) => {
                 "Begin with `Constrained` around `Variational::midpoint()`."

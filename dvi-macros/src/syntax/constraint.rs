@@ -1,4 +1,5 @@
-//! Constraints of the positions, g(q, t) = 0, and of the velocities, a(q, v, t) = 0, as they are declared.
+//! Constraints as they are declared: of the positions, g(q, t) = 0, of the velocities, a(q, v, t) = 0, and the gaps of impacts,
+//! g(q, t) ≥ 0.
 
 use proc_macro2::Ident;
 use quote::ToTokens;
@@ -15,6 +16,8 @@ pub(crate) enum Constrained {
     Positions,
     /// `nonholonomic`: a(q, v, t) = A(q, t) v + b(q, t) = 0.
     Velocities,
+    /// `impact`: g(q, t) ≥ 0.
+    Gaps,
 }
 
 /// Words for what is a constraint.
@@ -45,7 +48,26 @@ const VELOCITY_CONSTRAINTS: [&str; 10] = [
     "without_slip",
 ];
 
-/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`; or the same by `nonholonomic`.
+/// Words for what the motion is not to pass.
+const IMPACTS: [&str; 14] = [
+    "barrier",
+    "bounce",
+    "boundary",
+    "collision",
+    "collisions",
+    "contact",
+    "floor",
+    "gap",
+    "impacts",
+    "inequality",
+    "obstacle",
+    "unilateral",
+    "wall",
+    "walls",
+];
+
+/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`; or the same by `nonholonomic` or
+/// `impact`.
 #[derive(Debug)]
 pub(crate) struct Constraint {
     pub(crate) family: Option<Family>,
@@ -60,14 +82,15 @@ pub(crate) struct Family {
 }
 
 impl Constrained {
-    const ALL: [Self; 2] = [Self::Positions, Self::Velocities];
+    const ALL: [Self; 3] = [Self::Positions, Self::Velocities, Self::Gaps];
 
     /// What is constrained by an argument of this name, or of one like it.
     pub(super) fn named_like(name: &str) -> Option<Self> {
         let declares = |of: &Self| {
-            let others = match of {
-                Self::Positions => CONSTRAINTS,
-                Self::Velocities => VELOCITY_CONSTRAINTS,
+            let others: &[&str] = match of {
+                Self::Positions => &CONSTRAINTS,
+                Self::Velocities => &VELOCITY_CONSTRAINTS,
+                Self::Gaps => &IMPACTS,
             };
             name == of.word() || others.contains(&name)
         };
@@ -84,6 +107,7 @@ impl Constrained {
         match self {
             Self::Positions => "constraint",
             Self::Velocities => "nonholonomic",
+            Self::Gaps => "impact",
         }
     }
 
@@ -92,13 +116,14 @@ impl Constrained {
         match self {
             Self::Positions => "holonomic",
             Self::Velocities => "nonholonomic",
+            Self::Gaps => "unilateral",
         }
     }
 
-    /// The function that is zero.
+    /// The function that is zero, or not negative.
     pub(crate) fn letter(self) -> &'static str {
         match self {
-            Self::Positions => "g",
+            Self::Positions | Self::Gaps => "g",
             Self::Velocities => "a",
         }
     }
@@ -106,8 +131,33 @@ impl Constrained {
     /// That function of its variables.
     pub(crate) fn function(self) -> &'static str {
         match self {
-            Self::Positions => "g(q, t)",
+            Self::Positions | Self::Gaps => "g(q, t)",
             Self::Velocities => "a(q, v, t)",
+        }
+    }
+
+    /// What it is to be.
+    pub(crate) fn relation(self) -> &'static str {
+        match self {
+            Self::Positions | Self::Velocities => "= 0",
+            Self::Gaps => "≥ 0",
+        }
+    }
+
+    /// What one of them is, and several.
+    pub(crate) fn nouns(self) -> [&'static str; 2] {
+        match self {
+            Self::Positions | Self::Velocities => ["constraint", "constraints"],
+            Self::Gaps => ["gap function", "gap functions"],
+        }
+    }
+
+    /// Several of them, with their adjective.
+    fn plural(self) -> &'static str {
+        match self {
+            Self::Positions => "holonomic constraints",
+            Self::Velocities => "nonholonomic constraints",
+            Self::Gaps => "impacts",
         }
     }
 
@@ -134,32 +184,49 @@ impl Attribute {
                 Constrained::Velocities => {
                     "the velocities of a degenerate one are what its equations of motion make of the positions"
                 }
+                Constrained::Gaps => {
+                    "a degenerate one has no momentum of its own that could jump at a surface"
+                }
             };
-            let (adjective, regular) = (of.adjective(), Kind::Regular.attribute());
-            let message =
-                format!("{adjective} constraints are for regular systems, in `{regular}`: {reason}");
+            let (what, regular) = (of.plural(), Kind::Regular.attribute());
+            let message = format!("{what} are for regular systems, in `{regular}`: {reason}");
             errors.push_once("constraints", name, message);
             return;
         }
         let (word, function, letter) = (of.word(), of.function(), of.letter());
         let before = *self.constrained.get_or_insert(of);
         if name != word {
+            let what = match of {
+                Constrained::Positions => "a constraint",
+                Constrained::Velocities => "a constraint of the velocities",
+                Constrained::Gaps => "a surface of impacts, which the motion does not pass,",
+            };
             let message = format!(
-                "unknown argument `{name}`; a constraint{} is written `{word} = {function}`, and more of them \
+                "unknown argument `{name}`; {what} is written `{word} = {function}`, and more of them \
                  `{word} = [{letter}1, {letter}2]`, or {}",
-                if of == Constrained::Velocities { " of the velocities" } else { "" },
                 of.family()
             );
             errors.push(name, message);
             return;
         }
         if before != of {
-            let message = format!(
-                "a system has constraints of one kind, and those before this one are declared by `{}`: choose the coordinates \
-                 so that the constraints of the positions hold, or declare their rates of change by `{} = …` too",
-                before.word(),
-                Constrained::Velocities.word()
-            );
+            let advice = match (before, of) {
+                (Constrained::Gaps, _) | (_, Constrained::Gaps) => {
+                    "choose the coordinates so that the constraints hold".to_string()
+                }
+                (Constrained::Positions | Constrained::Velocities, _) => format!(
+                    "choose the coordinates so that the constraints of the positions hold, or declare their rates of change by \
+                     `{} = …` too",
+                    Constrained::Velocities.word()
+                ),
+            };
+            let what = match of {
+                Constrained::Gaps => "a system has either constraints or impacts",
+                _ if before == Constrained::Gaps => "a system has either constraints or impacts",
+                Constrained::Positions | Constrained::Velocities => "a system has constraints of one kind",
+            };
+            let message =
+                format!("{what}, and those before this one are declared by `{}`: {advice}", before.word());
             errors.push_once("constraints of two kinds", name, message);
             return;
         }
@@ -172,7 +239,7 @@ impl Attribute {
             }
             Value::AssignedTo { of: index, value, parentheses } => {
                 let family = if index.is_empty() {
-                    let message = format!("a family of constraints is written {}", of.family());
+                    let message = format!("a family of {} is written {}", of.nouns()[1], of.family());
                     Err(syn::Error::new(parentheses, message))
                 } else {
                     read_by(index, |input| Family::parse(input, of))
@@ -193,13 +260,14 @@ impl Attribute {
 impl Family {
     pub(super) fn parse(input: ParseStream<'_>, of: Constrained) -> syn::Result<Self> {
         let (form, word, function) = (of.family(), of.word(), of.function());
-        let advice = format!("a family of constraints is written {form}");
+        let advice = format!("a family of {} is written {form}", of.nouns()[1]);
         let at = input.span();
         let index: Ident = input.parse().map_err(|_| syn::Error::new(at, &advice))?;
         if input.is_empty() {
             let message = format!(
-                "a constraint holds for the whole system, not for `{index}` alone: write `{word} = {function}`; one for \
-                 each value of an index is {form}"
+                "a {} is one of the whole system, not of `{index}` alone: write `{word} = {function}`; one for each value of an index \
+                 is {form}",
+                of.nouns()[0]
             );
             return Err(syn::Error::new(index.span(), message));
         }
@@ -209,7 +277,7 @@ impl Family {
         input.parse::<Token![in]>()?;
         let range = input.parse()?;
         if !input.is_empty() {
-            return Err(input.error(format!("a family of constraints has one index, {form}")));
+            return Err(input.error(format!("a family of {} has one index, {form}", of.nouns()[1])));
         }
         Ok(Self { index, range })
     }
@@ -222,7 +290,8 @@ impl Constraint {
             Expr::Array(list) if list.elems.is_empty() => {
                 let (word, letter) = (of.word(), of.letter());
                 let message = format!(
-                    "there is no constraint in this list: write `{word} = [{letter}1, {letter}2]`, or leave it out"
+                    "there is no {} in this list: write `{word} = [{letter}1, {letter}2]`, or leave it out",
+                    of.nouns()[0]
                 );
                 vec![Err(syn::Error::new_spanned(list, message))]
             }
@@ -241,10 +310,21 @@ impl Constraint {
                 refused(&equation.eq_token, one_side(of, &family, &equation.left, &equation.right))
             }
             Expr::Binary(binary) => match binary.op {
+                BinOp::Ge(_) | BinOp::Gt(_) if of == Constrained::Gaps => {
+                    refused(&binary.op, one_side(of, &family, &binary.left, &binary.right))
+                }
+                BinOp::Le(_) | BinOp::Lt(_) if of == Constrained::Gaps => {
+                    refused(&binary.op, one_side(of, &family, &binary.right, &binary.left))
+                }
                 BinOp::Eq(_) => refused(&binary.op, one_side(of, &family, &binary.left, &binary.right)),
+                BinOp::Ne(_) if of == Constrained::Gaps => {
+                    let message = "of the condition g(q, t) ≥ 0 of a surface, g is written: `impact = g`";
+                    refused(&binary.op, message.to_string())
+                }
                 BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) | BinOp::Ne(_) => {
                     let message = format!(
-                        "a {} constraint is an equation {} = 0, of which {} is written: no inequality is one",
+                        "a {} constraint is an equation {} = 0, of which {} is written: no inequality is one; that a motion does not \
+                         pass a surface is written `impact = g(q, t)`",
                         of.adjective(),
                         of.function(),
                         of.letter()
@@ -255,14 +335,15 @@ impl Constraint {
             },
             Expr::Closure(closure) => refused(
                 closure,
-                format!("one constraint for each value of an index is written {}", of.family()),
+                format!("one {} for each value of an index is written {}", of.nouns()[0], of.family()),
             ),
             Expr::Array(list) => {
                 let message = match family {
-                    Some(_) => "a family of constraints has one formula: write a family for each of these",
-                    None => "a list of constraints holds formulas: write them without these brackets",
+                    Some(_) => "has one formula: write a family for each of these",
+                    None => "holds formulas: write them without these brackets",
                 };
-                refused(list, message.to_string())
+                let what = if family.is_some() { "family" } else { "list" };
+                refused(list, format!("a {what} of {} {message}", of.nouns()[1]))
             }
             _ => Ok(Self { family, formula }),
         }
@@ -292,9 +373,13 @@ fn one_side(of: Constrained, family: &Option<Family>, left: &Expr, right: &Expr)
         }
         right => format!("{left} - {}", text(right)),
     };
-    let (function, letter) = (of.function(), of.letter());
+    let (function, letter, relation) = (of.function(), of.letter(), of.relation());
+    let what = match of {
+        Constrained::Positions | Constrained::Velocities => "a constraint",
+        Constrained::Gaps => "a surface that the motion does not pass",
+    };
     format!(
-        "a constraint is {function} = 0, of which {letter} is written: bring all to one side, `{head} = {all}`"
+        "{what} is {function} {relation}, of which {letter} is written: bring all to one side, `{head} = {all}`"
     )
 }
 

@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::program::{self, DegeneratePrograms, Programs, RegularPrograms};
 use crate::routine::Routine;
 use crate::symbolic::{Graph, Index, Weight};
-use crate::syntax::{Attribute, Kind};
+use crate::syntax::{Attribute, Constrained, Kind};
 
 /// The formulas as written, with what their names stand for.
 #[derive(Clone, Copy)]
@@ -416,15 +416,21 @@ impl Functions<'_> {
             let along = |routine: &Routine| machine.run(routine).constraints;
             let (value, rate) = (along(&constraints.value), along(&constraints.rate));
             let jacobian = machine.run(&constraints.jacobian);
-            match &constraints.curvature {
-                Some(curvature) => {
+            match (constraints.of, &constraints.curvature) {
+                (Constrained::Gaps, _) => {
+                    add("gap", Quantity::Constraint, value);
+                    add("gap_jacobian", Quantity::Constraint, jacobian.constraints);
+                    add("gap_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
+                    add("gap_rate", Quantity::ConstraintRate, rate);
+                }
+                (_, Some(curvature)) => {
                     add("constraint", Quantity::Constraint, value);
                     add("constraint_jacobian", Quantity::Constraint, jacobian.constraints);
                     add("constraint_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
                     add("constraint_rate", Quantity::ConstraintRate, rate);
                     add("constraint_curvature", Quantity::ConstraintCurvature, along(curvature));
                 }
-                None => {
+                (_, None) => {
                     let function = "velocity_constraint_jacobian";
                     add("velocity_constraint", Quantity::VelocityConstraint, value);
                     add(function, Quantity::VelocityConstraint, jacobian.constraints);

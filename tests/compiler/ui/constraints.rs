@@ -554,6 +554,9 @@ mod without_constraints {
         let _ = Integrator::new(&Pendulum, RungeKutta::classical(), 0.1, start());
         let _ = Integrator::new(&Pendulum, Newmark::new(0.25), 0.1, start());
         let _ = Integrator::new(&Pendulum, Sigma::midpoint(), 0.1, start());
+        // Its limit would not be watched.
+        let limited = EnergyLimit { method: Variational::midpoint(), limit: 1e-6 };
+        let _ = Integrator::new(&Pendulum, Constrained::new(limited), 0.1, start());
     }
 }
 

@@ -1,7 +1,9 @@
 //! The same unfriendliness for systems with constraints.
 
 use dvi_core::space::sink::Dense;
-use dvi_core::{ConstrainedSystem, HolonomicLagrangian, NonholonomicLagrangian, Space, System};
+use dvi_core::{
+    ConstrainedSystem, HolonomicLagrangian, NonholonomicLagrangian, Space, System, UnilateralLagrangian,
+};
 
 /// Fields and indices with the names of what generated code might use.
 mod names {
@@ -84,6 +86,21 @@ mod shadowed {
         pub(super) g0: f64,
         pub(super) sink: f64,
     }
+
+    trait UnilateralLagrangian {}
+
+    /// One with impacts, likewise.
+    #[::dvi_core::lagrangian(
+        coordinates(q[weights.len()], impact),
+        lagrangian = sum(0..weights.len(), |v| dot(q[v]).powi(2)) + dot(impact).powi(2),
+        impact(v in 0..weights.len()) = weights[v] * q[v] - g0 * impact,
+        impact = impact * impact - sink * t,
+    )]
+    pub struct Walled {
+        pub(super) weights: ::std::vec::Vec<f64>,
+        pub(super) g0: f64,
+        pub(super) sink: f64,
+    }
 }
 
 /// dg/dt where all coordinates are one half and all velocities one quarter.
@@ -114,4 +131,20 @@ fn systems_with_constraints_of_velocities_and_unfriendly_names_work() {
     rolling.velocity_constraint_jacobian(&q, &v, 0.0, weights, &mut a, &mut Dense::new(&mut jacobian, 3));
     assert_eq!(a, [-0.5, -0.25, -4.875]);
     assert_eq!(jacobian, [18.0, 0.0, -2.0, 0.0, 28.0, -2.0, 0.0, 0.0, 5.25]);
+}
+
+#[test]
+fn systems_with_impacts_and_unfriendly_names_work() {
+    let walled = shadowed::Walled { weights: vec![2.0, 3.0], g0: 4.0, sink: 5.0 };
+    assert!(walled.check().is_ok());
+    let (m, q, v, t) = (walled.multipliers().dimension(), [0.5; 3], [0.25; 3], 1.0);
+    let (mut gap, mut rate, mut jacobian) = (vec![f64::NAN; m], vec![f64::NAN; m], vec![0.0; 3 * m]);
+    walled.gap_jacobian(&q, t, &mut gap, &mut Dense::new(&mut jacobian, 3));
+    walled.gap_rate(&q, &v, t, &mut rate);
+    assert_eq!(gap, [-1.0, -0.5, -4.75]);
+    assert_eq!(rate, [-0.5, -0.25, -4.75]);
+    assert_eq!(jacobian, [2.0, 0.0, -4.0, 0.0, 3.0, -4.0, 0.0, 0.0, 1.0]);
+    let mut again = vec![f64::NAN; m];
+    walled.gap(&q, t, &mut again);
+    assert_eq!(again, gap);
 }

@@ -1,6 +1,8 @@
 //! Whether a state is on the constraints, and the state on them that is near another one.
 
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::constraints::residuals::ROUNDINGS;
+use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{
     At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, OfVelocity,
 };
@@ -12,9 +14,6 @@ use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
 use crate::system::start::{evaluate, flatten, validate};
 use crate::{Real, Scalar, Space, State, Vector};
-
-/// A start may be off the constraints by so many rounding errors.
-const ROUNDINGS: f64 = 1e4;
 
 /// ∂²L/∂v∂v as A, and b = 0: the solution is the shortest change in the metric of the mass matrix.
 struct Shortest<'a, S, T>(legendre::Equations<'a, S, T>);
@@ -81,8 +80,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfPosition<'_,
     }
 }
 
-/// The constraint that is farthest from being kept, of those that are off by more than rounding errors, and its value. Errors of
-/// rounding are those of the coordinates, `scale`, times the derivatives by them.
+/// The constraint of positions that is farthest from being kept, of those that are off by more than rounding errors, and its value.
+/// Errors of rounding are those of the coordinates, `scale`, times the derivatives by them.
 fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     mut of: impl LinearEquations<T>,
@@ -97,42 +96,76 @@ fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     let mut worst = None;
     for (constraint, (&value, &size)) in values.iter().zip(sizes.iter()).enumerate() {
         let (value, size) = (reported(value), reported(size));
-        if value.is_nan() {
-            return Ok(Some((constraint, value)));
-        }
-        let off = value.abs() / size;
-        let is_worse = worst.is_none_or(|(_, _, known)| off > known);
-        if value.abs() > rounding * size && is_worse {
+        let off = if value.is_nan() { f64::INFINITY } else { value.abs() / size };
+        if off > rounding && worst.is_none_or(|(_, _, known)| off > known) {
             worst = Some((constraint, value, off));
         }
     }
     Ok(worst.map(|(constraint, value, _)| (constraint, value)))
 }
 
-/// Whether a run with steps of length `h` can begin at (`q`, `v`, `t`).
+/// What velocities are rounded relative to besides themselves, where a run begins.
+#[derive(Clone, Copy)]
+pub(crate) enum Among<T> {
+    /// The velocities that forces give in a step of length h: what a run at rest leaves.
+    Steps(T),
+    /// The velocities that forces give on a way of the size of the coordinates.
+    States,
+}
+
+/// Whether a motion along the constraints leads through (`q`, `v`, `t`).
 ///
 /// # Errors
 /// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] with the constraint that is farthest from being kept, relative
-/// to its rounding errors.
+/// to its rounding errors; [`StartError::UndefinedConstraint`], and [`StartError::Outside`] where that is because a function that holds
+/// data is not known; [`StartError::Starter`] or [`StartError::Undetermined`] where a constraint is redundant.
 pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,
-    h: T,
+    among: Among<T>,
 ) -> Result<(), StartError> {
     let at = At { q, t };
+    let undefined = |constraint, value| {
+        let error = StartError::UndefinedConstraint { constraint, value };
+        Err(system.outside(q, v, t).map_or(error, StartError::Outside))
+    };
     if S::Kind::OF_POSITIONS {
         let off = worst(system, OfPosition { system, at }, |j| Scalar::abs(q[j]));
-        if let Some((constraint, value)) = off.map_err(StartError::Starter)? {
-            return Err(StartError::OffConstraint { constraint, value });
+        match off.map_err(StartError::Starter)? {
+            Some((constraint, value)) if value.is_finite() => {
+                return Err(StartError::OffConstraint { constraint, value });
+            }
+            Some((constraint, value)) => return undefined(constraint, value),
+            None => {}
         }
     }
-    // A velocity is rounded where it is small against those that move a coordinate by itself in a step.
-    let speed = |j: usize| Scalar::abs(v[j]) + Scalar::abs(q[j] / h);
-    let across = worst(system, OfVelocity { system, at, v }, speed).map_err(StartError::Starter)?;
-    match across {
-        None => Ok(()),
-        Some((constraint, rate)) => Err(StartError::AcrossConstraint { constraint, rate }),
+    let [mut sizes, mut force, mut momentum]: [Vector<S, T>; 3] =
+        core::array::from_fn(|_| system.space().vector());
+    scale_coordinates(system, [q, v], t, &mut sizes);
+    system.gradient(q, v, t, &mut force, &mut momentum);
+    for ((scale, &force), (&q, &v)) in sizes.iter_mut().zip(force.iter()).zip(q.iter().zip(v)) {
+        let acceleration = Scalar::abs(force) * *scale * *scale;
+        let of_force = match among {
+            Among::Steps(h) => Scalar::abs(h) * acceleration,
+            Among::States => Scalar::sqrt(acceleration * Scalar::abs(q)),
+        };
+        *scale = Scalar::abs(v) + of_force;
+    }
+    // A redundant constraint is named by these equations.
+    let mut projection = Projection::new(system, q, v, t);
+    let determined = projection.of_velocity(q, v).map(|_| ());
+    let residuals = &mut projection.solver.residuals;
+    residuals.evaluate(system, at, v, |j| sizes[j]);
+    match residuals.worst(system, at, v) {
+        None => determined.map_err(|failure| match among {
+            Among::Steps(_) => StartError::Starter(failure),
+            Among::States => StartError::Undetermined(failure),
+        }),
+        Some((constraint, rate)) if rate.is_finite() => {
+            Err(StartError::AcrossConstraint { constraint, rate })
+        }
+        Some((constraint, value)) => undefined(constraint, value),
     }
 }
 
@@ -149,12 +182,38 @@ pub(crate) fn projected<S: ConstrainedLagrangian<T>, T: Real>(
     if S::Kind::OF_POSITIONS {
         move_to(&mut projection, &mut q, &v)?;
     }
-    // What vanishes is affine in v.
-    let change = projection.of_velocity(&q, &v).map_err(StartError::Starter)?;
-    for (v, &change) in v.iter_mut().zip(change) {
-        *v -= change;
-    }
+    align(&mut projection, &q, &mut v)?;
     Ok(S::State::read(|block| system.block_len(block), &q, &v))
+}
+
+/// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has taken away. Where little or
+/// nothing is left of a velocity they are large beside it, and each iteration leaves 10⁻¹⁶ of them.
+const ITERATIONS: usize = 40;
+
+/// Makes `v` a velocity that the constraints admit at `q`.
+fn align<S: ConstrainedLagrangian<T>, T: Real>(
+    projection: &mut Projection<'_, S, T>,
+    q: &[T],
+    v: &mut [T],
+) -> Result<(), StartError> {
+    let Projection { system, t, .. } = *projection;
+    let mut worst = None;
+    for iteration in 0..ITERATIONS {
+        let change = projection.of_velocity(q, v).map_err(StartError::Projection)?;
+        for (v, &change) in v.iter_mut().zip(change) {
+            *v -= change;
+        }
+        let residuals = &mut projection.solver.residuals;
+        residuals.evaluate(system, At { q, t }, v, |j| Scalar::abs(v[j]));
+        worst = residuals.worst(system, At { q, t }, v);
+        if iteration > 0 && worst.is_none() {
+            break;
+        }
+    }
+    match worst {
+        None => Ok(()),
+        Some((constraint, value)) => Err(StartError::Inconsistent { constraint, value }),
+    }
 }
 
 /// Moves q to the constraints.
@@ -177,9 +236,9 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
         Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. }) => {
             let Projection { system, t, .. } = *projection;
             let found = worst(system, OfPosition { system, at: At { q, t } }, |_| T::lift(0.0));
-            let (constraint, value) = found.map_err(StartError::Starter)?.unwrap_or((0, 0.0));
+            let (constraint, value) = found.map_err(StartError::Projection)?.unwrap_or((0, 0.0));
             Err(StartError::Inconsistent { constraint, value })
         }
-        Err(failure) => Err(StartError::Starter(failure)),
+        Err(failure) => Err(StartError::Projection(failure)),
     }
 }

@@ -1,31 +1,35 @@
 //! What solves the equations with multipliers, in units in which their matrix has entries of about one.
 //!
-//! A and G have units of their own, and so has each row of G. With D = 1/√|Mⱼⱼ|, S = 1/|GD| for each row of G where a run begins, and A
-//! of the size of M/α, what is solved are
+//! A and G have units of their own, and so has each row of G. With A of the size of M/α, what is solved are
 //!
 //! ```text
 //! ( α D A D   D GᵀS ) (   D⁻¹ x )   ( α D b )
 //! ( S G D       0   ) ( α S⁻¹ ν ) = (   S c )
 //! ```
+//!
+//! with the [`scales`](super::scales) D and S.
 
-use super::{Augmented, Bordered, ConstrainedLagrangian, Constraints, Multipliers, mass_matrix};
+use super::residuals::Residuals;
+use super::{At, Augmented, Bordered, ConstrainedLagrangian, Constraints, Multipliers, scales};
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
 use crate::mechanics::pattern::visit_second_derivatives;
-use crate::scalar::norm::{self, reported};
+use crate::scalar::norm;
 use crate::space::sink::{Places, Scaled};
 use crate::space::{LinearEquations, SquareMatrix};
 use crate::state::memory::{Memory, lasting};
-use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
+use crate::{ConstrainedSystem, Real, Space, Vector};
 
 /// What solves equations with multipliers on a system, with the storage that it needs.
 #[derive(Debug)]
 pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
     matrix: <S::Augmented as Space>::Square<T>,
     /// The last solution: x, then the change of ν.
-    solution: Augmented<S, T>,
+    pub(super) solution: Augmented<S, T>,
     /// D, then S.
     scales: Augmented<S, T>,
+    /// Of velocities.
+    pub(super) residuals: Residuals<S, T>,
 }
 
 /// In other units a run would be rounded in another way.
@@ -54,20 +58,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             (n..space.dimension()).for_each(|k| visit(k, k));
         });
         let mut scales: Augmented<S, T> = space.vector();
-        let (of_coordinates, of_constraints) = scales.split_at_mut(n);
-        scale_coordinates(system, [q, v], t, of_coordinates);
-        let mut squares = Places(|k: usize, j: usize, entry: T| {
-            let entry = entry * of_coordinates[j];
-            of_constraints[k] += entry * entry;
-        });
-        S::Kind::forces(system, q, t, &mut values, &mut squares);
-        of_constraints.iter_mut().for_each(|square| *square = scale(*square));
-        Self { matrix, solution: space.vector(), scales }
-    }
-
-    /// 1/√|Mⱼⱼ| for each coordinate.
-    pub(crate) fn of_coordinates(&self, n: usize) -> &[T] {
-        &self.scales[..n]
+        scales::balance(system, At { q, t }, v, scales.split_at_mut(n));
+        let residuals = Residuals::new(system, &scales[..n]);
+        Self { matrix, solution: space.vector(), scales, residuals }
     }
 
     /// Solves the equations, whose A is of the size of M/`alpha` with a positive `alpha`; the solution is here, x in its first n
@@ -91,7 +84,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         equations: &mut Bordered<'_, S, T, U, W>,
         alpha: T,
     ) -> Result<(), StepFailure> {
-        let Self { matrix, solution, scales } = self;
+        let Self { matrix, solution, scales, .. } = self;
         let n = solution.len() - equations.multipliers.len();
         let factor = |row: usize, column: usize| {
             let scale = scales[row] * scales[column];
@@ -102,8 +95,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             }
         };
         equations.evaluate(solution, &mut Scaled { sink: matrix.cleared(), factor })?;
-        let finite = norm::finite(solution);
-        matrix.factor().map_err(|singular| finite.err().unwrap_or(singular))?;
+        norm::finite(solution).map_err(|failure| of_row(failure, n))?;
+        matrix.factor()?;
         let (x, multipliers) = solution.split_at_mut(n);
         let (of_coordinates, of_constraints) = scales.split_at(n);
         for (b, &scale) in x.iter_mut().zip(of_coordinates) {
@@ -171,26 +164,13 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     }
 }
 
-/// Sets `scales` to 1/√|Mⱼⱼ|.
-fn scale_coordinates<S: ConstrainedLagrangian<T>, T: Real>(
-    system: &S,
-    [q, v]: [&[T]; 2],
-    t: T,
-    scales: &mut [T],
-) {
-    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
-    let mut diagonal = Places(|i: usize, j: usize, entry: T| {
-        if i == j {
-            scales[i] += entry;
+/// The failure of a row beyond the first `n`, with the name of its constraint.
+#[cold]
+fn of_row(failure: StepFailure, n: usize) -> StepFailure {
+    match failure {
+        StepFailure::NotFinite { coordinate, value } if coordinate >= n => {
+            StepFailure::UndefinedConstraint { constraint: coordinate - n, value }
         }
-    });
-    system.linearize(q, v, t, mass_matrix(), &mut l_q, &mut l_v, &mut diagonal);
-    scales.iter_mut().for_each(|mass| *mass = scale(Scalar::abs(*mass)));
-}
-
-/// 1/√`square`; one where that is no positive number, which says nothing of units. It carries no derivatives.
-fn scale<T: Real>(square: T) -> T {
-    let scale = T::lift(1.0) / Scalar::sqrt(T::lift(reported(square)));
-    let is_usable = scale > T::lift(0.0) && scale.is_finite();
-    if is_usable { scale } else { T::lift(1.0) }
+        other => other,
+    }
 }

@@ -1,10 +1,15 @@
-//! Whether a step has come out where the motion leads.
+//! Whether a step on constraints of positions has come out where the motion leads.
 //!
 //! The equations of a step on constraints have several solutions: a rod that is to have its length again may point to one side or to
 //! the other, and a bead on a narrow loop may sit on its far side. Along the motion gradients turn little in a step, and the
 //! displacement Δ leads along the constraints.
+//!
+//! Of constraints of the velocities none of this holds. How much a row of A turns depends on how the constraints are written: those of a
+//! disc that rolls are the same in the directions of the room and of the disc, and one row is turned around in the first and none in
+//! the second. A displacement with A Δ = −h b leads off the rows of A wherever b is not zero.
 
 use crate::error::StepFailure;
+use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{At, ConstrainedLagrangian, Constraints, Multipliers};
 use crate::space::RowMatrix;
 use crate::space::sink::Places;
@@ -30,12 +35,11 @@ impl<S: ConstrainedSystem, T: Real> Memory<T> for Gradients<S, T> {
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
-    /// At a point, in the metric that `scales`, 1/√|Mⱼⱼ| for each coordinate, make.
-    pub(crate) fn new(system: &S, at: At<'_, T>, scales: &[T]) -> Self {
+    /// At a point, where the velocity is `v`.
+    pub(crate) fn new(system: &S, at: At<'_, T>, v: &[T]) -> Self {
         let mut weights: Vector<S, T> = system.space().vector();
-        for (weight, &scale) in weights.iter_mut().zip(scales) {
-            *weight = scale * scale;
-        }
+        scale_coordinates(system, [at.q, v], at.t, &mut weights);
+        weights.iter_mut().for_each(|weight| *weight *= *weight);
         let mut values: Multipliers<S, T> = system.multipliers().vector();
         let mut rows = || {
             system.space().rows(system.multipliers(), |visit| {

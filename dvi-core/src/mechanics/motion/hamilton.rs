@@ -15,8 +15,11 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
-use crate::system::Regular;
-use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, Sink, Space, System, Vector, Weights};
+use crate::system::{Regular, Unilateral};
+use crate::{
+    Linear, NondegenerateLagrangian, Real, RegularLagrangian, Sink, Space, System, UnilateralLagrangian,
+    Vector, Weights,
+};
 
 /// Hamilton's equations of a regular system, on T*Q, in terms of L.
 #[derive(Debug)]
@@ -235,15 +238,30 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
 
 impl<S: RegularLagrangian<T>, T: Real> Rates<S, T> for Regular {
     fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
-        let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] =
-            core::array::from_fn(|_| system.space().vector());
-        velocity.copy_from_slice(v);
-        let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
-        let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
-        solver.solve(&mut equations, &mut acceleration)?;
-        norm::finite(&acceleration)?;
-        Ok([velocity, acceleration])
+        rates(system, q, v, t)
     }
+}
+
+impl<S: UnilateralLagrangian<T>, T: Real> Rates<S, T> for Unilateral {
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
+        rates(system, q, v, t)
+    }
+}
+
+fn rates<S: NondegenerateLagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    v: &[T],
+    t: T,
+) -> Result<[Vector<S, T>; 2], StepFailure> {
+    let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] =
+        core::array::from_fn(|_| system.space().vector());
+    velocity.copy_from_slice(v);
+    let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
+    let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
+    solver.solve(&mut equations, &mut acceleration)?;
+    norm::finite(&acceleration)?;
+    Ok([velocity, acceleration])
 }
 
 /// ∂²L/∂v∂v a = ∂L/∂q − ∂²L/∂v∂q v − ∂²L/∂t∂v, the Euler–Lagrange equations.

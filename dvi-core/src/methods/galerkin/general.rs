@@ -16,11 +16,11 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, scratch};
 use crate::state::Statistics;
-use crate::{Coupled, Real, RegularLagrangian, System, Vector, Weights};
+use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector, Weights};
 use core::ops::DerefMut;
 
 /// The unknowns.
-pub(super) fn newton<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+pub(super) fn newton<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     q: &[T],
@@ -77,7 +77,7 @@ fn place<const NODES: usize, T: Real, V: DerefMut<Target = [T]>>(
 }
 
 /// Sets `work.residuals` at the current unknowns.
-fn differentiate<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real>(
+fn differentiate<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     statistics: &mut Statistics,
@@ -118,7 +118,7 @@ struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real> {
     t: T,
 }
 
-impl<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real> NodeSum<NODES, T>
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real> NodeSum<NODES, T>
     for Linearized<'_, '_, NODES, S, F, T>
 {
     #[inline(always)]
@@ -168,7 +168,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: Frequency, T: Real> NodeSum
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1 = p0 + (D₁ + D₂)L_d.
-pub(super) fn finish<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     q: &mut Vector<S, T>,

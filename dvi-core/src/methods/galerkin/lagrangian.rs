@@ -14,7 +14,7 @@ use crate::discrete::quadrature::{Quadrature, Rule};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::linear_of_all;
-use crate::methods::VariationalMethod;
+use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
 use crate::space::linear::blocks;
@@ -292,5 +292,17 @@ where
             node: NodeWork::new(system),
         };
         GalerkinLagrangian { method: self.clone(), rule, differentiation: differentiation(&rule), storage }
+    }
+}
+
+impl<const NODES: usize, S, F, T> InnerScheme<S, T> for Galerkin<NODES, F>
+where
+    S: RegularLagrangian<T>,
+    F: FrequencyIn<T> + GivenFrequency + Clone,
+    T: Real,
+{
+    fn admit_inside(&self) -> Result<(), StartError> {
+        // By `stopping` the interior displacements are found.
+        without_effect_inside(self.solver, Stopping::default(), self.summation)
     }
 }

@@ -12,7 +12,7 @@ use crate::solve::{Ladder, Solver};
 use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::memory::{Memory, lasting};
-use crate::{Coupled, Lagrangian, Real, RegularLagrangian, Space, System, Vector};
+use crate::{Coupled, Lagrangian, NondegenerateLagrangian, Real, Space, System, Vector};
 
 /// The phase point of a run with interior displacements, its path between the points and its work space.
 #[derive(Debug)]
@@ -54,7 +54,7 @@ pub(super) struct Work<const NODES: usize, S: System, T: Real> {
     pub(super) next_force: Vector<S, T>,
 }
 
-impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> GalerkinMemory<NODES, S, T> {
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real> GalerkinMemory<NODES, S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         &self.path.phase.p
@@ -100,7 +100,12 @@ impl<const NODES: usize, S: System, T: Real> Memory<T> for Path<NODES, S, T> {
     lasting!(T; part phase, part inertial, parts displacements);
 }
 
-impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<NODES, S, T> {
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real> Path<NODES, S, T> {
+    /// Sets `v` to the velocity at the present point.
+    pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
+        self.inertial.velocity(system, &self.phase, q, t, v)
+    }
+
     /// Sets the unknowns to their guess: extrapolated from the steps before if they had about this length; else
     /// the path is straight, and its velocity is taken from the momentum if L is separable.
     #[inline(always)]

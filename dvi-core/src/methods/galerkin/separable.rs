@@ -14,11 +14,11 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, iterate};
 use crate::state::Statistics;
-use crate::{Real, RegularLagrangian, Scalar, Vector};
+use crate::{NondegenerateLagrangian, Real, Scalar, Vector};
 
 /// The unknowns.
 #[inline(always)]
-pub(super) fn fixed_point<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+pub(super) fn fixed_point<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     q: &[T],
@@ -36,7 +36,7 @@ pub(super) fn fixed_point<const NODES: usize, S: RegularLagrangian<T>, F: Freque
 
 /// One iteration; returns the size of its correction.
 #[inline(always)]
-fn improve<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+fn improve<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     statistics: &mut Statistics,
@@ -81,7 +81,7 @@ fn improve<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Re
 
 /// Sets `work.gradient` to the force at interior node `j`.
 #[inline(always)]
-fn node_force<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+fn node_force<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     j: usize,
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
@@ -98,7 +98,7 @@ fn node_force<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T:
 
 /// Moves to q1 = q0 + Δ and evaluates p1.
 #[inline(always)]
-pub(super) fn finish<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     step: &Step<'_, NODES, S, F, T>,
     path: &mut Path<NODES, S, T>,
     q: &mut Vector<S, T>,

@@ -12,7 +12,7 @@ use super::Newmark;
 use crate::discrete::{DiscreteLagrangian, Ends, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::{full, linear_of_all};
-use crate::methods::VariationalMethod;
+use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::space::SquareMatrix;
 use crate::space::elimination::multiply_add;
 use crate::space::sink::Sink;
@@ -171,5 +171,11 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> VariationalMethod<S, T> fo
             ends: [end(), end()],
             work: [space.vector(), space.vector()],
         }
+    }
+}
+
+impl<S: Separable<T> + RegularLagrangian<T>, T: Real> InnerScheme<S, T> for Newmark<T> {
+    fn admit_inside(&self) -> Result<(), StartError> {
+        without_effect_inside(self.solver, self.stopping, self.summation)
     }
 }

@@ -132,6 +132,9 @@ fn solve<T: Real, V: core::ops::Deref<Target = [T]>, Q: SquareMatrix<T>>(
 #[cold]
 pub(super) fn named(failure: StepFailure) -> StepFailure {
     match failure {
+        StepFailure::Singular { column, pivot } if pivot.is_nan() => {
+            StepFailure::UndefinedConstraint { constraint: column, value: pivot }
+        }
         StepFailure::Singular { column, pivot } => {
             StepFailure::RedundantConstraint { constraint: column, pivot }
         }

@@ -15,11 +15,11 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Linear, Real, RegularLagrangian, Scalar};
+use crate::{Linear, NondegenerateLagrangian, Real, Scalar};
 
 /// A step by Newton's method from a guess.
 #[inline(never)]
-pub(super) fn by_newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
+pub(super) fn by_newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     parts: &mut Parts<'_, S, T>,
     solver: &mut Linear<S, T>,
@@ -40,7 +40,7 @@ pub(super) fn by_newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: 
 
 /// A step by the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + D₁L_d), for separable L.
 #[inline(never)]
-pub(super) fn by_fixed_point<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
+pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     parts: &mut Parts<'_, S, T>,
     statistics: &mut Statistics,
@@ -82,7 +82,7 @@ pub(super) fn by_fixed_point<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule
 
 /// Sets `work.increment` to Δ and `work.sum` to (D₁ + D₂)L_d.
 #[allow(clippy::too_many_arguments)]
-fn newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
     step: &Step<'_, S, F, R, T>,
     coefficients: &mut C,
     ends: &mut [Local<S, T>; 2],
@@ -103,7 +103,7 @@ fn newton<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, 
 }
 
 /// Moves to q1 = q0 + Δ and p1 = p0 + (D₁ + D₂)L_d.
-fn finish<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
+fn finish<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     Parts { phase, inertial, work, q, .. }: &mut Parts<'_, S, T>,
     statistics: &mut Statistics,

@@ -10,7 +10,7 @@ use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Inertial, PhasePoint};
 use crate::solve::{Ladder, Solver};
 use crate::state::memory::{Memory, lasting};
-use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, RegularLagrangian, Space, System, Vector};
+use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Vector};
 
 /// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
@@ -54,10 +54,16 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) sum: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> VariationalMemory<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> VariationalMemory<S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         &self.phase.p
+    }
+
+    /// Sets `v` to the velocity at the present point.
+    #[inline(always)]
+    pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
+        self.inertial.velocity(system, &self.phase, q, t, v)
     }
 
     pub(super) fn new<F: FrequencyIn<T>, R: Rule>(

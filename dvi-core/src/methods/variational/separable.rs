@@ -20,10 +20,10 @@ use crate::mechanics::phase::{Arrival, PhasePoint};
 use crate::scalar::norm;
 use crate::solve::{Convergence, iterate};
 use crate::state::Statistics;
-use crate::{Real, RegularLagrangian, Scalar, Space, Vector};
+use crate::{NondegenerateLagrangian, Real, Scalar, Space, Vector};
 
 #[inline(always)]
-pub(super) fn step<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
+pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     Parts { interpolation, phase, inertial, work, q, .. }: &mut Parts<'_, S, T>,
     budget: usize,
@@ -53,7 +53,7 @@ pub(super) fn step<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-fn complete<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
     step: &Step<'_, S, F, R, T>,
     coefficients: &mut C,
     mass: &Mass<S, T>,
@@ -81,7 +81,7 @@ fn complete<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S
 
 /// A step as it is being solved. In `work`: `increment` is Δ, `next` is q1 and `node.gradient` is F(q1) once they have
 /// been asked for, `node.momentum` is p1 in the end.
-struct Attempt<'a, S: RegularLagrangian<T>, F, R, C, T: Real> {
+struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
     step: &'a Step<'a, S, F, R, T>,
     coefficients: &'a mut C,
     mass: &'a Mass<S, T>,
@@ -93,7 +93,7 @@ struct Attempt<'a, S: RegularLagrangian<T>, F, R, C, T: Real> {
     gradients: u64,
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
     Attempt<'_, S, F, R, C, T>
 {
     /// The coefficients, as far as the start of the step decides them.

@@ -17,12 +17,12 @@ use crate::methods::Clock;
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
 use crate::space::scratch;
-use crate::{Real, RegularLagrangian, Vector};
+use crate::{NondegenerateLagrangian, Real, Vector};
 
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
 /// good point.
 #[inline(always)]
-pub(super) fn steps<S: RegularLagrangian<T>, T: Real>(
+pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
     mass: &Mass<S, T>,
     phase: &mut PhasePoint<S, T>,
@@ -44,7 +44,7 @@ pub(super) fn steps<S: RegularLagrangian<T>, T: Real>(
 
 /// One step with compensated sums, forces being evaluated at these.
 #[inline(never)]
-pub(super) fn compensated<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real>(
+pub(super) fn compensated<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     mass: &Mass<S, T>,
     phase: &mut PhasePoint<S, T>,
@@ -71,7 +71,7 @@ pub(super) fn compensated<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Rea
 }
 
 /// The present point, momentum and force, and where they are kept.
-struct Kicks<'a, S: RegularLagrangian<T>, T: Real> {
+struct Kicks<'a, S: NondegenerateLagrangian<T>, T: Real> {
     system: &'a S,
     mass: &'a Mass<S, T>,
     clock: Clock<T>,
@@ -86,7 +86,7 @@ struct Kicks<'a, S: RegularLagrangian<T>, T: Real> {
     owed: bool,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Kicks<'_, S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
     /// Kicks the momentum by (h/2)F, in the way that is given, and moves the point on.
     #[inline(always)]
     fn move_on(&mut self, kick: impl Fn(T, T) -> T) {
@@ -121,7 +121,7 @@ impl<S: RegularLagrangian<T>, T: Real> Kicks<'_, S, T> {
     }
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
     #[inline(always)]
     fn step(&mut self, number: u64) {
         if self.owed {

@@ -52,12 +52,13 @@ fn sign(x: f64) -> f64 {
 }
 
 /// The traits whose functions are generated.
-const TRAITS: [&str; 5] = [
+const TRAITS: [&str; 6] = [
     "Lagrangian",
     "DegenerateLagrangian",
     "NondegenerateLagrangian",
     "HolonomicLagrangian",
     "NonholonomicLagrangian",
+    "UnilateralLagrangian",
 ];
 
 /// What a path calls, by its segments.

@@ -24,13 +24,14 @@ pub(crate) struct Expansion {
 /// Functions that are not interpreted.
 const UNREAD: [&str; 3] = ["space", "outside", "time_transform"];
 
-const TRAITS: [&str; 6] = [
+const TRAITS: [&str; 7] = [
     "System",
     "Lagrangian",
     "DegenerateLagrangian",
     "NondegenerateLagrangian",
     "HolonomicLagrangian",
     "NonholonomicLagrangian",
+    "UnilateralLagrangian",
 ];
 
 fn unknown(what: &str, tokens: &impl ToTokens) -> ! {

@@ -2,7 +2,9 @@
 
 mod branches;
 mod equations;
+mod light;
 mod orders;
+mod redundant;
 mod starts;
 mod structure;
 mod systems;

@@ -138,7 +138,8 @@ fn redundant_and_inconsistent_constraints_are_named() {
     let state = CirclesState { x: 1.0, y: 0.0, z: 1.0, dot_x: 0.0, dot_y: 0.0, dot_z: 0.0 };
     let redundant = Circles { weight: 1.0, offset: 1.0 };
     let named = |error: StartError| match error {
-        StartError::Starter(StepFailure::RedundantConstraint { constraint, .. }) => constraint,
+        StartError::Starter(StepFailure::RedundantConstraint { constraint, .. })
+        | StartError::Projection(StepFailure::RedundantConstraint { constraint, .. }) => constraint,
         other => panic!("{other}"),
     };
     for error in [
@@ -237,5 +238,73 @@ fn multipliers_and_accelerations_at_a_state_in_closed_form() -> Outcome {
         of_angle.dot_a * sin + angle.dot_a.powi(2) * cos,
     ];
     assert!((rates.dot_x - expected[0]).abs() < 1e-14 && (rates.dot_y - expected[1]).abs() < 1e-14);
+    Ok(())
+}
+
+/// A bead on a curve whose height is a logarithm, and another coordinate.
+#[lagrangian(
+    coordinates(x, y, other),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(other).powi(2)) / 2.0 - slope * x,
+    constraint = y - weight * x.ln(),
+)]
+#[derive(Clone, Copy, Debug)]
+struct Curve {
+    slope: f64,
+    weight: f64,
+}
+
+#[test]
+fn a_constraint_that_is_no_number_is_named() -> Outcome {
+    fn ends<M: Method<Curve, f64> + Copy>(method: M, sees_coordinates: bool) -> Outcome {
+        let undefined = |error: StartError| match error {
+            StartError::UndefinedConstraint { constraint, value } => value.is_nan().then_some(constraint),
+            other => panic!("{other}"),
+        };
+        let beyond = CurveState { x: -1.0, y: 0.0, other: 0.0, dot_x: 0.0, dot_y: 0.0, dot_other: 0.0 };
+        let (system, at_one) = (Curve { slope: 4.0, weight: 1.0 }, CurveState { x: 1.0, ..beyond });
+        for begun in [
+            Integrator::new(&system, method, 0.1, beyond).map(drop),
+            Integrator::new(&Curve { weight: f64::NAN, ..system }, method, 0.1, at_one).map(drop),
+            system.multipliers_at(0.0, &beyond).map(drop),
+        ] {
+            assert_eq!(begun.map_err(undefined), Err(Some(0)));
+        }
+        // A step that leads to x < 0.
+        let mut run = Integrator::new(&system, method, 2.0, at_one)?;
+        let Err(error) = run.take_steps(100) else { return Err("x cannot become negative".into()) };
+        let is_named = matches!(error.failure, StepFailure::UndefinedConstraint { constraint: 0, .. });
+        // What RATTLE sees is the coordinate that the constraint has taken along.
+        assert!(
+            is_named
+                || sees_coordinates && matches!(error.failure, StepFailure::NotFinite { coordinate: 0, .. }),
+            "{error}"
+        );
+        Ok(())
+    }
+    ends(Constrained::new(Variational::midpoint()), false)?;
+    ends(Rattle::default(), true)
+}
+
+/// What would have no effect is refused, and the limit of an energy goes around.
+#[test]
+fn options_of_the_inner_method_are_its_defaults() -> Outcome {
+    let midpoint = Variational::midpoint();
+    for (inner, name) in [
+        (Variational { summation: Summation::Compensated, ..midpoint }, "Summation::Compensated"),
+        (Variational { solver: Solver::NewtonKrylov, ..midpoint }, "solver"),
+        (
+            Variational { stopping: Stopping { tolerance: 1e-9, ..Stopping::default() }, ..midpoint },
+            "stopping",
+        ),
+    ] {
+        let begun = Integrator::new(&PENDULUM, Constrained::new(inner), 0.1, RELEASED).map(drop);
+        let Err(StartError::Unsupported { option, .. }) = begun else { panic!("{begun:?}") };
+        assert!(option.contains(name), "{option}");
+    }
+    let method = EnergyLimit { method: Constrained::new(midpoint), limit: 1e-6 };
+    let Err(error) = Integrator::new(&PENDULUM, method, 0.5, RELEASED)?.take_steps(10) else {
+        return Err("a rough step".into());
+    };
+    assert!(matches!(error.failure, StepFailure::Energy { .. }), "{error}");
     Ok(())
 }

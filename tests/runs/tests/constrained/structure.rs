@@ -1,6 +1,6 @@
 //! What constrained steps preserve: the symplectic form on the constraints, momenta, the way back, the constraints themselves.
 
-use dvi_core::methods::{Method, Symmetrised, VariationalMethod};
+use dvi_core::methods::{InnerScheme, Method, Symmetrised};
 use dvi_core::prelude::*;
 use dvi_core::{Real, Separable};
 use dvi_tests::larger;
@@ -24,7 +24,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Momenta<T> for Integrato
 impl<S, M, T> Momenta<T> for Integrator<'_, S, Constrained<M>, T>
 where
     S: HolonomicLagrangian<T>,
-    M: VariationalMethod<S, T>,
+    M: InnerScheme<S, T>,
     T: Real,
 {
     fn momenta(&self) -> Vec<T> {

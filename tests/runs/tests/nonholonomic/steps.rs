@@ -5,7 +5,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use super::Outcome;
 
 /// A blade on an inclined plane, which slides along itself only. The slope leads along x.
 #[lagrangian(

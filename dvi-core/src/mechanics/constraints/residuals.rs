@@ -1,0 +1,128 @@
+//! What a velocity leaves of its constraints, A v + b or G v + ∂g/∂t, and how much of that may be rounding.
+//!
+//! Velocities are rounded relative to the largest of those that a constraint couples, in the [units](super::scales) in which they have
+//! about the same weight in it. Coordinates are rounded too: those of a system far from the origin of its coordinates have few digits
+//! for its shape. What changes if coordinates and the time change by a few rounding errors is rounding too. All coordinates are
+//! changed at once, with the signs that the digits of their numbers have in base two, so that the changes of no two of them cancel in
+//! all cases.
+
+use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
+use crate::error::StepFailure;
+use crate::scalar::norm::{larger, largest, reported};
+use crate::space::sink::Places;
+use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
+
+/// A state may be off the constraints by so many rounding errors.
+pub(super) const ROUNDINGS: f64 = 1e4;
+
+/// What is left of the constraints of a velocity.
+#[derive(Debug)]
+pub(crate) struct Residuals<S: ConstrainedSystem, T: Real> {
+    values: Multipliers<S, T>,
+    /// What rounding errors are relative to.
+    sizes: Multipliers<S, T>,
+    /// The values near by, or the largest velocities.
+    others: Multipliers<S, T>,
+    point: Vector<S, T>,
+    units: Vector<S, T>,
+    /// The largest value before the last correction.
+    before: Option<T>,
+}
+
+/// A velocity that leaves no more than so many rounding errors of its constraints keeps them.
+const KEPT: f64 = 16.0;
+
+impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
+    /// In units D of the coordinates.
+    pub(crate) fn new(system: &S, units: &[T]) -> Self {
+        let [values, sizes, others] = [0, 1, 2].map(|_| system.multipliers().vector());
+        let [point, mut kept]: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+        kept.copy_from_slice(units);
+        Self { values, sizes, others, point, units: kept, before: None }
+    }
+
+    /// Looks at a velocity, whose entries are rounded relative to `scale`.
+    pub(crate) fn evaluate(
+        &mut self,
+        system: &S,
+        At { q, t }: At<'_, T>,
+        v: &[T],
+        scale: impl Fn(usize) -> T,
+    ) {
+        let Self { values, sizes, others: speeds, units, .. } = self;
+        sizes.fill(T::lift(0.0));
+        speeds.fill(T::lift(0.0));
+        let mut terms = Places(|k: usize, j: usize, entry: T| {
+            sizes[k] += Scalar::abs(entry) * units[j];
+            speeds[k] = larger(speeds[k], scale(j) / units[j]);
+        });
+        S::Kind::of_velocity(system, q, v, t, values, &mut terms);
+        for (size, &speed) in sizes.iter_mut().zip(speeds.iter()) {
+            *size *= speed;
+        }
+    }
+
+    /// Whether all are at most so many rounding errors of the terms.
+    fn are_within(&self, roundings: f64) -> bool {
+        let rounding = T::lift(roundings) * T::default_epsilon();
+        self.values.iter().zip(self.sizes.iter()).all(|(&value, &size)| Scalar::abs(value) <= rounding * size)
+    }
+
+    /// Whether there is nothing left to correct: the constraints are kept, or a correction has not even halved what is left.
+    pub(crate) fn are_settled(&mut self) -> bool {
+        let size = largest(&self.values);
+        let shrinks = self.before.is_none_or(|before| size < T::lift(0.5) * before);
+        let is_settled = self.are_within(KEPT) || !shrinks;
+        self.before = if is_settled { None } else { Some(size) };
+        is_settled
+    }
+
+    /// # Errors
+    /// [`StepFailure::OffConstraint`] where more than rounding is left at the end of a step.
+    pub(crate) fn admit(&mut self, system: &S, at: At<'_, T>, v: &[T]) -> Result<(), StepFailure> {
+        match self.worst(system, at, v) {
+            None => Ok(()),
+            Some((constraint, value)) => Err(StepFailure::OffConstraint { constraint, value }),
+        }
+    }
+
+    /// The constraint that is farthest from being kept, of those that are off by more than rounding errors, and its value.
+    pub(crate) fn worst(&mut self, system: &S, at: At<'_, T>, v: &[T]) -> Option<(usize, f64)> {
+        if self.are_within(ROUNDINGS) {
+            return None;
+        }
+        self.widen(system, at, v);
+        let rounding = ROUNDINGS * reported(T::default_epsilon());
+        let mut worst: Option<(usize, f64, f64)> = None;
+        for (constraint, (&value, &size)) in self.values.iter().zip(self.sizes.iter()).enumerate() {
+            let (value, size) = (reported(value), reported(size));
+            let off = if value.is_nan() { f64::INFINITY } else { value.abs() / size };
+            if off > rounding && worst.is_none_or(|(_, _, known)| off > known) {
+                worst = Some((constraint, value, off));
+            }
+        }
+        worst.map(|(constraint, value, _)| (constraint, value))
+    }
+
+    /// Lets sizes know of the rounding of coordinates and of the time.
+    #[cold]
+    fn widen(&mut self, system: &S, At { q, t }: At<'_, T>, v: &[T]) {
+        let Self { values, sizes, others, point, .. } = self;
+        let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
+        let digits = usize::BITS - q.len().leading_zeros();
+        // The time, all coordinates, and each digit of their numbers.
+        for change in 0..digits + 2 {
+            let is_time = change == digits + 1;
+            for (j, (point, &q)) in point.iter_mut().zip(q).enumerate() {
+                let is_set = change == digits || j >> change & 1 == 1;
+                let by = if is_set { rounding } else { -rounding };
+                *point = if is_time { q } else { q + q * by };
+            }
+            let time = if is_time { t + t * rounding } else { t };
+            S::Kind::of_velocity(system, point, v, time, others, &mut Places(|_, _, _: T| ()));
+            for ((size, &other), &value) in sizes.iter_mut().zip(others.iter()).zip(values.iter()) {
+                *size = larger(*size, Scalar::abs(other - value) / rounding);
+            }
+        }
+    }
+}

@@ -1,0 +1,349 @@
+//! A step as a sequence of flights from impact to impact.
+//!
+//! A flight of length s begins at a point of the run, after an impact with another momentum, and ends at q(s). The first impact on it is
+//! looked for by the gaps and rates at its two ends, and found on the flight itself, g(q(s), t + s) = 0, within a bracket.
+
+use super::crossing::Cubic;
+use super::memory::ImpactsMemory;
+use super::{Collision, Impacts};
+use crate::error::StepFailure;
+use crate::methods::FreeFlight;
+use crate::scalar::norm::reported;
+use crate::space::sink::Places;
+use crate::state::Statistics;
+use crate::{Real, Scalar, UnilateralLagrangian, Vector};
+
+/// Flights between one that ends well and one that fails: it may have left the domain of L behind a surface.
+const SHORTENED: usize = 50;
+/// Flights to find the least gap of one that may graze a surface.
+const SOUGHT: usize = 60;
+/// Iterations for the time of an impact.
+const ITERATIONS: usize = 200;
+/// Iterations for the derivatives of that time, of numbers that carry some.
+const POLISHED: usize = 3;
+/// Parts of a flight that are farther apart have a slope between them that is none of rounding errors.
+const APART: f64 = 1e-5;
+/// Of the length of a flight: the part below which rounding is absolute.
+const SMALL: f64 = 1e-30;
+/// A gap that was closed is closed but for so many rounding errors.
+const ROUNDINGS: f64 = 64.0;
+/// An impact is on its surface but for so many rounding errors: more, as the equations of a flight are solved to some.
+const OFF: f64 = 1e4;
+
+/// What happens where a flight comes to a surface.
+enum Arrival {
+    Impact,
+    /// Nothing: a long flight whose velocity leads away from the surface already.
+    Turn,
+    /// Nothing: the flight is to be taken once more.
+    Jump,
+}
+
+/// A step that is being taken.
+pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real, const MOST: usize> {
+    pub(super) method: &'a Impacts<M, MOST>,
+    pub(super) system: &'a S,
+    pub(super) memory: &'a mut ImpactsMemory<S, M::Memory, T, MOST>,
+    pub(super) q: &'a mut Vector<S, T>,
+    pub(super) statistics: &'a mut Statistics,
+    /// When the flight at hand begins.
+    pub(super) t: T,
+    /// What is left of the step.
+    pub(super) left: T,
+    /// The length of the step.
+    pub(super) h: T,
+    /// Whether the flight at hand begins with a jump of the momentum.
+    pub(super) is_at_wall: bool,
+    /// Whether the run is where the flight begins.
+    pub(super) is_there: bool,
+    /// How often the step has been divided at a surface without an impact.
+    pub(super) turns: usize,
+}
+
+impl<S, M, T, const MOST: usize> Passage<'_, S, M, T, MOST>
+where
+    S: UnilateralLagrangian<T>,
+    M: FreeFlight<S, T>,
+    T: Real,
+{
+    /// Takes the step.
+    ///
+    /// # Errors
+    /// Any [`StepFailure`]; the run is then anywhere.
+    pub(super) fn take(mut self) -> Result<(), StepFailure> {
+        self.memory.count = 0;
+        self.look_here()?;
+        while let Some((surface, s)) = self.seek_impact()? {
+            match self.arrive(surface, s)? {
+                Arrival::Impact => self.collide(surface, s)?,
+                Arrival::Turn => self.divide(surface, s)?,
+                Arrival::Jump => {}
+            }
+        }
+        // The flight that has no impact is the one to the end of the step.
+        match (self.is_at_wall, self.method.collision) {
+            (true, Collision::Variational) => self.settle(self.left),
+            (false, _) | (true, Collision::Reflection) => Ok(()),
+        }
+    }
+
+    /// A rate of change along the run, which may go back in time.
+    fn along(&self, rate: T) -> T {
+        if self.h < T::lift(0.0) { -rate } else { rate }
+    }
+
+    /// The gaps at the beginning of the step.
+    fn look_here(&mut self) -> Result<(), StepFailure> {
+        let Self { method, system, memory, q, t, .. } = self;
+        method.scheme.velocity_in_flight(system, &memory.inner, q, *t, &mut memory.v)?;
+        memory.here.look(system, q, &memory.v, *t)
+    }
+
+    /// Flies for the time `s` and looks at the gaps there.
+    fn try_flight(&mut self, s: T) -> Result<(), StepFailure> {
+        self.fly(s)?;
+        let Self { method, system, memory, q, t, .. } = self;
+        method.scheme.velocity_in_flight(system, &memory.inner, q, *t + s, &mut memory.v)?;
+        memory.there.look(system, q, &memory.v, *t + s)
+    }
+
+    /// Flies to a surface, and says what happens there. Where the end of a flight has jumped across the surface with its length, as the
+    /// impulse that keeps the discrete energy may, the flight begins with a reflection from now on.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotConverged`] if a flight without such a jump does not end at the surface.
+    fn arrive(&mut self, surface: usize, s: T) -> Result<Arrival, StepFailure> {
+        self.try_flight(s)?;
+        let size = self.rounding(surface);
+        let gap = Scalar::abs(self.memory.there.gap[surface]);
+        if gap <= T::lift(OFF) * size {
+            let is_turned = self.along(self.memory.there.rate[surface]) >= T::lift(0.0);
+            self.settle(s)?;
+            return Ok(if is_turned { Arrival::Turn } else { Arrival::Impact });
+        }
+        let may_jump = self.method.collision == Collision::Variational;
+        if self.is_at_wall && may_jump && !self.memory.wall.is_grazing {
+            self.memory.wall.mark_grazing();
+            return Ok(Arrival::Jump);
+        }
+        let [correction, tolerance] = [gap, T::lift(OFF) * size].map(reported);
+        Err(StepFailure::NotConverged { iterations: ITERATIONS, correction, tolerance })
+    }
+
+    /// The next impact, by flights that all begin with the same law of impact.
+    fn seek_impact(&mut self) -> Result<Option<(usize, T)>, StepFailure> {
+        let is_reflected = self.memory.wall.is_grazing;
+        let found = self.next_impact();
+        if self.is_at_wall && self.memory.wall.is_grazing != is_reflected {
+            self.next_impact()
+        } else {
+            found
+        }
+    }
+
+    /// The surface and the length of the flight at which the next impact happens; `None` if there is none in what is left of the step.
+    fn next_impact(&mut self) -> Result<Option<(usize, T)>, StepFailure> {
+        if let Some(surface) = self.immediate() {
+            return Ok(Some((surface, T::lift(0.0))));
+        }
+        let left = self.left;
+        match self.try_flight(left) {
+            Ok(()) => self.first_before(left),
+            Err(failure) => self.before_failure(failure),
+        }
+    }
+
+    /// A surface that is reached where the flight begins.
+    fn immediate(&self) -> Option<usize> {
+        let (zero, here) = (T::lift(0.0), &self.memory.here);
+        let mut surfaces = here.gap.iter().zip(here.rate.iter());
+        surfaces.position(|(&gap, &rate)| gap <= zero && self.along(rate) < zero)
+    }
+
+    /// The first impact in a flight whose end fails, perhaps because it is outside of the domain of L.
+    fn before_failure(&mut self, failure: StepFailure) -> Result<Option<(usize, T)>, StepFailure> {
+        let [mut flown, mut failed] = [T::lift(0.0), self.left];
+        for _ in 0..SHORTENED {
+            let middle = T::lift(0.5) * (flown + failed);
+            if self.try_flight(middle).is_err() {
+                failed = middle;
+            } else if let Some(found) = self.first_before(middle)? {
+                return Ok(Some(found));
+            } else {
+                flown = middle;
+            }
+        }
+        Err(failure)
+    }
+
+    /// The first impact in a flight of length `end`, at whose end the run is. Where there is none the run is there again, else where the
+    /// impact is.
+    fn first_before(&mut self, mut end: T) -> Result<Option<(usize, T)>, StepFailure> {
+        let mut found: Option<(usize, T)> = None;
+        for _ in 0..SOUGHT {
+            let before = end;
+            for surface in 0..self.memory.here.gap.len() {
+                let is_end = found.map(|(known, _)| known == surface);
+                if let Some(s) = self.closes(surface, end, is_end)? {
+                    (end, found) = (s, Some((surface, s)));
+                }
+            }
+            // A shorter flight is a closer look at all surfaces.
+            if end == before {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// When the gap of a surface closes for the first time in a flight of length `end`, at whose end the run is; `is_end` says
+    /// whether that is an impact with this surface or with another one. Where the gap does not close, the run is at the end again.
+    fn closes(&mut self, surface: usize, end: T, is_end: Option<bool>) -> Result<Option<T>, StepFailure> {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let [here, there] = [self.memory.here.gap[surface], self.memory.there.gap[surface]];
+        let is_behind = there < zero && is_end != Some(true);
+        if !is_behind && self.cubic(surface, end, here).may_close().is_none() {
+            return Ok(None);
+        }
+        let rounding = T::lift(ROUNDINGS) * self.rounding(surface);
+        let is_closed = here <= rounding && self.along(self.memory.here.rate[surface]) >= zero;
+        // Rounding may be all that is seen of a gap that was closed at the beginning, or closes where the flight ends at another surface.
+        let may_be_rounding = is_closed || (is_behind && is_end == Some(false));
+        if may_be_rounding && Scalar::abs(there) <= rounding {
+            return Ok(None);
+        }
+        let first = if is_closed { zero } else { here };
+        let low = match is_behind {
+            true => one,
+            false => match self.least(surface, end, first)? {
+                Some(low) => low,
+                None => return Ok(None),
+            },
+        };
+        let open = match is_closed {
+            true => self.open(surface, end, self.cubic(surface, end, zero).closes_before(low))?,
+            false => zero,
+        };
+        self.locate(surface, end, [open, low]).map(Some)
+    }
+
+    /// What rounding errors of the coordinates, and of their changes in a step, make of the gap of a surface at the end of the flight.
+    fn rounding(&mut self, surface: usize) -> T {
+        let Self { system, memory, q, t, h, .. } = self;
+        let ImpactsMemory { row, v, .. } = &mut **memory;
+        let mut size = T::lift(0.0);
+        let mut sizes = Places(|of: usize, j: usize, entry: T| {
+            if of == surface {
+                size += Scalar::abs(entry) * (Scalar::abs(q[j]) + Scalar::abs(*h * v[j]));
+            }
+        });
+        system.gap_jacobian(q, *t, row, &mut sizes);
+        T::default_epsilon() * size
+    }
+
+    /// The cubic through the gap of a surface in a flight of length `end`, whose end has been looked at, from the gap `first`.
+    fn cubic(&self, surface: usize, end: T, first: T) -> Cubic<T> {
+        let ImpactsMemory { here, there, .. } = &*self.memory;
+        Cubic::through([first, there.gap[surface]], [here.rate[surface] * end, there.rate[surface] * end])
+    }
+
+    /// A part of a flight of length `end`, from the gap `first`, at which the gap of a surface is negative, near its least value in
+    /// between; if there is none, the run is at the end of the flight again.
+    fn least(&mut self, surface: usize, end: T, first: T) -> Result<Option<T>, StepFailure> {
+        let zero = T::lift(0.0);
+        let [mut from, mut to] = [zero, T::lift(1.0)];
+        let mut at_from = [first, self.memory.here.rate[surface]];
+        let mut at_to = [self.memory.there.gap[surface], self.memory.there.rate[surface]];
+        for _ in 0..SOUGHT {
+            let part = to - from;
+            let length = part * end;
+            let cubic = Cubic::through([at_from[0], at_to[0]], [at_from[1] * length, at_to[1] * length]);
+            let Some(low) = cubic.may_close() else { break };
+            let low = from + low * part;
+            if low <= from || low >= to {
+                break;
+            }
+            self.try_flight(low * end)?;
+            let at_low = [self.memory.there.gap[surface], self.memory.there.rate[surface]];
+            if at_low[0] < zero {
+                return Ok(Some(low));
+            }
+            if self.along(at_low[1]) < zero {
+                (from, at_from) = (low, at_low);
+            } else {
+                (to, at_to) = (low, at_low);
+            }
+        }
+        self.try_flight(end)?;
+        Ok(None)
+    }
+
+    /// A part of a flight of length `end`, shorter than `guess`, at which the gap of a surface is open by more than rounding errors.
+    ///
+    /// # Errors
+    /// [`StepFailure::Contact`] if there is none.
+    fn open(&mut self, surface: usize, end: T, guess: T) -> Result<T, StepFailure> {
+        let mut part = guess;
+        // The gap is that of a hop of which the guess is the end.
+        while {
+            part *= T::lift(0.5);
+            self.t + part * end != self.t
+        } {
+            self.try_flight(part * end)?;
+            let rounding = T::lift(ROUNDINGS) * self.rounding(surface);
+            if self.memory.there.gap[surface] > rounding {
+                return Ok(part);
+            }
+        }
+        let here = &self.memory.here;
+        let [gap, rate] = [here.gap[surface], here.rate[surface]].map(reported);
+        Err(StepFailure::Contact { surface, gap, rate })
+    }
+
+    /// The length of the flight at which the gap of a surface closes, between parts of `end` at which it is open and closed: by the method
+    /// of false position in the Illinois form (Dowell & Jarratt 1971), and by bisection where that is slow.
+    fn locate(&mut self, surface: usize, end: T, [open, closed]: [T; 2]) -> Result<T, StepFailure> {
+        let (zero, half) = (T::lift(0.0), T::lift(0.5));
+        let at = |of: &mut Self, x: T| -> Result<T, StepFailure> {
+            of.try_flight(x * end)?;
+            Ok(of.memory.there.gap[surface])
+        };
+        let mut a = [open, if open > zero { at(self, open)? } else { self.memory.here.gap[surface] }];
+        let mut b = [closed, at(self, closed)?];
+        // Of a and b the one that is open keeps the bracket; what is divided for false position is a weight.
+        let (mut weight, mut slope) = (a[1], (b[1] - a[1]) / (b[0] - a[0]));
+        for iteration in 0..ITERATIONS {
+            let width = Scalar::abs(b[0] - a[0]);
+            if b[1] == zero || width <= T::default_epsilon() * (Scalar::abs(b[0]) + T::lift(SMALL)) {
+                break;
+            }
+            let secant = b[0] - b[1] * (b[0] - a[0]) / (b[1] - weight);
+            let is_inside = (secant > a[0] && secant < b[0]) || (secant > b[0] && secant < a[0]);
+            let is_slow = iteration % 4 == 3;
+            let x = if is_inside && !is_slow { secant } else { half * (a[0] + b[0]) };
+            if x == a[0] || x == b[0] {
+                break;
+            }
+            let gap = at(self, x)?;
+            if Scalar::abs(x - b[0]) > T::lift(APART) {
+                slope = (gap - b[1]) / (x - b[0]);
+            }
+            if (gap > zero) == (b[1] > zero) {
+                weight *= half;
+            } else {
+                (a, weight) = (b, b[1]);
+            }
+            b = [x, gap];
+        }
+        let mut x = b[0];
+        // What is left is less than rounding, but not in the derivatives of numbers that carry some.
+        for _ in 0..POLISHED {
+            let change = at(self, x)? / slope;
+            if !change.is_finite() || Scalar::abs(change) > T::lift(APART) {
+                break;
+            }
+            x -= change;
+        }
+        Ok(x * end)
+    }
+}

@@ -1,0 +1,34 @@
+//! A particle that bounces on a curved floor.
+
+use dvi_core::prelude::*;
+
+/// A particle of mass 1 under gravity, in a valley that becomes narrower with the height, above the floor y = a cos x.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0
+        - (y + 0.15 * x * x + 0.1 * x.powi(4) + 0.15 * x * x * y * y),
+    impact = y - a * x.cos(),
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct Bouncer {
+    /// The height of the hill.
+    pub a: f64,
+}
+
+impl Bouncer {
+    /// The acceleration between impacts.
+    pub fn acceleration(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [-0.3 * x - 0.4 * x.powi(3) - 0.3 * x * y * y, -1.0 - 0.3 * x * x * y]
+    }
+
+    /// The energy.
+    pub fn energy_at(&self, [x, y, dot_x, dot_y]: [f64; 4]) -> f64 {
+        let potential = y + 0.15 * x * x + 0.1 * x.powi(4) + 0.15 * x * x * y * y;
+        (dot_x * dot_x + dot_y * dot_y) / 2.0 + potential
+    }
+
+    /// The height above the floor, and the direction away from it.
+    pub fn above([x, y]: [f64; 2], a: f64) -> (f64, [f64; 2]) {
+        (y - a * x.cos(), [a * x.sin(), 1.0])
+    }
+}

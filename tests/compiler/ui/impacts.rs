@@ -1,0 +1,142 @@
+//! Mistakes in impacts.
+
+use dvi_core::UnilateralLagrangian;
+use dvi_core::prelude::*;
+
+/// That a system with a mistake in it is taken for one with impacts.
+fn used<S: UnilateralLagrangian>(system: &S) {
+    system.gap(&[1.0, 2.0], 0.0, &mut [0.0]);
+    let _ = system.multipliers();
+}
+
+mod not_a_gap {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = dot(x))]
+    struct S;
+
+    fn run() {
+        used(&S);
+    }
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x_dot + x)]
+    struct T;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = 1.0 - t)]
+    struct U;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [])]
+    struct V;
+}
+
+mod conditions {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x > 0.0)]
+    struct S;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x <= l)]
+    struct T {
+        l: f64,
+    }
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [x != 0.0, x == 1.0])]
+    struct U;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, constraint = x >= 0.0)]
+    struct V;
+}
+
+mod families {
+    use super::*;
+
+    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i) = x[i])]
+    struct S;
+
+    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = x[0])]
+    struct T;
+
+    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact = |i| x[i])]
+    struct U;
+
+    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = [x[i], 1.0 - x[i]])]
+    struct V;
+
+    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3))]
+    struct W;
+}
+
+mod twice {
+    use super::*;
+
+    #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0, impact = [x - y, y - x])]
+    struct S;
+
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+        constraint = x - y,
+        impact = x,
+    )]
+    struct T;
+
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+        impact = x,
+        nonholonomic = dot(x) - dot(y),
+    )]
+    struct U;
+}
+
+mod other_words {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, wall = x)]
+    struct S;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impacts = [x, 1.0 - x])]
+    struct T;
+
+    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + y * y, impact = x)]
+    struct U;
+}
+
+mod methods {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x)]
+    struct Walled;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0)]
+    struct Free;
+
+    fn through_the_wall() {
+        let start = WalledState { x: 1.0, dot_x: -1.0 };
+        let _ = Integrator::new(&Walled, Variational::trapezoid(), 0.1, start);
+    }
+
+    fn by_another_method() {
+        let start = WalledState { x: 1.0, dot_x: -1.0 };
+        let _ = Integrator::new(&Walled, Gauss::<2>::new(), 0.1, start);
+    }
+
+    fn without_a_wall() {
+        let start = FreeState { x: 1.0, dot_x: -1.0 };
+        let _ = Integrator::new(&Free, Impacts::new(Variational::trapezoid()), 0.1, start);
+    }
+
+    fn by_a_method_that_cannot_stop() {
+        let start = WalledState { x: 1.0, dot_x: -1.0 };
+        let _ = Integrator::new(&Walled, Impacts::new(Newmark::new(0.25)), 0.1, start);
+    }
+
+    fn a_section_across_impacts() -> Result<(), Box<dyn std::error::Error>> {
+        let start = WalledState { x: 1.0, dot_x: -1.0 };
+        let mut run = Integrator::new(&Walled, Impacts::new(Variational::trapezoid()), 0.1, start)?;
+        let _ = Section::new(&mut run, Direction::Rising, |q| q[0] - 0.5);
+        Ok(())
+    }
+}
+
+fn main() {}

@@ -1,0 +1,109 @@
+//! How runs with impacts end, and what they do not begin with.
+
+use dvi_core::prelude::*;
+
+use super::Outcome;
+use super::systems::*;
+
+/// The last bounces of a ball take 2v e^k/g each, so that they end after √2 (1 + 2e/(1 − e)) when it falls from a height of one.
+#[test]
+fn impacts_that_accumulate_end_the_run_where_the_ball_comes_to_rest() -> Outcome {
+    for e in [0.3, 0.8, 0.95] {
+        let method = Impacts::reflecting(Variational::midpoint()).with_restitution(e);
+        let ball = Ball { m: 1.0 };
+        let mut run = Integrator::new(&ball, method, 0.01, BallState { y: 1.0, dot_y: 0.0 })?;
+        let error = loop {
+            if let Err(error) = run.advance() {
+                break error;
+            }
+        };
+        let rest = 2.0_f64.sqrt() * (1.0 + 2.0 * e / (1.0 - e));
+        let StepFailure::Accumulation { surface: 0, impacts: 16, time } = error.failure else {
+            return Err(error.into());
+        };
+        assert!(time < rest && rest - time < 0.01, "{time} for {rest}");
+        // The run is where it was before the step, and its energy has been lost by e² at each bounce.
+        let bounces = run.memory().total() as i32;
+        assert!((run.energy() / e.powi(2 * bounces) - 1.0).abs() < 1e-9, "{}", run.energy());
+        assert!(run.memory().impacts().is_empty());
+        assert!((run.time() - error.time).abs() < 1e-12);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_body_that_lies_on_a_surface_is_no_impact() -> Outcome {
+    let ball = Ball { m: 1.0 };
+    let method = Impacts::reflecting(Variational::trapezoid());
+    let mut run = Integrator::new(&ball, method, 0.1, BallState { y: 0.0, dot_y: 0.0 })?;
+    let error = run.advance().expect_err("it is pressed on the floor");
+    assert_eq!(error.failure, StepFailure::Contact { surface: 0, gap: 0.0, rate: 0.0 });
+    assert_eq!(run.state(), BallState { y: 0.0, dot_y: 0.0 });
+    Ok(())
+}
+
+#[test]
+fn a_body_may_begin_on_a_surface() -> Outcome {
+    let ball = Ball { m: 1.0 };
+    for (dot_y, impacts) in [(1.0_f64, 0), (-1.0, 1)] {
+        let method = Impacts::reflecting(Variational::trapezoid());
+        let mut run = Integrator::new(&ball, method, 0.1, BallState { y: 0.0, dot_y })?;
+        run.advance()?;
+        assert_eq!(run.memory().impacts().len(), impacts);
+        assert!((run.state().y - 0.095).abs() < 1e-15, "{}", run.state().y);
+    }
+    Ok(())
+}
+
+#[test]
+fn what_a_run_does_not_begin_with() -> Outcome {
+    let ball = Ball { m: 1.0 };
+    let begin = |method: Impacts<Variational<_, _>>, y: f64| {
+        Integrator::new(&ball, method, 0.1, BallState { y, dot_y: 0.0 }).map(|_| ()).expect_err("refused")
+    };
+    let plain = || Impacts::new(Variational::midpoint());
+    assert_eq!(begin(plain(), -0.5), StartError::Beyond { surface: 0, gap: -0.5 });
+    for restitution in [0.0, -1.0, 1.5, f64::NAN] {
+        let method = Impacts { restitution, ..Impacts::reflecting(Variational::midpoint()) };
+        assert!(matches!(begin(method, 1.0), StartError::Parameter { name: "restitution", .. }));
+    }
+    let is_unsupported =
+        |error| matches!(error, StartError::Unsupported { option: "Collision::Variational", .. });
+    assert!(is_unsupported(begin(plain().with_restitution(0.5), 1.0)));
+    let table = Integrator::new(&Table { a: 0.1 }, plain(), 0.1, TableState { y: 1.0, dot_y: 0.0 });
+    assert!(is_unsupported(table.map(|_| ()).expect_err("forces act")));
+    let galerkin = Impacts::new(Galerkin::<3>::new());
+    let galerkin = Integrator::new(&ball, galerkin, 0.1, BallState { y: 1.0, dot_y: 0.0 });
+    assert!(is_unsupported(galerkin.map(|_| ()).expect_err("no discrete energy")));
+    Ok(())
+}
+
+/// The gap √(1 − t) − … is no number behind t = 1.
+#[test]
+fn a_gap_that_is_no_number_ends_the_run() -> Outcome {
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x + (1.0 - t).sqrt())]
+    struct Ceasing;
+    let method = Impacts::new(Variational::midpoint());
+    let mut run = Integrator::new(&Ceasing, method, 0.25, CeasingState { x: 1.0, dot_x: 0.0 })?;
+    run.take_steps(3)?;
+    let error = run.take_steps(2).expect_err("the gap ends");
+    assert!(matches!(error.failure, StepFailure::Gap { surface: 0, .. }), "{error}");
+    Ok(())
+}
+
+#[test]
+fn a_run_goes_on_from_its_checkpoint_bit_by_bit() -> Outcome {
+    let (system, start) = (Wavy { a: 0.5 }, WavyState { x: 0.3, y: 1.0, dot_x: 0.4, dot_y: 0.0 });
+    let method = Impacts::new(Variational::midpoint());
+    let mut whole = Integrator::new(&system, method, 0.03, start)?;
+    whole.take_steps(137)?;
+    let mut resumed = Integrator::resume(&system, method, &whole.checkpoint())?;
+    for _ in 0..200 {
+        whole.advance()?;
+        resumed.advance()?;
+        assert_eq!(whole.state(), resumed.state());
+    }
+    assert_eq!(whole.memory().total(), resumed.memory().total());
+    assert!(whole.memory().total() > 3);
+    Ok(())
+}

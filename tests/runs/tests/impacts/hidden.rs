@@ -1,0 +1,254 @@
+//! Impacts that are hard to see: within a step, at its end, behind other surfaces, near the end of the domain of L.
+
+use dvi_core::prelude::*;
+
+use dvi_examples::models::{EllipseBilliard, EllipseBilliardState};
+
+use super::Outcome;
+use super::systems::{Ball, BallState};
+
+/// A free particle beside a round post, whose gap is the distance from it, with a wall behind.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    impact = [(x * x + y * y).sqrt() - r, wall - x],
+)]
+struct Post {
+    r: f64,
+    wall: f64,
+}
+
+/// Head-on, the distance has its kink in the post.
+#[test]
+fn a_post_is_not_passed() -> Outcome {
+    for (r, h) in [(0.1, 0.5), (0.01, 0.5), (0.5, 4.0), (0.1, 4.0)] {
+        for wall in [0.7, 0.3, 9.0] {
+            let post = Post { r, wall };
+            let start: PostState = PostState { x: -1.3, y: 0.0, dot_x: 1.0, dot_y: 0.0 };
+            let mut run = Integrator::new(&post, Impacts::reflecting(Variational::trapezoid()), h, start)?;
+            while run.time() < 8.0 {
+                run.advance()?;
+            }
+            assert_eq!(run.memory().total(), 1, "{r} by {h} before {wall}");
+            let expected = -r - (run.time() - (1.3 - r));
+            assert!((run.state().x - expected).abs() < 1e-12, "{} for {expected}", run.state().x);
+        }
+    }
+    Ok(())
+}
+
+/// Elastic bounces that fall on the end of a step, but for rounding.
+#[test]
+fn a_bounce_at_the_end_of_a_step_is_one() -> Outcome {
+    for k in 0..1000 {
+        for parts in [1.0, 2.0, 5.0, 10.0] {
+            let height = 0.1 + f64::from(k) * 0.00137;
+            let ball = Ball { m: 1.0 };
+            let h = (2.0 * height).sqrt() / parts;
+            let method = Impacts::reflecting(Variational::trapezoid());
+            let mut run = Integrator::new(&ball, method, h, BallState { y: height, dot_y: 0.0 })?;
+            run.take_steps(10 * parts as u64)?;
+            assert!((run.energy() / height - 1.0).abs() < 1e-12, "{height}: {}", run.energy());
+            assert!((run.state().y / height - 1.0).abs() < 1e-7, "{height}: {}", run.state().y);
+        }
+    }
+    Ok(())
+}
+
+/// An attraction that has no bound behind the surface, and steps of which none is short there.
+#[test]
+fn the_place_of_an_impact_is_on_the_surface() -> Outcome {
+    #[lagrangian(coordinates(r), lagrangian = dot(r).powi(2) / 2.0 + 1.0 / r, impact = r - 0.1)]
+    struct Falling;
+    for method in [Impacts::new(Variational::trapezoid()), Impacts::reflecting(Variational::trapezoid())] {
+        for k in 0..200 {
+            let start = FallingState { r: 0.3 + 0.002 * f64::from(k), dot_r: 0.0 };
+            let mut run = Integrator::new(&Falling, method, 0.03, start)?;
+            for _ in 0..200 {
+                run.advance()?;
+                assert!(run.state().r > 0.1 - 1e-14, "{}", run.state().r);
+                for impact in run.memory().impacts() {
+                    assert!((impact.q()[0] - 0.1).abs() < 1e-14, "{:?}", impact.q());
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_surface_before_the_end_of_the_domain_is_met() -> Outcome {
+    #[lagrangian(
+        coordinates(y),
+        lagrangian = dot(y).powi(2) / 2.0 - 0.001 * y.sqrt(),
+        impact = y - d,
+    )]
+    struct Rooted {
+        d: f64,
+    }
+    for d in [0.5, 0.3, 0.1, 0.01] {
+        let system = Rooted { d };
+        let start: RootedState = RootedState { y: 1.0, dot_y: -1.0 };
+        let mut run = Integrator::new(&system, Impacts::reflecting(Variational::trapezoid()), 1.2, start)?;
+        run.advance()?;
+        assert_eq!(run.memory().impacts().len(), 1, "{d}");
+        let expected = d + (1.2 - (1.0 - d));
+        assert!((run.state().y - expected).abs() < 1e-2, "{} for {expected}", run.state().y);
+    }
+    Ok(())
+}
+
+/// Nothing presses them on each other.
+#[test]
+fn free_balls_that_touch_stay_together() -> Outcome {
+    #[lagrangian(
+        coordinates(x[n]),
+        lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0),
+        impact(i in 1..n) = x[i] - x[i - 1] - d,
+    )]
+    struct Cradle {
+        n: usize,
+        d: f64,
+    }
+    for d in [0.1, 0.3, 1.0] {
+        let cradle = Cradle { n: 5, d };
+        for speed in [0.0, 0.7] {
+            let x = (0..5).map(|i| f64::from(i) * d).collect();
+            let start = CradleState { x, dot_x: vec![speed; 5] };
+            let method = Impacts::reflecting(Variational::trapezoid());
+            let mut run = Integrator::new(&cradle, method, 0.1, start)?;
+            run.take_steps(1000)?;
+            for (i, &x) in run.state().x.iter().enumerate() {
+                let expected = i as f64 * d + 100.0 * speed;
+                assert!((x - expected).abs() < 1e-10, "{x} for {expected}");
+            }
+        }
+        // One ball comes in, and one goes out.
+        let mut x: Vec<f64> = (0..5).map(|i| f64::from(i) * d).collect();
+        x[0] = -1.0;
+        let start = CradleState { x, dot_x: vec![1.0, 0.0, 0.0, 0.0, 0.0] };
+        let method = Impacts::reflecting(Variational::trapezoid());
+        let mut run = Integrator::new(&cradle, method, 0.1, start)?;
+        run.take_steps(30)?;
+        for (found, expected) in run.state().dot_x.iter().zip([0.0, 0.0, 0.0, 0.0, 1.0]) {
+            assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_discrete_energy_is_kept_in_single_precision() -> Outcome {
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y - 0.3 * x * x * y - 0.1 * x.powi(4),
+        impact = [y - 0.3 * x.cos(), 1.2 - y, x + 1.0, 1.0 - x],
+    )]
+    struct Room;
+    let start: RoomState<f32> = RoomState { x: 0.7286, y: 0.2475, dot_x: -0.9299, dot_y: -1.0997 };
+    for h in [0.1, 0.02, 0.005_f32] {
+        let mut run = Integrator::new(&Room, Impacts::new(Variational::midpoint()), h, start)?;
+        run.take_steps((100.0 / h) as u64)?;
+        assert!(run.memory().total() > 50);
+        assert_eq!(run.memory().grazing(), 0, "by {h}");
+    }
+    Ok(())
+}
+
+/// A box with three round posts, in a potential.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - depth * (0.3 * x.powi(4) + 0.2 * y.powi(4) + 0.1 * x * y),
+    impact = [x + 2.0, 2.0 - x, y + 2.0, 2.0 - y],
+    impact = ((x - 0.7).powi(2) + (y - 0.5).powi(2)).sqrt() - 0.4,
+    impact = (x + 0.8).powi(2) + (y - 0.3).powi(2) - 0.09,
+    impact = (x * x + (y + 1.0).powi(2)).sqrt() - 0.5,
+)]
+struct Posts {
+    depth: f64,
+}
+
+/// Numbers between 0 and 1 that are spread evenly.
+fn spread(k: u32, irrational: f64) -> f64 {
+    (f64::from(k) * irrational).fract()
+}
+
+fn starts(posts: &Posts) -> impl Iterator<Item = PostsState> + '_ {
+    let all = (1..4000).map(|k| {
+        let angle = 2.0 * core::f64::consts::PI * spread(k, 0.569_840_290_998);
+        let (x, y) = (4.0 * spread(k, 0.754_877_666_247) - 2.0, 4.0 * spread(k, 0.819_172_513_396) - 2.0);
+        PostsState { x, y, dot_x: angle.cos(), dot_y: angle.sin() }
+    });
+    let is_inside = |state: &PostsState| {
+        let mut gaps = [0.0; 7];
+        posts.gap(&[state.x, state.y], 0.0, &mut gaps);
+        gaps.iter().all(|&gap| gap > 0.0)
+    };
+    all.filter(is_inside).take(400)
+}
+
+#[test]
+fn no_state_is_beyond_a_surface_and_no_impact_off_it() -> Outcome {
+    let posts = Posts { depth: 1.0 };
+    for h in [0.05, 0.2, 0.5, 1.0] {
+        for method in [Impacts::new(Variational::trapezoid()), Impacts::reflecting(Variational::trapezoid())]
+        {
+            for start in starts(&posts) {
+                let mut run = Integrator::new(&posts, method, h, start)?;
+                for _ in 0..(6.0 / h) as u32 {
+                    run.advance()?;
+                    let mut gaps = [0.0; 7];
+                    posts.gap(run.q(), run.time(), &mut gaps);
+                    assert!(gaps.iter().all(|&gap| gap > -1e-13), "{gaps:?} by {h}");
+                    for impact in run.memory().impacts() {
+                        posts.gap(impact.q(), impact.time(), &mut gaps);
+                        assert!(gaps[impact.surface()].abs() < 1e-12, "{gaps:?} by {h}");
+                        assert!(impact.impulse() > 0.0, "{} by {h}", impact.impulse());
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Free, the motion by long steps is that by short ones.
+#[test]
+fn long_steps_have_the_impacts_of_short_ones() -> Outcome {
+    let posts = Posts { depth: 0.0 };
+    for h in [0.5, 1.0] {
+        for start in starts(&posts) {
+            let method = Impacts::reflecting(Variational::trapezoid());
+            let [mut long, mut short] =
+                [Integrator::new(&posts, method, h, start)?, Integrator::new(&posts, method, 0.005, start)?];
+            long.take_steps((6.0 / h) as u64)?;
+            short.take_steps(1200)?;
+            assert_eq!(long.memory().total(), short.memory().total(), "from {start:?} by {h}");
+            let apart = (long.q()[0] - short.q()[0]).hypot(long.q()[1] - short.q()[1]);
+            assert!(apart < 1e-6, "{apart:e} from {start:?} by {h}");
+        }
+    }
+    Ok(())
+}
+
+/// A body that has left a surface is on it but for rounding.
+#[test]
+fn no_impact_is_followed_by_one_at_the_same_place() -> Outcome {
+    let ellipse = EllipseBilliard { a: 1.25, b: 0.8 };
+    for part in [0.75, 0.9] {
+        let angle: f64 = 1.57 * (1.0 - 0.6 * part);
+        let start = EllipseBilliardState { x: 1.18 * part, y: 0.0, dot_x: angle.cos(), dot_y: angle.sin() };
+        let method = Impacts::reflecting(Variational::trapezoid());
+        let mut run = Integrator::new(&ellipse, method, 5.0, start)?;
+        let mut last = -1.0;
+        for _ in 0..30_000 {
+            run.advance()?;
+            for impact in run.memory().impacts() {
+                assert!(impact.impulse() > 0.1, "{} at {}", impact.impulse(), impact.time());
+                assert!(impact.time() > last + 0.05, "{} after {last}", impact.time());
+                last = impact.time();
+            }
+        }
+    }
+    Ok(())
+}

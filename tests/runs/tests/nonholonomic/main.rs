@@ -1,0 +1,9 @@
+//! Steps on constraints of the velocities.
+
+mod branches;
+mod drift;
+mod light;
+mod moving;
+mod steps;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
