@@ -96,13 +96,14 @@ impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
     }
 }
 
-/// With so many entries of G a step has its work space on the stack, where it can stay in registers.
+/// With more entries of G a step has its work space in the run, and else on the stack, where it can stay in registers.
 const SHORT: usize = 64;
 
-/// Whether the work space of a step is on the stack, with `entries` in G: a question that is answered when compiled.
+/// Whether the work space of a step is in the run: a question that is answered when compiled.
 #[inline(always)]
-fn is_short<S: ConstrainedSystem>(entries: usize) -> bool {
-    <S::Space as Space>::ON_STACK && <S::Multipliers as Space>::ON_STACK && entries <= SHORT
+fn is_long<S: ConstrainedSystem>(system: &S) -> bool {
+    let entries = system.space().dimension() * system.multipliers().dimension();
+    !<S::Space as Space>::ON_STACK || !<S::Multipliers as Space>::ON_STACK || entries > SHORT
 }
 
 impl Scheme for Rattle {
@@ -122,47 +123,30 @@ impl<S: ConstrainedSystem, T: Real> Carries<S, T> for Rattle {
 }
 
 impl Rattle {
-    /// A step without light coordinates.
+    /// A step, in the given work space or in that of the run. Only the latter refines velocities.
     #[inline(always)]
-    fn plain_step<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+    fn take<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
         &self,
         system: &S,
         memory: &mut RattleMemory<S, T>,
         q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let RattleMemory { here, last_step, impulses, mass, is_metric, work, .. } = memory;
-        let mut on_stack;
-        let work: &mut Work<S, T> = if is_short::<S>(q.len() * system.multipliers().dimension()) {
-            on_stack = Work::new(system);
-            &mut on_stack
-        } else {
-            work
-        };
-        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping: self.stopping };
-        take(work, &step, (*last_step, &impulses.first), statistics)?;
-        q.copy_from_slice(&work.q);
-        here.restore(&work.place);
-        impulses.restore(&work.impulses);
-        *last_step = h;
-        Ok(())
-    }
-
-    /// A step with light coordinates, apart from the others, whose work space stays in registers.
-    #[cold]
-    #[inline(never)]
-    fn refined_step<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
-        &self,
-        system: &S,
-        memory: &mut RattleMemory<S, T>,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
+        ([t, h], given): ([T; 2], Option<&mut Work<S, T>>),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let RattleMemory { here, last_step, impulses, mass, is_metric, refinement, work } = memory;
+        let (work, refinement) = given.map_or((work, refinement.as_mut()), |given| (given, None));
         let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping: self.stopping };
-        take(work, &step, (*last_step, &impulses.first), statistics)?;
+        let zero = T::lift(0.0);
+        let mut ratio = if *last_step == zero { zero } else { h / *last_step };
+        // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
+        while let Err(failure) = work.shake(&step, (ratio, &impulses.first), statistics) {
+            if ratio == zero {
+                return Err(failure);
+            }
+            ratio = zero;
+        }
+        work.rattle(&step)?;
+        statistics.gradients += 1;
         if let Some(refinement) = refinement {
             work.refine(system, mass, t + h, refinement)?;
         }
@@ -172,28 +156,19 @@ impl Rattle {
         *last_step = h;
         Ok(())
     }
-}
 
-/// Finds the end of a step, after one of length `last_step` with the impulses `last`.
-#[inline(always)]
-fn take<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
-    work: &mut Work<S, T>,
-    step: &Step<'_, S, T>,
-    (last_step, last): (T, &[T]),
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let zero = T::lift(0.0);
-    let mut ratio = if last_step == zero { zero } else { step.h / last_step };
-    // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
-    while let Err(failure) = work.shake(step, (ratio, last), statistics) {
-        if ratio == zero {
-            return Err(failure);
-        }
-        ratio = zero;
+    /// A step in the work space of the run. It is apart from the others, whose work space stays in registers.
+    #[inline(never)]
+    fn take_in_place<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut RattleMemory<S, T>,
+        q: &mut Vector<S, T>,
+        times: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.take(system, memory, q, (times, None), statistics)
     }
-    work.rattle(step)?;
-    statistics.gradients += 1;
-    Ok(())
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle {
@@ -233,10 +208,10 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if memory.refinement.is_some() {
-            return self.refined_step(system, memory, q, [t, h], statistics);
+        if is_long(system) || memory.refinement.is_some() {
+            return self.take_in_place(system, memory, q, [t, h], statistics);
         }
-        self.plain_step(system, memory, q, [t, h], statistics)
+        self.take(system, memory, q, ([t, h], Some(&mut Work::new(system))), statistics)
     }
 
     #[inline]
@@ -249,12 +224,13 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if memory.refinement.is_some() {
+        if is_long(system) || memory.refinement.is_some() {
             return one_by_one(self, system, memory, q, clock, count, statistics);
         }
+        let mut work = Work::new(system);
         for taken in 0..count {
             let times = [clock.after(taken).time(), clock.step_size()];
-            self.plain_step(system, memory, q, times, statistics)?;
+            self.take(system, memory, q, (times, Some(&mut work)), statistics)?;
             statistics.steps += 1;
         }
         Ok(())

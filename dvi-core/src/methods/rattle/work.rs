@@ -153,9 +153,9 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
     step: &Step<'_, S, T>,
     gram: &mut Gram<S, T>,
     rows: &Rows<S, T>,
-    increment: &[T],
+    [q1, increment]: [&[T]; 2],
 ) -> Result<(), StepFailure> {
-    let Step { mass, is_metric, q, here, .. } = *step;
+    let Step { mass, is_metric, here, .. } = *step;
     let length = (is_metric && S::AUTONOMOUS).then(|| mass.squared(increment));
     for (constraint, (row, solved)) in rows.iter().zip(here.solved.iter()).enumerate() {
         let square = here.squares[constraint];
@@ -163,7 +163,9 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
         let is_small = dot(row, solved) * square > T::lift(0.0);
         let along = |length| {
             let product = dot(&here.rows[constraint], increment);
-            is_along(product, square, length, || mass.squared(q))
+            // Where a displacement may be rounding, both ends of it have one size; that of the first would be evaluated in every step,
+            // as nothing in the loop around this changes it.
+            is_along(product, square, length, || mass.squared(q1))
         };
         if !(is_small && length.is_none_or(along)) {
             return Err(StepFailure::Turned { constraint });
@@ -234,7 +236,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         })?;
         add(q, increment, q1);
         constrain(system, q1, t + h, values, &mut place.rows);
-        let is_here = is_on_branch(step, gram, &place.rows, increment);
+        let is_here = is_on_branch(step, gram, &place.rows, [q1, increment]);
         is_here.map_err(|failure| norm::finite(q1).err().unwrap_or(failure))
     }
 
