@@ -72,7 +72,7 @@
 //! | [`prelude`] | what a first program needs |
 //! | [`guide`] | the pages above |
 //! | [`system`] | what the attributes implement: [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`], [`Report`] |
-//! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, compositions, Gauss, Runge–Kutta |
+//! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), compositions, Gauss, Runge–Kutta |
 //! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
 //! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |

@@ -2,7 +2,8 @@
 //!
 //! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it, and
 //! [`Projected`] where it does not. For regular systems:
-//! [`Variational`], [`Galerkin`], [`Newmark`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
+//! [`Variational`], [`Galerkin`], [`Newmark`]. For systems with constraints: [`Constrained`] and [`Rattle`]. For systems with
+//! impacts: [`Impacts`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
 //! motion. With friction and noise, for regular systems: `Langevin`. Around others: [`Composition`], [`EnergyLimit`], and
 //! [`General`] for a discrete Lagrangian that has no method, as [`Symmetrised`] has none.
 

@@ -78,6 +78,15 @@ pub struct Weights<T> {
     pub vv: T,
 }
 
+impl<T: Real> Weights<T> {
+    /// Those that leave the mass matrix, ∂²L/∂v∂v.
+    #[inline(always)]
+    pub(crate) fn mass() -> Self {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        Self { qq: zero, qv: zero, vq: zero, vv: one }
+    }
+}
+
 /// A mechanical system, whatever numbers it is computed in: its configuration space, its states, its report.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system",

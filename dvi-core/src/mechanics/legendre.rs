@@ -143,9 +143,8 @@ pub(crate) struct Equations<'a, S, T> {
 
 impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let (zero, [q, v, p]) = (T::lift(0.0), self.points);
-        let mass = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
-        self.system.linearize(q, v, self.t, mass, self.l_q, b, sink);
+        let [q, v, p] = self.points;
+        self.system.linearize(q, v, self.t, Weights::mass(), self.l_q, b, sink);
         for (b, &p) in b.iter_mut().zip(p) {
             *b -= p;
         }

@@ -45,7 +45,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
             return Ok(Self { masses, reciprocals, coupled: None });
         }
         let zero = T::lift(0.0);
-        let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
+        let weights = Weights::mass();
         let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
         let entries = matrix.cleared();
         // What is weighted by zero has no place in it.

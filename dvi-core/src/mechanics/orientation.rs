@@ -225,7 +225,7 @@ impl<S: System, T: Real> Memory<T> for MassOrientation<S, T> {
 impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
     fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<Inertia<T>, StepFailure> {
         let (zero, Self { entries, l_q, l_v }) = (T::lift(0.0), self);
-        let weights = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
+        let weights = Weights::mass();
         match entries {
             Entries::Diagonal(diagonal) => {
                 diagonal.fill(zero);

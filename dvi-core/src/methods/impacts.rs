@@ -25,7 +25,7 @@ pub enum Collision {
     Reflection,
 }
 
-/// The steps of a variational method on a system with impacts, `impact = g`, which is never where g(q, t) < 0.
+/// The steps of a variational method on a system with impacts, `impact = g`, whose motion stays where g(q, t) ≥ 0.
 ///
 /// A step in which a gap closes is divided at the time of the impact, t + αh, which is an unknown of the step beside the point of
 /// impact q̃ and the impulse λ:

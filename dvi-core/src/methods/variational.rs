@@ -7,19 +7,19 @@
 //! p0 = −D₁L_d(q0, q1) for q1 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
 
 mod coefficients;
+mod flight;
 mod general;
 mod lagrangian;
 mod memory;
 mod separable;
 mod verlet;
 
-use crate::discrete::frequency::{self, Frequency, FrequencyIn, GivenFrequency, Reading, Unfitted};
+use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
-use crate::methods::{FreeFlight, InnerScheme, VariationalMethod, without_effect_inside};
 use crate::solve::{Guess, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -254,26 +254,6 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
     }
 
-    /// Σ wⱼ E(qʲ, Δ/h), the discrete energy with linear interpolation.
-    fn energy_of<S: NondegenerateLagrangian<T>, T: Real>(
-        &self,
-        Span { system, interval, ends: Ends { q0, delta } }: Span<'_, S, T>,
-        [point, velocity]: &mut [Vector<S, T>; 2],
-    ) -> T {
-        let per_h = T::lift(1.0) / interval.h;
-        for (velocity, &delta) in velocity.iter_mut().zip(delta) {
-            *velocity = delta * per_h;
-        }
-        let nodes = self.rule.nodes().iter().zip(self.rule.weights());
-        nodes.fold(T::lift(0.0), |sum, (&c, &weight)| {
-            let c = T::lift(c);
-            for (point, (&q0, &delta)) in point.iter_mut().zip(q0.iter().zip(delta)) {
-                *point = q0 + c * delta;
-            }
-            sum + T::lift(weight) * system.energy(point, velocity, interval.time(c))
-        })
-    }
-
     fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
     where
         F: FrequencyIn<T>,
@@ -385,68 +365,5 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<
 
     fn discrete_energy(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> Option<T> {
         F::UNFITTED.then(|| self.energy_of(span, work))
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Variational<Unfitted, R> {
-    fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate::<S, T>(system)?;
-        VariationalMemory::new(system, self, q, v, t, h)
-    }
-    fn fly(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.take(system, memory, q, [t, h], statistics)
-    }
-    fn velocity_in_flight(
-        &self,
-        system: &S,
-        memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
-        memory.velocity(system, q, t, v)
-    }
-    fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
-        memory.phase.jump(impulse, velocity);
-    }
-    fn has_energy_of_flight(&self) -> bool {
-        true
-    }
-    fn energy_of_flight(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> Option<T> {
-        Some(self.energy_of(span, work))
-    }
-}
-
-impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
-where
-    S: NondegenerateLagrangian<T>,
-    F: FrequencyIn<T> + GivenFrequency + Clone,
-    R: Rule + Clone,
-    T: Real,
-{
-    type DiscreteLagrangian = QuadratureLagrangian<S, F, R, T>;
-
-    fn admit(&self, system: &S) -> Result<(), StartError> {
-        self.validate::<S, T>(system)
-    }
-
-    fn discrete_lagrangian(&self, system: &S) -> QuadratureLagrangian<S, F, R, T> {
-        QuadratureLagrangian::new(system, self.clone())
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, F, R, T: Real> InnerScheme<S, T> for Variational<F, R>
-where
-    Self: VariationalMethod<S, T>,
-{
-    fn admit_inside(&self) -> Result<(), StartError> {
-        without_effect_inside(self.solver, self.stopping, self.summation)
     }
 }

@@ -80,7 +80,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
                 motion.velocity.fill(zero);
             }
             // M a = ∂L/∂q, but for what velocities add.
-            let (force, _) = self.linearized([&self.q, &rest], t, Weights { vv: one, ..none }, &mut matrix);
+            let (force, _) = self.linearized([&self.q, &rest], t, Weights::mass(), &mut matrix);
             motion.acceleration = solved(matrix, force);
             return motion;
         }

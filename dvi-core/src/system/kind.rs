@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Holonomic`] [`Nonholonomic`] or
-/// [`Unilateral`].
+/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Holonomic`], [`Nonholonomic`]
+/// or [`Unilateral`].
 pub trait Kind: Debug {
     /// Whether the mass matrix is regular.
     const REGULAR: bool;
@@ -50,7 +50,7 @@ impl Kind for Unilateral {
     const REGULAR: bool = true;
 }
 
-/// The kinds of systems without constraints.
+/// The kinds of systems without constraints or impacts.
 #[diagnostic::on_unimplemented(
     message = "the system has constraints or impacts, and this would not keep them",
     label = "it knows neither constraints nor impacts",

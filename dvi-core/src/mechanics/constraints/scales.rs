@@ -91,14 +91,8 @@ pub(crate) fn scale_coordinates<S: ConstrainedLagrangian<T>, T: Real>(
             scales[i] += entry;
         }
     });
-    system.linearize(q, v, t, mass_matrix(), &mut l_q, &mut l_v, &mut diagonal);
+    system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut diagonal);
     scales.iter_mut().for_each(|mass| *mass = scale(Scalar::abs(*mass)));
-}
-
-/// The weights that leave ∂²L/∂v∂v.
-fn mass_matrix<T: Real>() -> Weights<T> {
-    let zero = T::lift(0.0);
-    Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) }
 }
 
 /// 1/√`square`; one where that is no positive number, which says nothing of units. It carries no derivatives.

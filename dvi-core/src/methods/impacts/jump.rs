@@ -33,7 +33,7 @@ fn inertia<S: UnilateralLagrangian<T>, T: Real>(
     [l_q, l_v]: &mut [Vector<S, T>; 2],
 ) -> T {
     let zero = T::lift(0.0);
-    let mass = Weights { qq: zero, qv: zero, vq: zero, vv: T::lift(1.0) };
+    let mass = Weights::mass();
     let mut sum = zero;
     let mut product = Places(|i: usize, j: usize, entry: T| sum += gradient[i] * entry * gradient[j]);
     system.linearize(q, v, t, mass, l_q, l_v, &mut product);

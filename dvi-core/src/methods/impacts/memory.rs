@@ -230,6 +230,21 @@ impl<S: ConstrainedSystem, I: Memory<T>, T: Real, const MOST: usize> Memory<T>
     lasting!(T; part inner, count total, count grazing);
 }
 
+/// Sets `gap` to the gaps at (`q`, `t`), and hands over the terms of |∂g/∂q|(|q| + |h v|), each with the number of its surface. Rounding
+/// errors of the coordinates, and of their changes in a step of length `h`, are errors of the gap of that size.
+pub(super) fn terms<S: UnilateralLagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    [t, h]: [T; 2],
+    gap: &mut [T],
+    mut add: impl FnMut(usize, T),
+) {
+    let mut sizes = Places(|surface: usize, j: usize, entry: T| {
+        add(surface, Scalar::abs(entry) * (Scalar::abs(q[j]) + Scalar::abs(h * v[j])));
+    });
+    system.gap_jacobian(q, t, gap, &mut sizes);
+}
+
 /// A start may be beyond a surface by so many rounding errors.
 const ROUNDINGS: f64 = 1e4;
 
@@ -244,10 +259,7 @@ pub(super) fn admit<S: UnilateralLagrangian<T>, T: Real>(
     h: T,
 ) -> Result<(), StartError> {
     let [mut gap, mut size]: [Multipliers<S, T>; 2] = [0, 1].map(|_| system.multipliers().vector());
-    let mut sizes = Places(|surface: usize, j: usize, entry: T| {
-        size[surface] += Scalar::abs(entry) * (Scalar::abs(q[j]) + Scalar::abs(h * v[j]));
-    });
-    system.gap_jacobian(q, t, &mut gap, &mut sizes);
+    terms(system, [q, v], [t, h], &mut gap, |surface, term| size[surface] += term);
     let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
     for (surface, (&gap, &size)) in gap.iter().zip(size.iter()).enumerate() {
         if !gap.is_finite() {

@@ -4,12 +4,11 @@
 //! looked for by the gaps and rates at its two ends, and found on the flight itself, g(q(s), t + s) = 0, within a bracket.
 
 use super::crossing::Cubic;
-use super::memory::ImpactsMemory;
+use super::memory::{ImpactsMemory, terms};
 use super::{Collision, Impacts};
 use crate::error::StepFailure;
 use crate::methods::FreeFlight;
 use crate::scalar::norm::reported;
-use crate::space::sink::Places;
 use crate::state::Statistics;
 use crate::{Real, Scalar, UnilateralLagrangian, Vector};
 
@@ -114,7 +113,7 @@ where
     /// [`StepFailure::NotConverged`] if a flight without such a jump does not end at the surface.
     fn arrive(&mut self, surface: usize, s: T) -> Result<Arrival, StepFailure> {
         self.try_flight(s)?;
-        let size = self.rounding(surface);
+        let size = self.rounding(surface, s);
         let gap = Scalar::abs(self.memory.there.gap[surface]);
         if gap <= T::lift(OFF) * size {
             let is_turned = self.along(self.memory.there.rate[surface]) >= T::lift(0.0);
@@ -205,7 +204,7 @@ where
         if !is_behind && self.cubic(surface, end, here).may_close().is_none() {
             return Ok(None);
         }
-        let rounding = T::lift(ROUNDINGS) * self.rounding(surface);
+        let rounding = T::lift(ROUNDINGS) * self.rounding(surface, end);
         let is_closed = here <= rounding && self.along(self.memory.here.rate[surface]) >= zero;
         // Rounding may be all that is seen of a gap that was closed at the beginning, or closes where the flight ends at another surface.
         let may_be_rounding = is_closed || (is_behind && is_end == Some(false));
@@ -227,17 +226,17 @@ where
         self.locate(surface, end, [open, low]).map(Some)
     }
 
-    /// What rounding errors of the coordinates, and of their changes in a step, make of the gap of a surface at the end of the flight.
-    fn rounding(&mut self, surface: usize) -> T {
+    /// What rounding errors of the coordinates, and of their changes in a step, make of the gap of a surface at the end of a flight of
+    /// length `s`, where the run is.
+    fn rounding(&mut self, surface: usize, s: T) -> T {
         let Self { system, memory, q, t, h, .. } = self;
         let ImpactsMemory { row, v, .. } = &mut **memory;
         let mut size = T::lift(0.0);
-        let mut sizes = Places(|of: usize, j: usize, entry: T| {
+        terms(*system, [q, v], [*t + s, *h], row, |of, term| {
             if of == surface {
-                size += Scalar::abs(entry) * (Scalar::abs(q[j]) + Scalar::abs(*h * v[j]));
+                size += term;
             }
         });
-        system.gap_jacobian(q, *t, row, &mut sizes);
         T::default_epsilon() * size
     }
 
@@ -290,7 +289,7 @@ where
             self.t + part * end != self.t
         } {
             self.try_flight(part * end)?;
-            let rounding = T::lift(ROUNDINGS) * self.rounding(surface);
+            let rounding = T::lift(ROUNDINGS) * self.rounding(surface, part * end);
             if self.memory.there.gap[surface] > rounding {
                 return Ok(part);
             }

@@ -10,11 +10,12 @@ use super::coefficients::{Adjustable, Coefficients, End};
 use super::memory::Interpolation;
 use super::{Step, Variational};
 use crate::discrete::basis::Basis;
-use crate::discrete::frequency::{Frequency, FrequencyIn, Local, Reading};
+use crate::discrete::frequency::{Frequency, FrequencyIn, GivenFrequency, Local, Reading};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
-use crate::error::StepFailure;
+use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
+use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::space::sink::Sink;
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, System, Vector};
@@ -262,5 +263,32 @@ fn add_first<S: NondegenerateLagrangian<T>, C: Coefficients<T>, T: Real>(
     for (i, d1) in d1.iter_mut().enumerate() {
         let Basis { b, d, .. } = coefficients.basis(node, i);
         *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
+    }
+}
+
+impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
+where
+    S: NondegenerateLagrangian<T>,
+    F: FrequencyIn<T> + GivenFrequency + Clone,
+    R: Rule + Clone,
+    T: Real,
+{
+    type DiscreteLagrangian = QuadratureLagrangian<S, F, R, T>;
+
+    fn admit(&self, system: &S) -> Result<(), StartError> {
+        self.validate::<S, T>(system)
+    }
+
+    fn discrete_lagrangian(&self, system: &S) -> QuadratureLagrangian<S, F, R, T> {
+        QuadratureLagrangian::new(system, self.clone())
+    }
+}
+
+impl<S: NondegenerateLagrangian<T>, F, R, T: Real> InnerScheme<S, T> for Variational<F, R>
+where
+    Self: VariationalMethod<S, T>,
+{
+    fn admit_inside(&self) -> Result<(), StartError> {
+        without_effect_inside(self.solver, self.stopping, self.summation)
     }
 }
