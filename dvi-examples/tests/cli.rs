@@ -77,9 +77,9 @@ fn verdicts(table: &str) -> BTreeMap<[String; 3], String> {
 /// the short form decides.
 fn same_claims(short: &str) {
     let (short, full) = (verdicts(short), verdicts(include_str!("../full-run.csv")));
-    assert!(short.keys().eq(full.keys()), "full-run.csv is out of date: see tests/readme.rs");
+    assert!(short.keys().eq(full.keys()), "full-run.csv is out of date: see tests/readme");
     for (claim, verdict) in short.iter().filter(|(_, verdict)| !verdict.starts_with("undecided")) {
-        assert_eq!(verdict, &full[claim], "{claim:?}: full-run.csv is out of date, see tests/readme.rs");
+        assert_eq!(verdict, &full[claim], "{claim:?}: full-run.csv is out of date, see tests/readme");
     }
 }
 

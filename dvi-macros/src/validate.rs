@@ -15,8 +15,10 @@ use quote::ToTokens;
 
 use self::claims::Claims;
 use self::formula::{NoValue, Texts};
+use self::generated::Functions;
+use self::output::Output;
 use self::point::{Branches, Directions, Point, Support, mix_text};
-use self::system::{Functions, Output, Part, System};
+use self::system::{Part, System};
 use crate::model::Model;
 use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm};
@@ -26,8 +28,10 @@ use crate::syntax::Attribute;
 mod claims;
 mod formula;
 mod functions;
+mod generated;
 mod jet;
 mod machine;
+mod output;
 mod point;
 mod system;
 

@@ -1,9 +1,10 @@
 //! What the compiler says of the structure of a system, held against numbers.
 
+use super::generated::Functions;
 use super::jet::Sized;
 use super::machine::Machine;
 use super::point::{Directions, Point, Support};
-use super::system::{Functions, Outputs, Part, System, difference};
+use super::system::{Outputs, Part, System, difference};
 use super::{Checked, Difference, TOLERANCE};
 use crate::program::Output;
 use crate::structure::{Components, MassMatrix, OneForm};

@@ -1,15 +1,13 @@
-//! What the formulas of a system say about each generated function, and what the functions give.
+//! What the formulas of a system say about each generated function.
 
 use super::formula::{Combination, Evaluation, NoValue, Sides, Texts};
 use super::jet::{First, Jet, Second, Sized};
-use super::machine::{Machine, Results};
+use super::output::{Output, Quantity};
 use super::point::{Directions, Point};
 use crate::internal::internal;
 use crate::model::Model;
-use crate::program::{self, DegeneratePrograms, Programs, RegularPrograms};
-use crate::routine::Routine;
-use crate::symbolic::{Graph, Index, Weight};
-use crate::syntax::{Attribute, Constrained, Kind};
+use crate::symbolic::Weight;
+use crate::syntax::{Attribute, Kind};
 
 /// The formulas as written, with what their names stand for.
 #[derive(Clone, Copy)]
@@ -25,50 +23,6 @@ pub(super) enum Part {
     All,
     /// L, or α·v where it is declared apart from H.
     Form,
-}
-
-/// The generated functions.
-pub(super) enum Functions<'a> {
-    Degenerate(&'a DegeneratePrograms),
-    Regular(&'a RegularPrograms),
-}
-
-/// What is compared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Quantity {
-    Lagrangian,
-    /// ∂L/∂q and ∂L/∂v
-    Lq,
-    Lv,
-    /// The weighted sum of second derivatives.
-    Hessian,
-    Hamiltonian,
-    HamiltonianGradient,
-    OneForm,
-    FlowSource,
-    TimeRate,
-    Untransformed,
-    MomentumRate,
-    AppliedForce,
-    OneFormJacobian,
-    Energy,
-    Force,
-    Momentum(usize),
-    MomentumGradient(usize),
-    Constraint,
-    ConstraintJacobian,
-    ConstraintRate,
-    ConstraintCurvature,
-    VelocityConstraint,
-    VelocityConstraintJacobian,
-    VelocityConstraintRate,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Output {
-    pub(super) function: &'static str,
-    quantity: Quantity,
-    pub(super) is_matrix: bool,
 }
 
 /// The values of the formulas at a point.
@@ -175,64 +129,6 @@ impl System<'_> {
             is_delicate,
             cost,
         })
-    }
-}
-
-impl Output {
-    fn new(function: &'static str, quantity: Quantity) -> Self {
-        let is_matrix = matches!(
-            quantity,
-            Quantity::Hessian
-                | Quantity::OneFormJacobian
-                | Quantity::ConstraintJacobian
-                | Quantity::VelocityConstraintJacobian
-        );
-        Self { function, quantity, is_matrix }
-    }
-
-    /// Whether it has an entry, or a row, for each constraint.
-    pub(super) fn is_by_constraint(&self) -> bool {
-        matches!(
-            self.quantity,
-            Quantity::Constraint
-                | Quantity::ConstraintJacobian
-                | Quantity::ConstraintRate
-                | Quantity::ConstraintCurvature
-                | Quantity::VelocityConstraint
-                | Quantity::VelocityConstraintJacobian
-                | Quantity::VelocityConstraintRate
-        )
-    }
-
-    /// Its name, or that of an entry of it.
-    pub(super) fn quantity(&self, entry: Option<&str>) -> String {
-        let name = match self.quantity {
-            Quantity::Lagrangian => "L",
-            Quantity::Lq => "∂L/∂q + F",
-            Quantity::Lv => "∂L/∂v",
-            Quantity::Hessian => "the weighted second derivative of L, or first one of F",
-            Quantity::Hamiltonian => "H",
-            Quantity::HamiltonianGradient => "∇H − F",
-            Quantity::OneForm => "α",
-            Quantity::FlowSource => "∇H − F + ∂α/∂t",
-            Quantity::TimeRate => "ρ",
-            Quantity::Untransformed => "H before the time transformation",
-            Quantity::MomentumRate => "∂²L/∂t∂v",
-            Quantity::AppliedForce => "F",
-            Quantity::OneFormJacobian => "a Dα + b (Dα)ᵀ",
-            Quantity::Energy => "E",
-            Quantity::Force => "the force",
-            Quantity::Momentum(_) => "J",
-            Quantity::MomentumGradient(_) => "∇J",
-            Quantity::Constraint => "g",
-            Quantity::ConstraintJacobian => "∂g/∂q",
-            Quantity::ConstraintRate => "dg/dt",
-            Quantity::ConstraintCurvature => "d²g/dt² without acceleration",
-            Quantity::VelocityConstraint => "a",
-            Quantity::VelocityConstraintJacobian => "the weighted sum of ∂a/∂q and ∂a/∂v",
-            Quantity::VelocityConstraintRate => "da/dt without acceleration",
-        };
-        entry.map_or_else(|| name.to_string(), |entry| format!("{name} at {entry}"))
     }
 }
 
@@ -362,111 +258,5 @@ pub(super) fn difference(expected: Sized, found: f64) -> f64 {
         f64::INFINITY
     } else {
         off / expected.size
-    }
-}
-
-impl Functions<'_> {
-    fn shared(&self) -> &Programs {
-        match self {
-            Self::Degenerate(programs) => &programs.shared,
-            Self::Regular(programs) => &programs.shared,
-        }
-    }
-
-    /// How many members each declared constraint has.
-    pub(super) fn constraint_lengths(&self) -> &[Index] {
-        self.shared().constraints.as_ref().map_or(&[], |constraints| &constraints.lengths)
-    }
-
-    /// Whether an instruction reads an entry that is not there: one side of a choice may need sizes that the
-    /// other does not, and the generated check asks for both.
-    pub(super) fn reads_outside(&self, graph: &Graph, model: &Model, point: &Point) -> bool {
-        let machine = Machine { graph, model, point, directions: Directions::ALL, conjugates: None };
-        let shared = self.shared();
-        shared.dynamics().chain(&shared.momenta).any(|routine| machine.run(routine).reads_outside)
-    }
-
-    /// Each output of each function, along these directions.
-    pub(super) fn carried_out(
-        &self,
-        graph: &Graph,
-        model: &Model,
-        point: &Point,
-        directions: Directions,
-    ) -> Vec<(Output, f64)> {
-        let machine = Machine { graph, model, point, directions, conjugates: None };
-        let mut found = Vec::new();
-        let mut add = |function, quantity, value| found.push((Output::new(function, quantity), value));
-        let value = |routine: &Routine| machine.run(routine).value;
-        let vector = |routine: &Routine| machine.run(routine).along_first(program::Output::Vector);
-        let shared = self.shared();
-        add("lagrangian", Quantity::Lagrangian, value(&shared.lagrangian));
-        for (function, routine) in [("gradient", &shared.gradient), ("linearize", &shared.linearize)] {
-            let results: Results = machine.run(routine);
-            add(function, Quantity::Lq, results.along_first(program::Output::Lq));
-            add(function, Quantity::Lv, results.along_first(program::Output::Lv));
-            if function == "linearize" {
-                add(function, Quantity::Hessian, results.matrix);
-            }
-        }
-        if let Some(forces) = &shared.forces {
-            add("applied_force", Quantity::AppliedForce, vector(forces));
-        }
-        if let Some(constraints) = &shared.constraints {
-            let along = |routine: &Routine| machine.run(routine).constraints;
-            let (value, rate) = (along(&constraints.value), along(&constraints.rate));
-            let jacobian = machine.run(&constraints.jacobian);
-            match (constraints.of, &constraints.curvature) {
-                (Constrained::Gaps, _) => {
-                    add("gap", Quantity::Constraint, value);
-                    add("gap_jacobian", Quantity::Constraint, jacobian.constraints);
-                    add("gap_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
-                    add("gap_rate", Quantity::ConstraintRate, rate);
-                }
-                (_, Some(curvature)) => {
-                    add("constraint", Quantity::Constraint, value);
-                    add("constraint_jacobian", Quantity::Constraint, jacobian.constraints);
-                    add("constraint_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
-                    add("constraint_rate", Quantity::ConstraintRate, rate);
-                    add("constraint_curvature", Quantity::ConstraintCurvature, along(curvature));
-                }
-                (_, None) => {
-                    let function = "velocity_constraint_jacobian";
-                    add("velocity_constraint", Quantity::VelocityConstraint, value);
-                    add(function, Quantity::VelocityConstraint, jacobian.constraints);
-                    add(function, Quantity::VelocityConstraintJacobian, jacobian.matrix);
-                    add("velocity_constraint_rate", Quantity::VelocityConstraintRate, rate);
-                }
-            }
-        }
-        for (number, momentum) in shared.momenta.iter().enumerate() {
-            add("momentum", Quantity::Momentum(number), value(momentum));
-        }
-        match self {
-            Self::Degenerate(programs) => {
-                add("hamiltonian", Quantity::Hamiltonian, value(&programs.hamiltonian));
-                let gradient = vector(&programs.hamiltonian_gradient);
-                add("hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
-                add("one_form", Quantity::OneForm, vector(&programs.one_form));
-                let source = machine.run(&programs.flow_source).along_second(program::Output::Vector);
-                add("flow_source", Quantity::FlowSource, source);
-                if let Some(time) = &programs.time {
-                    add("time_transform", Quantity::TimeRate, value(&time.rate));
-                    add("time_transform", Quantity::Untransformed, value(&time.hamiltonian));
-                }
-                let jacobian = machine.run(&programs.one_form_jacobian).matrix;
-                add("one_form_jacobian", Quantity::OneFormJacobian, jacobian);
-                for (number, gradient) in programs.momentum_gradients.iter().enumerate() {
-                    add("momentum_gradient", Quantity::MomentumGradient(number), vector(gradient));
-                }
-            }
-            Self::Regular(programs) => {
-                add("energy", Quantity::Energy, value(&programs.energy));
-                add("force", Quantity::Force, vector(&programs.force));
-                let rate = machine.run(&programs.momentum_rate).along_second(program::Output::Vector);
-                add("momentum_rate", Quantity::MomentumRate, rate);
-            }
-        }
-        found
     }
 }

@@ -1,0 +1,122 @@
+//! What the generated functions give: their scheduled instructions, carried out.
+
+use super::machine::{Machine, Results};
+use super::output::{Output, Quantity};
+use super::point::{Directions, Point};
+use crate::model::Model;
+use crate::program::{self, DegeneratePrograms, Programs, RegularPrograms};
+use crate::routine::Routine;
+use crate::symbolic::{Graph, Index};
+use crate::syntax::Constrained;
+
+/// The generated functions.
+pub(super) enum Functions<'a> {
+    Degenerate(&'a DegeneratePrograms),
+    Regular(&'a RegularPrograms),
+}
+
+impl Functions<'_> {
+    fn shared(&self) -> &Programs {
+        match self {
+            Self::Degenerate(programs) => &programs.shared,
+            Self::Regular(programs) => &programs.shared,
+        }
+    }
+
+    /// How many members each declared constraint has.
+    pub(super) fn constraint_lengths(&self) -> &[Index] {
+        self.shared().constraints.as_ref().map_or(&[], |constraints| &constraints.lengths)
+    }
+
+    /// Whether an instruction reads an entry that is not there: one side of a choice may need sizes that the
+    /// other does not, and the generated check asks for both.
+    pub(super) fn reads_outside(&self, graph: &Graph, model: &Model, point: &Point) -> bool {
+        let machine = Machine { graph, model, point, directions: Directions::ALL, conjugates: None };
+        let shared = self.shared();
+        shared.dynamics().chain(&shared.momenta).any(|routine| machine.run(routine).reads_outside)
+    }
+
+    /// Each output of each function, along these directions.
+    pub(super) fn carried_out(
+        &self,
+        graph: &Graph,
+        model: &Model,
+        point: &Point,
+        directions: Directions,
+    ) -> Vec<(Output, f64)> {
+        let machine = Machine { graph, model, point, directions, conjugates: None };
+        let mut found = Vec::new();
+        let mut add = |function, quantity, value| found.push((Output::new(function, quantity), value));
+        let value = |routine: &Routine| machine.run(routine).value;
+        let vector = |routine: &Routine| machine.run(routine).along_first(program::Output::Vector);
+        let shared = self.shared();
+        add("lagrangian", Quantity::Lagrangian, value(&shared.lagrangian));
+        for (function, routine) in [("gradient", &shared.gradient), ("linearize", &shared.linearize)] {
+            let results: Results = machine.run(routine);
+            add(function, Quantity::Lq, results.along_first(program::Output::Lq));
+            add(function, Quantity::Lv, results.along_first(program::Output::Lv));
+            if function == "linearize" {
+                add(function, Quantity::Hessian, results.matrix);
+            }
+        }
+        if let Some(forces) = &shared.forces {
+            add("applied_force", Quantity::AppliedForce, vector(forces));
+        }
+        if let Some(constraints) = &shared.constraints {
+            let along = |routine: &Routine| machine.run(routine).constraints;
+            let (value, rate) = (along(&constraints.value), along(&constraints.rate));
+            let jacobian = machine.run(&constraints.jacobian);
+            match (constraints.of, &constraints.curvature) {
+                (Constrained::Gaps, _) => {
+                    add("gap", Quantity::Constraint, value);
+                    add("gap_jacobian", Quantity::Constraint, jacobian.constraints);
+                    add("gap_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
+                    add("gap_rate", Quantity::ConstraintRate, rate);
+                }
+                (_, Some(curvature)) => {
+                    add("constraint", Quantity::Constraint, value);
+                    add("constraint_jacobian", Quantity::Constraint, jacobian.constraints);
+                    add("constraint_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
+                    add("constraint_rate", Quantity::ConstraintRate, rate);
+                    add("constraint_curvature", Quantity::ConstraintCurvature, along(curvature));
+                }
+                (_, None) => {
+                    let function = "velocity_constraint_jacobian";
+                    add("velocity_constraint", Quantity::VelocityConstraint, value);
+                    add(function, Quantity::VelocityConstraint, jacobian.constraints);
+                    add(function, Quantity::VelocityConstraintJacobian, jacobian.matrix);
+                    add("velocity_constraint_rate", Quantity::VelocityConstraintRate, rate);
+                }
+            }
+        }
+        for (number, momentum) in shared.momenta.iter().enumerate() {
+            add("momentum", Quantity::Momentum(number), value(momentum));
+        }
+        match self {
+            Self::Degenerate(programs) => {
+                add("hamiltonian", Quantity::Hamiltonian, value(&programs.hamiltonian));
+                let gradient = vector(&programs.hamiltonian_gradient);
+                add("hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
+                add("one_form", Quantity::OneForm, vector(&programs.one_form));
+                let source = machine.run(&programs.flow_source).along_second(program::Output::Vector);
+                add("flow_source", Quantity::FlowSource, source);
+                if let Some(time) = &programs.time {
+                    add("time_transform", Quantity::TimeRate, value(&time.rate));
+                    add("time_transform", Quantity::Untransformed, value(&time.hamiltonian));
+                }
+                let jacobian = machine.run(&programs.one_form_jacobian).matrix;
+                add("one_form_jacobian", Quantity::OneFormJacobian, jacobian);
+                for (number, gradient) in programs.momentum_gradients.iter().enumerate() {
+                    add("momentum_gradient", Quantity::MomentumGradient(number), vector(gradient));
+                }
+            }
+            Self::Regular(programs) => {
+                add("energy", Quantity::Energy, value(&programs.energy));
+                add("force", Quantity::Force, vector(&programs.force));
+                let rate = machine.run(&programs.momentum_rate).along_second(program::Output::Vector);
+                add("momentum_rate", Quantity::MomentumRate, rate);
+            }
+        }
+        found
+    }
+}
