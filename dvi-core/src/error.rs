@@ -178,6 +178,20 @@ pub enum StartError {
         /// Its gap function, in the units of its formula.
         gap: f64,
     },
+    /// The initial state is not on the manifold that is declared: a matrix is no rotation, or a vector has another length than one or a
+    /// velocity that would change it.
+    #[error(
+        "`{block}` is off by {defect:e} in the state, and {tolerance:e} is allowed: a rotation is an orthogonal matrix with determinant 1, a \
+         unit vector has length 1 and a velocity at right angles to it; `rotations::exp` makes rotations"
+    )]
+    OffManifold {
+        /// The name of the coordinates.
+        block: &'static str,
+        /// The largest entry of RᵀR − 1, or the larger of |s·s − 1| and |s·ṡ|/|ṡ|.
+        defect: f64,
+        /// What is allowed.
+        tolerance: f64,
+    },
     /// A function that holds data is not known at the initial state.
     #[error(transparent)]
     Outside(#[from] OutsideError),

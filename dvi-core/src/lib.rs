@@ -72,12 +72,13 @@
 //! | [`prelude`] | what a first program needs |
 //! | [`guide`] | the pages above |
 //! | [`system`] | what the attributes implement: [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`], [`Report`] |
-//! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), compositions, Gauss, Runge–Kutta |
+//! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), on rotations and unit vectors (`Geodesic`), compositions, Gauss, Runge–Kutta |
 //! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
 //! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
 //! | [`solve`] | how implicit steps are solved, and when they count as solved |
 //! | [`mechanics`] | the equations of motion, and what can be asked of a system at one state |
+//! | [`rotations`] | rotation matrices as states have them |
 //! | [`field`] | functions of several variables that hold data |
 //! | [`state`] | what a run carries from step to step, compensated sums, what a run has cost |
 //! | [`space`], [`scalar`] | storage for points and matrices; numbers |
@@ -108,6 +109,7 @@ pub mod mechanics;
 pub mod methods;
 mod name;
 pub mod prelude;
+pub mod rotations;
 pub mod run;
 pub mod scalar;
 pub mod solve;
@@ -125,7 +127,8 @@ pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
     AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula,
-    HolonomicLagrangian, Lagrangian, Linear, Matrix, NondegenerateLagrangian, NonholonomicLagrangian,
-    OperationCount, Permutation, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report,
-    Separable, Square, State, System, TimeTransformed, UnilateralLagrangian, Vector, Weights,
+    HolonomicLagrangian, Lagrangian, Linear, ManifoldLagrangian, ManifoldSystem, Matrix,
+    NondegenerateLagrangian, NonholonomicLagrangian, OperationCount, Permutation, ProperlyDegenerate,
+    QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, System, TimeTransformed,
+    UnilateralLagrangian, Vector, Weights,
 };

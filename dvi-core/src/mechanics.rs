@@ -5,6 +5,7 @@ mod at_state;
 pub(crate) mod combination;
 pub(crate) mod constraints;
 pub(crate) mod legendre;
+pub(crate) mod manifold;
 pub(crate) mod mass;
 #[cfg(feature = "random")]
 pub(crate) mod mass_root;

@@ -3,7 +3,7 @@
 //! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it, and
 //! [`Projected`] where it does not. For regular systems:
 //! [`Variational`], [`Galerkin`], [`Newmark`]. For systems with constraints: [`Constrained`] and [`Rattle`]. For systems with
-//! impacts: [`Impacts`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
+//! impacts: [`Impacts`]. For rotations and unit vectors as coordinates: [`Geodesic`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
 //! motion. With friction and noise, for regular systems: `Langevin`. Around others: [`Composition`], [`EnergyLimit`], and
 //! [`General`] for a discrete Lagrangian that has no method, as [`Symmetrised`] has none.
 
@@ -15,6 +15,7 @@ mod flight;
 mod galerkin;
 mod gauss;
 mod general;
+mod geodesic;
 mod impacts;
 #[cfg(feature = "random")]
 mod langevin;
@@ -43,6 +44,7 @@ pub use flight::FreeFlight;
 pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
 pub use general::{General, GeneralMemory};
+pub use geodesic::{Geodesic, GeodesicMemory};
 pub use impacts::{Collision, Impact, Impacts, ImpactsMemory};
 #[cfg(feature = "random")]
 pub use langevin::{Langevin, LangevinMemory};

@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-/// The name of an entry of a state: `x`, `x[3]`, `dot_x[3]`.
+use crate::system::Factor;
+
+/// The name of an entry of a state: `x`, `x[3]`, `dot_x[3]`, `omega_R[2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
     /// The name of the block of coordinates.
@@ -11,11 +13,17 @@ pub struct Name {
     pub is_velocity: bool,
     /// The index in an array of coordinates.
     pub index: Option<usize>,
+    /// Where the block lives.
+    pub factor: Factor,
 }
 
 impl fmt::Display for Name {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let prefix = if self.is_velocity { "dot_" } else { "" };
+        let prefix = match (self.is_velocity, self.factor) {
+            (false, _) => "",
+            (true, Factor::Line | Factor::Sphere) => "dot_",
+            (true, Factor::Rotation) => "omega_",
+        };
         match self.index {
             Some(index) => write!(f, "{prefix}{}[{index}]", self.block),
             None => write!(f, "{prefix}{}", self.block),

@@ -10,9 +10,9 @@ pub use crate::mechanics::{AtState, OnConstraints};
 #[cfg(feature = "random")]
 pub use crate::methods::Langevin;
 pub use crate::methods::{
-    Collision, Composition, Constrained, EnergyLimit, Fitting, Galerkin, Gauss, Impacts, Newmark, OneStep,
-    OneStepGauss, ParasiticMode, Projected, Rattle, Reinitialisation, RungeKutta, Scheme, Sigma, Start,
-    Variational,
+    Collision, Composition, Constrained, EnergyLimit, Fitting, Galerkin, Gauss, Geodesic, Impacts, Newmark,
+    OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, Reinitialisation, RungeKutta, Scheme, Sigma,
+    Start, Variational,
 };
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, Integrator, Osculating, Power, Reversible,
@@ -21,8 +21,8 @@ pub use crate::run::{
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::Summation;
 pub use crate::{
-    DegenerateLagrangian, HolonomicLagrangian, Lagrangian, NondegenerateLagrangian, RegularLagrangian,
-    System, TimeTransformed, UnilateralLagrangian,
+    DegenerateLagrangian, HolonomicLagrangian, Lagrangian, ManifoldLagrangian, NondegenerateLagrangian,
+    RegularLagrangian, System, TimeTransformed, UnilateralLagrangian,
 };
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

@@ -15,6 +15,7 @@
 mod constrained;
 mod holonomic;
 mod kind;
+mod manifold;
 mod names;
 mod nondegenerate;
 mod nonholonomic;
@@ -32,7 +33,10 @@ use crate::{Real, Scalar, Space};
 pub use crate::name::Name;
 pub use constrained::ConstrainedSystem;
 pub use holonomic::HolonomicLagrangian;
-pub use kind::{Degenerate, Holonomic, Kind, Nonholonomic, Regular, Smooth, Unconstrained, Unilateral};
+pub use kind::{
+    Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Smooth, Unconstrained, Unilateral,
+};
+pub use manifold::{Factor, ManifoldLagrangian, ManifoldSystem};
 pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
@@ -132,21 +136,21 @@ pub trait System {
     where
         Self: Sized,
     {
-        names::names(self)
+        names::entries(self).map(|(name, _)| name)
     }
 
     /// The entries of a state, in the order of [`names`](Self::names).
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
-    fn values<T: Scalar>(&self, state: &Self::State<T>) -> Result<impl Iterator<Item = T>, LengthError> {
+    fn values<T: Scalar>(&self, state: &Self::State<T>) -> Result<impl Iterator<Item = T>, LengthError>
+    where
+        Self: Sized,
+    {
         let space = self.space();
         let (mut q, mut v) = (space.vector(), space.vector());
         state.write(|block| self.block_len(block), &mut q, &mut v)?;
-        let velocities = if Self::REGULAR { space.dimension() } else { 0 };
-        let [coordinates, velocities] = [(q, space.dimension()), (v, velocities)]
-            .map(|(vector, count)| (0..count).map(move |i| vector[i]));
-        Ok(coordinates.chain(velocities))
+        Ok(names::entries(self).map(move |(name, place)| if name.is_velocity { v[place] } else { q[place] }))
     }
 }
 

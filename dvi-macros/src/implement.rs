@@ -26,6 +26,7 @@ mod check;
 mod constraints;
 mod degenerate;
 mod document;
+mod manifold;
 mod regular;
 mod state;
 
@@ -240,9 +241,15 @@ fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStr
 }
 
 /// The type that says what kind of Lagrangian it is.
-pub(crate) fn kind(krate: &Path, kind: Kind, constrained: Option<Constrained>) -> TokenStream {
+pub(crate) fn kind(
+    krate: &Path,
+    kind: Kind,
+    constrained: Option<Constrained>,
+    is_on_manifold: bool,
+) -> TokenStream {
     match (kind, constrained) {
         (Kind::Degenerate, _) => quote!(#krate::system::Degenerate),
+        (Kind::Regular, None) if is_on_manifold => quote!(#krate::system::Manifold),
         (Kind::Regular, None) => quote!(#krate::system::Regular),
         (Kind::Regular, Some(Constrained::Positions)) => quote!(#krate::system::Holonomic),
         (Kind::Regular, Some(Constrained::Velocities)) => quote!(#krate::system::Nonholonomic),
@@ -269,7 +276,10 @@ fn configuration(
     let autonomous = !programs.depends_on_time(emitter.graph);
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
     let constrained = programs.constraints.as_ref().map(|constraints| constraints.of);
-    let (check, kind) = (check::check(emitter, programs), kind(krate, emitter.model.kind, constrained));
+    let (check, kind) = (
+        check::check(emitter, programs),
+        kind(krate, emitter.model.kind, constrained, emitter.model.is_on_manifold()),
+    );
     quote! {
         #[automatically_derived]
         #allow

@@ -210,15 +210,15 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 /// ```
 ///
 /// For a struct `System` the attribute implements `dvi_core::System`, `dvi_core::Lagrangian` and
-/// `dvi_core::NondegenerateLagrangian`; `dvi_core::RegularLagrangian` where there are no constraints and no impacts, else
-/// `dvi_core::ConstrainedSystem` and `dvi_core::HolonomicLagrangian`, `dvi_core::NonholonomicLagrangian` or
+/// `dvi_core::NondegenerateLagrangian`; `dvi_core::RegularLagrangian` where all coordinates are numbers without constraints or impacts, else
+/// `dvi_core::ManifoldSystem` and `dvi_core::ManifoldLagrangian`, or `dvi_core::ConstrainedSystem` and `dvi_core::HolonomicLagrangian`, `dvi_core::NonholonomicLagrangian` or
 /// `dvi_core::UnilateralLagrangian`. It defines `SystemState`
 /// with the coordinates `x` and then the velocities `dot_x` as fields, and continues the documentation of the struct with its
 /// formulas.
 ///
 /// | argument | meaning |
 /// |---|---|
-/// | `coordinates(x, y[N])` | single coordinates and arrays, as in [`macro@degenerate_lagrangian`] |
+/// | `coordinates(x, y[N], R: SO3, s: S2)` | single coordinates and arrays, as in [`macro@degenerate_lagrangian`]; rotations and unit vectors, as below |
 /// | `lagrangian = …` | L, with the velocities `dot(x)` |
 /// | `force(x) = …`, `force = […]` | forces, as below |
 /// | `constraint = g`, `constraint(i in 0..n) = g(i)` | holonomic constraints, as below |
@@ -364,6 +364,45 @@ pub fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> Token
 ///
 /// Such systems are stepped by `Impacts` around a variational method. Methods that know no impacts do not take them:
 /// `dvi_core::UnilateralLagrangian` says more.
+///
+/// # Rotations and unit vectors
+///
+/// `R: SO3` declares a rotation matrix, which takes vectors of a body to those of space. Formulas have its entries `R[i][j]` and the
+/// angular velocity in the body `omega(R)[k]`, with the literals 0, 1 and 2 as indices. `omega(R)` is ω with Ṙ = R ω̂, ω̂ x = ω × x. In the state
+/// the rotation is `R`, nine entries row by row, and its velocity `omega_R`, three. `s: S2` declares a unit vector, with entries `s[i]` and
+/// velocities `dot(s[i])` as of an array of three.
+///
+/// ```
+/// use dvi_core::prelude::*;
+/// use dvi_core::rotations;
+///
+/// /// A satellite with a mass on a rod, which turns about its centre, and is drawn to the third axis of the satellite.
+/// #[lagrangian(
+///     coordinates(R: SO3, s: S2),
+///     lagrangian = (2.0 * omega(R)[0].powi(2) + 3.0 * omega(R)[1].powi(2) + 4.0 * omega(R)[2].powi(2)) / 2.0
+///         + sum(0..3, |i| dot(s[i]).powi(2)) / 2.0
+///         + pull * (s[0] * R[0][2] + s[1] * R[1][2] + s[2] * R[2][2]),
+/// )]
+/// struct Satellite {
+///     pull: f64,
+/// }
+///
+/// let start: SatelliteState = SatelliteState {
+///     R: rotations::exp([0.1, 0.0, 0.0]),
+///     s: [0.6, 0.0, 0.8],
+///     omega_R: [0.0, 0.1, 1.0],
+///     dot_s: [0.0, 0.5, 0.0],
+/// };
+/// let mut run = Integrator::new(&Satellite { pull: 0.5 }, Geodesic::trapezoid(), 0.05, start)?;
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-3);
+/// assert!(rotations::defect(&run.state().R) < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Such systems are stepped by `Geodesic`, and other methods do not take them: `dvi_core::ManifoldLagrangian` says more. They have neither
+/// forces nor constraints nor impacts, and neither sections nor step controls know them.
 ///
 /// # Errors
 ///

@@ -11,7 +11,7 @@ use syn::{Fields, Ident, ItemStruct, Path, Type};
 use crate::errors::Errors;
 use crate::lower::{reserved, words};
 use crate::symbolic::{Index, Names};
-use crate::syntax::{Attribute, Declaration, Function, Kind, ScalarFieldPath};
+use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, ScalarFieldPath};
 
 mod shape;
 mod sizes;
@@ -25,6 +25,14 @@ pub(crate) struct Block {
     pub(crate) name: Ident,
     /// The size of an array, with its text.
     pub(crate) array: Option<(Index, String)>,
+    pub(crate) factor: Factor,
+}
+
+impl Block {
+    /// The field of a state that holds the velocities.
+    pub(crate) fn velocity_name(&self) -> Ident {
+        velocity_name(&self.name, self.factor)
+    }
 }
 
 /// A size that is not a literal.
@@ -173,7 +181,11 @@ impl Model {
                 errors.push(word, message);
                 return;
             }
-            self.blocks.push(Block { name: Ident::new(name, word.span()), array: None });
+            self.blocks.push(Block {
+                name: Ident::new(name, word.span()),
+                array: None,
+                factor: Factor::Line,
+            });
         }
         self.extended = Some(Extended { time: first, energy: first + 1 });
     }
@@ -184,13 +196,13 @@ impl Model {
     }
 
     fn declare(&mut self, declaration: &Declaration, errors: &mut Errors) {
-        let Declaration { name, size } = declaration;
+        let &Declaration { ref name, ref size, factor } = declaration;
         if self.blocks.iter().any(|block| block.name == *name) {
             errors.push(name, format!("coordinate `{name}` is declared twice"));
             self.lost_coordinates = true;
             return;
         }
-        if let Some((velocity, of)) = self.clash_of_velocities(name) {
+        if let Some((velocity, of)) = self.clash_of_velocities(name, factor) {
             let message = format!(
                 "coordinate `{velocity}` has the name of the velocity of `{of}` in a state; rename one of them"
             );
@@ -213,7 +225,8 @@ impl Model {
             });
             (index, size.to_token_stream().to_string().replace(' ', ""))
         });
-        self.blocks.push(Block { name: name.clone(), array });
+        let array = factor.coordinates().map_or(array, |size| Some((Index::literal(size), size.to_string())));
+        self.blocks.push(Block { name: name.clone(), array, factor });
     }
 
     /// Whether states carry velocities beside the coordinates.
@@ -222,9 +235,21 @@ impl Model {
     }
 
     /// A coordinate called as the velocity of another one, and that one; one of them is `name`.
-    fn clash_of_velocities<'a>(&'a self, name: &'a Ident) -> Option<(&'a Ident, &'a Ident)> {
-        let pairs = self.blocks.iter().flat_map(|block| [(&block.name, name), (name, &block.name)]);
-        pairs.filter(|_| self.has_velocities()).find(|(a, b)| **a == velocity_name(b))
+    fn clash_of_velocities<'a>(&'a self, name: &'a Ident, factor: Factor) -> Option<(&'a Ident, &'a Ident)> {
+        if !self.has_velocities() {
+            return None;
+        }
+        let velocity = velocity_name(name, factor);
+        let clash = |block: &'a Block| {
+            let is_velocity = (block.name == velocity).then_some((&block.name, name));
+            is_velocity.or_else(|| (*name == block.velocity_name()).then_some((name, &block.name)))
+        };
+        self.blocks.iter().find_map(clash)
+    }
+
+    /// Whether a coordinate is a rotation or a unit vector.
+    pub(crate) fn is_on_manifold(&self) -> bool {
+        self.blocks.iter().any(|block| block.factor != Factor::Line)
     }
 
     /// The parameter that a path such as `Self::G` stands for.
@@ -296,6 +321,9 @@ impl Names for Model {
         let block = &self.blocks[block as usize];
         (block.name.to_string(), block.array.is_some())
     }
+    fn is_rotation(&self, block: u32) -> bool {
+        self.blocks[block as usize].factor == Factor::Rotation
+    }
     fn velocity(&self) -> &'static str {
         match self.kind {
             Kind::Degenerate => "d",
@@ -326,8 +354,11 @@ impl Names for Model {
 }
 
 /// The field of a state that holds the velocity of a coordinate.
-pub(crate) fn velocity_name(coordinate: &Ident) -> Ident {
-    format_ident!("dot_{}", coordinate)
+fn velocity_name(coordinate: &Ident, factor: Factor) -> Ident {
+    match factor {
+        Factor::Line | Factor::Sphere => format_ident!("dot_{}", coordinate),
+        Factor::Rotation => format_ident!("omega_{}", coordinate),
+    }
 }
 
 fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {

@@ -14,11 +14,14 @@ mod argument;
 mod constraint;
 mod declared;
 pub(crate) mod depth;
+mod rotation;
 
 use argument::{Argument, Value};
 pub(crate) use constraint::{Constrained, Constraint, Family};
 use declared::Declared;
-pub(crate) use declared::{Declaration, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform};
+pub(crate) use declared::{
+    Declaration, Factor, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform,
+};
 
 /// Which of the two attributes stands on a struct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,7 +62,7 @@ pub(crate) struct Attribute {
 /// The arguments, and how they are written.
 #[rustfmt::skip]
 const ARGUMENTS: [(&str, &str); 14] = [
-    ("coordinates", "coordinates(x, y[n])"),
+    ("coordinates", "coordinates(x, y[n], R: SO3, s: S2)"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
     ("gauge",       "gauge = F(q)"),
@@ -128,6 +131,7 @@ pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Erro
         }
     }
     attribute.lost_coordinates |= attribute.coordinates.is_empty();
+    attribute.admit_factors(errors);
     attribute
 }
 
@@ -163,6 +167,21 @@ impl Attribute {
             .map(|constraint| (&constraint.formula, constraint.family.as_ref().map(|family| &family.index)));
         let others = dynamics.into_iter().flatten().chain(forces).chain(momenta);
         others.map(|formula| (formula, None)).chain(constraints)
+    }
+
+    /// All formulas, to be changed.
+    fn formulas_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
+        let rate = self.time_transform.as_mut().map(|transform| &mut transform.rate);
+        let gauge = match &mut self.gauge {
+            Some(Gauge::Formula(formula)) => Some(formula),
+            Some(Gauge::Auto(_)) | None => None,
+        };
+        let dynamics =
+            [self.one_form.as_mut(), self.hamiltonian.as_mut(), self.lagrangian.as_mut(), gauge, rate];
+        let forces = self.forces.iter_mut().flat_map(Force::formulas_mut);
+        let momenta = self.momenta.iter_mut().map(|momentum| &mut momentum.formula);
+        let constraints = self.constraints.iter_mut().map(|constraint| &mut constraint.formula);
+        dynamics.into_iter().flatten().chain(forces).chain(momenta).chain(constraints)
     }
 
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {

@@ -14,7 +14,7 @@ const STEPS: u64 = 1000;
 /// extrapolates from.
 fn steps_ahead(name: &str) -> u64 {
     match name {
-        _ if ["Verlet", "RATTLE", "matrix"].iter().any(|scheme| name.contains(scheme)) => 0,
+        _ if ["Verlet", "RATTLE", "matrix", "top"].iter().any(|scheme| name.contains(scheme)) => 0,
         _ if name.contains("explicit") => 1,
         _ => 7,
     }

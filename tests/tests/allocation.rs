@@ -4,6 +4,7 @@
 use dvi_core::field::{Axis, ScalarField, Spline};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_core::rotations;
 use dvi_tests::configurations;
 use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
@@ -69,6 +70,16 @@ struct Rubbed {
 #[derive(Debug)]
 struct Links {
     rod: Vec<f64>,
+}
+
+/// A body and a rod beside a chain whose length is known at run time.
+#[lagrangian(
+    coordinates(x[n], R: SO3, s: S2),
+    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(2)) + sum(0..3, |i| dot(s[i]).powi(2))
+        + omega(R)[0].powi(2) + 0.8 * omega(R)[1].powi(2) + 0.5 * omega(R)[2].powi(2) + x[0] * R[0][2] * s[0],
+)]
+struct Turning {
+    n: usize,
 }
 
 /// A chain of `n` rods, stretched out.
@@ -212,6 +223,22 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Impacts::new(Variational::midpoint()),
         Impacts::reflecting(Variational::trapezoid()),
         Impacts::reflecting(Galerkin::<3>::new())
+    );
+    let turning = Turning { n: 2 };
+    let turning_start = TurningState {
+        x: vec![0.3, -0.1],
+        R: rotations::exp([0.3, -0.2, 0.6]),
+        s: [0.6, 0.0, 0.8],
+        dot_x: vec![0.2, 0.5],
+        omega_R: [0.4, 0.9, -0.3],
+        dot_s: [0.0, 0.4, 0.0],
+    };
+    assert_none!(
+        turning,
+        turning_start,
+        Geodesic::trapezoid(),
+        Geodesic::midpoint(),
+        Composition::suzuki(Geodesic::trapezoid())
     );
     let fast_start = FastBallState { y: 0.2, dot_y: 0.0 };
     assert_none!(FastBall, fast_start, Impacts::reflecting(Variational::midpoint()));

@@ -83,13 +83,22 @@ pub enum StepFailure {
         /// Its number, counted from 0 in the order of declaration.
         constraint: usize,
     },
-    /// The equations of a step with constraints have been solved on another branch than that of the motion, as a rod may point to
-    /// either side: the determinant of G(q1) M⁻¹ G(q0)ᵀ has another sign than that of a short step.
+    /// The equations of a step have been solved on another branch than that of the motion: the determinant of their matrix has another
+    /// sign than that of a short step. With constraints, where a rod may point to either side, that is the one of G(q1) M⁻¹ G(q0)ᵀ.
     #[error(
-        "the step comes out at another solution of its constraints than that of the motion: a smaller step helps, unless the \
-         constraints are singular on the way"
+        "the step comes out at another solution of its equations than that of the motion: a smaller step helps, unless constraints are \
+         singular on the way"
     )]
     Branch,
+    /// A step turns a rotation, or moves a unit vector, by half a turn or more, where a geodesic is not the shortest way and the equations of
+    /// the step have other solutions than the motion.
+    #[error("`{block}` would turn by {angle} radians in one step, half a turn or more: a smaller step helps")]
+    HalfTurn {
+        /// The name of the coordinates.
+        block: &'static str,
+        /// The angle.
+        angle: f64,
+    },
     /// Impacts follow each other so fast that a step has too many of them: they accumulate where the motion comes to rest on a
     /// surface, or the step is too long.
     #[error(

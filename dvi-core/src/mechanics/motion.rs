@@ -74,10 +74,11 @@ pub trait Rates<S: System, T: Real>: Kind {
 
 /// What the equations of motion of a kind of system are stored in.
 #[diagnostic::on_unimplemented(
-    message = "the equations of motion of `{S}` have constraints or impacts beside them, and this would not keep these",
-    label = "it knows neither constraints nor impacts",
+    message = "the equations of motion of `{S}` have constraints, impacts, rotations or unit vectors beside them, and this would not keep these",
+    label = "it knows none of these",
     note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
-    note = "systems with `impact = …` are stepped by `Impacts` around a variational method"
+    note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
+    note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
 pub trait Motion<S: System, T: Real>: Kind {
     /// y: q, or q and p.
@@ -104,9 +105,10 @@ pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point;
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be solved in `{T}`",
-    label = "it is no system, it has constraints or impacts, or a parameter of it is no number",
+    label = "it is no system, it has constraints, impacts, rotations or unit vectors, or a parameter of it is no number",
     note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
-    note = "systems with `impact = …` are stepped by `Impacts` around a variational method"
+    note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
+    note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
 pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// The equations at (`q`, `v`, `t`).

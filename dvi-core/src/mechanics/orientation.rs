@@ -206,16 +206,23 @@ impl<S: NondegenerateLagrangian<T>, T: Real> MassOrientation<S, T> {
     /// [`StepFailure::Singular`] and [`StepFailure::Orientation`]; the last is kept then.
     pub(crate) fn check(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<(), StepFailure> {
         let after = self.work.evaluate(system, q, v, t)?;
-        let before = core::mem::replace(&mut self.inertia, after);
-        if after.negative == before.negative {
-            return Ok(());
-        }
-        self.inertia = before;
-        // Those that crossed zero went from one side to the other.
-        let [from, to] = if after.negative > before.negative { [0, 1] } else { [1, 0] };
-        let [before, after] = [before.least[from], after.least[to]].map(reported);
-        Err(StepFailure::Orientation { matrix: "the mass matrix", before, after })
+        keep(&mut self.inertia, after)
     }
+}
+
+/// Replaces the inertia of a mass matrix by that at the end of a step.
+///
+/// # Errors
+/// [`StepFailure::Orientation`] if another number of eigenvalues is negative; the last is kept then.
+pub(crate) fn keep<T: Real>(last: &mut Inertia<T>, after: Inertia<T>) -> Result<(), StepFailure> {
+    if after.negative == last.negative {
+        *last = after;
+        return Ok(());
+    }
+    // Those that crossed zero went from one side to the other.
+    let [from, to] = if after.negative > last.negative { [0, 1] } else { [1, 0] };
+    let [before, after] = [last.least[from], after.least[to]].map(reported);
+    Err(StepFailure::Orientation { matrix: "the mass matrix", before, after })
 }
 
 impl<S: System, T: Real> Memory<T> for MassOrientation<S, T> {

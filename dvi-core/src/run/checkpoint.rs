@@ -89,7 +89,7 @@ impl<T: Real> Checkpoint<T> {
         if found != 0 && found != expected {
             return Err(CheckpointError::Velocities { expected, found }.into());
         }
-        finite(system, self.q.iter().chain(&self.v).copied())?;
+        finite(system, &self.q, &self.v)?;
         let Statistics { steps, iterations, gradients, linearizations, factorisations } = self.statistics;
         let counts = [steps, iterations, gradients, linearizations, factorisations];
         if counts.iter().any(|&count| count > BEYOND) || !self.record.is_finite() {

@@ -2,12 +2,14 @@
 //!
 //! Outside of its table such a function is not a number, and what fails then is an iteration or a coordinate. The points at
 //! which it was evaluated are gone, so they are looked for along the parabola q + vτ + ½aτ² from the last good state, with its
-//! velocity and, of a regular system, its acceleration at rest.
+//! velocity and, of a regular system, its acceleration at rest. On a manifold, where no parabola leads on, they are looked for at that
+//! state.
 
 use crate::error::{OutsideError, StepFailure};
 use crate::methods::Method;
 use crate::run::Stepper;
 use crate::space::elimination::eliminate;
+use crate::system::Factor;
 use crate::{Lagrangian, Matrix, Real, Space, Vector, Weights};
 
 /// The parts of a step at which is looked: stages lie within the step, guesses and iterates beyond it.
@@ -43,6 +45,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::NotSmooth { .. }
             | StepFailure::Accumulation { .. }
             | StepFailure::Contact { .. }
+            | StepFailure::HalfTurn { .. }
             | StepFailure::Outside(_) => false,
         };
         if !S::HAS_SCALAR_FIELDS || !is_suspect {
@@ -53,8 +56,10 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
 
     /// The first function that is not known on the way of a step from time `t` to `t + h`.
     fn outside(&self, t: T, h: T) -> Option<OutsideError> {
+        let is_flat = S::REPORT.coordinates.iter().all(|block| block.factor == Factor::Line);
+        let parts = if is_flat { &PARTS[..] } else { &PARTS[..1] };
         let motion = self.motion(t, h);
-        PARTS.into_iter().find_map(|part| {
+        parts.iter().find_map(|&part| {
             let elapsed = T::lift(part) * h;
             let (mut q, mut v) = (self.q.clone(), motion.velocity.clone());
             if part > 0.0 {

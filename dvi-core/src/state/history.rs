@@ -137,6 +137,11 @@ impl<S: System, T: Real> Rates<S, T> {
         });
     }
 
+    /// Sets `rates` to what those of the last steps lead to.
+    pub(crate) fn extrapolate(&self, rates: &mut [T]) {
+        self.history.extrapolate(rates);
+    }
+
     /// Remembers those of a completed step of length `h`.
     pub(crate) fn push(&mut self, h: T, rates: &[T]) {
         if !is_similar(h, self.last_step) {

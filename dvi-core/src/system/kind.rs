@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Holonomic`], [`Nonholonomic`]
-/// or [`Unilateral`].
+/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Manifold`], [`Holonomic`],
+/// [`Nonholonomic`] or [`Unilateral`].
 pub trait Kind: Debug {
     /// Whether the mass matrix is regular.
     const REGULAR: bool;
@@ -17,6 +17,10 @@ pub enum Degenerate {}
 /// T*Q.
 #[derive(Clone, Copy, Debug)]
 pub enum Regular {}
+
+/// The kind of L(q, v, t) with a regular mass matrix on a manifold: some coordinates are rotation matrices or unit vectors.
+#[derive(Clone, Copy, Debug)]
+pub enum Manifold {}
 
 /// The kind of L(q, v, t) with a regular mass matrix and holonomic constraints g(q, t) = 0.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +42,10 @@ impl Kind for Regular {
     const REGULAR: bool = true;
 }
 
+impl Kind for Manifold {
+    const REGULAR: bool = true;
+}
+
 impl Kind for Holonomic {
     const REGULAR: bool = true;
 }
@@ -52,20 +60,22 @@ impl Kind for Unilateral {
 
 /// The kinds of systems without constraints or impacts.
 #[diagnostic::on_unimplemented(
-    message = "the system has constraints or impacts, and this would not keep them",
-    label = "it knows neither constraints nor impacts",
+    message = "the system has constraints or impacts, rotations or unit vectors, and this would not keep them",
+    label = "it knows none of these",
     note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
-    note = "systems with `impact = …` are stepped by `Impacts` around a variational method"
+    note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
+    note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
 pub trait Unconstrained: Kind {}
 
 impl Unconstrained for Degenerate {}
 impl Unconstrained for Regular {}
 
-/// The kinds of systems whose motion is smooth: all but [`Unilateral`].
+/// The kinds of systems whose motion is a smooth curve of numbers, between two of which one may interpolate: all but [`Unilateral`] and
+/// [`Manifold`].
 #[diagnostic::on_unimplemented(
-    message = "the motion of the system jumps at impacts, and this follows a smooth one",
-    label = "it would go through the impacts",
+    message = "the motion of the system jumps at impacts, or has rotations or unit vectors, and this interpolates numbers",
+    label = "it would go through the impacts, or leave the manifold",
     note = "the memory of a run with `Impacts` has the impacts of the last step, with their times and states"
 )]
 pub trait Smooth: Kind {}

@@ -3,17 +3,22 @@
 use super::{CoordinateBlock, System};
 use crate::name::Name;
 
-/// The names of all entries of the states of `system`, coordinates first.
-pub(super) fn names<S: System>(system: &S) -> impl Iterator<Item = Name> {
+/// The names of all entries of the states of `system`, coordinates first, each with its place among the coordinates or among the
+/// velocities.
+pub(crate) fn entries<S: System>(system: &S) -> impl Iterator<Item = (Name, usize)> {
     let halves: &[bool] = if S::REGULAR { &[false, true] } else { &[false] };
     halves.iter().flat_map(move |&is_velocity| {
+        let mut first = 0;
         S::REPORT.coordinates.iter().enumerate().flat_map(move |(number, block)| {
-            let &CoordinateBlock { name: block, size } = block;
+            let &CoordinateBlock { name: block, size, factor } = block;
+            let coordinates = system.block_len(number);
+            let count = if is_velocity { factor.velocities(coordinates) } else { coordinates };
+            let begin = first;
+            first += coordinates;
             let is_array = !size.is_empty();
-            (0..system.block_len(number)).map(move |index| Name {
-                block,
-                is_velocity,
-                index: is_array.then_some(index),
+            (0..count).map(move |index| {
+                let name = Name { block, is_velocity, index: is_array.then_some(index), factor };
+                (name, begin + index)
             })
         })
     })

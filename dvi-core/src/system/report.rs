@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use super::Factor;
+
 /// A block of coordinates as declared: `x`, or `x[n]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CoordinateBlock {
@@ -9,6 +11,8 @@ pub struct CoordinateBlock {
     pub name: &'static str,
     /// The size as written in the attribute; empty for a single coordinate.
     pub size: &'static str,
+    /// Where the block lives.
+    pub factor: Factor,
 }
 
 /// A quantity and its formula as text.
@@ -87,9 +91,11 @@ impl Report {
 
 impl fmt::Display for CoordinateBlock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.size {
-            "" => f.write_str(self.name),
-            size => write!(f, "{}[{size}]", self.name),
+        match (self.factor, self.size) {
+            (Factor::Rotation, _) => write!(f, "{}: SO3", self.name),
+            (Factor::Sphere, _) => write!(f, "{}: S2", self.name),
+            (Factor::Line, "") => f.write_str(self.name),
+            (Factor::Line, size) => write!(f, "{}[{size}]", self.name),
         }
     }
 }

@@ -3,9 +3,9 @@
 
 use super::{
     AffineOneForm, ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian,
-    Lagrangian, NondegenerateLagrangian, Nonholonomic, NonholonomicLagrangian, ProperlyDegenerate,
-    QuadraticInVelocity, Regular, RegularLagrangian, Separable, System, Unilateral, UnilateralLagrangian,
-    Weights,
+    Lagrangian, Manifold, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, Nonholonomic,
+    NonholonomicLagrangian, ProperlyDegenerate, QuadraticInVelocity, Regular, RegularLagrangian, Separable,
+    System, Unilateral, UnilateralLagrangian, Weights,
 };
 use crate::{Scalar, Sink};
 
@@ -112,6 +112,9 @@ impl<S: StandIn + ConstrainedSystem + System<Kind = Unilateral>, T: Scalar> Unil
     fn gap_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: &mut [T], _: &mut K) {}
     fn gap_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
 }
+
+#[diagnostic::do_not_recommend]
+impl<S: StandIn + ManifoldSystem + System<Kind = Manifold>, T: Scalar> ManifoldLagrangian<T> for S {}
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> AffineOneForm<T> for S {}

@@ -2,6 +2,7 @@
 
 use crate::error::StartError;
 use crate::scalar::norm::reported;
+use crate::system::names::entries;
 use crate::system::{TimeTransform, TimeTransformed};
 use crate::{Lagrangian, Real, Space, State, System, Vector};
 
@@ -105,7 +106,7 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
     state.write(|block| system.block_len(block), &mut q, &mut v)?;
     let [_, energy] = extended(system);
     q[energy] = T::lift(0.0);
-    finite(system, q.iter().copied())?;
+    finite(system, &q, &v)?;
     let TimeTransform { rate, hamiltonian } = system.time_transform_at(&q);
     if !hamiltonian.is_finite() || !rate.is_finite() {
         evaluate(system, &q, &v, T::lift(0.0))?;
@@ -114,12 +115,11 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
     Ok(S::State::read(|block| system.block_len(block), &q, &v))
 }
 
-/// Checks that the entries of a state, in the order of [`System::names`], are finite.
-pub(crate) fn finite<S: System, T: Real>(
-    system: &S,
-    entries: impl Iterator<Item = T>,
-) -> Result<(), StartError> {
-    match system.names().zip(entries).find(|(_, x)| !x.is_finite()) {
+/// Checks that the entries of a state are finite.
+pub(crate) fn finite<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> Result<(), StartError> {
+    let mut values =
+        entries(system).map(|(name, place)| (name, if name.is_velocity { v[place] } else { q[place] }));
+    match values.find(|(_, x)| !x.is_finite()) {
         Some((entry, value)) => Err(StartError::NotFinite { entry, value: reported(value) }),
         None => Ok(()),
     }
@@ -137,6 +137,6 @@ pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
 ) -> Result<[Vector<S, T>; 2], StartError> {
     let (mut q, mut v) = (system.space().vector(), system.space().vector());
     state.write(|block| system.block_len(block), &mut q, &mut v)?;
-    finite(system, q.iter().chain(v.iter()).copied())?;
+    finite(system, &q, &v)?;
     Ok([q, v])
 }

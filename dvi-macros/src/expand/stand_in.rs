@@ -22,6 +22,7 @@ struct StandIn<'a> {
     state: TokenStream,
     time_transformed: bool,
     constrained: Option<Constrained>,
+    is_on_manifold: bool,
 }
 
 /// With errors in the attribute.
@@ -39,8 +40,9 @@ pub(super) fn stand_in(
         (space, type_in_trait, item)
     };
     let (name, generics, time_transformed) = (&item.ident, &item.generics, model.extended.is_some());
-    let kind = model.kind;
-    let stand_in = StandIn { kind, name, generics, krate, space, state, time_transformed, constrained };
+    let (kind, is_on_manifold) = (model.kind, model.is_on_manifold());
+    let stand_in =
+        StandIn { kind, name, generics, krate, space, state, time_transformed, constrained, is_on_manifold };
     let implementations = stand_in.implementations();
     let errors = errors.into_tokens();
     quote!(#errors #item #state_item #implementations)
@@ -56,9 +58,10 @@ pub(super) fn without_struct(
 ) -> TokenStream {
     let krate: Path = syn::parse_quote!(::dvi_core);
     let (space, state, state_item) = lost_state(&krate, visibility, name, generics, &mut errors);
-    let (time_transformed, constrained) = (false, None);
+    let (time_transformed, constrained, is_on_manifold) = (false, None, false);
+    let krate = &krate;
     let stand_in =
-        StandIn { kind, name, generics, krate: &krate, space, state, time_transformed, constrained };
+        StandIn { kind, name, generics, krate, space, state, time_transformed, constrained, is_on_manifold };
     let implementations = stand_in.implementations();
     let errors = errors.into_tokens();
     quote!(#errors #state_item #implementations)
@@ -70,10 +73,11 @@ impl StandIn<'_> {
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         let allow = implement::allow();
         let never = quote!({ ::core::unreachable!() });
-        let kind = implement::kind(krate, self.kind, self.constrained);
+        let kind = implement::kind(krate, self.kind, self.constrained, self.is_on_manifold);
         let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
         let constrained =
             (self.kind == Kind::Regular && self.constrained.is_some()).then(|| self.with_constraints(&never));
+        let manifold = (self.kind == Kind::Regular && self.is_on_manifold).then(|| self.on_manifold(&never));
         quote! {
             const _: () = {
                 #[automatically_derived]
@@ -90,7 +94,20 @@ impl StandIn<'_> {
                 impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause {}
                 #time_transformed
                 #constrained
+                #manifold
             };
+        }
+    }
+
+    /// The trait that systems have with rotations and unit vectors only.
+    fn on_manifold(&self, never: &TokenStream) -> TokenStream {
+        let Self { name, krate, .. } = self;
+        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
+        quote! {
+            impl #impl_generics #krate::ManifoldSystem for #name #type_generics #where_clause {
+                type Tangent = #krate::Fixed<1usize, 1usize>;
+                fn tangent(&self) -> Self::Tangent #never
+            }
         }
     }
 

@@ -10,7 +10,7 @@ use crate::program::{Output, Place, Programs, Row, Statement, Variable, variable
 use crate::symbolic::{
     Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops, print_velocity,
 };
-use crate::syntax::Constrained;
+use crate::syntax::{Constrained, Factor};
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
     print_expr(emitter.graph, expr, 0, emitter.model)
@@ -118,7 +118,12 @@ impl Account {
         let blocks = emitter.model.blocks.iter().map(|block| {
             let (name, size) =
                 (block.name.unraw().to_string(), block.array.as_ref().map_or("", |(_, text)| text.as_str()));
-            quote!(#krate::CoordinateBlock { name: #name, size: #size })
+            let factor = match block.factor {
+                Factor::Line => quote!(Line),
+                Factor::Rotation => quote!(Rotation),
+                Factor::Sphere => quote!(Sphere),
+            };
+            quote!(#krate::CoordinateBlock { name: #name, size: #size, factor: #krate::system::Factor::#factor })
         });
         let lines = formulas.iter().map(|(name, text)| quote!(#krate::Formula { name: #name, text: #text }));
         let residual = operation_list(emitter, &programs.gradient.operations());

@@ -6,6 +6,7 @@ use quote::quote;
 use super::constraints::constraints;
 use super::document::{Account, beside_force, quantity};
 use super::in_numbers;
+use super::manifold::manifold;
 use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
 use crate::structure::MassMatrix;
@@ -47,7 +48,7 @@ fn account(
     let mut account = Account::new(
         "L(q, v, t) and its energy E = v·∂L/∂v − L:",
         declared.to_vec(),
-        structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of)),
+        structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of), emitter.model),
     );
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
@@ -84,6 +85,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     let lagrangian = in_numbers(emitter, &quote!(NondegenerateLagrangian), &lagrangian);
     let motion = match &programs.shared.constraints {
         Some(programs) => constraints(emitter, programs),
+        None if emitter.model.is_on_manifold() => manifold(emitter),
         None => in_numbers(emitter, &quote!(RegularLagrangian), &TokenStream::new()),
     };
     quote!(#lagrangian #motion #(#traits)*)

@@ -5,8 +5,9 @@ use quote::{format_ident, quote};
 use syn::{GenericParam, Ident};
 
 use crate::emit::{Emitter, local};
-use crate::model::{Block, Model, velocity_name};
+use crate::model::{Block, Model};
 use crate::symbolic::{Atom, Index};
+use crate::syntax::Factor;
 
 pub(crate) struct State {
     /// The struct and its implementations.
@@ -86,8 +87,9 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let declarations: Vec<TokenStream> = declarations.collect();
     let (space, space_value) = space(emitter);
     let (fields, docs): (Vec<Ident>, Vec<String>) = fields(model).into_iter().unzip();
-    let types: Vec<TokenStream> =
-        (0..fields.len()).map(|field| field_type(emitter, field % model.blocks.len())).collect();
+    let types: Vec<TokenStream> = (0..fields.len())
+        .map(|field| field_type(emitter, field % model.blocks.len(), field >= model.blocks.len()))
+        .collect();
     let contents = if model.has_velocities() { "coordinates and velocities" } else { "coordinates" };
     let summary = format!("A state of [`{}`]: its {contents} by name.", model.item.ident);
     let copy =
@@ -132,10 +134,20 @@ fn fields(model: &Model) -> Vec<(Ident, String)> {
         Some((_, size)) => format!("{what}s `{}[0]` to `{}[{size} - 1]`.", block.name, block.name),
         None => format!("{what} `{}`.", block.name),
     };
-    let coordinates = model.blocks.iter().map(|block| (block.name.clone(), described(block, "Coordinate")));
+    let coordinate = |block: &Block| match block.factor {
+        Factor::Line => described(block, "Coordinate"),
+        Factor::Rotation => {
+            format!("The rotation matrix `{}`, row by row: from the body to space.", block.name)
+        }
+        Factor::Sphere => format!("The unit vector `{}`.", block.name),
+    };
+    let velocity = |block: &Block| match block.factor {
+        Factor::Line | Factor::Sphere => described(block, "Velocity of coordinate"),
+        Factor::Rotation => format!("The angular velocity of `{}`, in the body.", block.name),
+    };
+    let coordinates = model.blocks.iter().map(|block| (block.name.clone(), coordinate(block)));
     let velocities = model.blocks.iter().filter(|_| model.has_velocities());
-    let velocities =
-        velocities.map(|block| (velocity_name(&block.name), described(block, "Velocity of coordinate")));
+    let velocities = velocities.map(|block| (block.velocity_name(), velocity(block)));
     coordinates.chain(velocities).collect()
 }
 
@@ -192,10 +204,13 @@ fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
     size.as_literal().is_some() || (emitter.model.is_constant(&size) && is_name(&size))
 }
 
-fn field_type(emitter: &Emitter<'_>, block: usize) -> TokenStream {
+fn field_type(emitter: &Emitter<'_>, block: usize, is_velocity: bool) -> TokenStream {
     let krate = emitter.krate();
     match &emitter.model.blocks[block].array {
         None => quote!(__T),
+        Some(_) if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation => {
+            quote!([__T; 3usize])
+        }
         Some((size, _)) if on_stack(emitter, block) => {
             let size = emitter.index(size);
             quote!([__T; #size])
@@ -217,7 +232,7 @@ fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> (TokenStream, TokenStre
         write.extend(quote!(let mut __at = 0usize;));
         read.extend(quote!(let mut __at = 0usize;));
         for (block, field) in names.iter().enumerate() {
-            let (written, value) = transfer(emitter, block, field, &flat);
+            let (written, value) = transfer(emitter, block, half == 1, field, &flat);
             let name = value_name(half * blocks + block);
             write.extend(written);
             read.extend(quote!(let #name = #value;));
@@ -230,6 +245,7 @@ fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> (TokenStream, TokenStre
 fn transfer(
     emitter: &Emitter<'_>,
     block: usize,
+    is_velocity: bool,
     field: &Ident,
     flat: &TokenStream,
 ) -> (TokenStream, TokenStream) {
@@ -240,8 +256,13 @@ fn transfer(
     }
     let reader =
         if on_stack(emitter, block) { quote!(__private::read_array) } else { quote!(RunTime::read_block) };
-    let write = quote! {
-        #krate::__private::write_block(#text, &self.#field[..], __len(#block), &mut __at, #flat)?;
-    };
-    (write, quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
+    let write = |length: TokenStream| quote!(#krate::__private::write_block(#text, &self.#field[..], #length, &mut __at, #flat)?;);
+    if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation {
+        // An angular velocity has the first three of nine places.
+        let write = write(quote!(3usize));
+        let read =
+            quote!({ let __value = #krate::#reader(3usize, &mut __at, #flat); __at += 6usize; __value });
+        return (quote!(#write __at += 6usize;), read);
+    }
+    (write(quote!(__len(#block))), quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
 }

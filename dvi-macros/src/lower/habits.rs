@@ -4,8 +4,7 @@ use syn::{Expr as Syntax, ExprMethodCall, Pat};
 
 use super::{Lowering, Role};
 use crate::errors::text;
-use crate::model::velocity_name;
-use crate::syntax::Constrained;
+use crate::syntax::{Constrained, Factor};
 
 /// Functions by other names.
 #[rustfmt::skip]
@@ -113,11 +112,14 @@ impl Lowering<'_> {
             Role::Constraint(Constrained::Positions | Constrained::Gaps) => "",
         };
         let block = self.model.blocks.iter().find(|block| {
-            let (dot, of) = (velocity_name(&block.name), &block.name);
+            let (dot, of) = (block.velocity_name(), &block.name);
             let others = [format!("{of}dot"), format!("{of}_dot"), format!("dot{of}"), format!("d{of}")];
             dot == *name || others.iter().any(|other| other == name)
         })?;
         let entry = if block.array.is_some() { "[j]" } else { "" };
+        if block.factor == Factor::Rotation {
+            return Some(format!("the angular velocity of `{0}` is written `omega({0})[k]`", block.name));
+        }
         Some(match written {
             "" if self.role == Role::Constraint(Constrained::Gaps) => {
                 "a gap is a function of the positions and the time, without velocities".to_string()

@@ -5,10 +5,10 @@ use syn::Expr as Syntax;
 use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
 use crate::errors::{Errors, listed};
-use crate::model::Model;
+use crate::model::{Block, Model};
 use crate::program::{RegularFormulas, Variable, variable};
 use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution};
-use crate::syntax::{Constrained, Kind};
+use crate::syntax::{Constrained, Factor, Kind};
 
 /// The structure of a regular L; see the constants of `dvi_core::NondegenerateLagrangian`.
 #[derive(Clone, Debug)]
@@ -106,8 +106,12 @@ impl MassMatrix {
         }
         for (block, index) in &self.skipped {
             let name = &model.blocks[*block].name;
+            let velocity = match model.blocks[*block].factor {
+                Factor::Line | Factor::Sphere => format!("the velocity of `{name}[{index}]`"),
+                Factor::Rotation => format!("the angular velocity `omega({name})[{index}]`"),
+            };
             let message = format!(
-                "the velocity of `{name}[{index}]` has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
+                "{velocity} has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
                  all entries have one with `{}`",
                 kinetic_energy(model, *block)
             );
@@ -149,13 +153,25 @@ impl MassMatrix {
     }
 
     /// What is said of the structure in reports, of a system with constraints or without.
-    pub(crate) fn sentences(&self, constrained: Option<Constrained>) -> Vec<String> {
+    pub(crate) fn sentences(&self, constrained: Option<Constrained>, model: &Model) -> Vec<String> {
         let mass = if self.diagonal { "diagonal" } else { "full" };
         let form = match (self.constant, self.depends_on.as_slice()) {
             (true, _) => format!("L = ½ v·M v − V(q, t) with a constant {mass} mass matrix M."),
             (false, []) => format!("The {mass} mass matrix is constant, but L is not ½ v·M v − V(q, t)."),
             (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
         };
+        if model.is_on_manifold() {
+            let block = |block: &Block| match block.factor {
+                Factor::Line => None,
+                Factor::Rotation => {
+                    Some(format!("`{}` is in SO(3), and its velocity is that in the body.", block.name))
+                }
+                Factor::Sphere => Some(format!("`{}` is in S².", block.name)),
+            };
+            let step = "A step moves along a geodesic, and solves for its velocity.".to_string();
+            let begin = "Begin with `Geodesic::trapezoid()`.".to_string();
+            return model.blocks.iter().filter_map(block).chain([step, begin]).collect();
+        }
         let step = match (self.separable, self.diagonal) {
             _ if matches!(constrained, Some(Constrained::Positions | Constrained::Velocities)) => {
                 "A step solves for the Lagrange multipliers λ, one for each constraint."
@@ -192,8 +208,11 @@ impl MassMatrix {
 
 /// `dot(x).powi(2) / 2.0`
 fn kinetic_energy(model: &Model, block: usize) -> String {
-    let name = &model.blocks[block].name;
-    match &model.blocks[block].array {
+    let Block { name, array, factor } = &model.blocks[block];
+    match array {
+        Some(_) if *factor == Factor::Rotation => {
+            format!("(omega({name})[0].powi(2) + omega({name})[1].powi(2) + omega({name})[2].powi(2)) / 2.0")
+        }
         Some((_, size)) => format!("sum(0..{size}, |j| dot({name}[j]).powi(2) / 2.0)"),
         None => format!("dot({name}).powi(2) / 2.0"),
     }

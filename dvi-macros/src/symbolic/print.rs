@@ -11,6 +11,8 @@ use crate::internal::internal;
 pub(crate) trait Names {
     /// The name, and whether it takes an index.
     fn coordinate(&self, block: u32) -> (String, bool);
+    /// Whether its entries are those of a rotation matrix, row by row, and its velocities an angular velocity.
+    fn is_rotation(&self, block: u32) -> bool;
     /// The function that makes a velocity of a coordinate.
     fn velocity(&self) -> &'static str;
     fn parameter(&self, field: u32) -> &str;
@@ -133,10 +135,20 @@ impl Letters<'_> {
     }
 
     fn coordinate(&self, coordinate: &Coordinate) -> String {
-        match self.names.coordinate(coordinate.block) {
-            (name, true) => format!("{name}[{}]", self.index(&coordinate.index)),
-            (name, false) => name,
+        let entry = coordinate.index.as_literal().filter(|_| self.names.is_rotation(coordinate.block));
+        match (self.names.coordinate(coordinate.block), entry) {
+            ((name, _), Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
+            ((name, true), None) => format!("{name}[{}]", self.index(&coordinate.index)),
+            ((name, false), None) => name,
         }
+    }
+
+    fn velocity(&self, coordinate: &Coordinate) -> String {
+        if self.names.is_rotation(coordinate.block) {
+            let (name, _) = self.names.coordinate(coordinate.block);
+            return format!("omega({name})[{}]", self.index(&coordinate.index));
+        }
+        format!("{}({})", self.names.velocity(), self.coordinate(coordinate))
     }
 }
 
@@ -157,7 +169,7 @@ pub(crate) fn print_index(index: &Index, names: &dyn Names) -> String {
 }
 
 pub(crate) fn print_velocity(coordinate: &Coordinate, names: &dyn Names) -> String {
-    format!("{}({})", names.velocity(), print_coordinate(coordinate, names))
+    open_letters(names).velocity(coordinate)
 }
 
 pub(crate) fn print_coordinate(coordinate: &Coordinate, names: &dyn Names) -> String {
@@ -260,10 +272,7 @@ impl Printer<'_> {
         match self.graph.node(id) {
             Node::One => ("1".into(), Strength::Atom),
             Node::Coordinate(c) => (self.letters.coordinate(c), Strength::Atom),
-            Node::Velocity(c) => {
-                let velocity = self.letters.names.velocity();
-                (format!("{velocity}({})", self.letters.coordinate(c)), Strength::Atom)
-            }
+            Node::Velocity(c) => (self.letters.velocity(c), Strength::Atom),
             Node::Time => ("t".into(), Strength::Atom),
             Node::Parameter(p) => {
                 let indices: String =

@@ -7,11 +7,52 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Expr, Path, Token};
 
-/// `x`, or `x[n]`.
+/// `x`, `x[n]`, `R: SO3` or `s: S2`.
 #[derive(Debug)]
 pub(crate) struct Declaration {
     pub(crate) name: Ident,
     pub(crate) size: Option<Expr>,
+    pub(crate) factor: Factor,
+}
+
+/// Where the coordinates of a block live.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Factor {
+    /// ℝⁿ.
+    #[default]
+    Line,
+    /// `SO3`: the entries of a rotation matrix, row by row. The velocities are those of its angular velocity in the body.
+    Rotation,
+    /// `S2`: a unit vector.
+    Sphere,
+}
+
+impl Factor {
+    /// The factor of this name, beside ℝⁿ, which has none.
+    fn named(name: &str) -> Option<Self> {
+        match name {
+            "SO3" => Some(Self::Rotation),
+            "S2" => Some(Self::Sphere),
+            _ => None,
+        }
+    }
+
+    /// The number of its coordinates, if that is not declared.
+    pub(crate) fn coordinates(self) -> Option<i64> {
+        match self {
+            Self::Line => None,
+            Self::Rotation => Some(9),
+            Self::Sphere => Some(3),
+        }
+    }
+
+    /// How many of so many coordinates have a velocity.
+    pub(crate) fn velocities(self, coordinates: i64) -> i64 {
+        match self {
+            Self::Line | Self::Sphere => coordinates,
+            Self::Rotation => 3,
+        }
+    }
 }
 
 /// `name = formula` in `momenta(...)`.
@@ -77,6 +118,17 @@ impl Force {
     }
 }
 
+impl Force {
+    /// Its formulas, to be changed.
+    pub(super) fn formulas_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
+        let (components, formula) = match self {
+            Self::Components(list) => (Some(list.elems.iter_mut()), None),
+            Self::On(_, formula) => (None, Some(formula)),
+        };
+        components.into_iter().flatten().chain(formula)
+    }
+}
+
 impl Gauge {
     pub(super) fn new(formula: Expr) -> Self {
         let word = match &formula {
@@ -109,11 +161,31 @@ impl Parse for Declaration {
         } else {
             None
         };
+        let factor = if input.peek(Token![:]) { factor(input, &name, size.is_some())? } else { Factor::Line };
         if !input.is_empty() {
-            return Err(input.error("a coordinate is declared as `x` or `x[n]`, and followed by `,`"));
+            return Err(input
+                .error("a coordinate is declared as `x`, `x[n]`, `R: SO3` or `s: S2`, and followed by `,`"));
         }
-        Ok(Self { name, size })
+        Ok(Self { name, size, factor })
     }
+}
+
+/// What stands behind the colon of `R: SO3`.
+fn factor(input: ParseStream<'_>, name: &Ident, is_array: bool) -> syn::Result<Factor> {
+    let colon: Token![:] = input.parse()?;
+    if is_array {
+        let message = format!(
+            "a rotation or a unit vector is a block of its own, with a name for each: write `{name}1: SO3, {name}2: SO3`, or without a \
+             type `{name}[n]` for numbers"
+        );
+        return Err(syn::Error::new(colon.span, message));
+    }
+    let advice = format!(
+        "what a coordinate is, if it is no number, is `{name}: SO3`, a rotation matrix, or `{name}: S2`, a unit vector"
+    );
+    let at = input.span();
+    let word: Ident = input.parse().map_err(|_| syn::Error::new(at, &advice))?;
+    Factor::named(&word.to_string()).ok_or_else(|| syn::Error::new(word.span(), &advice))
 }
 
 impl Parse for Momentum {

@@ -3,10 +3,12 @@
 mod kepler_by_hand;
 mod predators_by_hand;
 mod rattle_by_hand;
+mod top_by_hand;
 mod vortices_by_hand;
 
 use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
+use dvi_core::rotations;
 use dvi_core::state::Statistics;
 use dvi_core::{Space, Vector};
 use dvi_tests::configurations;
@@ -16,7 +18,7 @@ use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 11] = [
+pub(crate) const KERNELS: [[&str; 2]; 12] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["explicit, parasitic mode limited/generated", "explicit, parasitic mode limited/by hand"],
@@ -28,6 +30,7 @@ pub(crate) const KERNELS: [[&str; 2]; 11] = [
     ["Kepler, Simpson fitted to r^(−3÷2)/generated", "Kepler, Simpson fitted to r^(−3÷2)/by hand"],
     ["predators, one step/generated", "predators, one step/by hand"],
     ["sphere, RATTLE/generated", "sphere, RATTLE/by hand"],
+    ["top, geodesic/generated", "top, geodesic/by hand"],
 ];
 
 const H: f64 = 0.1;
@@ -84,6 +87,13 @@ pub(crate) fn run(name: &str, steps: u64) -> f64 {
             let mut scheme = predators_by_hand::OneStepMidpoint::new(H, black_box([2.0, 1.0]));
             (0..steps).for_each(|_| scheme.step());
             scheme.q[0]
+        }
+        "top, geodesic/generated" => top(steps),
+        "top, geodesic/by hand" => {
+            let (attitude, omega) = black_box(([0.3_f64.cos(), 0.3_f64.sin(), 0.0, 0.0], TOP_START));
+            let mut scheme = top_by_hand::Top::new(TOP_H, black_box(TOP), attitude, omega);
+            (0..steps).for_each(|_| scheme.step());
+            scheme.height()
         }
         "sphere, RATTLE/generated" => rattle(steps),
         "sphere, RATTLE/by hand" => {
@@ -196,6 +206,35 @@ fn rattle(steps: u64) -> f64 {
     let Ok(mut run) = Integrator::new(&system, method, H, ON_SPHERE) else { return f64::NAN };
     match run.take_steps(steps) {
         Ok(()) => run.q()[0],
+        Err(_) => f64::NAN,
+    }
+}
+
+/// A heavy symmetric top that turns about its tip.
+#[lagrangian(
+    coordinates(R: SO3),
+    lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2) + inertia[2] * omega(R)[2].powi(2)) / 2.0
+        - weight * R[2][2],
+)]
+#[derive(Clone, Copy, Debug)]
+struct Top {
+    inertia: [f64; 3],
+    weight: f64,
+}
+
+const TOP: ([f64; 3], f64) = ([1.0, 1.0, 0.5], 1.2);
+const TOP_START: [f64; 3] = [0.2, 0.1, 6.0];
+const TOP_H: f64 = 0.05;
+
+#[inline(never)]
+fn top(steps: u64) -> f64 {
+    let (inertia, weight) = TOP;
+    let system = black_box(Top { inertia, weight });
+    let method = Geodesic { stopping: stopping(), ..Geodesic::trapezoid() };
+    let start = TopState { R: rotations::exp([0.6, 0.0, 0.0]), omega_R: TOP_START };
+    let Ok(mut run) = Integrator::new(&system, method, TOP_H, start) else { return f64::NAN };
+    match run.take_steps(steps) {
+        Ok(()) => run.q()[8],
         Err(_) => f64::NAN,
     }
 }

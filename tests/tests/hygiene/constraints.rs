@@ -2,7 +2,8 @@
 
 use dvi_core::space::sink::Dense;
 use dvi_core::{
-    ConstrainedSystem, HolonomicLagrangian, NonholonomicLagrangian, Space, System, UnilateralLagrangian,
+    ConstrainedSystem, HolonomicLagrangian, Lagrangian, ManifoldSystem, NonholonomicLagrangian, Space,
+    System, UnilateralLagrangian,
 };
 
 /// Fields and indices with the names of what generated code might use.
@@ -87,6 +88,21 @@ mod shadowed {
         pub(super) sink: f64,
     }
 
+    trait ManifoldSystem {}
+    trait ManifoldLagrangian {}
+
+    /// One with rotations and unit vectors, likewise; `omega` is a field too.
+    #[::dvi_core::lagrangian(
+        coordinates(r#type: SO3, dot: S2, q[weights.len()]),
+        lagrangian = sum(0..weights.len(), |v| weights[v] * dot(q[v]).powi(2)) + sum(0..3, |v| dot(dot[v]).powi(2))
+            + omega * (omega(r#type)[0].powi(2) + omega(r#type)[1].powi(2) + omega(r#type)[2].powi(2)) - r#type[0][1] * dot[2] * tangent,
+    )]
+    pub struct Turning {
+        pub(super) weights: ::std::vec::Vec<f64>,
+        pub(super) omega: f64,
+        pub(super) tangent: f64,
+    }
+
     trait UnilateralLagrangian {}
 
     /// One with impacts, likewise.
@@ -147,4 +163,16 @@ fn systems_with_impacts_and_unfriendly_names_work() {
     let mut again = vec![f64::NAN; m];
     walled.gap(&q, t, &mut again);
     assert_eq!(again, gap);
+}
+
+#[test]
+fn systems_with_rotations_and_unfriendly_names_work() {
+    let turning = shadowed::Turning { weights: vec![2.0, 3.0], omega: 4.0, tangent: 5.0 };
+    assert!(turning.check().is_ok());
+    assert_eq!((turning.space().dimension(), turning.tangent().dimension()), (14, 7));
+    let names: Vec<String> = turning.names().map(|name| name.to_string()).collect();
+    assert_eq!((&names[1][..], &names[14][..], &names[17][..]), ("type[1]", "omega_type[0]", "dot_dot[0]"));
+    let (q, v) = ([0.5; 14], [0.25; 14]);
+    let value: f64 = turning.lagrangian(&q, &v, 0.0);
+    assert!((value - (5.0 / 16.0 + 3.0 / 16.0 + 0.75 - 1.25)).abs() < 1e-15);
 }

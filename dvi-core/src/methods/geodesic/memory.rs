@@ -1,0 +1,114 @@
+//! What a run along geodesics carries, and work space.
+
+use super::node::Node;
+use super::orientation::TangentMass;
+use crate::state::history::Rates;
+use crate::state::memory::{Memory, lasting};
+use crate::state::summation::{Carried, Summation};
+use crate::system::ManifoldSystem;
+use crate::{ManifoldLagrangian, Matrix, Real, Space, System, Vector};
+
+/// A square matrix over the tangent vectors.
+pub(super) type Square<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Square<T>;
+/// A number for each tangent vector.
+type Tangent<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Vector<T>;
+
+/// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work space.
+#[derive(Debug)]
+pub struct GeodesicMemory<S: ManifoldSystem, T: Real> {
+    /// ∂L/∂v, as a covector of the manifold: of a unit vector s × ∂L/∂ṡ, whose sums round without a bias.
+    pub(super) p: Vector<S, T>,
+    /// The rates of displacement of the last steps.
+    pub(super) rates: Rates<S, T>,
+    /// The coordinates, of rotations as quaternions, and what rounding has left out of them.
+    pub(super) lifted: Vector<S, T>,
+    pub(super) carried: Carried<S, T>,
+    /// Where kicks are steps.
+    pub(super) kicks: Option<Kicks<S, T>>,
+    /// If the mass matrix depends on the state.
+    pub(super) orientation: Option<TangentMass<S, T>>,
+    /// Whether the determinant of the mass matrix is positive.
+    pub(super) is_positive: bool,
+    /// Storage for p at the beginning of a drift.
+    pub(super) p0: Vector<S, T>,
+    pub(super) work: Work<S, T>,
+}
+
+/// What a step by kicks needs of L.
+#[derive(Debug)]
+pub(super) struct Kicks<S: System, T: Real> {
+    /// M
+    pub(super) mass: Matrix<S, T>,
+    /// The force at the current point, as a covector of the manifold.
+    pub(super) force: Vector<S, T>,
+}
+
+impl<S: System, T: Real> Memory<T> for Kicks<S, T> {
+    lasting!(T; numbers force);
+}
+
+/// The end of a step as it is being found.
+#[derive(Debug)]
+pub(super) struct Work<S: ManifoldSystem, T: Real> {
+    pub(super) displacement: Vector<S, T>,
+    /// Of what is carried of the coordinates.
+    pub(super) increment: Vector<S, T>,
+    pub(super) lifted: Vector<S, T>,
+    pub(super) q: Vector<S, T>,
+    /// About the velocity there.
+    pub(super) v: Vector<S, T>,
+    pub(super) p: Vector<S, T>,
+    /// The force there, where kicks are steps.
+    pub(super) force: Vector<S, T>,
+    pub(super) residual: Tangent<S, T>,
+    pub(super) matrix: Square<S, T>,
+    pub(super) node: Node<S, T>,
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
+    pub(super) fn new(system: &S) -> Self {
+        let vector = || system.space().vector();
+        let dimension = system.tangent().dimension();
+        let all = |visit: &mut dyn FnMut(usize, usize)| {
+            (0..dimension).for_each(|row| (0..dimension).for_each(|column| visit(row, column)));
+        };
+        Self {
+            displacement: vector(),
+            increment: vector(),
+            lifted: vector(),
+            q: vector(),
+            v: vector(),
+            p: vector(),
+            force: vector(),
+            residual: system.tangent().vector(),
+            matrix: system.tangent().square(all),
+            node: Node::new(system),
+        }
+    }
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
+    pub(super) fn new(system: &S, rates: Vector<S, T>) -> Self {
+        Self {
+            p: system.space().vector(),
+            rates: Rates::new(system, rates),
+            lifted: system.space().vector(),
+            carried: Carried::new(system, Summation::Compensated),
+            kicks: None,
+            orientation: None,
+            is_positive: true,
+            p0: system.space().vector(),
+            work: Work::new(system),
+        }
+    }
+
+    /// The discrete momentum at the current point, with a place for each coordinate: of a rotation the first three hold the angular
+    /// momentum in the body, ∂L/∂ω, and the others are zero; of a unit vector it is the angular momentum about the centre, s × ∂L/∂ṡ.
+    pub fn p(&self) -> &[T] {
+        &self.p
+    }
+}
+
+impl<S: ManifoldSystem, T: Real> Memory<T> for GeodesicMemory<S, T> {
+    lasting!(T; numbers p, part rates, numbers lifted, part carried, parts kicks, parts orientation, flag is_positive);
+}

@@ -1,0 +1,352 @@
+//! A node of a step: where L is evaluated on the geodesic of a displacement, and how that varies with its ends.
+
+use core::fmt::Debug;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::discrete::NodeWork;
+use crate::mechanics::manifold::series::Series;
+use crate::mechanics::manifold::sphere::GreatCircle;
+use crate::mechanics::manifold::{Block, blocks, rotation, set, vector};
+use crate::space::Sink;
+use crate::system::Factor;
+use crate::{ManifoldLagrangian, Real, Scalar, Space, System};
+
+/// Three numbers for each coordinate: how it varies with the tangent vectors of its block.
+type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
+
+/// How the point and the velocity of a node vary, in each row with the tangent vectors of its block.
+#[derive(Debug)]
+pub(super) struct Variation<S: System, T: Real> {
+    point: Rows<S, T>,
+    velocity: Rows<S, T>,
+}
+
+/// A node, with L evaluated there.
+#[derive(Debug)]
+pub(super) struct Node<S: System, T: Real> {
+    pub(super) work: NodeWork<S, T>,
+    /// With the first point of the step, where the last one is held, and the sign changed: what D₁L_d is made with.
+    pub(super) first: Variation<S, T>,
+    /// With the displacement.
+    pub(super) displacement: Variation<S, T>,
+    /// The first tangent vector of the block of each coordinate, and how many the block has.
+    pub(super) tangents: <S::Space as Space>::Array<[usize; 2]>,
+}
+
+impl<S: System, T: Real> Variation<S, T> {
+    fn new(system: &S) -> Self {
+        let rows = || system.space().array(|| [T::lift(0.0); 3]);
+        Self { point: rows(), velocity: rows() }
+    }
+
+    /// In the three places of `block`: a variation by each of its tangent vectors, as columns.
+    fn set(rows: &mut Rows<S, T>, block: Block, columns: &Matrix3<T>) {
+        for (row, place) in rows[block.vector()].iter_mut().zip(0..) {
+            *row = [0, 1, 2].map(|column| columns[(place, column)]);
+        }
+    }
+
+    /// The same for the nine entries of a rotation matrix R: R η̂ for η in the columns.
+    fn turn(rows: &mut Rows<S, T>, block: Block, matrix: &Matrix3<T>, columns: &Matrix3<T>) {
+        for column in 0..3 {
+            let turned = matrix * columns.column(column).into_owned().cross_matrix();
+            for (row, &entry) in rows[block.places()].iter_mut().zip(turned.transpose().iter()) {
+                row[column] = entry;
+            }
+        }
+    }
+}
+
+/// Whether the derivative of L by the point counts at a node.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Forces {
+    Of,
+    Without,
+}
+
+/// The interval of a node from `q`, along `displacement`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path<'a, T> {
+    pub(super) q: &'a [T],
+    pub(super) displacement: &'a [T],
+    pub(super) h: T,
+}
+
+impl<T: Real> Path<'_, T> {
+    /// The great circle of a unit vector.
+    #[inline(always)]
+    pub(super) fn circle(&self, block: Block) -> GreatCircle<T> {
+        GreatCircle::new(vector(self.q, block), vector(self.displacement, block))
+    }
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
+    pub(super) fn new(system: &S) -> Self {
+        let mut tangents = system.space().array(|| [0; 2]);
+        for block in blocks(system) {
+            for (number, entry) in tangents[block.places()].iter_mut().enumerate() {
+                *entry = match block.factor {
+                    Factor::Line => [block.slot + number, 1],
+                    Factor::Rotation | Factor::Sphere => [block.slot, block.dimension()],
+                };
+            }
+        }
+        Self {
+            work: NodeWork::new(system),
+            first: Variation::new(system),
+            displacement: Variation::new(system),
+            tangents,
+        }
+    }
+
+    /// Goes to the part `c` of a step, with all that varies there.
+    pub(super) fn place(&mut self, system: &S, path: Path<'_, T>, c: T) {
+        self.swing(system, path, c);
+        for block in blocks(system) {
+            match block.factor {
+                Factor::Line => self.stand_on_line(block, path, c),
+                Factor::Rotation => self.stand_on_rotations(block, path, c),
+                Factor::Sphere => self.stand_on_sphere(block, path, c),
+            }
+        }
+    }
+
+    /// Sets the velocity at the part `c` of a step, and how it varies.
+    #[inline]
+    pub(super) fn swing(&mut self, system: &S, path: Path<'_, T>, c: T) {
+        for block in blocks(system) {
+            match block.factor {
+                Factor::Line => self.swing_on_line(block, path),
+                Factor::Rotation => self.swing_on_rotations(block, path),
+                Factor::Sphere => self.swing_on_sphere(block, path, c),
+            }
+        }
+    }
+
+    /// Δ/h
+    #[inline(always)]
+    fn swing_on_line(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
+        let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / h);
+        for i in block.places() {
+            self.work.velocity[i] = per_h * displacement[i];
+            self.first.velocity[i] = [per_h, zero, zero];
+            self.displacement.velocity[i] = [per_h, zero, zero];
+        }
+    }
+
+    /// x(c) = x0 + c Δ
+    fn stand_on_line(&mut self, block: Block, Path { q, displacement, .. }: Path<'_, T>, c: T) {
+        let zero = T::lift(0.0);
+        for i in block.places() {
+            self.work.point[i] = q[i] + c * displacement[i];
+            self.first.point[i] = [c - T::lift(1.0), zero, zero];
+            self.displacement.point[i] = [c, zero, zero];
+        }
+    }
+
+    /// ω = u/h. With R0 by η, where R1 is held, δu = −J(u)⁻¹η.
+    #[inline(always)]
+    fn swing_on_rotations(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
+        let (u, per_h) = (vector(displacement, block), T::lift(1.0) / h);
+        let inverse = Series::mean_inverse(u).matrix();
+        set(&mut self.work.velocity, block, u * per_h);
+        Variation::<S, T>::set(&mut self.first.velocity, block, &(inverse * per_h));
+        Variation::<S, T>::set(&mut self.displacement.velocity, block, &(Matrix3::identity() * per_h));
+    }
+
+    /// R(c) = R0 exp(cû). With u varies R(c)ᵀδR = c J(−cu) δu; with R0 by η, where R1 is held, R(c)ᵀδR = exp(−cu) η + c J(−cu) δu.
+    fn stand_on_rotations(&mut self, block: Block, Path { q, displacement, .. }: Path<'_, T>, c: T) {
+        let (start, u) = (rotation::matrix(&q[block.places()]), vector(displacement, block));
+        let turn = Series::exp(u * c).matrix();
+        let here = start * turn;
+        let turned = Series::mean(u * -c).matrix() * c;
+        let held = turned * Series::mean_inverse(u).matrix() - turn.transpose();
+        rotation::set(&mut self.work.point[block.places()], &here);
+        Variation::<S, T>::turn(&mut self.first.point, block, &here, &held);
+        Variation::<S, T>::turn(&mut self.displacement.point, block, &here, &turned);
+    }
+
+    /// γ'(c)/h, with tangent vectors along the circle and across.
+    #[inline(always)]
+    fn swing_on_sphere(&mut self, block: Block, path: Path<'_, T>, c: T) {
+        let circle = path.circle(block);
+        let (here, rest) = (circle.at(c), circle.at(T::lift(1.0) - c));
+        let (one, per_h, theta) = (T::lift(1.0), T::lift(1.0) / path.h, circle.angle);
+        let columns = |along: Vector3<T>, factor: T| {
+            Matrix3::from_columns(&[along, circle.axis * factor, Vector3::zeros()]) * per_h
+        };
+        set(&mut self.work.velocity, block, here.direction * (theta * per_h));
+        let set = Variation::<S, T>::set;
+        // θ cos((1 − c)θ)/sin θ
+        let held = rest.cosine / Scalar::sinc(theta);
+        let along = here.direction + here.point * ((one - c) * theta);
+        set(&mut self.first.velocity, block, &columns(along, held));
+        let along = here.direction - here.point * (c * theta);
+        set(&mut self.displacement.velocity, block, &columns(along, here.cosine));
+    }
+
+    /// s(c) = cos(cθ) s0 + sin(cθ) d, with the same tangent vectors.
+    fn stand_on_sphere(&mut self, block: Block, path: Path<'_, T>, c: T) {
+        let circle = path.circle(block);
+        let (here, rest, theta) = (circle.at(c), T::lift(1.0) - c, circle.angle);
+        let columns = |along: Vector3<T>, factor: T| {
+            Matrix3::from_columns(&[along, circle.axis * factor, Vector3::zeros()])
+        };
+        // sin(cθ)/θ and sin((1 − c)θ)/sin θ
+        let across = c * Scalar::sinc(c * theta);
+        let held = rest * Scalar::sinc(rest * theta) / Scalar::sinc(theta);
+        set(&mut self.work.point, block, here.point);
+        let set = Variation::<S, T>::set;
+        set(&mut self.first.point, block, &columns(here.direction * -rest, -held));
+        set(&mut self.displacement.point, block, &columns(here.direction * c, across));
+    }
+
+    /// Adds `weight` times what the derivatives of L are multiplied with in D₁L_d, varied with the displacement, to the rows and columns
+    /// of `sink`, after L was evaluated at [`place`](Self::place); of ∂L/∂v alone where `forces` are none.
+    #[inline]
+    pub(super) fn bend<K: Sink<T>>(
+        &self,
+        system: &S,
+        path: Path<'_, T>,
+        [c, weight]: [T; 2],
+        forces: Forces,
+        sink: &mut K,
+    ) {
+        for block in blocks(system) {
+            match block.factor {
+                Factor::Line => {}
+                Factor::Rotation => {
+                    let change = match forces {
+                        Forces::Of => self.bend_of_rotation(block, path, c),
+                        Forces::Without => {
+                            let momentum = vector(&self.work.momentum, block) / path.h;
+                            -Series::mean_inverse(-vector(path.displacement, block)).derivative(&momentum)
+                        }
+                    };
+                    for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
+                        sink.add(block.slot + row, block.slot + column, weight * change[(row, column)]);
+                    }
+                }
+                Factor::Sphere => {
+                    let force = match forces {
+                        Forces::Of => vector(&self.work.gradient, block),
+                        Forces::Without => Vector3::zeros(),
+                    };
+                    let momentum = vector(&self.work.momentum, block) / path.h;
+                    let change = path.circle(block).bend(c, [force, momentum]);
+                    for (row, column) in (0..2).flat_map(|row| (0..2).map(move |column| (row, column))) {
+                        sink.add(block.slot + row, block.slot + column, weight * change[row][column]);
+                    }
+                }
+            }
+        }
+    }
+
+    fn bend_of_rotation(&self, block: Block, Path { q, displacement, h }: Path<'_, T>, c: T) -> Matrix3<T> {
+        let (start, u) = (rotation::matrix(&q[block.places()]), vector(displacement, block));
+        let (mean, exp) = (Series::mean(u * c), Series::exp(u * c));
+        let here = start * exp.matrix();
+        let m = here.transpose() * rotation::matrix(&self.work.gradient[block.places()]);
+        let (torque, momentum) = (rotation::torque(&m), vector(&self.work.momentum, block));
+        let inverse = Series::mean_inverse(-u);
+        let turned = Series::mean(u * -c).matrix() * c;
+        let carried = inverse.matrix() * mean.matrix() * c - exp.matrix();
+        let sum = momentum / h + mean.of(&torque) * c;
+        carried * rotation::torque_change(&m) * turned + inverse.matrix() * mean.derivative(&torque) * (c * c)
+            - exp.derivative(&torque) * c
+            - inverse.derivative(&sum)
+    }
+
+    /// Makes the tangent vectors at a point those of its velocities: for p = ∂L/∂v.
+    pub(super) fn rest(&mut self, system: &S, q: &[T], v: &[T]) {
+        let one = T::lift(1.0);
+        self.work.point.copy_from_slice(q);
+        self.work.velocity.copy_from_slice(v);
+        for block in blocks(system) {
+            match block.factor {
+                Factor::Line => {
+                    self.first.velocity[block.places()].fill([one, T::lift(0.0), T::lift(0.0)]);
+                }
+                Factor::Rotation => {
+                    self.work.velocity[block.places()][3..].fill(T::lift(0.0));
+                    Variation::<S, T>::set(&mut self.first.velocity, block, &Matrix3::identity());
+                }
+                Factor::Sphere => {
+                    let circle = GreatCircle::new(vector(q, block), Vector3::zeros());
+                    let columns = [circle.direction, circle.axis, Vector3::zeros()];
+                    Variation::<S, T>::set(&mut self.first.velocity, block, &Matrix3::from_columns(&columns));
+                }
+            }
+        }
+    }
+
+    /// Adds `factor` times the derivative of L by the point, by the variation of that, to `sum`.
+    pub(super) fn project_force(&self, factor: T, sum: &mut [T]) {
+        let rows = self.work.gradient.iter().zip(self.first.point.iter());
+        for (&[slot, count], (&l_q, by_point)) in self.tangents.iter().zip(rows) {
+            for (sum, &entry) in sum[slot..slot + count].iter_mut().zip(by_point) {
+                *sum += factor * (l_q * entry);
+            }
+        }
+    }
+
+    /// Adds `factor` times ∂L/∂v by the variation of the velocity to `sum`.
+    #[inline]
+    pub(super) fn project_momentum(&self, system: &S, factor: T, sum: &mut [T]) {
+        for place in blocks(system).flat_map(Block::velocities) {
+            let ([slot, count], l_v) = (self.tangents[place], self.work.momentum[place]);
+            for (sum, &entry) in sum[slot..slot + count].iter_mut().zip(&self.first.velocity[place]) {
+                *sum += factor * (l_v * entry);
+            }
+        }
+    }
+}
+
+/// Which of the derivatives of L an entry is of.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum By {
+    Point,
+    Velocity,
+}
+
+/// Passes the entries of a matrix over the coordinates on as those of Aᵀ M B, where the rows of A and B are variations.
+pub(super) struct Between<'a, S: System, T: Real, K> {
+    left: &'a [[T; 3]],
+    right: &'a [[T; 3]],
+    tangents: &'a <S::Space as Space>::Array<[usize; 2]>,
+    sink: &'a mut K,
+}
+
+impl<'a, S: System, T: Real, K> Between<'a, S, T, K> {
+    /// From variations of the first point to those `with`, into `sink`.
+    pub(super) fn new(
+        first: &'a Variation<S, T>,
+        with: &'a Variation<S, T>,
+        tangents: &'a <S::Space as Space>::Array<[usize; 2]>,
+        [row, column]: [By; 2],
+        sink: &'a mut K,
+    ) -> Self {
+        let of = |variation: &'a Variation<S, T>, by: By| match by {
+            By::Point => &variation.point[..],
+            By::Velocity => &variation.velocity[..],
+        };
+        Self { left: of(first, row), right: of(with, column), tangents, sink }
+    }
+}
+
+impl<S: System, T: Real, K: Sink<T>> Sink<T> for Between<'_, S, T, K> {
+    #[inline]
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        // Blocks of weight zero come with the others.
+        if entry == T::lift(0.0) {
+            return;
+        }
+        let ([first, rows], [second, columns]) = (self.tangents[row], self.tangents[column]);
+        for i in 0..rows {
+            for j in 0..columns {
+                self.sink.add(first + i, second + j, self.left[row][i] * entry * self.right[column][j]);
+            }
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! Rotations and unit vectors as coordinates: where they may stand, and how a rotation is written.
+//!
+//! Of `R: SO3` formulas have the entries `R[i][j]` and the angular velocity in the body `omega(R)[k]`. Nine coordinates `R[3 i + j]`
+//! and three velocities take their places here, once, so that no later stage knows of matrices.
+
+use proc_macro2::{Ident, Literal};
+use syn::spanned::Spanned;
+use syn::visit_mut::{self, VisitMut};
+use syn::{Expr, Lit, parse_quote_spanned};
+
+use super::{Attribute, Declaration, Factor, Kind};
+use crate::errors::Errors;
+
+/// The angular velocity of a rotation, in the body.
+const ANGULAR_VELOCITY: &str = "omega";
+/// The velocity of another coordinate.
+const VELOCITY: &str = "dot";
+
+impl Attribute {
+    /// Reports rotations and unit vectors where there are none, and replaces the entries of rotations in all formulas.
+    pub(super) fn admit_factors(&mut self, errors: &mut Errors) {
+        let Some(first) = self.coordinates.iter().find(|declaration| declaration.factor != Factor::Line)
+        else {
+            return;
+        };
+        let name = &first.name;
+        let refused = if self.kind == Kind::Degenerate {
+            let regular = Kind::Regular.attribute();
+            Some(format!("rotations and unit vectors are coordinates of regular systems, in `{regular}`"))
+        } else if let Some(of) = self.constrained {
+            let numbers = match first.factor {
+                Factor::Rotation => format!("a rotation as numbers is `{name}[9]`, with six constraints"),
+                Factor::Sphere | Factor::Line => {
+                    format!("a unit vector as numbers is `{name}[3]`, with its length as a constraint")
+                }
+            };
+            Some(format!("a system with rotations or unit vectors has no `{}` yet: {numbers}", of.word()))
+        } else if !self.forces.is_empty() {
+            Some("a system with rotations or unit vectors has no forces yet: leave `force` out".to_string())
+        } else {
+            None
+        };
+        if let Some(message) = refused {
+            errors.push(name, message);
+        }
+        let rotations = self.coordinates.iter().filter(|declaration| declaration.factor == Factor::Rotation);
+        let rotations: Vec<Ident> = rotations.map(|Declaration { name, .. }| name.clone()).collect();
+        let others = self.coordinates.iter().filter(|declaration| declaration.factor != Factor::Rotation);
+        let others: Vec<Ident> = others.map(|Declaration { name, .. }| name.clone()).collect();
+        let mut entries = Entries { rotations: &rotations, others: &others, errors };
+        self.formulas_mut().for_each(|formula| entries.visit_expr_mut(formula));
+    }
+}
+
+/// Replaces what is written of rotations by coordinates and velocities. What cannot be is reported, and replaced by a number, so that it is
+/// not reported again.
+struct Entries<'a> {
+    rotations: &'a [Ident],
+    /// The other coordinates.
+    others: &'a [Ident],
+    errors: &'a mut Errors,
+}
+
+/// An expression without the parentheses around it.
+fn unwrapped(syntax: &Expr) -> &Expr {
+    match syntax {
+        Expr::Paren(inner) => unwrapped(&inner.expr),
+        Expr::Group(inner) => unwrapped(&inner.expr),
+        other => other,
+    }
+}
+
+/// The name that an expression is.
+fn name(syntax: &Expr) -> Option<&Ident> {
+    match unwrapped(syntax) {
+        Expr::Path(path) => path.path.get_ident(),
+        _ => None,
+    }
+}
+
+/// The arguments of a call of `function`.
+fn called<'a>(function: &str, syntax: &'a Expr) -> Option<Vec<&'a Expr>> {
+    match unwrapped(syntax) {
+        Expr::Call(call) if name(&call.func).is_some_and(|name| name == function) => {
+            Some(call.args.iter().collect())
+        }
+        _ => None,
+    }
+}
+
+/// What an index is taken of, and the index.
+fn indexed(syntax: &Expr) -> Option<[&Expr; 2]> {
+    match unwrapped(syntax) {
+        Expr::Index(index) => Some([&index.expr, &index.index]),
+        _ => None,
+    }
+}
+
+impl Entries<'_> {
+    /// The rotation that this is the name of.
+    fn rotation<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
+        name(syntax).filter(|name| self.rotations.contains(name))
+    }
+
+    /// The rotation that this is the angular velocity of.
+    fn angular_velocity<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
+        match called(ANGULAR_VELOCITY, syntax)?.as_slice() {
+            [of] => self.rotation(of),
+            _ => None,
+        }
+    }
+
+    /// The rotation that this is an entry of, with its indices.
+    fn entry<'b>(&self, syntax: &'b Expr) -> Option<(&'b Ident, [&'b Expr; 2])> {
+        let [row_of, column] = indexed(syntax)?;
+        let [rotation, row] = indexed(row_of)?;
+        Some((self.rotation(rotation)?, [row, column]))
+    }
+
+    /// An index of a matrix or vector of three; 0 where it is reported as none.
+    fn index(&mut self, syntax: &Expr) -> usize {
+        let value = match syntax {
+            Expr::Lit(literal) => match &literal.lit {
+                Lit::Int(value) => value.base10_parse().ok(),
+                _ => None,
+            },
+            _ => None,
+        };
+        value.filter(|value| *value < 3).unwrap_or_else(|| {
+            let message = "an index of a rotation or of its angular velocity is 0, 1 or 2, as a literal";
+            self.errors.push(syntax, message);
+            0
+        })
+    }
+
+    /// What takes the place of this, if that is written of a rotation.
+    fn replaced(&mut self, syntax: &Expr) -> Option<Expr> {
+        let span = syntax.span();
+        if let Some((name, [row, column])) = self.entry(syntax) {
+            let entry = Literal::usize_unsuffixed(3 * self.index(row) + self.index(column));
+            return Some(parse_quote_spanned!(span=> #name[#entry]));
+        }
+        if let Some([of, index]) = indexed(syntax) {
+            if let Some(name) = self.angular_velocity(of) {
+                let index = Literal::usize_unsuffixed(self.index(index));
+                return Some(parse_quote_spanned!(span=> dot(#name[#index])));
+            }
+            if let Some((name, _)) = self.entry(of) {
+                self.errors.push(syntax, format!("an entry of `{name}` has two indices, `{name}[i][j]`"));
+                return Some(parse_quote_spanned!(span=> 0.0));
+            }
+            if let Some(name) = self.rotation(of) {
+                return Some(self.refused(of, name));
+            }
+        }
+        if let Some([of]) = called(VELOCITY, syntax).as_deref()
+            && let Some((name, _)) = self.entry(of)
+        {
+            let message = format!(
+                "the velocity of a rotation is `{ANGULAR_VELOCITY}({name})[k]`, the angular velocity in the body; the rates of its \
+                 entries are products with it, as `{name}[0][1] * {ANGULAR_VELOCITY}({name})[2] - {name}[0][2] * {ANGULAR_VELOCITY}({name})[1]` \
+                 is that of `{name}[0][0]`"
+            );
+            self.errors.push(of, message);
+            return Some(parse_quote_spanned!(span=> 0.0));
+        }
+        if let Some(of) = self.no_rotation(syntax) {
+            let message =
+                format!("`{of}` is no rotation, of which `{ANGULAR_VELOCITY}` is the angular velocity");
+            self.errors.push(syntax, message);
+            return Some(parse_quote_spanned!(span=> 0.0));
+        }
+        let (at, name) = self.whole(syntax)?;
+        Some(self.refused(at, name))
+    }
+
+    /// The coordinate that is taken for a rotation in `omega(x)` or `omega(x)[k]`.
+    fn no_rotation<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
+        let whole = indexed(syntax).map_or(syntax, |[of, _]| of);
+        match called(ANGULAR_VELOCITY, whole)?.as_slice() {
+            [of] => name(of).filter(|name| self.others.contains(name)),
+            _ => None,
+        }
+    }
+
+    /// A rotation, or an angular velocity, that has no index: this, or what this is made of.
+    fn whole<'b>(&self, syntax: &'b Expr) -> Option<(&'b Expr, &'b Ident)> {
+        if let Some(name) = self.rotation(syntax).or_else(|| self.angular_velocity(syntax)) {
+            return Some((syntax, name));
+        }
+        let used = |part: &'b Expr| self.rotation(part).map(|name| (part, name));
+        match unwrapped(syntax) {
+            Expr::Call(call) => call.args.iter().find_map(used),
+            Expr::MethodCall(call) => used(&call.receiver),
+            Expr::Index(index) => used(&index.index),
+            _ => None,
+        }
+    }
+
+    fn refused(&mut self, at: &Expr, name: &Ident) -> Expr {
+        let message = format!(
+            "`{name}` is a rotation: its entries are written `{name}[i][j]`, its angular velocity in the body \
+             `{ANGULAR_VELOCITY}({name})[k]`"
+        );
+        self.errors.push(at, message);
+        parse_quote_spanned!(at.span()=> 0.0)
+    }
+}
+
+impl VisitMut for Entries<'_> {
+    fn visit_expr_mut(&mut self, syntax: &mut Expr) {
+        match self.replaced(syntax) {
+            Some(replacement) => *syntax = replacement,
+            None => visit_mut::visit_expr_mut(self, syntax),
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! Starts and steps that are none, sizes that are known at run time, and what is generated.
+
+use dvi_core::error::{StartError, StepFailure};
+use dvi_core::prelude::*;
+use dvi_core::space::sink::Dense;
+use dvi_core::{Weights, rotations};
+use num_dual::Dual64;
+
+use crate::systems::{Body, BodyState, FREE, Pendulum, PendulumState, UNEVEN};
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+fn refused<S: ManifoldLagrangian>(system: &S, state: S::State<f64>) -> (&'static str, f64) {
+    match Integrator::new(system, Geodesic::trapezoid(), 0.1, state) {
+        Err(StartError::OffManifold { block, defect, .. }) => (block, defect),
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("it began"),
+    }
+}
+
+#[test]
+fn starts_off_the_manifold_are_named_with_their_defect() {
+    let omega_R = [0.1, 0.2, 0.3];
+    let mut stretched = rotations::exp([0.3, 0.1, 0.0]);
+    stretched.iter_mut().for_each(|entry| *entry *= 1.0 + 1e-9);
+    let (block, defect) = refused(&FREE, BodyState { R: stretched, omega_R });
+    assert!(block == "R" && (defect - 2e-9).abs() < 1e-12, "{block} {defect:e}");
+    let mirror = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0];
+    assert_eq!(refused(&FREE, BodyState { R: mirror, omega_R }), ("R", 2.0));
+    let pendulum = Pendulum { gravity: 1.0 };
+    let (block, defect) = refused(&pendulum, PendulumState { s: [0.0, 0.6, 0.9], dot_s: [0.0; 3] });
+    assert!(block == "s" && (defect - 0.17).abs() < 1e-12, "{block} {defect:e}");
+    let (_, defect) = refused(&pendulum, PendulumState { s: [0.0, 0.6, 0.8], dot_s: [0.3, 0.1, 0.0] });
+    assert!((defect - 0.06 / 0.1_f64.sqrt()).abs() < 1e-12, "{defect:e}");
+}
+
+#[test]
+fn a_step_by_half_a_turn_is_an_error_that_says_by_how_much() {
+    let start = BodyState { R: rotations::exp([0.0; 3]), omega_R: [0.0, 0.0, 2.0] };
+    let mut run = Integrator::new(&FREE, Geodesic::trapezoid(), 1.6, start).expect("begins");
+    match run.take_steps(1).map_err(|error| error.failure) {
+        Err(StepFailure::HalfTurn { block: "R", angle }) => assert!((angle - 3.2).abs() < 1e-12, "{angle}"),
+        other => panic!("{other:?}"),
+    }
+    assert_eq!(run.state(), start);
+    let mut run = Integrator::new(&FREE, Geodesic::trapezoid(), 1.5, start).expect("begins");
+    assert!(run.take_steps(100).is_ok());
+}
+
+/// At rest, where a great circle has no direction.
+#[test]
+fn what_rests_begins_to_move() -> Outcome {
+    let pendulum = Pendulum { gravity: 2.0 };
+    let start: PendulumState = PendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.0; 3] };
+    let mut run = Integrator::new(&pendulum, Geodesic::trapezoid(), 0.01, start)?;
+    run.take_steps(1000)?;
+    assert!((run.energy() + 1.6).abs() < 1e-4);
+    // The hanging pendulum and the standing one stay where they are.
+    for z in [-1.0, 1.0] {
+        let still: PendulumState = PendulumState { s: [0.0, 0.0, z], dot_s: [0.0; 3] };
+        let mut run = Integrator::new(&pendulum, Geodesic::midpoint(), 0.1, still)?;
+        run.take_steps(100)?;
+        assert_eq!(run.state(), still);
+    }
+    let body: BodyState = BodyState { R: rotations::exp([0.4, 0.0, 0.0]), omega_R: [0.0; 3] };
+    let mut run = Integrator::new(&UNEVEN, Geodesic::trapezoid(), 0.01, body)?;
+    let energy = run.energy();
+    run.take_steps(1000)?;
+    assert!((run.energy() - energy).abs() < 1e-3);
+    Ok(())
+}
+
+/// Mass matrices of which two eigenvalues change their signs together, which no determinant shows.
+mod singular {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(s: S2),
+        lagrangian = s[2] * (dot(s[0]).powi(2) + dot(s[1]).powi(2) + dot(s[2]).powi(2)) / 2.0,
+    )]
+    struct OnSphere;
+
+    #[lagrangian(
+        coordinates(R: SO3),
+        lagrangian = (R[2][2] * (omega(R)[0].powi(2) + omega(R)[1].powi(2)) + omega(R)[2].powi(2)) / 2.0,
+    )]
+    struct OfBody;
+
+    #[lagrangian(
+        coordinates(s: S2, x, y),
+        lagrangian = sum(0..3, |i| dot(s[i]).powi(2)) / 2.0 + x * (dot(x).powi(2) + dot(y).powi(2)) - 3.0 * x,
+    )]
+    struct OfNumbers;
+
+    fn ends<S: ManifoldLagrangian>(system: &S, start: S::State<f64>) {
+        for h in [0.05, 0.01] {
+            let mut run = Integrator::new(system, Geodesic::midpoint(), h, start.clone()).expect("begins");
+            let energy = run.energy();
+            let failure = run.take_steps((6.0 / h) as u64).map_err(|error| error.failure);
+            // With short steps a motion may turn back before it comes there.
+            let is_right = (run.energy() - energy).abs() < 0.05 * energy.abs();
+            assert!(failure.is_err() || is_right, "h = {h}: {energy} became {}", run.energy());
+        }
+        let mut run = Integrator::new(system, Geodesic::midpoint(), 0.05, start).expect("begins");
+        let failure = run.take_steps(120).map_err(|error| error.failure);
+        assert!(
+            matches!(failure, Err(StepFailure::Orientation { matrix: "the mass matrix", .. })),
+            "{failure:?}"
+        );
+    }
+
+    #[test]
+    fn what_is_singular_on_the_way_ends_the_run() {
+        ends(&OnSphere, OnSphereState { s: [0.6, 0.0, 0.8], dot_s: [0.8, 0.1, -0.6] });
+        ends(&OfBody, OfBodyState { R: rotations::exp([0.1, 0.0, 0.0]), omega_R: [1.0, 0.1, 0.2] });
+        let [s, dot_s] = [[0.6, 0.0, 0.8], [0.0, 0.1, 0.0]];
+        ends(&OfNumbers, OfNumbersState { s, x: 1.0, y: 0.3, dot_s, dot_x: -0.5, dot_y: 0.2 });
+    }
+}
+
+/// At rest, a great circle has no direction that could be differentiated.
+#[test]
+fn a_unit_vector_at_rest_has_no_derivatives_and_a_body_has() -> Outcome {
+    let dual = |re: f64| Dual64::new(re, 0.0);
+    let still = PendulumState { s: [0.6, 0.0, -0.8].map(dual), dot_s: [0.0; 3].map(dual) };
+    let pendulum = Pendulum { gravity: 2.0 };
+    let refused = Integrator::new(&pendulum, Geodesic::trapezoid(), dual(0.1), still);
+    assert!(matches!(refused, Err(StartError::Unsupported { .. })));
+    // A standing top whose axis begins to fall: to first order θ'' = (weight/inertia) θ.
+    let top = Body { inertia: [1.0, 1.0, 0.5], tip: [0.0, 0.0, 1.0], weight: 1.5 };
+    let tilt = rotations::exp([Dual64::new(0.0, 1.0), dual(0.0), dual(0.0)]);
+    let start = BodyState { R: tilt, omega_R: [dual(0.0); 3] };
+    let mut run = Integrator::new(&top, Geodesic::trapezoid(), dual(0.001), start)?;
+    run.take_steps(1000)?;
+    let rate = 1.5_f64.sqrt();
+    assert!((run.state().omega_R[0].eps - rate * rate.sinh()).abs() < 1e-5);
+    assert!((run.state().R[7].eps - rate.cosh()).abs() < 1e-5);
+    Ok(())
+}
+
+/// A body on a chain whose length is known at run time only, or by a constant.
+mod sizes {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x[n], R: SO3),
+        lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(2))
+            + omega(R)[0].powi(2) + 0.8 * omega(R)[1].powi(2) + 0.5 * omega(R)[2].powi(2) + x[0] * R[0][2],
+    )]
+    struct Listed {
+        n: usize,
+    }
+
+    #[lagrangian(
+        coordinates(x[N], R: SO3),
+        lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(2))
+            + omega(R)[0].powi(2) + 0.8 * omega(R)[1].powi(2) + 0.5 * omega(R)[2].powi(2) + x[0] * R[0][2],
+    )]
+    struct Fixed<const N: usize>;
+
+    #[test]
+    fn all_sizes_take_the_same_steps() -> Outcome {
+        let (R, omega_R) = (rotations::exp([0.3, -0.2, 0.6]), [0.4, 0.9, -0.3]);
+        let [x, dot_x] = [[0.3, -0.1], [0.2, 0.5]];
+        let start: FixedState<2> = FixedState { x, R, dot_x, omega_R };
+        let mut fixed = Integrator::new(&Fixed::<2>, Geodesic::trapezoid(), 0.1, start)?;
+        let start = ListedState { x: x.to_vec(), R, dot_x: dot_x.to_vec(), omega_R };
+        let mut listed = Integrator::new(&Listed { n: 2 }, Geodesic::trapezoid(), 0.1, start)?;
+        fixed.take_steps(200)?;
+        listed.take_steps(200)?;
+        let (fixed, listed) = (fixed.state(), listed.state());
+        assert_eq!((fixed.x.to_vec(), fixed.R, fixed.omega_R), (listed.x, listed.R, listed.omega_R));
+        let names: Vec<String> = Listed { n: 2 }.names().map(|name| name.to_string()).collect();
+        assert_eq!((names.len(), &names[2][..], &names[13][..]), (16, "R[0]", "omega_R[0]"));
+        let values: Vec<f64> = Fixed::<2>.values(&fixed)?.collect();
+        assert_eq!(values[13..], omega(&fixed));
+        Ok(())
+    }
+
+    fn omega(state: &FixedState<2>) -> [f64; 3] {
+        state.omega_R
+    }
+}
+
+/// The same Lagrangian with the nine entries and the velocities as numbers; the six velocities more have an energy of their own, and rest.
+#[lagrangian(
+    coordinates(r[9]),
+    lagrangian = (inertia[0] * dot(r[0]).powi(2) + inertia[1] * dot(r[1]).powi(2) + inertia[2] * dot(r[2]).powi(2)) / 2.0
+        - weight * (r[6] * tip[0] + r[7] * tip[1] + r[8] * tip[2]) + sum(3..9, |k| dot(r[k]).powi(2)),
+)]
+struct Numbers {
+    inertia: [f64; 3],
+    tip: [f64; 3],
+    weight: f64,
+}
+
+/// That `R[i][j]` is coordinate 3 i + j, and `omega(R)[k]` velocity k.
+#[test]
+fn entries_of_a_rotation_are_read_row_by_row() {
+    let Body { inertia, tip, weight } = UNEVEN;
+    let numbers = Numbers { inertia, tip, weight };
+    let q: [f64; 9] = core::array::from_fn(|i| 0.1 + (i as f64).sin());
+    let v = [0.3, -0.7, 1.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(UNEVEN.lagrangian(&q, &v, 0.0), numbers.lagrangian(&q, &v, 0.0));
+    assert_eq!(UNEVEN.energy(&q, &v, 0.0), numbers.energy(&q, &v, 0.0));
+    let weights = Weights { qq: 0.3, qv: -0.4, vq: 0.5, vv: 0.0 };
+    let (mut l_q, mut l_v, mut matrix) = ([0.0; 9], [0.0; 9], [0.0; 81]);
+    UNEVEN.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut Dense::new(&mut matrix, 9));
+    let rotation = (l_q, l_v, matrix);
+    matrix.fill(0.0);
+    numbers.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut Dense::new(&mut matrix, 9));
+    let flat = (l_q, l_v, matrix);
+    assert_eq!(rotation, flat);
+}

@@ -1,0 +1,268 @@
+//! What the steps keep: manifolds, momenta, the canonical form; and that they can be taken back.
+
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_core::rotations;
+use num_dual::Dual64;
+
+use crate::motion::{coupled, tilted};
+use crate::reference::cross;
+use crate::systems::{
+    Body, BodyState, COUPLED, CoupledState, FREE, NotSeparable, NotSeparableState, Pendulum, PendulumState,
+    Separable, SeparableState, TOP, UNEVEN,
+};
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[test]
+fn rotations_stay_orthogonal_and_unit_vectors_of_length_one() {
+    let mut run = Integrator::new(&COUPLED, Geodesic::trapezoid(), 0.02, coupled())
+        .expect("a step that is short enough");
+    for _ in 0..100 {
+        run.take_steps(1000).expect("a step that is short enough");
+        let CoupledState { R, s, dot_s, .. } = run.state();
+        assert!(rotations::defect(&R) < 2e-15, "{:e}", rotations::defect(&R));
+        assert!((norm(&s) - 1.0).abs() < 1e-15, "{:e}", norm(&s) - 1.0);
+        assert!(dot(s, dot_s).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn a_free_body_keeps_its_angular_momentum_in_space() {
+    let mut run = Integrator::new(&FREE, Geodesic::midpoint(), 0.1, tilted([0.1, 1.2, 0.05]))
+        .expect("a step that is short enough");
+    let before: Vec<f64> = (0..3).map(|k| run.momentum(k).expect("declared")).collect();
+    let energy = run.energy();
+    let mut changes = 0.0_f64;
+    for _ in 0..100 {
+        run.take_steps(1000).expect("a step that is short enough");
+        for (k, before) in before.iter().enumerate() {
+            assert!(
+                (run.momentum(k).expect("declared") - before).abs() < 1e-12,
+                "{k}: {}",
+                run.momentum(k).expect("declared") - before
+            );
+        }
+        changes = changes.max((run.energy() - energy).abs());
+    }
+    assert!(changes < 2e-3 * energy, "{changes:e}");
+}
+
+/// The symmetric top has two momenta, and the energy as the third integral.
+#[test]
+fn a_top_keeps_its_integrals() {
+    for h in [0.02, 0.01] {
+        let mut run = Integrator::new(&TOP, Geodesic::trapezoid(), h, tilted([0.3, 0.2, 6.0]))
+            .expect("a step that is short enough");
+        let [vertical, spin] = [2, 3].map(|k| run.momentum(k).expect("declared"));
+        let energy = run.energy();
+        let mut largest = [0.0_f64; 2];
+        for part in &mut largest {
+            for _ in 0..10_000 {
+                run.take_steps(5).expect("a step that is short enough");
+                *part = part.max((run.energy() - energy).abs());
+            }
+            assert!((run.momentum(2).expect("declared") - vertical).abs() < 1e-11);
+            assert!((run.momentum(3).expect("declared") - spin).abs() < 1e-11);
+        }
+        // Bounded, and of second order: measured 0.1 h² E.
+        assert!(largest[1] < 1.02 * largest[0], "{largest:?}");
+        assert!(largest[0] < 2.0 * h * h * energy, "{largest:?}");
+    }
+}
+
+/// Without gravity the system of all kinds is symmetric under rotations of space.
+#[test]
+fn a_system_of_all_kinds_keeps_its_angular_momentum() {
+    let system = crate::systems::Coupled { gravity: 0.0, ..COUPLED };
+    for rule in [Quadrature::trapezoid(), Quadrature::simpson(), Quadrature::sigma(0.3)] {
+        let mut run = Integrator::new(&system, Geodesic::new(rule), 0.05, coupled())
+            .expect("a step that is short enough");
+        let before = angular_momentum(&run);
+        run.take_steps(10_000).expect("a step that is short enough");
+        let after = angular_momentum(&run);
+        for (before, after) in before.iter().zip(after) {
+            assert!((before - after).abs() < 1e-11, "{rule:?}: {:e}", before - after);
+        }
+    }
+}
+
+/// R p_R + p_s + x × p_x
+fn angular_momentum<M>(run: &Integrator<'_, crate::systems::Coupled, Geodesic<M>, f64>) -> [f64; 3]
+where
+    Geodesic<M>: Method<
+            crate::systems::Coupled,
+            f64,
+            Memory = dvi_core::methods::GeodesicMemory<crate::systems::Coupled, f64>,
+        >,
+{
+    let (p, CoupledState { R, x, .. }) = (run.memory().p(), run.state());
+    let part = |at: usize| [p[at], p[at + 1], p[at + 2]];
+    let (body, rod, centre) = (rotations::apply(&R, part(0)), part(9), cross(x, part(12)));
+    [0, 1, 2].map(|k| body[k] + rod[k] + centre[k])
+}
+
+#[test]
+fn symmetric_steps_can_be_taken_back() {
+    for rule in [Quadrature::trapezoid(), Quadrature::midpoint(), Quadrature::simpson()] {
+        let start = coupled();
+        let mut run =
+            Integrator::new(&COUPLED, Geodesic::new(rule), 0.05, start).expect("a step that is short enough");
+        run.take_steps(500).expect("a step that is short enough");
+        let back = run.checkpoint().with_step_size(-0.05);
+        let mut run =
+            Integrator::resume(&COUPLED, Geodesic::new(rule), &back).expect("a step that is short enough");
+        run.take_steps(500).expect("a step that is short enough");
+        let end = run.state();
+        let [end, start] =
+            [&end, &start].map(|state| [&state.R[..], &state.s, &state.x, &state.dot_x].concat());
+        let difference = end.iter().zip(&start).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+        assert!(difference < 1e-10, "{difference:e}");
+    }
+}
+
+/// A step from (R exp(ε η̂), 𝕀(ω + ε δω)): R1ᵀδR1 as a vector, and δp1.
+fn body_step(
+    body: Body,
+    method: impl Method<Body, Dual64, Memory = dvi_core::methods::GeodesicMemory<Body, Dual64>>,
+    h: f64,
+    [eta, change]: [[f64; 3]; 2],
+) -> [[f64; 3]; 3] {
+    let BodyState { R, omega_R } = tilted([0.7, 1.1, 0.9]);
+    let turned =
+        rotations::product(&R.map(Dual64::from), &rotations::exp(eta.map(|eta| Dual64::new(0.0, eta))));
+    let omega = [0, 1, 2].map(|k| Dual64::new(omega_R[k], change[k]));
+    let start = BodyState { R: turned, omega_R: omega };
+    let mut run =
+        Integrator::new(&body, method, Dual64::from(h), start).expect("a step that is short enough");
+    run.take_steps(1).expect("a step that is short enough");
+    let (end, p) = (run.state().R, run.memory().p());
+    // (RᵀδR)ᵢⱼ
+    let entry = |i: usize, j: usize| (0..3).map(|k| end[3 * k + i].re * end[3 * k + j].eps).sum::<f64>();
+    let eta = [entry(2, 1), entry(0, 2), entry(1, 0)];
+    [eta, [p[0].eps, p[1].eps, p[2].eps], [p[0].re, p[1].re, p[2].re]]
+}
+
+/// dθ with θ = p·η, in the frame of the body: δp₁·η₂ − δp₂·η₁ − p·(η₁ × η₂).
+fn form([first, second]: [[[f64; 3]; 2]; 2], p: [f64; 3]) -> f64 {
+    let [[eta1, p1], [eta2, p2]] = [first, second];
+    dot(p1, eta2) - dot(p2, eta1) - dot(p, cross(eta1, eta2))
+}
+
+/// The six directions of a state of a body.
+fn directions() -> Vec<[[f64; 3]; 2]> {
+    let unit = |k: usize| core::array::from_fn(|i| if i == k % 3 { 1.0 } else { 0.0 });
+    (0..6).map(|k| if k < 3 { [unit(k), [0.0; 3]] } else { [[0.0; 3], unit(k)] }).collect()
+}
+
+#[test]
+fn steps_of_bodies_preserve_the_canonical_form() {
+    for (body, rule) in [
+        (FREE, Quadrature::midpoint()),
+        (UNEVEN, Quadrature::trapezoid()),
+        (UNEVEN, Quadrature::simpson()),
+        (UNEVEN, Quadrature::sigma(0.2)),
+    ] {
+        let h = 0.4;
+        let momentum = |omega: [f64; 3]| core::array::from_fn(|k| body.inertia[k] * omega[k]);
+        let before: Vec<[[f64; 3]; 2]> =
+            directions().iter().map(|&[eta, change]| [eta, momentum(change)]).collect();
+        let after: Vec<[[f64; 3]; 3]> =
+            directions().iter().map(|&along| body_step(body, Geodesic::new(rule), h, along)).collect();
+        let p0 = momentum([0.7, 1.1, 0.9]);
+        for (i, j) in (0..6).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let now = form([i, j].map(|k| [after[k][0], after[k][1]]), after[i][2]);
+            let difference = form([before[i], before[j]], p0) - now;
+            assert!(difference.abs() < 2e-13, "{rule:?} ({i}, {j}): {difference:e}");
+        }
+    }
+}
+
+#[test]
+fn steps_on_the_sphere_preserve_the_canonical_form() {
+    let pendulum = Pendulum { gravity: 2.0 };
+    let (s, v) = ([0.48, -0.6, 0.64], [0.8, 0.64, 0.0]);
+    // Tangent vectors of the space of states: δs along s × w, and δv with s·δv = −v·δs.
+    let tangents: Vec<[[f64; 3]; 2]> = [[1.0, 0.0, 0.2], [0.0, 1.0, -0.4]]
+        .into_iter()
+        .flat_map(|w: [f64; 3]| {
+            let along = cross(s, w);
+            let back = -dot(v, along);
+            [[along, s.map(|s| back * s)], [[0.0; 3], along]]
+        })
+        .collect();
+    let form = |[a, b]: [&[[f64; 3]; 2]; 2]| dot(a[0], b[1]) - dot(a[1], b[0]);
+    for rule in
+        [Quadrature::trapezoid(), Quadrature::midpoint(), Quadrature::simpson(), Quadrature::sigma(0.7)]
+    {
+        let after: Vec<[[f64; 3]; 2]> = tangents
+            .iter()
+            .map(|&[along, change]| {
+                let start = PendulumState {
+                    s: [0, 1, 2].map(|k| Dual64::new(s[k], along[k])),
+                    dot_s: [0, 1, 2].map(|k| Dual64::new(v[k], change[k])),
+                };
+                let mut run = Integrator::new(&pendulum, Geodesic::new(rule), Dual64::from(0.4), start)
+                    .expect("a step that is short enough");
+                run.take_steps(1).expect("a step that is short enough");
+                let (end, p) = (run.state().s, run.memory().p());
+                // p = (s × p) × s
+                let turned = |i: usize, j: usize| p[i] * end[j] - p[j] * end[i];
+                let p = [turned(1, 2), turned(2, 0), turned(0, 1)];
+                [end.map(|s| s.eps), p.map(|p| p.eps)]
+            })
+            .collect();
+        for (i, j) in (0..4).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let difference = form([&tangents[i], &tangents[j]]) - form([&after[i], &after[j]]);
+            assert!(difference.abs() < 2e-14, "{rule:?} ({i}, {j}): {difference:e}");
+        }
+    }
+}
+
+/// Newton's method converges as it does with the derivative of the equations: two or three iterations a step.
+#[test]
+fn steps_take_few_iterations() {
+    for rule in [Quadrature::trapezoid(), Quadrature::midpoint()] {
+        let mut run = Integrator::new(&UNEVEN, Geodesic::new(rule), 0.1, tilted([0.7, 1.1, 0.9]))
+            .expect("a step that is short enough");
+        run.take_steps(1000).expect("a step that is short enough");
+        assert!(run.statistics().iterations < 4000, "{:?}", run.statistics());
+    }
+}
+
+/// The step by kicks, and the general one, of a system that is the same but for a term of the size zero.
+#[test]
+fn steps_by_kicks_are_those_of_the_general_equations() {
+    let (separable, general) = (Separable { zero: 0.0 }, NotSeparable { zero: 0.0 });
+    let is_separable = [
+        <Separable as NondegenerateLagrangian>::SEPARABLE,
+        <NotSeparable as NondegenerateLagrangian>::SEPARABLE,
+    ];
+    assert_eq!(is_separable, [true, false]);
+    let (R, omega_R) = (rotations::exp([0.4, -0.3, 0.2]), [0.5, -0.8, 0.9]);
+    let (s, dot_s) = ([0.48, -0.6, 0.64], [0.8, 0.64, 0.0]);
+    let start: SeparableState = SeparableState { R, s, x: 0.3, omega_R, dot_s, dot_x: -0.4 };
+    let same: NotSeparableState = NotSeparableState { R, s, x: 0.3, omega_R, dot_s, dot_x: -0.4 };
+    for rule in [Quadrature::trapezoid(), Quadrature::sigma(0.0), Quadrature::sigma(1.0)] {
+        let mut by_kicks = Integrator::new(&separable, Geodesic::new(rule), 0.1, start).expect("begins");
+        let mut by_all = Integrator::new(&general, Geodesic::new(rule), 0.1, same).expect("begins");
+        for _ in 0..50 {
+            by_kicks.take_steps(1).expect("a short step");
+            by_all.take_steps(1).expect("a short step");
+            let (a, b) = (by_kicks.state(), by_all.state());
+            let (a, b) = (
+                [&a.R[..], &a.s, &a.omega_R, &a.dot_s, &[a.x]].concat(),
+                [&b.R[..], &b.s, &b.omega_R, &b.dot_s, &[b.x]].concat(),
+            );
+            let difference = a.iter().zip(&b).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+            assert!(difference < 2e-13, "{rule:?}: {difference:e}");
+        }
+        assert_eq!((by_kicks.statistics().gradients, by_kicks.statistics().linearizations), (50, 0));
+    }
+}
