@@ -39,6 +39,17 @@ impl Deviation {
     pub fn growth(&self) -> f64 {
         self.largest / self.largest_early
     }
+
+    /// The largest magnitude in the last tenth of the intervals, over that in the first.
+    pub fn trend(&self) -> f64 {
+        let all = self.envelope.magnitude();
+        let tenth = all.len().div_ceil(10);
+        let largest = |part: &[[f64; 2]]| part.iter().map(|point| point[1]).fold(0.0, larger);
+        if self.largest.is_nan() {
+            return f64::NAN;
+        }
+        largest(&all[all.len() - tenth..]) / largest(&all[..tenth])
+    }
 }
 
 #[cfg(test)]
@@ -60,6 +71,15 @@ mod tests {
         let mut deviation = Deviation::new(2.0, 2, 1.0);
         deviation.push(1.0, f64::NAN);
         deviation.push(2.0, 1.0);
-        assert!(deviation.largest.is_nan() && deviation.growth().is_nan());
+        assert!(deviation.largest.is_nan() && deviation.growth().is_nan() && deviation.trend().is_nan());
+    }
+
+    #[test]
+    fn a_trend_is_that_of_the_last_tenth() {
+        let mut deviation = Deviation::new(20.0, 20, 20.0);
+        for k in 0..20 {
+            deviation.push(f64::from(k) + 0.5, -f64::from(k + 1));
+        }
+        assert_eq!(deviation.trend(), 10.0);
     }
 }

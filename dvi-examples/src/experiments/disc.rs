@@ -18,11 +18,12 @@ use dvi_core::prelude::*;
 
 use crate::claim::larger;
 use crate::deviation::Deviation;
+use crate::experiments::rk4::rk4;
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{RollingDisc, RollingDiscState};
 use growth::Growth;
-use reduced::{rk4, start};
+use reduced::start;
 use sleigh::Sleigh;
 
 pub const EXPERIMENT: Experiment = Experiment {

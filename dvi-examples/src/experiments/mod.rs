@@ -8,6 +8,8 @@ mod bounces;
 mod chaotic;
 mod disc;
 mod double_pendulum;
+mod drifts;
+mod elliptic;
 mod energy;
 mod energy_momentum;
 mod field_lines;
@@ -29,16 +31,23 @@ mod oscillator;
 mod parasitic;
 mod phase_space;
 mod quasi_periodic;
+mod rigid_body;
 mod rivals;
+mod rk4;
 mod round_off;
+mod rounding;
 mod schroedinger;
 mod sections;
+mod shadow;
 mod sphere_vortices;
+mod spherical_pendulum;
 mod spring_chain;
 mod stability;
 mod symmetry;
 mod tabulated_field;
 mod three_species;
+mod top;
+mod turnings;
 
 use crate::gallery::Experiment;
 
@@ -69,6 +78,9 @@ pub const ALL: &[Experiment] = &[
     beam::EXPERIMENT,
     bounces::EXPERIMENT,
     billiard::EXPERIMENT,
+    top::EXPERIMENT,
+    rigid_body::EXPERIMENT,
+    spherical_pendulum::EXPERIMENT,
     round_off::EXPERIMENT,
     lotka_volterra::EXPERIMENT,
     guiding_centre::EXPERIMENT,

@@ -10,6 +10,7 @@ mod energy;
 mod impacts;
 mod long_runs;
 mod numbers;
+mod rotations;
 mod table;
 
 use table::rows;

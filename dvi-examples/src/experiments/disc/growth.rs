@@ -6,9 +6,10 @@ use anyhow::Result;
 use dvi_core::error::StepError;
 use dvi_core::prelude::*;
 
-use super::reduced::{rk4, start};
+use super::reduced::start;
 use super::{PLACE, RATES, midpoint};
 use crate::claim::larger;
+use crate::experiments::rk4::rk4;
 use crate::job::Job;
 use crate::models::{RollingDisc, RollingDiscState};
 

@@ -1,4 +1,4 @@
-//! RK4 on the equations of motion without constraints, which are eliminated by hand.
+//! The equations of motion without constraints, which are eliminated by hand, for RK4.
 
 use crate::models::RollingDiscState;
 
@@ -8,22 +8,13 @@ pub(super) fn start(state: &RollingDiscState) -> [f64; 6] {
     [x, y, theta, phi, dot_theta, dot_phi]
 }
 
-/// One step of the classical Runge–Kutta method.
-pub(super) fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
-    let moved = |by: f64, slope: &[f64; N]| std::array::from_fn(|i| y[i] + by * slope[i]);
-    let first = f(y);
-    let second = f(&moved(0.5 * h, &first));
-    let third = f(&moved(0.5 * h, &second));
-    let fourth = f(&moved(h, &third));
-    std::array::from_fn(|i| y[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
-}
-
 #[cfg(test)]
 mod tests {
     use dvi_core::prelude::*;
 
     use super::super::{MAGNET, begin};
     use super::*;
+    use crate::experiments::rk4::rk4;
     use crate::models::{ChaplyginSleigh, ChaplyginSleighState, RollingDisc};
 
     #[test]

@@ -3,9 +3,9 @@
 use anyhow::Result;
 use dvi_core::prelude::*;
 
-use super::reduced::rk4;
 use super::{FINE, H, distance, midpoint, there_and_back};
 use crate::claim::larger;
+use crate::experiments::rk4::rk4;
 use crate::models::{ChaplyginSleigh, ChaplyginSleighState};
 
 pub(super) const SLEIGH: ChaplyginSleigh = ChaplyginSleigh { inertia: 1.0, a: 0.5 };
