@@ -1,6 +1,7 @@
 //! What a system says at one state: names and entries, rates of change, energy and Lagrangian, against the equations of
 //! motion put together from hyper-dual evaluations of L alone.
 
+use dvi_core::mechanics::motion::Rates;
 use dvi_core::prelude::*;
 use dvi_core::{Scalar, Space};
 use dvi_tests::configurations::quasi_periodic;
@@ -46,7 +47,10 @@ fn entries<S: System>(system: &S, state: &S::State<f64>) -> Result<Vec<f64>, dvi
     Ok(system.values(state)?.collect())
 }
 
-fn check_regular<S: Lagrangian<HyperDual64> + AtState>(system: &S, state: S::State<f64>) -> Outcome {
+fn check_regular<S: Lagrangian<HyperDual64> + AtState + System<Kind: Rates<S, f64>>>(
+    system: &S,
+    state: S::State<f64>,
+) -> Outcome {
     let name = S::REPORT.system;
     let n = system.space().dimension();
     let point = entries(system, &state)?;
@@ -95,7 +99,10 @@ fn rates_of_regular_systems() -> Outcome {
 /// Ω q' = ∇H from hyper-dual evaluations of L = α·v − H.
 #[test]
 fn rates_of_degenerate_systems() -> Outcome {
-    fn check<S: Lagrangian<HyperDual64> + AtState>(system: &S, state: S::State<f64>) -> Outcome {
+    fn check<S: Lagrangian<HyperDual64> + AtState + System<Kind: Rates<S, f64>>>(
+        system: &S,
+        state: S::State<f64>,
+    ) -> Outcome {
         let q = entries(system, &state)?;
         let n = q.len();
         assert_eq!(system.names().count(), n);

@@ -34,7 +34,7 @@ pub struct AtTime<'a, S, T = f64> {
 /// # Errors
 /// All of these functions return [`StartError`], as the start of a run does, if an array of the system or of the state has
 /// the wrong length, a coordinate is not finite, or energy or first derivatives of L are not finite there.
-pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: Rates<Self, T>> + Sized {
+pub trait AtState<T: Real = f64>: Lagrangian<T> + Sized {
     /// The system at time `t`.
     fn at_time(&self, t: T) -> AtTime<'_, Self, T> {
         AtTime { system: self, t }
@@ -47,7 +47,10 @@ pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: Rates<Self, T>> +
     /// Besides those of the trait, [`StartError::Undetermined`] where Ω or the mass matrix is singular. With constraints the state need
     /// not keep them: the accelerations are those with which their rates of change stay as they are, as other integrators
     /// need them for states in between.
-    fn vector_field(&self, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
+    fn vector_field(&self, state: &Self::State<T>) -> Result<Self::State<T>, StartError>
+    where
+        Self: System<Kind: Rates<Self, T>>,
+    {
         self.at_time(T::lift(0.0)).vector_field(state)
     }
 
@@ -63,19 +66,25 @@ pub trait AtState<T: Real = f64>: Lagrangian<T> + System<Kind: Rates<Self, T>> +
     ///
     /// # Errors
     /// Those of [`vector_field`](Self::vector_field).
-    fn lagrangian_at(&self, state: &Self::State<T>) -> Result<T, StartError> {
+    fn lagrangian_at(&self, state: &Self::State<T>) -> Result<T, StartError>
+    where
+        Self: System<Kind: Rates<Self, T>>,
+    {
         self.at_time(T::lift(0.0)).lagrangian(state)
     }
 }
 
-impl<S: Lagrangian<T> + System<Kind: Rates<S, T>>, T: Real> AtState<T> for S {}
+impl<S: Lagrangian<T>, T: Real> AtState<T> for S {}
 
 impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
     /// See [`AtState::vector_field`].
     ///
     /// # Errors
     /// As there.
-    pub fn vector_field(&self, state: &S::State<T>) -> Result<S::State<T>, StartError> {
+    pub fn vector_field(&self, state: &S::State<T>) -> Result<S::State<T>, StartError>
+    where
+        S: System<Kind: Rates<S, T>>,
+    {
         let Self { system, t } = *self;
         let [q, v] = self.point(state)?;
         let [rates, accelerations] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Undetermined)?;
@@ -95,7 +104,10 @@ impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
     ///
     /// # Errors
     /// As there.
-    pub fn lagrangian(&self, state: &S::State<T>) -> Result<T, StartError> {
+    pub fn lagrangian(&self, state: &S::State<T>) -> Result<T, StartError>
+    where
+        S: System<Kind: Rates<S, T>>,
+    {
         let Self { system, t } = *self;
         let [q, v] = self.point(state)?;
         // Of either kind the first is the velocity.

@@ -61,7 +61,7 @@ impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, 
 /// The rates of change of a kind of system at a state.
 #[diagnostic::on_unimplemented(
     message = "the motion of `{S}` cannot be computed in `{T}`",
-    label = "it is no system, or a parameter of it is no number"
+    label = "it is no system, it has rotations or unit vectors, or a parameter of it is no number"
 )]
 pub trait Rates<S: System, T: Real>: Kind {
     /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a degenerate system,

@@ -6,6 +6,7 @@
 //! the discrete Euler–Lagrange equations of a rotation are those of Euler and Poincaré (Marsden, Pekarsky & Shkoller 1999).
 
 mod kicks;
+mod legendre;
 mod memory;
 mod node;
 mod orientation;
@@ -22,10 +23,10 @@ use crate::system::ManifoldSystem;
 use crate::system::start::evaluate;
 use crate::{ManifoldLagrangian, Real, Space, Vector};
 
+use legendre::{Legendre, momentum, rates};
 pub use memory::GeodesicMemory;
 use memory::{Kicks, Work};
 use orientation::TangentMass;
-use step::{Legendre, momentum, rates};
 
 /// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, beside numbers.
 ///

@@ -8,7 +8,7 @@ use dvi_tests::oracle::displaced_lagrangian;
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
 
-use crate::systems::{
+use crate::galerkin::systems::{
     KEPLER, Outcome, apart, chain, double_pendulum, driven, dual, growing, magnetic, pericentre,
     relativistic, run, spherical,
 };

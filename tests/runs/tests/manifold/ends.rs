@@ -6,7 +6,7 @@ use dvi_core::space::sink::Dense;
 use dvi_core::{Weights, rotations};
 use num_dual::Dual64;
 
-use crate::systems::{Body, BodyState, FREE, Pendulum, PendulumState, UNEVEN};
+use crate::manifold::systems::{Body, BodyState, FREE, Pendulum, PendulumState, UNEVEN};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -65,6 +65,7 @@ fn what_rests_begins_to_move() -> Outcome {
     let body: BodyState = BodyState { R: rotations::exp([0.4, 0.0, 0.0]), omega_R: [0.0; 3] };
     let mut run = Integrator::new(&UNEVEN, Geodesic::trapezoid(), 0.01, body)?;
     let energy = run.energy();
+    assert!((UNEVEN.energy_at(&body)? - energy).abs() < 1e-15);
     run.take_steps(1000)?;
     assert!((run.energy() - energy).abs() < 1e-3);
     Ok(())

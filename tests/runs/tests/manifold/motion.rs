@@ -3,9 +3,9 @@
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 
-use crate::reference;
-use crate::reference::cross;
-use crate::systems::{
+use crate::manifold::reference;
+use crate::manifold::reference::cross;
+use crate::manifold::systems::{
     Body, BodyState, ByConstraints, ByConstraintsState, COUPLED, Coupled, CoupledState, FREE, Pendulum,
     PendulumState, TOP, UNEVEN,
 };

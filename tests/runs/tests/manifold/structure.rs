@@ -5,9 +5,9 @@ use dvi_core::prelude::*;
 use dvi_core::rotations;
 use num_dual::Dual64;
 
-use crate::motion::{coupled, tilted};
-use crate::reference::cross;
-use crate::systems::{
+use crate::manifold::motion::{coupled, tilted};
+use crate::manifold::reference::cross;
+use crate::manifold::systems::{
     Body, BodyState, COUPLED, CoupledState, FREE, NotSeparable, NotSeparableState, Pendulum, PendulumState,
     Separable, SeparableState, TOP, UNEVEN,
 };
@@ -80,7 +80,7 @@ fn a_top_keeps_its_integrals() {
 /// Without gravity the system of all kinds is symmetric under rotations of space.
 #[test]
 fn a_system_of_all_kinds_keeps_its_angular_momentum() {
-    let system = crate::systems::Coupled { gravity: 0.0, ..COUPLED };
+    let system = crate::manifold::systems::Coupled { gravity: 0.0, ..COUPLED };
     for rule in [Quadrature::trapezoid(), Quadrature::simpson(), Quadrature::sigma(0.3)] {
         let mut run = Integrator::new(&system, Geodesic::new(rule), 0.05, coupled())
             .expect("a step that is short enough");
@@ -94,12 +94,12 @@ fn a_system_of_all_kinds_keeps_its_angular_momentum() {
 }
 
 /// R p_R + p_s + x × p_x
-fn angular_momentum<M>(run: &Integrator<'_, crate::systems::Coupled, Geodesic<M>, f64>) -> [f64; 3]
+fn angular_momentum<M>(run: &Integrator<'_, crate::manifold::systems::Coupled, Geodesic<M>, f64>) -> [f64; 3]
 where
     Geodesic<M>: Method<
-            crate::systems::Coupled,
+            crate::manifold::systems::Coupled,
             f64,
-            Memory = dvi_core::methods::GeodesicMemory<crate::systems::Coupled, f64>,
+            Memory = dvi_core::methods::GeodesicMemory<crate::manifold::systems::Coupled, f64>,
         >,
 {
     let (p, CoupledState { R, x, .. }) = (run.memory().p(), run.state());

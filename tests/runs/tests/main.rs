@@ -1,0 +1,20 @@
+//! Runs of many steps.
+//!
+//! They are one program, so that what several of them run is compiled once, and the long ones run beside the others.
+
+mod constrained;
+mod galerkin;
+mod impacts;
+mod langevin;
+mod loop_integrals;
+mod manifold;
+mod nonholonomic;
+mod one_step;
+mod parasitic;
+mod projected;
+mod round_off;
+mod smooth_orbits;
+mod splines;
+mod step_control;
+mod time_transform;
+mod variational;
