@@ -6,7 +6,7 @@
 //! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
 //! [`NondegenerateLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the force,
 //! and the structure of that matrix. [`HolonomicLagrangian`] adds the constraints of a system that has some, [`UnilateralLagrangian`] its
-//! impacts.
+//! impacts; [`ManifoldLagrangian`] has rotations or unit vectors among its coordinates.
 //!
 //! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
 //! order of the declared coordinates, unless a function says that one may be empty; the integrators of
@@ -103,7 +103,7 @@ pub trait System {
     type State<T: Scalar>: State<T> + Clone + Debug;
     /// What the compiler saw: formulas, structure, operation counts, sparsity.
     const REPORT: Report;
-    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`], or regular with constraints or impacts.
+    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`], or regular with constraints, with impacts, or on a [`Manifold`].
     type Kind: Kind;
     /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
     const REGULAR: bool = <Self::Kind as Kind>::REGULAR;

@@ -2,9 +2,9 @@
 //!
 //! p½ = p0 + h w0 f0      p½ = −D₁K_d for the displacement      p1 = D₂K_d + h w1 f1
 //!
-//! with the forces f as p is, the torque in the body of a rotation and s × ∂L/∂s of a unit vector, and K_d the discrete Lagrangian of ½ v·M v. It is the general step, because there the
-//! forces of the first end do not depend on the displacement, and those of the last do no work where the last point is held. It
-//! evaluates one force.
+//! with the forces f as p is, the torque in the body of a rotation and s × ∂L/∂s of a unit vector, and K_d the discrete Lagrangian of
+//! ½ v·M v. It is the general step, because there the forces of the first end do not depend on the displacement, and those of the last
+//! do no work where the last point is held. It evaluates one force.
 
 use super::memory::Work;
 use super::node::{Between, By, Forces, Node, Path};
