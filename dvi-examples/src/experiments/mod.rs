@@ -48,6 +48,7 @@ mod tabulated_field;
 mod three_species;
 mod top;
 mod turnings;
+mod watch;
 
 use crate::gallery::Experiment;
 

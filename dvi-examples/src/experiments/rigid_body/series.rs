@@ -7,6 +7,7 @@ use dvi_core::rotations;
 
 use super::{BODY, H, begin, entries, length, rk4, state};
 use crate::deviation::Deviation;
+use crate::experiments::watch::Watch;
 use crate::job::Job;
 use crate::models::RigidBodyState;
 
@@ -46,19 +47,15 @@ impl Series {
         job: &Job<'_>,
         name: &'static str,
         steps: u64,
-        mut later: impl FnMut() -> Result<RigidBodyState, StepError>,
+        later: impl FnMut() -> Result<RigidBodyState, StepError>,
     ) -> Result<Self> {
         let end = steps as f64 * H;
         let deviation = || Deviation::new(end, 300, end);
         let mut series =
             Self { name, energy: deviation(), space: deviation(), body: deviation(), defect: deviation() };
-        let (start, mut done) = (begin(), 0_u64);
-        job.repeat(steps / EVERY, || {
-            let state = later()?;
-            done += EVERY;
-            series.note(done as f64 * H, &start, &state);
-            Ok(())
-        })?;
+        let start = begin();
+        let watch = Watch { steps, every: EVERY, h: H };
+        watch.run(job, later, |t, state| series.note(t, &start, state))?;
         Ok(series)
     }
 

@@ -6,6 +6,7 @@ use dvi_core::prelude::*;
 
 use super::{CONSTRAINED, H, PENDULUM, begin, entries, rk4, state, trapezoid};
 use crate::deviation::Deviation;
+use crate::experiments::watch::Watch;
 use crate::job::Job;
 use crate::models::{ConstrainedPendulum, Heights, SphericalPendulumState};
 
@@ -52,18 +53,14 @@ impl Series {
         job: &Job<'_>,
         name: &'static str,
         steps: u64,
-        mut later: impl FnMut() -> Result<SphericalPendulumState, StepError>,
+        later: impl FnMut() -> Result<SphericalPendulumState, StepError>,
     ) -> Result<Self> {
         let end = steps as f64 * H;
         let deviation = || Deviation::new(end, 300, end);
         let mut series = Self { name, energy: deviation(), length: deviation(), vertical: deviation() };
-        let (before, mut done) = (PENDULUM.heights(&begin()), 0_u64);
-        job.repeat(steps / EVERY, || {
-            let state = later()?;
-            done += EVERY;
-            series.note(done as f64 * H, &before, &state);
-            Ok(())
-        })?;
+        let before = PENDULUM.heights(&begin());
+        let watch = Watch { steps, every: EVERY, h: H };
+        watch.run(job, later, |t, state| series.note(t, &before, state))?;
         Ok(series)
     }
 

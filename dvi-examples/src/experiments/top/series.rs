@@ -7,6 +7,7 @@ use dvi_core::rotations;
 
 use super::{H, TOP, begin, energy, entries, rk4, state};
 use crate::deviation::Deviation;
+use crate::experiments::watch::Watch;
 use crate::job::Job;
 use crate::models::{Heights, TopState};
 
@@ -45,19 +46,15 @@ impl Series {
         job: &Job<'_>,
         name: &'static str,
         steps: u64,
-        mut later: impl FnMut() -> Result<TopState, StepError>,
+        later: impl FnMut() -> Result<TopState, StepError>,
     ) -> Result<Self> {
         let end = steps as f64 * H;
         let deviation = || Deviation::new(end, 300, end);
         let mut series =
             Self { name, energy: deviation(), defect: deviation(), spin: deviation(), vertical: deviation() };
-        let (before, mut done) = (TOP.heights(&begin()), 0_u64);
-        job.repeat(steps / EVERY, || {
-            let state = later()?;
-            done += EVERY;
-            series.note(done as f64 * H, &before, &state);
-            Ok(())
-        })?;
+        let before = TOP.heights(&begin());
+        let watch = Watch { steps, every: EVERY, h: H };
+        watch.run(job, later, |t, state| series.note(t, &before, state))?;
         Ok(series)
     }
 
