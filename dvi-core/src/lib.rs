@@ -90,6 +90,9 @@
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
+//! - `random` (default): methods with noise.
+//! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when
+//!   the program runs. Without it, those that the program is compiled for.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -2,12 +2,14 @@
 //!
 //! Generated code asks for [`Scalar`] and nothing more: ring operations, elementary functions, and a
 //! branch-free choice. Every real field of nalgebra that is `Copy` is a scalar (`f64`, `f32`, dual
-//! numbers); a pack of SIMD lanes can become one, because nothing here orders or tests a value.
+//! numbers), and so is a pack of several ([`Lanes`]), because nothing here orders or tests a value.
 //! The solvers, which must decide, ask for [`Real`].
 
 mod error_function;
+pub(crate) mod lanes;
 pub(crate) mod norm;
 mod number;
+pub(crate) mod simd;
 mod sinc;
 
 use core::fmt::Debug;
@@ -15,6 +17,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use nalgebra::RealField;
 
+pub use lanes::Lanes;
 pub use number::{Number, Parameter, Varied};
 
 /// How an `if` of a formula compares its two sides.

@@ -83,25 +83,56 @@ impl Guess {
 /// After the fixed point has failed, this many steps are left to Newton before it is tried again.
 const STEPS_BEFORE_RETRY: u32 = 32;
 
+/// What is iterated.
+pub(crate) trait Iteration<T> {
+    /// Applies a correction and returns its size.
+    ///
+    /// # Errors
+    /// Any [`StepFailure`] ends the iteration.
+    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure>;
+}
+
+impl<T, F: FnMut(&mut Statistics) -> Result<T, StepFailure>> Iteration<T> for F {
+    #[inline(always)]
+    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        self(statistics)
+    }
+}
+
 /// Iterates until a correction counts as the last. `improve` applies a correction and returns its size.
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or that of an iteration.
 #[inline(always)]
 pub(crate) fn iterate<T: Real>(
+    convergence: Convergence<T>,
+    statistics: &mut Statistics,
+    improve: impl FnMut(&mut Statistics) -> Result<T, StepFailure>,
+) -> Result<(), StepFailure> {
+    repeat(convergence, statistics, improve)
+}
+
+/// Repeats an iteration until a correction counts as the last.
+///
+/// # Errors
+/// [`StepFailure::NotConverged`], or that of an iteration.
+#[inline(always)]
+pub(crate) fn repeat<T: Real>(
     mut convergence: Convergence<T>,
     statistics: &mut Statistics,
-    mut improve: impl FnMut(&mut Statistics) -> Result<T, StepFailure>,
+    mut iteration: impl Iteration<T>,
 ) -> Result<(), StepFailure> {
     let result = loop {
-        let correction = match improve(statistics) {
+        let correction = match iteration.improve(statistics) {
             Ok(correction) => correction,
             Err(failure) => break Err(failure),
         };
         match convergence.judge(correction) {
             Verdict::Continue => {}
             // Comparisons have not seen the derivatives that numbers may carry.
-            Verdict::Accept => break (0..convergence.more).try_for_each(|_| improve(statistics).map(drop)),
+            Verdict::Accept => {
+                break (0..convergence.more).try_for_each(|_| iteration.improve(statistics).map(drop));
+            }
             Verdict::GiveUp => break Err(convergence.failure()),
         }
     };

@@ -250,3 +250,69 @@ fn no_step_changes_the_branch_of_the_velocity() -> Outcome {
     ends(Gauss::<2>::new(), 0.1, 2.0, 0.2)?;
     ends(RungeKutta::classical(), 0.1, 2.0, 0.2)
 }
+
+/// On the oscillator a step turns by the angle of the diagonal Padé approximant N(ih)/N(−ih) of e^(ih),
+/// N(z) = Σₖ (2S − k)! S! / ((2S)! k! (S − k)!) zᵏ (Hairer & Wanner 1996, theorem IV.3.12).
+#[test]
+fn gauss_turns_the_oscillator_by_the_pade_approximant() -> Outcome {
+    fn check<const S: usize>() -> Outcome {
+        let h = 0.9_f64;
+        // Real and imaginary part of N(ih), term by term.
+        let (mut term, mut numerator) = (1.0, [0.0; 2]);
+        for k in 0..=S {
+            let sign = if k % 4 < 2 { 1.0 } else { -1.0 };
+            numerator[k % 2] += sign * term;
+            term *= h * (S - k) as f64 / ((2 * S - k) as f64 * (k + 1) as f64);
+        }
+        let angle = 2.0 * numerator[1].atan2(numerator[0]);
+        let start: GaugeState = GaugeState { x: 1.0, dot_x: 0.0 };
+        let mut run = Integrator::new(&Gauge { a: 0.0 }, Gauss::<S>::new(), h, start)?;
+        run.take_steps(100)?;
+        let off = run.state().x - (100.0 * angle).cos();
+        assert!(off.abs() < 2e-13, "{S} stages: {off:e}");
+        Ok(())
+    }
+    check::<1>()?;
+    check::<2>()?;
+    check::<3>()?;
+    check::<4>()?;
+    check::<5>()?;
+    check::<6>()?;
+    check::<7>()?;
+    check::<8>()
+}
+
+/// Most of one period of Kepler's orbit in 16 steps, against its closed form.
+#[test]
+fn each_stage_of_gauss_gains_digits() -> Outcome {
+    fn error<const S: usize>() -> Result<f64, Box<dyn core::error::Error>> {
+        let orbit = Orbit { e: 0.3 };
+        let at = orbit.pericentre();
+        let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };
+        let found = last(&Kepler { mu: 1.0 }, Gauss::<S>::new().in_lanes(), start, 6.0, 16)?;
+        Ok(apart(&found, &orbit.position(6.0)))
+    }
+    let errors = [error::<3>()?, error::<4>()?, error::<5>()?, error::<6>()?, error::<7>()?, error::<8>()?];
+    for (errors, bound) in errors.windows(2).zip([0.1, 0.1, 0.1, 0.1, 0.2]) {
+        assert!(errors[1] < bound * errors[0], "{errors:?}");
+    }
+    assert!(errors[5] < 2e-14, "{errors:?}");
+    Ok(())
+}
+
+/// The energy error of the method with eight stages is that of rounding.
+#[test]
+fn eight_stages_keep_the_energy_to_rounding() -> Outcome {
+    let orbit = Orbit { e: 0.3 };
+    let at = orbit.pericentre();
+    let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };
+    let kepler = Kepler { mu: 1.0 };
+    let mut run = Integrator::new(&kepler, Gauss::<8>::new().in_lanes(), 0.2, start)?;
+    let (before, mut worst) = (run.energy(), 0.0);
+    for _ in 0..300 {
+        run.take_steps(100)?;
+        worst = larger(worst, (run.energy() - before).abs());
+    }
+    assert!(worst < 1e-14, "{worst:e}");
+    Ok(())
+}

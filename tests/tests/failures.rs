@@ -54,7 +54,7 @@ fn options_out_of_range_are_refused() {
         let stopping = Stopping { tolerance, max_iterations };
         for error in [
             Integrator::new(&system, Sigma { stopping, ..Sigma::midpoint() }, 0.1, start).err(),
-            Integrator::new(&system, Gauss::<2> { stopping }, 0.1, start).err(),
+            Integrator::new(&system, Gauss { stopping, ..Gauss::<2>::new() }, 0.1, start).err(),
         ] {
             assert!(matches!(error, Some(StartError::Parameter { name: found, .. }) if found == name));
         }

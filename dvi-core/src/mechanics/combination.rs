@@ -6,7 +6,7 @@
 //! factored.
 
 use crate::error::StepFailure;
-use crate::scalar::norm;
+use crate::scalar::{Lanes, norm};
 use crate::space::sink::{Places, Product as ProductSink};
 use crate::space::square::SquareMatrix;
 use crate::state::Statistics;
@@ -102,6 +102,50 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 matrix.solve(x);
             }
         }
+    }
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
+    /// One over the only entry of each column, if that is what the inverse is.
+    #[inline(always)]
+    pub(crate) fn reciprocals(&self) -> Option<&[T]> {
+        match self {
+            Self::Reciprocals(reciprocals) => Some(reciprocals),
+            Self::Factors(_) => None,
+        }
+    }
+
+    /// [`solve`](Self::solve) with another matrix in each lane: entry i of `entries` is the only one of row i.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare), of the first lane that fails.
+    #[inline(always)]
+    pub(crate) fn of_entries_in_lanes<const W: usize>(
+        system: &S,
+        entries: &[Lanes<W, T>],
+        rhs: &[Lanes<W, T>],
+        x: &mut [Lanes<W, T>],
+    ) -> Result<(), StepFailure> {
+        let (zero, one) = (Lanes::all(T::lift(0.0)), Lanes::all(T::lift(1.0)));
+        let mut finite = zero;
+        for (j, x) in x.iter_mut().enumerate() {
+            let conjugate = system.conjugate(j);
+            let reciprocal = one / entries[conjugate];
+            finite += reciprocal * zero;
+            *x = rhs[conjugate] * reciprocal;
+        }
+        if finite == zero { Ok(()) } else { Self::first_singular(system, entries) }
+    }
+
+    /// The error of the first lane that has one.
+    #[cold]
+    fn first_singular<const W: usize>(system: &S, entries: &[Lanes<W, T>]) -> Result<(), StepFailure> {
+        for lane in 0..W {
+            for j in 0..entries.len() {
+                norm::reciprocal(entries[system.conjugate(j)].0[lane], j)?;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -6,6 +6,7 @@
 pub(crate) mod constrained;
 mod flow_on_q;
 mod hamilton;
+mod stages;
 
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
@@ -18,10 +19,12 @@ use crate::state::memory::Memory;
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
 use crate::system::Kind;
-use crate::{Real, System, Vector};
+use crate::{Real, Scalar, System, Vector};
 
 pub use flow_on_q::FlowOnQ;
 pub use hamilton::HamiltonsEquations;
+pub(crate) use stages::{AtStages, StageWork};
+pub use stages::{FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.
 #[derive(Clone, Debug)]
@@ -81,19 +84,21 @@ pub trait Rates<S: System, T: Real>: Kind {
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
 pub trait Motion<S: System, T: Real>: Kind {
-    /// y: q, or q and p.
-    type Point: Debug + DerefMut<Target = [Vector<S, T>]> + Memory<T>;
+    /// y: q, or q and p; in numbers of type `T`, or in packs of them.
+    type Point<P: Scalar>: Debug + DerefMut<Target = [Vector<S, P>]> + Memory<P>;
     /// The equations, with the storage that their evaluation needs, and all of y but q.
     type Equations: Memory<T>;
 
     /// A point of zeros.
-    fn point(system: &S) -> Self::Point;
+    fn point<P: Scalar>(system: &S) -> Self::Point<P>;
 }
 
 /// The equations of motion of `S` with their storage.
 pub type EquationsOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Equations;
 /// A point y of the equations of motion of `S`, or its velocity.
-pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point;
+pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point<T>;
+/// The same in packs of type `P`, of numbers of type `T`.
+pub type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point<P>;
 
 /// The equations of motion of a system `S`, y' = X(y, t), in the arithmetic of `T`.
 ///
@@ -117,7 +122,7 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// [`StartError::Starter`] where Ω or the mass matrix is singular.
     fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self::Equations, StartError>;
     /// Sets `y` to the present point.
-    fn gather(equations: &mut Self::Equations, q: &Vector<S, T>, y: &mut Self::Point);
+    fn gather(equations: &mut Self::Equations, q: &Vector<S, T>, y: &mut Self::Point<T>);
     /// Sets `slope` to X(`y`, `t`).
     ///
     /// # Errors
@@ -126,9 +131,9 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     fn evaluate(
         equations: &mut Self::Equations,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
-        slope: &mut Self::Point,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
     /// Sets `out` to entry `part` of X(`y`, `t`), from a guess `slope` of it: the velocity that belongs to the momentum, or
@@ -141,9 +146,9 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         equations: &mut Self::Equations,
         system: &S,
         part: usize,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
-        slope: &Self::Point,
+        slope: &Self::Point<T>,
         out: &mut Vector<S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
@@ -158,15 +163,19 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     fn cancelling(
         equations: &mut Self::Equations,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
     ) -> Result<T, StepFailure>;
     /// Whether Ω has kept its orientation at a point within a step.
     ///
     /// # Errors
     /// [`StepFailure::Orientation`].
-    fn compare(equations: &mut Self::Equations, system: &S, y: &Self::Point, t: T)
-    -> Result<(), StepFailure>;
+    fn compare(
+        equations: &mut Self::Equations,
+        system: &S,
+        y: &Self::Point<T>,
+        t: T,
+    ) -> Result<(), StepFailure>;
     /// Moves to `y`, the end of a step; all but `q` is kept here.
     ///
     /// # Errors
@@ -175,7 +184,7 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     fn arrive(
         equations: &mut Self::Equations,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         q: &mut Vector<S, T>,
         t: T,
     ) -> Result<(), StepFailure>;

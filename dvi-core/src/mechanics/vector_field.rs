@@ -6,6 +6,8 @@
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse};
+use crate::scalar::Lanes;
+use crate::scalar::lanes::{read_lane, write_lane};
 use crate::state::Statistics;
 use crate::{DegenerateLagrangian, Real, Space, System, Vector};
 
@@ -15,6 +17,14 @@ pub struct VectorField<S: System, T: Real> {
     inverse: Inverse<S, T>,
     gradient: Vector<S, T>,
     entries: Vector<S, T>,
+}
+
+/// What the evaluation in lanes works with.
+pub(crate) struct LaneWork<'a, const W: usize, T> {
+    pub(crate) gradient: &'a mut [Lanes<W, T>],
+    pub(crate) entries: &'a mut [Lanes<W, T>],
+    /// One lane.
+    pub(crate) vector: &'a mut [T],
 }
 
 impl<S: System, T: Real> Clone for VectorField<S, T> {
@@ -68,6 +78,60 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         system.flow_source(q, t, &mut self.gradient);
         statistics.gradients += 1;
         self.solve(system, q, t, velocity, statistics)
+    }
+
+    /// Sets `velocity` to X at the points in the lanes of `q`, at the times in those of `t`, bit for bit as
+    /// [`evaluate`](Self::evaluate) does one by one.
+    ///
+    /// # Errors
+    /// As there, of the first lane that fails.
+    #[inline(always)]
+    pub(crate) fn evaluate_in_lanes<const W: usize>(
+        &mut self,
+        system: &S,
+        q: &[Lanes<W, T>],
+        t: Lanes<W, T>,
+        work: LaneWork<'_, W, T>,
+        velocity: &mut [Lanes<W, T>],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>
+    where
+        S: DegenerateLagrangian<Lanes<W, T>>,
+    {
+        let LaneWork { gradient, entries, vector } = work;
+        system.flow_source(q, t, gradient);
+        statistics.gradients += W as u64;
+        if !<S as DegenerateLagrangian<T>>::AFFINE && <S as DegenerateLagrangian<T>>::CANONICAL {
+            let Combination { a, b } = Self::omega();
+            system.conjugate_entries(q, t, Lanes::all(a), Lanes::all(b), entries);
+            return Inverse::<S, T>::of_entries_in_lanes(system, entries, gradient, velocity);
+        }
+        if <S as DegenerateLagrangian<T>>::AFFINE
+            && let Some(reciprocals) = self.inverse.reciprocals()
+        {
+            for (j, (velocity, &reciprocal)) in velocity.iter_mut().zip(reciprocals).enumerate() {
+                *velocity =
+                    gradient[DegenerateLagrangian::<T>::conjugate(system, j)] * Lanes::all(reciprocal);
+            }
+            return Ok(());
+        }
+        for lane in 0..W {
+            if !<S as DegenerateLagrangian<T>>::AFFINE {
+                read_lane(lane, q, vector);
+                self.inverse.prepare(
+                    system,
+                    vector,
+                    t.0[lane],
+                    Self::omega(),
+                    &mut self.entries,
+                    statistics,
+                )?;
+            }
+            read_lane(lane, gradient, &mut self.gradient);
+            self.inverse.solve(system, &self.gradient, vector);
+            write_lane(lane, vector, velocity);
+        }
+        Ok(())
     }
 
     /// Sets `xi` to B⁻¹∇J, the vector field that declared momentum `index` generates.

@@ -1,65 +1,87 @@
 //! Gauss collocation with S stages: nodes, weights and the matrix of the stages.
 //!
-//! c are the zeros of the shifted Legendre polynomial of degree S, bᵢ = ∫₀¹ lᵢ and aᵢⱼ = ∫₀^cᵢ lⱼ with the Lagrange
-//! polynomials lⱼ of the nodes (Hairer, Lubich & Wanner 2006, section II.1.3). The integrals are taken by the rule itself,
-//! which is exact for them; the lower half of the matrix follows from bᵢaᵢⱼ + bⱼaⱼᵢ = bᵢbⱼ, the condition for symplectic
-//! steps (Sanz-Serna 1988), so that it holds to rounding.
+//! c are the zeros of the shifted Legendre polynomial P_S, bᵢ = ∫₀¹ lᵢ and aᵢⱼ = ∫₀^cᵢ lⱼ with the Lagrange polynomials lⱼ of the
+//! nodes (Hairer, Lubich & Wanner 2006, section II.1.3). In Legendre polynomials, whose values at the nodes are at most 1,
+//!
+//! lⱼ = bⱼ Σₖ (2k+1) Pₖ(cⱼ) Pₖ,   1/bⱼ = Σₖ (2k+1) Pₖ(cⱼ)²,   k = 0 … S−1
+//! μᵢⱼ = aᵢⱼ/bⱼ = cᵢ + ½ Σₖ Pₖ(cⱼ) (Pₖ₊₁(cᵢ) − Pₖ₋₁(cᵢ)),   k = 1 … S−1
+//!
+//! Steps are symplectic if bᵢaᵢⱼ + bⱼaⱼᵢ = bᵢbⱼ (Sanz-Serna 1988). With the numbers μ this is μᵢⱼ + μⱼᵢ = 1, which holds
+//! exactly in the arithmetic: of each pair the larger number is rounded, and the other is what it leaves of 1
+//! (Antoñana, Makazaga & Murua 2017, section 3).
 
 /// The largest number of stages.
-pub(super) const MOST: usize = 4;
+pub(super) const MOST: usize = 8;
 
-/// The zeros of the Legendre polynomial of degree S that are not negative, with their weights on [−1, 1] (Abramowitz & Stegun
-/// 1964, table 25.4).
+/// The zeros of the Legendre polynomial of degree S that are not negative (Abramowitz & Stegun 1964, table 25.4).
 #[rustfmt::skip]
-const ZEROS: [&[[f64; 2]]; MOST] = [
-    &[[0.0, 2.0]],
-    &[[0.577_350_269_189_625_8, 1.0]],
-    &[[0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]],
-    &[[0.339_981_043_584_856_26, 0.652_145_154_862_546_1], [0.861_136_311_594_052_6, 0.347_854_845_137_453_86]],
+const ZEROS: [&[f64]; MOST] = [
+    &[0.0],
+    &[0.577_350_269_189_625_7],
+    &[0.0, 0.774_596_669_241_483_4],
+    &[0.339_981_043_584_856_26, 0.861_136_311_594_052_6],
+    &[0.0, 0.538_469_310_105_683_1, 0.906_179_845_938_664],
+    &[0.238_619_186_083_196_9, 0.661_209_386_466_264_5, 0.932_469_514_203_152],
+    &[0.0, 0.405_845_151_377_397_2, 0.741_531_185_599_394_5, 0.949_107_912_342_758_5],
+    &[0.183_434_642_495_649_8, 0.525_532_409_916_329, 0.796_666_477_413_626_7, 0.960_289_856_497_536_3],
 ];
 
 /// Nodes, weights and matrix.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Collocation<const S: usize> {
+    /// μᵢⱼ = aᵢⱼ/bⱼ
+    pub(super) mu: [[f64; S]; S],
     pub(super) a: [[f64; S]; S],
     pub(super) b: [f64; S],
     pub(super) c: [f64; S],
 }
 
+/// P₀, P₁, … at a point of [0, 1], or beyond; those above degree S are not used.
+fn legendre(x: f64) -> [f64; MOST + 1] {
+    let z = 2.0 * x - 1.0;
+    let mut p = [1.0; MOST + 1];
+    p[1] = z;
+    for k in 1..MOST {
+        let degree = k as f64;
+        p[k + 1] = ((2.0 * degree + 1.0) * z * p[k] - degree * p[k - 1]) / (degree + 1.0);
+    }
+    p
+}
+
+/// Σₖ (2k+1) pₖ rₖ, k = 0 … S−1.
+fn sum<const S: usize>(p: &[f64], r: &[f64]) -> f64 {
+    (0..S).map(|k| (2 * k + 1) as f64 * p[k] * r[k]).sum()
+}
+
 impl<const S: usize> Collocation<S> {
     pub(super) fn gauss() -> Self {
-        const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1, 2, 3 or 4 stages") };
+        const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1 to 8 stages") };
         let zeros = ZEROS[S - 1];
-        let of = |i: usize| {
+        let c = core::array::from_fn(|i| {
             // In the order of the nodes: those below the centre are mirror images.
             let from_centre = (2 * i + 1).abs_diff(S) / 2;
-            let [zero, weight] =
-                zeros[if S % 2 == 1 { from_centre } else { from_centre.min(zeros.len() - 1) }];
-            let sign = if 2 * i + 1 < S { -1.0 } else { 1.0 };
-            [0.5 + 0.5 * sign * zero, 0.5 * weight]
-        };
-        let (b, c) = (core::array::from_fn(|i| of(i)[1]), core::array::from_fn(|i| of(i)[0]));
-        let mut new = Self { a: [[0.0; S]; S], b, c };
+            let zero = zeros[if S % 2 == 1 { from_centre } else { from_centre.min(zeros.len() - 1) }];
+            0.5 + if 2 * i + 1 < S { -0.5 } else { 0.5 } * zero
+        });
+        let p = c.map(legendre);
+        let b: [f64; S] = core::array::from_fn(|j| 1.0 / sum::<S>(&p[j], &p[j]));
+        let mut mu = [[0.5; S]; S];
         for i in 0..S {
-            new.a[i][i] = 0.5 * b[i];
-            for j in i + 1..S {
-                let integral = (0..S).map(|k| b[k] * new.lagrange(j, c[i] * c[k])).sum::<f64>();
-                new.a[i][j] = c[i] * integral;
-                new.a[j][i] = b[i] * (1.0 - new.a[i][j] / b[j]);
+            // Below the diagonal stand the larger numbers, between ½ and 2.
+            for j in 0..i {
+                let terms = (1..S).map(|k| p[j][k] * (p[i][k + 1] - p[i][k - 1]));
+                mu[i][j] = c[i] + 0.5 * terms.sum::<f64>();
+                mu[j][i] = 1.0 - mu[i][j];
             }
         }
-        new
-    }
-
-    /// The j-th Lagrange polynomial of the nodes at `x`.
-    fn lagrange(&self, j: usize, x: f64) -> f64 {
-        let others = (0..S).filter(|&k| k != j);
-        others.fold(1.0, |product, k| product * (x - self.c[k]) / (self.c[j] - self.c[k]))
+        let a = core::array::from_fn(|i| core::array::from_fn(|j| mu[i][j] * b[j]));
+        Self { mu, a, b, c }
     }
 
     /// Entry (i, j): the j-th Lagrange polynomial at 1 + cᵢ, to continue a polynomial through the stages into the next step.
     pub(super) fn continuation(&self) -> [[f64; S]; S] {
-        core::array::from_fn(|i| core::array::from_fn(|j| self.lagrange(j, 1.0 + self.c[i])))
+        let (within, beyond) = (self.c.map(legendre), self.c.map(|c| legendre(1.0 + c)));
+        core::array::from_fn(|i| core::array::from_fn(|j| self.b[j] * sum::<S>(&within[j], &beyond[i])))
     }
 }
 
@@ -70,19 +92,20 @@ mod tests {
     /// The simplifying assumptions that define collocation at the zeros of the Legendre polynomial:
     /// C(s): Σⱼ aᵢⱼ cⱼᵏ⁻¹ = cᵢᵏ/k for k ≤ s, and B(2s): Σᵢ bᵢ cᵢᵏ⁻¹ = 1/k for k ≤ 2s.
     fn check<const S: usize>() {
-        let Collocation::<S> { a, b, c } = Collocation::gauss();
+        let Collocation::<S> { mu, a, b, c } = Collocation::gauss();
         assert!(c.is_sorted());
         let moment = |w: &[f64; S], k: i32| w.iter().zip(&c).map(|(w, c)| w * c.powi(k - 1)).sum::<f64>();
         for k in 1..=2 * S as i32 {
             assert!((moment(&b, k) * f64::from(k) - 1.0).abs() < 1e-14, "B({k}) of {S} stages");
         }
         let beyond = 2 * S as i32 + 1;
-        assert!((moment(&b, beyond) * f64::from(beyond) - 1.0).abs() > 1e-4, "{S} stages");
+        assert!((moment(&b, beyond) * f64::from(beyond) - 1.0).abs() > 1e-9, "{S} stages");
         for i in 0..S {
             for k in 1..=S as i32 {
                 assert!((moment(&a[i], k) * f64::from(k) - c[i].powi(k)).abs() < 1e-15, "C({k}), row {i}");
             }
             for j in 0..S {
+                assert_eq!(mu[i][j] + mu[j][i], 1.0, "{S} stages, ({i}, {j})");
                 let symplectic = b[i] * a[i][j] + b[j] * a[j][i] - b[i] * b[j];
                 assert!(symplectic.abs() < 1e-16, "{S} stages, ({i}, {j})");
             }
@@ -95,6 +118,10 @@ mod tests {
         check::<2>();
         check::<3>();
         check::<4>();
+        check::<5>();
+        check::<6>();
+        check::<7>();
+        check::<8>();
     }
 
     #[test]
@@ -104,6 +131,13 @@ mod tests {
         for (row, c) in tableau.continuation().iter().zip(tableau.c) {
             let value: f64 = row.iter().zip(tableau.c).map(|(l, c)| l * cubic_free(c)).sum();
             assert!((value - cubic_free(1.0 + c)).abs() < 1e-12);
+        }
+        // The coefficients of eight stages are as large as 10⁵.
+        let tableau = Collocation::<8>::gauss();
+        let of_degree_7 = |x: f64| (x - 0.25).powi(7);
+        for (row, c) in tableau.continuation().iter().zip(tableau.c) {
+            let value: f64 = row.iter().zip(tableau.c).map(|(l, c)| l * of_degree_7(c)).sum();
+            assert!((value - of_degree_7(1.0 + c)).abs() < 1e-10);
         }
     }
 }

@@ -1,22 +1,33 @@
 //! Gauss collocation on the equations of motion y' = X(y, t).
 //!
-//! Kᵢ = X(y + h Σⱼ aᵢⱼ Kⱼ, t + cᵢh),   y⁺ = y + h Σᵢ bᵢ Kᵢ,   c the zeros of the shifted Legendre polynomial
-//! (Butcher 1964; Hairer, Lubich & Wanner 2006, section II.1.3). The stages are iterated as a fixed point
-//! down to rounding errors, from the collocation polynomial of the last step, continued.
+//! Kᵢ = X(Yᵢ, t + cᵢh),   Yᵢ = y + Σⱼ μᵢⱼ Lⱼ,   y⁺ = y + Σᵢ Lᵢ,   Lᵢ = hbᵢ Kᵢ,   μᵢⱼ = aᵢⱼ/bⱼ
+//!
+//! with c the zeros of the shifted Legendre polynomial (Butcher 1964; Hairer, Lubich & Wanner 2006, section II.1.3), written in
+//! the numbers L so that the step is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2017). The stages are iterated as a
+//! fixed point down to rounding errors, from the collocation polynomial of the last step, continued.
+//!
+//! Each number of a point stands once for each stage, in the lanes of a pack; the equations of motion are evaluated stage by
+//! stage, or for all stages at once.
 
 use core::fmt;
+use core::marker::PhantomData;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
+use crate::mechanics::motion::{
+    AtStages, EquationsOf, FirstOrder, InLanes, Motion, OneByOne, PackedOf, PointOf, StageEvaluation,
+    StageWork,
+};
 use crate::methods::collocation::{Collocation, MOST};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
-use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::scalar::simd::Task;
+use crate::scalar::{Lanes, norm};
+use crate::solve::{Convergence, Iteration, Stopping, repeat};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
+use crate::state::summation::{Summation, carry};
 use crate::{Lagrangian, Real, Scalar, System, Vector};
 
-/// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 4, of order 2`S`, on the equations of motion y' = X(y, t).
+/// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 8, of order 2`S`, on the equations of motion y' = X(y, t).
 ///
 /// ```math
 /// K_i = X\Bigl(y + h \sum_j a_{ij} K_j,\ t + c_i h\Bigr), \qquad y^+ = y + h \sum_i b_i K_i
@@ -28,36 +39,99 @@ use crate::{Lagrangian, Real, Scalar, System, Vector};
 /// and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all quadratic momenta. The stages are found
 /// by a fixed point, which contracts if h is small against the fastest time scale only:
 /// [`StepFailure::NotConverged`] where it does not.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gauss<const S: usize> {
+///
+/// [`in_lanes`](Self::in_lanes) evaluates all stages at once, in SIMD lanes, and gives the same numbers, bit for bit: with eight stages,
+/// order 16, it is the method for energies that are to be kept to rounding errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gauss<const S: usize, E = OneByOne> {
     /// The criterion by which the stages count as converged. Default: to rounding errors.
     pub stopping: Stopping,
+    /// How the increments of the steps are added up. Default: [`Summation::Compensated`]; the stages are then iterated until
+    /// nothing is left to gain, which takes about one iteration more.
+    pub summation: Summation,
+    /// How the stages are evaluated.
+    pub evaluation: E,
 }
 
 impl<const S: usize> Gauss<S> {
-    /// The method with default options. A number of stages other than 1, 2, 3 or 4 does not compile.
+    /// The method with default options. A number of stages below 1 or above 8 does not compile.
     pub fn new() -> Self {
-        const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1, 2, 3 or 4 stages") };
-        Self::default()
+        const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1 to 8 stages") };
+        Self { stopping: Stopping::default(), summation: Summation::Compensated, evaluation: OneByOne }
+    }
+
+    /// The same with all stages evaluated at once.
+    ///
+    /// The equations of motion are evaluated on packs of `S` numbers where Ω couples the coordinates in pairs, or the mass
+    /// matrix is constant and diagonal. Of other systems forces and ∇H are, and linear equations are solved stage by stage.
+    #[must_use]
+    pub fn in_lanes(self) -> Gauss<S, InLanes> {
+        let Self { stopping, summation, .. } = self;
+        Gauss { stopping, summation, evaluation: InLanes }
+    }
+}
+
+impl<const S: usize> Default for Gauss<S> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
 /// The stages of a Gauss step, and those of the step before.
 pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     equations: EquationsOf<S, T>,
-    tableau: Collocation<STAGES>,
-    continuation: [[f64; STAGES]; STAGES],
-    /// Of the last completed step.
-    completed: [PointOf<S, T>; STAGES],
-    slopes: [PointOf<S, T>; STAGES],
-    updated: [PointOf<S, T>; STAGES],
-    /// Where the step begins, and where a stage is.
+    coefficients: Coefficients<STAGES, T>,
+    /// The slopes K of the last completed step.
+    completed: StagesOf<STAGES, S, T>,
+    /// What rounding has left out of y, if sums are compensated.
+    rest: PointOf<S, T>,
+    slopes: StagesOf<STAGES, S, T>,
+    updated: StagesOf<STAGES, S, T>,
+    stages: StagesOf<STAGES, S, T>,
+    /// Where the step begins, its increment, and where it ends.
     y: PointOf<S, T>,
-    stage: PointOf<S, T>,
+    increment: PointOf<S, T>,
+    next: PointOf<S, T>,
+    work: StageWork<STAGES, S, T>,
+}
+
+type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
+
+/// Coefficients in packs over the stages that they lead to.
+#[derive(Clone, Copy, Debug)]
+struct Coefficients<const STAGES: usize, T> {
+    /// Column j of μ.
+    mu: [Lanes<STAGES, T>; STAGES],
+    /// Column j of the continuation.
+    continuation: [Lanes<STAGES, T>; STAGES],
+    b: Lanes<STAGES, T>,
+    c: Lanes<STAGES, T>,
+}
+
+impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
+    fn new() -> Self {
+        let tableau = Collocation::<STAGES>::gauss();
+        let columns = |rows: [[f64; STAGES]; STAGES]| {
+            core::array::from_fn(|j| Lanes(core::array::from_fn(|i| T::lift(rows[i][j]))))
+        };
+        let [b, c] = [tableau.b, tableau.c].map(|numbers| Lanes(numbers.map(T::lift)));
+        Self { mu: columns(tableau.mu), continuation: columns(tableau.continuation()), b, c }
+    }
+}
+
+/// Σⱼ `columns`ⱼ xⱼ, for the numbers x in the lanes of `pack`.
+#[inline(always)]
+fn combine<const STAGES: usize, T: Real>(
+    columns: &[Lanes<STAGES, T>; STAGES],
+    pack: Lanes<STAGES, T>,
+    from: T,
+) -> Lanes<STAGES, T> {
+    let terms = columns.iter().zip(pack.0).map(|(&column, x)| column * Lanes::all(x));
+    terms.fold(Lanes::all(from), |sum, term| sum + term)
 }
 
 impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
-    lasting!(T; part equations, parts completed);
+    lasting!(T; part equations, packs completed, part rest);
 }
 
 impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for GaussMemory<STAGES, S, T> {
@@ -66,7 +140,7 @@ impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for
     }
 }
 
-impl<const S: usize> Scheme for Gauss<S> {
+impl<const S: usize, E> Scheme for Gauss<S, E> {
     fn order(&self) -> usize {
         2 * S
     }
@@ -78,32 +152,42 @@ impl<const S: usize> Scheme for Gauss<S> {
     }
 }
 
-impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Carries<S, T> for Gauss<STAGES> {
+impl<const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> Carries<S, T> for Gauss<STAGES, E> {
     type Memory = GaussMemory<STAGES, S, T>;
 }
 
-impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T>
-    for Gauss<STAGES>
+impl<const STAGES: usize, E, S, T: Real> Method<S, T> for Gauss<STAGES, E>
+where
+    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
+    E: StageEvaluation<STAGES, S, T>,
 {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let mut equations = S::Kind::begin(system, q, v, t)?;
-        let (points, tableau) = (|| core::array::from_fn(|_| S::Kind::point(system)), Collocation::gauss());
-        let (mut y, mut completed): (_, [PointOf<S, T>; STAGES]) = (S::Kind::point(system), points());
+        let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] =
+            core::array::from_fn(|_| S::Kind::point(system));
+        let [mut completed, slopes, updated, stages]: [StagesOf<STAGES, S, T>; 4] =
+            core::array::from_fn(|_| S::Kind::point(system));
         S::Kind::gather(&mut equations, q, &mut y);
-        for slope in &mut completed {
-            S::Kind::evaluate(&mut equations, system, &y, t, slope, &mut Statistics::default())
-                .map_err(StartError::Starter)?;
+        S::Kind::evaluate(&mut equations, system, &y, t, &mut slope, &mut Statistics::default())
+            .map_err(StartError::Starter)?;
+        for (packs, numbers) in completed.iter_mut().zip(slope.iter()) {
+            for (pack, &number) in packs.iter_mut().zip(numbers.iter()) {
+                *pack = Lanes::all(number);
+            }
         }
         Ok(GaussMemory {
             equations,
-            tableau,
-            continuation: tableau.continuation(),
+            coefficients: Coefficients::new(),
             completed,
-            slopes: points(),
-            updated: points(),
+            rest,
+            slopes,
+            updated,
+            stages,
             y,
-            stage: S::Kind::point(system),
+            increment,
+            next,
+            work: StageWork::new(system),
         })
     }
 
@@ -117,25 +201,7 @@ impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: 
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        S::Kind::gather(&mut memory.equations, q, &mut memory.y);
-        memory.guess();
-        let speed = memory.slopes.iter().fold(T::lift(0.0), |m: T, slope| m.max(norm::largest(&slope[0])));
-        let GaussMemory { equations, y, .. } = &mut *memory;
-        let speed = norm::larger(speed, S::Kind::cancelling(equations, system, y, t)?);
-        let scale = norm::largest(q) + Scalar::abs(h) * speed;
-        let convergence = Convergence::fixed_point(self.stopping, scale, q, self.stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| memory.iterate(system, t, h, statistics))?;
-        if S::Kind::has_velocity_forces() {
-            // Those of the last iteration belong to the velocities before it.
-            memory.evaluate_part(1, system, t, h, statistics)?;
-        }
-        let GaussMemory { equations, tableau, slopes, completed, y, stage, .. } = memory;
-        combine::<STAGES, S, T>(y, h, &tableau.b, slopes, stage);
-        S::Kind::arrive(equations, system, stage, q, t + h)?;
-        for (completed, slope) in completed.iter_mut().zip(slopes.iter()) {
-            completed.restore(slope);
-        }
-        Ok(())
+        E::run(Step { method: self, system, memory, q, t, h, statistics })
     }
 
     fn velocity(
@@ -150,28 +216,99 @@ impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: 
     }
 }
 
-impl<const STAGES: usize, S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T>
-    for Gauss<STAGES>
+impl<const STAGES: usize, E, S, T: Real> VariableStep<S, T> for Gauss<STAGES, E>
+where
+    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
+    E: StageEvaluation<STAGES, S, T>,
 {
+}
+
+/// A step.
+struct Step<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
+    method: &'a Gauss<STAGES, E>,
+    system: &'a S,
+    memory: &'a mut GaussMemory<STAGES, S, T>,
+    q: &'a mut Vector<S, T>,
+    t: T,
+    h: T,
+    statistics: &'a mut Statistics,
+}
+
+impl<const STAGES: usize, E, S, T: Real> Task for Step<'_, STAGES, E, S, T>
+where
+    S: System<Kind: FirstOrder<S, T>>,
+    E: StageEvaluation<STAGES, S, T>,
+{
+    type Output = Result<(), StepFailure>;
+
+    #[inline(always)]
+    fn run(self) -> Result<(), StepFailure> {
+        let Self { method: &Gauss { stopping, summation, .. }, system, memory, q, t, h, statistics } = self;
+        S::Kind::gather(&mut memory.equations, q, &mut memory.y);
+        memory.guess();
+        let slopes = memory.slopes[0].iter();
+        let speed = slopes.fold(T::lift(0.0), |m, slope| norm::larger(m, norm::largest(&slope.0)));
+        let speed = norm::larger(speed, S::Kind::cancelling(&mut memory.equations, system, &memory.y, t)?);
+        let scale = norm::largest(q) + Scalar::abs(h) * speed;
+        let stopping = match summation {
+            Summation::Plain => stopping,
+            Summation::Compensated => stopping.exhaustive(),
+        };
+        let convergence = Convergence::fixed_point(stopping, scale, q, stopping.max_iterations);
+        let stages: Stages<'_, STAGES, E, S, T> = Stages { system, memory, t, h, evaluation: PhantomData };
+        repeat(convergence, statistics, stages)?;
+        if S::Kind::has_velocity_forces() {
+            // Those of the last iteration belong to the velocities before it.
+            memory.evaluate_part::<E>(1, system, t, h, statistics)?;
+        }
+        memory.arrive(summation, system, q, t, h)
+    }
+}
+
+/// The stages of a step as they are iterated.
+struct Stages<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
+    system: &'a S,
+    memory: &'a mut GaussMemory<STAGES, S, T>,
+    t: T,
+    h: T,
+    evaluation: PhantomData<E>,
+}
+
+impl<const STAGES: usize, E, S, T: Real> Iteration<T> for Stages<'_, STAGES, E, S, T>
+where
+    S: System<Kind: FirstOrder<S, T>>,
+    E: StageEvaluation<STAGES, S, T>,
+{
+    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity: the
+    /// momenta follow from the velocities.
+    #[inline(always)]
+    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { system, memory, t, h, .. } = self;
+        for part in (0..memory.y.len()).rev() {
+            memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
+        }
+        let changes = memory.slopes[0].iter().zip(memory.updated[0].iter());
+        let largest = changes.fold(T::lift(0.0), |largest, (now, before)| {
+            norm::larger(largest, norm::distance(&now.0, &before.0))
+        });
+        Ok(Scalar::abs(*h) * largest)
+    }
 }
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
     /// Continues the polynomial through the completed stages into the next step.
-    #[inline]
+    #[inline(always)]
     fn guess(&mut self) {
-        for (row, slope) in self.continuation.iter().zip(&mut self.slopes) {
-            for (part, slope) in slope.iter_mut().enumerate() {
-                for (n, slope) in slope.iter_mut().enumerate() {
-                    let terms = row.iter().zip(&self.completed).map(|(&l, k)| T::lift(l) * k[part][n]);
-                    *slope = terms.fold(T::lift(0.0), |sum, term| sum + term);
-                }
+        for (slopes, completed) in self.slopes.iter_mut().zip(self.completed.iter()) {
+            for (slope, &completed) in slopes.iter_mut().zip(completed.iter()) {
+                *slope = combine(&self.coefficients.continuation, completed, T::lift(0.0));
             }
         }
     }
 
     /// Evaluates one part of the slopes of all stages; `updated` has those before.
-    #[inline]
-    fn evaluate_part(
+    #[inline(always)]
+    fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
         part: usize,
         system: &S,
@@ -179,46 +316,50 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { equations, tableau, slopes, updated, y, stage, .. } = self;
-        for i in 0..STAGES {
-            combine::<STAGES, S, T>(y, h, &tableau.a[i], slopes, stage);
-            let time = t + T::lift(tableau.c[i]) * h;
-            let (from, to) = (&slopes[i], &mut updated[i][part]);
-            S::Kind::evaluate_part(equations, system, part, stage, time, from, to, statistics)?;
+        let Self { equations, coefficients, slopes, updated, stages, y, rest, work, .. } = self;
+        let weights = Lanes::all(h) * coefficients.b;
+        // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
+        let moved = (part + 1) % y.len();
+        let numbers = y[moved].iter().zip(rest[moved].iter()).zip(slopes[moved].iter());
+        for (stage, ((&y, &rest), &slope)) in stages[moved].iter_mut().zip(numbers) {
+            *stage = Lanes::all(y) + combine(&coefficients.mu, weights * slope, rest);
         }
-        for (slope, updated) in slopes.iter_mut().zip(updated.iter_mut()) {
-            core::mem::swap(&mut slope[part], &mut updated[part]);
-        }
+        let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
+        let at = AtStages { system, y: &*stages, t: times, slopes: &*slopes };
+        E::evaluate_part(equations, part, &at, work, &mut updated[part], statistics)?;
+        core::mem::swap(&mut slopes[part], &mut updated[part]);
         Ok(())
     }
 
-    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity: the
-    /// momenta follow from the velocities.
-    #[inline]
-    fn iterate(&mut self, system: &S, t: T, h: T, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        for part in (0..self.y.len()).rev() {
-            self.evaluate_part(part, system, t, h, statistics)?;
+    /// Moves to the end of the step.
+    #[inline(always)]
+    fn arrive(
+        &mut self,
+        summation: Summation,
+        system: &S,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<(), StepFailure> {
+        let Self { equations, coefficients, completed, slopes, y, rest, increment, next, .. } = self;
+        let weights = Lanes::all(h) * coefficients.b;
+        for part in 0..y.len() {
+            let numbers = y[part].iter().zip(rest[part].iter()).zip(slopes[part].iter());
+            let moved = increment[part].iter_mut().zip(next[part].iter_mut());
+            for ((increment, next), ((&y, &rest), &slope)) in moved.zip(numbers) {
+                *increment = (weights * slope).0.iter().fold(T::lift(0.0), |sum, &term| sum + term);
+                *next = y + (*increment + rest);
+            }
         }
-        let Self { slopes, updated, .. } = self;
-        let changes =
-            slopes.iter().zip(updated.iter()).map(|(now, before)| norm::distance(&now[0], &before[0]));
-        Ok(Scalar::abs(h) * changes.fold(T::lift(0.0), |m: T, change| m.max(change)))
-    }
-}
-
-/// Sets `out` to y + h Σ wⱼ kⱼ.
-#[inline(always)]
-fn combine<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real>(
-    y: &PointOf<S, T>,
-    h: T,
-    weights: &[f64; STAGES],
-    slopes: &[PointOf<S, T>; STAGES],
-    out: &mut PointOf<S, T>,
-) {
-    let factors: [T; STAGES] = weights.map(|weight| h * T::lift(weight));
-    for (part, (out, y)) in out.iter_mut().zip(y.iter()).enumerate() {
-        for (n, (out, &y)) in out.iter_mut().zip(y.iter()).enumerate() {
-            *out = factors.iter().zip(slopes).fold(y, |sum, (&factor, k)| sum + factor * k[part][n]);
+        S::Kind::arrive(equations, system, next, q, t + h)?;
+        if summation == Summation::Compensated {
+            for part in 0..y.len() {
+                carry(&mut rest[part], &y[part], &increment[part], &next[part]);
+            }
         }
+        for (completed, slopes) in completed.iter_mut().zip(slopes.iter()) {
+            completed.copy_from_slice(slopes);
+        }
+        Ok(())
     }
 }

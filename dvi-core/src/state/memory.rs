@@ -144,6 +144,7 @@ impl<T: Copy> Reader<'_, T> {
 ///
 /// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`; `size`, a `T` that is no
 ///   part of the motion and may be no number
+/// - `packs`, vectors of packs
 /// - `part`, something that has a list of its own; `parts`, an array or `Option` of such, `vectors`, an array of vectors
 ///
 /// After `; name` stands a function that says whether what has been loaded can be gone on with: a file may be damaged.
@@ -172,6 +173,9 @@ macro_rules! lasting {
         }
     };
     (@restore $T:ty, numbers $to:expr, $from:expr) => { $to.copy_from_slice(&$from) };
+    (@restore $T:ty, packs $to:expr, $from:expr) => {
+        $crate::state::memory::lasting!(@restore $T, vectors $to, $from)
+    };
     (@restore $T:ty, part $to:expr, $from:expr) => {
         $crate::state::memory::Memory::<$T>::restore(&mut $to, &$from)
     };
@@ -195,6 +199,11 @@ macro_rules! lasting {
     (@save size $from:expr, $record:ident) => { $record.count($crate::scalar::norm::reported($from).to_bits()) };
     (@save part $from:expr, $record:ident) => { $from.save($record) };
     (@save parts $from:expr, $record:ident) => { $from.iter().for_each(|part| part.save($record)) };
+    (@save packs $from:expr, $record:ident) => {
+        for pack in $from.iter().flat_map(|packs| packs.iter()) {
+            $record.numbers(&pack.0);
+        }
+    };
     (@save vectors $from:expr, $record:ident) => { $from.iter().for_each(|vector| $record.numbers(vector)) };
 
     (@load $T:ty, numbers $to:expr, $reader:ident) => { $reader.numbers(&mut $to)? };
@@ -213,6 +222,11 @@ macro_rules! lasting {
     (@load $T:ty, bits $to:expr, $reader:ident) => { $to = f64::from_bits($reader.count()?) };
     (@load $T:ty, part $to:expr, $reader:ident) => { $to.load($reader)? };
     (@load $T:ty, parts $to:expr, $reader:ident) => { for part in $to.iter_mut() { part.load($reader)?; } };
+    (@load $T:ty, packs $to:expr, $reader:ident) => {
+        for pack in $to.iter_mut().flat_map(|packs| packs.iter_mut()) {
+            $reader.numbers(&mut pack.0)?;
+        }
+    };
     (@load $T:ty, vectors $to:expr, $reader:ident) => { for vector in $to.iter_mut() { $reader.numbers(vector)?; } };
 }
 pub(crate) use lasting;

@@ -77,8 +77,9 @@ impl<S: System, T: Real> Memory<T> for Carried<S, T> {
     lasting!(T; vectors rest);
 }
 
+/// Sets `rest` to what rounding has left out of `sum`, that of x and of (Δ + `rest`).
 #[inline(never)]
-fn carry<T: Real>(rest: &mut [T], x: &[T], increment: &[T], sum: &[T]) {
+pub(crate) fn carry<T: Real>(rest: &mut [T], x: &[T], increment: &[T], sum: &[T]) {
     for (((&sum, &x), &delta), rest) in sum.iter().zip(x).zip(increment).zip(rest) {
         let added = delta + *rest;
         let x_is_larger = Scalar::abs(x) >= Scalar::abs(added);

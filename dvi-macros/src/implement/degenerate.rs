@@ -145,7 +145,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             }
             #[inline]
             fn one_form(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #one_form }
-            #[inline]
+            #[inline(always)]
             fn flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
                 #flow_source
             }
@@ -155,7 +155,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             ) {
                 #read #offsets #jacobian
             }
-            #[inline]
+            #[inline(always)]
             fn conjugate_entries(
                 &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __vector: &mut [__T],
             ) {

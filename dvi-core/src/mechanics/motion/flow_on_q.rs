@@ -1,14 +1,14 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{FirstOrder, Motion, Point, Rates};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
-use crate::scalar::norm;
+use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::system::Degenerate;
-use crate::{DegenerateLagrangian, Real, Space, System, Vector};
+use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 /// The equations of motion of a degenerate system, on Q.
 #[derive(Debug)]
@@ -22,10 +22,10 @@ impl<S: System, T: Real> Memory<T> for FlowOnQ<S, T> {
 }
 
 impl<S: System, T: Real> Motion<S, T> for Degenerate {
-    type Point = Point<Vector<S, T>, 1>;
+    type Point<P: Scalar> = Point<Vector<S, P>, 1>;
     type Equations = FlowOnQ<S, T>;
 
-    fn point(system: &S) -> Self::Point {
+    fn point<P: Scalar>(system: &S) -> Self::Point<P> {
         Point([system.space().vector()])
     }
 }
@@ -38,16 +38,16 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         })
     }
     #[inline(always)]
-    fn gather(_equations: &mut FlowOnQ<S, T>, q: &Vector<S, T>, y: &mut Self::Point) {
+    fn gather(_equations: &mut FlowOnQ<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         y.0[0].copy_from_slice(q);
     }
     #[inline(always)]
     fn evaluate(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
-        slope: &mut Self::Point,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
@@ -57,9 +57,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         equations: &mut FlowOnQ<S, T>,
         system: &S,
         _part: usize,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
-        _slope: &Self::Point,
+        _slope: &Self::Point<T>,
         out: &mut Vector<S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
@@ -69,20 +69,25 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     fn cancelling(
         _equations: &mut FlowOnQ<S, T>,
         _system: &S,
-        _y: &Self::Point,
+        _y: &Self::Point<T>,
         _t: T,
     ) -> Result<T, StepFailure> {
         Ok(T::lift(0.0))
     }
     #[inline(always)]
-    fn compare(equations: &mut FlowOnQ<S, T>, system: &S, y: &Self::Point, t: T) -> Result<(), StepFailure> {
+    fn compare(
+        equations: &mut FlowOnQ<S, T>,
+        system: &S,
+        y: &Self::Point<T>,
+        t: T,
+    ) -> Result<(), StepFailure> {
         equations.orientation.compare(system, &y.0[0], t).map(drop)
     }
     #[inline(always)]
     fn arrive(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         q: &mut Vector<S, T>,
         t: T,
     ) -> Result<(), StepFailure> {
@@ -100,6 +105,23 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         _v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         Ok(())
+    }
+}
+
+impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Degenerate
+where
+    S: DegenerateLagrangian<T> + DegenerateLagrangian<Lanes<W, T>>,
+{
+    #[inline(always)]
+    fn evaluate_in_lanes(
+        equations: &mut FlowOnQ<S, T>,
+        _part: usize,
+        at: &AtStages<'_, W, S, T>,
+        work: &mut StageWork<W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work.of_field(), out, statistics)
     }
 }
 

@@ -1,6 +1,7 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
-use super::{FirstOrder, Motion, Point, Rates};
+use super::stages::one_by_one;
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
@@ -8,7 +9,7 @@ use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
-use crate::scalar::norm;
+use crate::scalar::{Lanes, norm};
 use crate::space::sink::Product;
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
@@ -17,8 +18,8 @@ use crate::state::memory::{Memory, lasting};
 use crate::state::memory::{Reader, Record};
 use crate::system::{Regular, Unilateral};
 use crate::{
-    Linear, NondegenerateLagrangian, Real, RegularLagrangian, Sink, Space, System, UnilateralLagrangian,
-    Vector, Weights,
+    Linear, NondegenerateLagrangian, Real, RegularLagrangian, Scalar, Sink, Space, System,
+    UnilateralLagrangian, Vector, Weights,
 };
 
 /// Hamilton's equations of a regular system, on T*Q, in terms of L.
@@ -95,10 +96,10 @@ impl<S: System, T: Real> Memory<T> for Transform<S, T> {
 }
 
 impl<S: System, T: Real> Motion<S, T> for Regular {
-    type Point = Point<Vector<S, T>, 2>;
+    type Point<P: Scalar> = Point<Vector<S, P>, 2>;
     type Equations = HamiltonsEquations<S, T>;
 
-    fn point(system: &S) -> Self::Point {
+    fn point<P: Scalar>(system: &S) -> Self::Point<P> {
         Point([0, 1].map(|_| system.space().vector()))
     }
 }
@@ -119,7 +120,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         Ok(HamiltonsEquations { p, inverse })
     }
     #[inline(always)]
-    fn gather(equations: &mut HamiltonsEquations<S, T>, q: &Vector<S, T>, y: &mut Self::Point) {
+    fn gather(equations: &mut HamiltonsEquations<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         let [coordinates, momenta] = &mut y.0;
         coordinates.copy_from_slice(q);
         momenta.copy_from_slice(&equations.p);
@@ -131,9 +132,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn evaluate(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
-        slope: &mut Self::Point,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let ([q, p], [velocity, force]) = (&y.0, &mut slope.0);
@@ -150,9 +151,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
         part: usize,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
-        slope: &Self::Point,
+        slope: &Self::Point<T>,
         out: &mut Vector<S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
@@ -172,7 +173,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn cancelling(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         t: T,
     ) -> Result<T, StepFailure> {
         match &mut equations.inverse {
@@ -186,7 +187,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn compare(
         _equations: &mut HamiltonsEquations<S, T>,
         _system: &S,
-        _y: &Self::Point,
+        _y: &Self::Point<T>,
         _t: T,
     ) -> Result<(), StepFailure> {
         Ok(())
@@ -195,7 +196,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn arrive(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
-        y: &Self::Point,
+        y: &Self::Point<T>,
         q: &mut Vector<S, T>,
         t: T,
     ) -> Result<(), StepFailure> {
@@ -233,6 +234,38 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
                 Ok(())
             }
         }
+    }
+}
+
+impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Regular
+where
+    S: RegularLagrangian<T> + RegularLagrangian<Lanes<W, T>>,
+{
+    #[inline(always)]
+    fn evaluate_in_lanes(
+        equations: &mut HamiltonsEquations<S, T>,
+        part: usize,
+        at: &AtStages<'_, W, S, T>,
+        work: &mut StageWork<W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let [q, p] = &at.y.0;
+        if part == 1 {
+            at.system.force(q, &at.slopes.0[0], at.t, out);
+            statistics.gradients += W as u64;
+            return Ok(());
+        }
+        let Velocities::Constant(mass) = &equations.inverse else {
+            return one_by_one(equations, part, at, work, out, statistics);
+        };
+        let Some(reciprocals) = mass.reciprocals() else {
+            return one_by_one(equations, part, at, work, out, statistics);
+        };
+        for ((v, &p), &reciprocal) in out.iter_mut().zip(p.iter()).zip(reciprocals) {
+            *v = p * Lanes::all(reciprocal);
+        }
+        Ok(())
     }
 }
 

@@ -12,7 +12,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
-use crate::methods::collocation::{Collocation, MOST};
+use crate::methods::collocation::Collocation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Stopping, iterate};
@@ -43,7 +43,7 @@ pub struct OneStepGauss<const S: usize> {
 impl<const S: usize> OneStepGauss<S> {
     /// The method with default options. A number of stages other than 1, 2, 3 or 4 does not compile.
     pub fn new() -> Self {
-        const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1, 2, 3 or 4 stages") };
+        const { assert!(S >= 1 && S <= 4, "Gauss collocation is available with 1, 2, 3 or 4 stages") };
         Self::default()
     }
 }

@@ -1,0 +1,173 @@
+//! The equations of motion at all stages of a step, of which each has a lane: evaluated one by one, or in the lanes.
+
+use core::fmt;
+
+use super::{EquationsOf, FirstOrder, Motion, PackedOf, PointOf};
+use crate::error::StepFailure;
+use crate::mechanics::vector_field::LaneWork;
+use crate::scalar::Lanes;
+use crate::scalar::lanes::{read_lane, write_lane};
+use crate::scalar::simd::{Task, widest};
+use crate::state::Statistics;
+use crate::{Real, Space, System, Vector};
+
+/// Stages are evaluated one by one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OneByOne;
+
+/// Stages are evaluated at once, in the lanes of one pack.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct InLanes;
+
+/// What the evaluation of stages works with.
+pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    /// One stage.
+    point: PointOf<S, T>,
+    slope: PointOf<S, T>,
+    vector: Vector<S, T>,
+    /// All stages.
+    gradient: Vector<S, Lanes<W, T>>,
+    entries: Vector<S, Lanes<W, T>>,
+}
+
+impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> {
+    pub(crate) fn new(system: &S) -> Self {
+        let space = system.space();
+        let [point, slope] = [0, 1].map(|_| S::Kind::point(system));
+        Self { point, slope, vector: space.vector(), gradient: space.vector(), entries: space.vector() }
+    }
+
+    /// For the vector field of a degenerate system.
+    #[inline(always)]
+    pub(super) fn of_field(&mut self) -> LaneWork<'_, W, T> {
+        let Self { vector, gradient, entries, .. } = self;
+        LaneWork { gradient, entries, vector }
+    }
+}
+
+impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for StageWork<W, S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("StageWork").finish_non_exhaustive()
+    }
+}
+
+/// What is evaluated at the stages: X in the points `y` at the times `t`.
+pub struct AtStages<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    pub(crate) system: &'a S,
+    pub(crate) y: &'a PackedOf<S, T, Lanes<W, T>>,
+    pub(crate) t: Lanes<W, T>,
+    /// A guess of X.
+    pub(crate) slopes: &'a PackedOf<S, T, Lanes<W, T>>,
+}
+
+impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for AtStages<'_, W, S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("AtStages").field("t", &self.t).finish_non_exhaustive()
+    }
+}
+
+/// How the equations of motion are evaluated at the `W` stages of a step.
+pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    /// Sets `out` to entry `part` of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
+    ///
+    /// # Errors
+    /// As there, of the first stage that fails.
+    fn evaluate_part(
+        equations: &mut EquationsOf<S, T>,
+        part: usize,
+        at: &AtStages<'_, W, S, T>,
+        work: &mut StageWork<W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>;
+
+    /// Runs a step.
+    fn run<K: Task>(step: K) -> K::Output;
+}
+
+impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation<W, S, T> for OneByOne {
+    #[inline(always)]
+    fn evaluate_part(
+        equations: &mut EquationsOf<S, T>,
+        part: usize,
+        at: &AtStages<'_, W, S, T>,
+        work: &mut StageWork<W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        one_by_one(equations, part, at, work, out, statistics)
+    }
+
+    #[inline(always)]
+    fn run<K: Task>(step: K) -> K::Output {
+        step.run()
+    }
+}
+
+impl<const W: usize, S: System<Kind: FirstOrderInLanes<W, S, T>>, T: Real> StageEvaluation<W, S, T>
+    for InLanes
+{
+    #[inline(always)]
+    fn evaluate_part(
+        equations: &mut EquationsOf<S, T>,
+        part: usize,
+        at: &AtStages<'_, W, S, T>,
+        work: &mut StageWork<W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        S::Kind::evaluate_in_lanes(equations, part, at, work, out, statistics)
+    }
+
+    #[inline(always)]
+    fn run<K: Task>(step: K) -> K::Output {
+        widest(step)
+    }
+}
+
+/// The equations of motion of a system `S` at `W` points at once.
+#[diagnostic::on_unimplemented(
+    message = "the equations of motion of `{S}` cannot be evaluated in lanes",
+    label = "it is no system, it has constraints, impacts, rotations or unit vectors, or a parameter of it is not of one type in all of them",
+    note = "`Gauss` without `in_lanes` takes parameters of type `Varied`"
+)]
+pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T> {
+    /// As [`StageEvaluation::evaluate_part`].
+    ///
+    /// # Errors
+    /// As there.
+    fn evaluate_in_lanes(
+        equations: &mut EquationsOf<S, T>,
+        part: usize,
+        at: &AtStages<'_, W, S, T>,
+        work: &mut StageWork<W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>
+    where
+        S: System<Kind = Self>;
+}
+
+/// Evaluates the stages one by one.
+#[inline(always)]
+pub(super) fn one_by_one<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>(
+    equations: &mut EquationsOf<S, T>,
+    part: usize,
+    at: &AtStages<'_, W, S, T>,
+    work: &mut StageWork<W, S, T>,
+    out: &mut Vector<S, Lanes<W, T>>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let StageWork { point, slope, vector, .. } = work;
+    for stage in 0..W {
+        for (to, from) in [(&mut *point, at.y), (&mut *slope, at.slopes)] {
+            for (to, from) in to.iter_mut().zip(from.iter()) {
+                read_lane(stage, from, to);
+            }
+        }
+        let t = at.t.0[stage];
+        S::Kind::evaluate_part(equations, at.system, part, point, t, slope, vector, statistics)?;
+        write_lane(stage, vector, out);
+    }
+    Ok(())
+}

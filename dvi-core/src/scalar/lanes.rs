@@ -1,0 +1,152 @@
+//! Several numbers in the lanes of one: what is done to one is done to all.
+//!
+//! Each operation is one on an array, which the compiler turns into SIMD instructions where it finds them. Results are those
+//! of the numbers one by one, bit for bit: no lane sees another, and nothing is contracted.
+
+use core::array;
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use crate::scalar::Comparison;
+use crate::{Real, Scalar};
+
+/// A pack of `W` numbers, the lanes, on which formulas are evaluated at once.
+///
+/// Generated code takes it as it takes a number. Elementary functions other than roots are computed lane by lane. There is no
+/// order of packs: what has to decide does so for each lane. Parameters that differ from lane to lane are of type
+/// [`Varied<Lanes<W>>`](crate::Varied).
+///
+/// ```
+/// use dvi_core::prelude::*;
+/// use dvi_core::scalar::Lanes;
+/// use dvi_core::{Lagrangian, Varied};
+///
+/// #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - k * x * x / 2.0)]
+/// struct Spring<P = f64> { k: P }
+///
+/// // The energy of two springs in two states.
+/// let springs = Spring { k: Varied(Lanes([1.0, 4.0])) };
+/// let energy = springs.energy(&[Lanes([0.5, 1.0])], &[Lanes([1.0, 0.0])], Lanes([0.0; 2]));
+/// assert_eq!(energy, Lanes([0.625, 2.0]));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Lanes<const W: usize, T = f64>(
+    /// The numbers.
+    pub [T; W],
+);
+
+impl<const W: usize, T: Real> Lanes<W, T> {
+    /// `value` in all lanes.
+    #[inline(always)]
+    pub fn all(value: T) -> Self {
+        Self([value; W])
+    }
+
+    #[inline(always)]
+    fn each(self, f: impl Fn(T) -> T) -> Self {
+        Self(self.0.map(f))
+    }
+
+    #[inline(always)]
+    fn with(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
+        Self(array::from_fn(|lane| f(self.0[lane], other.0[lane])))
+    }
+}
+
+macro_rules! operators {
+    ($($name:ident $function:ident),*) => {$(
+        impl<const W: usize, T: Real> $name for Lanes<W, T> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                self.with(other, $name::$function)
+            }
+        }
+    )*};
+}
+
+operators!(Add add, Sub sub, Mul mul, Div div);
+
+impl<const W: usize, T: Real> Neg for Lanes<W, T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.each(Neg::neg)
+    }
+}
+
+impl<const W: usize, T: Real> AddAssign for Lanes<W, T> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const W: usize, T: Real> SubAssign for Lanes<W, T> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+macro_rules! lane_by_lane {
+    ($($function:ident),*) => {$(
+        #[inline(always)]
+        fn $function(self) -> Self {
+            self.each(Scalar::$function)
+        }
+    )*};
+}
+
+#[diagnostic::do_not_recommend]
+impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
+    #[inline(always)]
+    fn lift(value: f64) -> Self {
+        Self::all(T::lift(value))
+    }
+    #[inline(always)]
+    fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
+        let of = |lane: usize| T::choose(a.0[lane], comparison, b.0[lane], then.0[lane], otherwise.0[lane]);
+        Self(array::from_fn(of))
+    }
+    #[inline(always)]
+    fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {
+        self.each(|x| x.piecewise(&of))
+    }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        self.with(x, Scalar::atan2)
+    }
+    #[inline(always)]
+    fn hypot(self, y: Self) -> Self {
+        self.with(y, Scalar::hypot)
+    }
+    #[inline(always)]
+    fn powf(self, exponent: Self) -> Self {
+        self.with(exponent, Scalar::powf)
+    }
+    #[inline(always)]
+    fn powi(self, exponent: i32) -> Self {
+        self.each(|x| Scalar::powi(x, exponent))
+    }
+    lane_by_lane!(
+        sqrt, cbrt, exp, exp2, exp_m1, ln, ln_1p, log2, log10, sin, cos, tan, asin, acos, atan, sinh, cosh,
+        tanh, asinh, acosh, atanh, abs, signum
+    );
+}
+
+/// Sets `vector` to one lane of `packs`.
+#[inline(always)]
+pub(crate) fn read_lane<const W: usize, T: Real>(lane: usize, packs: &[Lanes<W, T>], vector: &mut [T]) {
+    for (number, pack) in vector.iter_mut().zip(packs) {
+        *number = pack.0[lane];
+    }
+}
+
+/// Sets one lane of `packs` to `vector`.
+#[inline(always)]
+pub(crate) fn write_lane<const W: usize, T: Real>(lane: usize, vector: &[T], packs: &mut [Lanes<W, T>]) {
+    for (pack, &number) in packs.iter_mut().zip(vector) {
+        pack.0[lane] = number;
+    }
+}

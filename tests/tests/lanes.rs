@@ -1,0 +1,258 @@
+//! Packs of numbers: formulas on them are those on their lanes, and Gauss collocation with its stages in lanes is Gauss
+//! collocation, bit for bit.
+
+use dvi_core::mechanics::motion::{InLanes, StageEvaluation};
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_core::scalar::Lanes;
+use dvi_core::state::Statistics;
+use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian, Space, System, Varied};
+use dvi_tests::configurations::quasi_periodic;
+use dvi_tests::systems::*;
+use dvi_tests::zoo::functions::*;
+use dvi_tests::zoo::language::*;
+use dvi_tests::zoo::lattices::*;
+use dvi_tests::zoo::particles::*;
+use dvi_tests::zoo::regular::*;
+use dvi_tests::zoo::shapes::*;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+const W: usize = 5;
+
+fn bits(x: &[f64]) -> Vec<u64> {
+    x.iter().map(|x| x.to_bits()).collect()
+}
+
+/// Points near `q`, another in each lane.
+fn points(q: &[f64]) -> (Vec<Lanes<W>>, [Vec<f64>; W]) {
+    let shifted = |lane: usize, i: usize, x: f64| x * (1.0 + 0.01 * lane as f64) - 0.003 * (lane * i) as f64;
+    let alone: [Vec<f64>; W] =
+        core::array::from_fn(|lane| q.iter().enumerate().map(|(i, &x)| shifted(lane, i, x)).collect());
+    let packs = (0..q.len()).map(|i| Lanes(core::array::from_fn(|lane| alone[lane][i]))).collect();
+    (packs, alone)
+}
+
+fn times() -> Lanes<W> {
+    Lanes(core::array::from_fn(|lane| 0.3 + 0.1 * lane as f64))
+}
+
+/// Compares what `together` sets its output to with what `alone` does in each lane.
+fn compare(
+    q: &[f64],
+    what: &str,
+    together: impl Fn(&[Lanes<W>], Lanes<W>, &mut [Lanes<W>]),
+    alone: impl Fn(&[f64], f64, &mut [f64]),
+) {
+    let (packs, points) = points(q);
+    let mut found = vec![Lanes::all(0.0); q.len()];
+    together(&packs, times(), &mut found);
+    for lane in 0..W {
+        let mut expected = vec![0.0; q.len()];
+        alone(&points[lane], times().0[lane], &mut expected);
+        let found: Vec<f64> = found.iter().map(|pack| pack.0[lane]).collect();
+        assert_eq!(bits(&found), bits(&expected), "{what}, lane {lane}: {found:?}, alone {expected:?}");
+    }
+}
+
+fn formulas_in_lanes<S: DegenerateLagrangian + DegenerateLagrangian<Lanes<W>>>(system: &S, q: &[f64]) {
+    let name = S::REPORT.system;
+    compare(
+        q,
+        &format!("∇H of {name}"),
+        |q, t, out| system.flow_source(q, t, out),
+        |q, t, out| system.flow_source(q, t, out),
+    );
+    compare(
+        q,
+        &format!("α of {name}"),
+        |q, t, out| system.one_form(q, t, out),
+        |q, t, out| system.one_form(q, t, out),
+    );
+    compare(
+        q,
+        &format!("H of {name}"),
+        |q, t, out| out[0] = system.hamiltonian(q, t),
+        |q, t, out| out[0] = system.hamiltonian(q, t),
+    );
+}
+
+#[test]
+fn formulas_on_packs_are_those_on_their_lanes() {
+    formulas_in_lanes(&EveryFunction {}, &[0.35, 0.62]);
+    for q in [[0.2, 0.5], [0.7, 0.3], [-0.4, 1.2], [1.4, -0.9]] {
+        formulas_in_lanes(&Branches { edge: 0.4 }, &q);
+    }
+    formulas_in_lanes(&Driven { depth: 0.3, omega: 1.1 }, &[0.1, 0.4, -0.3, 0.7, -0.2, 0.5]);
+    formulas_in_lanes(&FullLagrangian { c: 0.4 }, &[0.3, 0.2, 0.5, -0.6, 0.1, 0.9]);
+    formulas_in_lanes(&Corners, &vec![0.4; Corners.space().dimension()]);
+}
+
+/// Takes 25 steps: the bits of all points and velocities, and what they have cost.
+fn history<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: &M,
+    [q0, v0]: [&[f64]; 2],
+    h: f64,
+) -> Result<(Vec<u64>, Statistics), Box<dyn core::error::Error>> {
+    let [mut q, mut v] = [0, 1].map(|_| system.space().vector());
+    q.copy_from_slice(q0);
+    let (t, mut passed, mut statistics) = (0.2, Vec::new(), Statistics::default());
+    let mut memory = method.begin(system, &q, v0, t, h)?;
+    for step in 0..25 {
+        let now = t + f64::from(step) * h;
+        let taken = method.step(system, &mut memory, &mut q, now, h, &mut statistics);
+        taken.map_err(|failure| format!("{} at step {step}: {failure}", S::REPORT.system))?;
+        method.velocity(system, &memory, &q, now + h, &mut v)?;
+        passed.extend(q.iter().chain(v.iter()).map(|x| x.to_bits()));
+    }
+    Ok((passed, statistics))
+}
+
+/// Compares steps whose stages are evaluated one by one with steps whose stages are in lanes.
+fn steps_are_the_same<const STAGES: usize, S: Lagrangian>(system: &S, start: [&[f64]; 2], h: f64) -> Outcome
+where
+    Gauss<STAGES>: Method<S, f64>,
+    Gauss<STAGES, InLanes>: Method<S, f64>,
+{
+    for summation in [Summation::Compensated, Summation::Plain] {
+        let method = Gauss { summation, ..Gauss::<STAGES>::new() };
+        let alone = history(system, &method, start, h)?;
+        let together = history(system, &method.in_lanes(), start, h)?;
+        assert_eq!(alone, together, "{}, {STAGES} stages, {summation:?}", S::REPORT.system);
+    }
+    Ok(())
+}
+
+macro_rules! all_stages {
+    ($system:expr, $q:expr, $v:expr, $h:expr) => {{
+        let (system, start): (_, [&[f64]; 2]) = (&$system, [&$q, &$v]);
+        steps_are_the_same::<1, _>(system, start, $h)?;
+        steps_are_the_same::<2, _>(system, start, $h)?;
+        steps_are_the_same::<3, _>(system, start, $h)?;
+        steps_are_the_same::<5, _>(system, start, $h)?;
+        steps_are_the_same::<8, _>(system, start, $h)?;
+    }};
+}
+
+#[test]
+fn stages_in_lanes_are_those_one_by_one_on_degenerate_systems() -> Outcome {
+    let (vortices, start) = quasi_periodic();
+    // Ω constant and by pairs; constant and full; by pairs; full; at run time; with time.
+    all_stages!(vortices, [start.x, start.y].concat(), [], 0.2);
+    let many = ManyVortices { gamma: vec![1.0, 0.7, -0.4, 1.2, 0.9] };
+    all_stages!(many, [0.1, 1.3, -0.8, 0.2, -1.1, 0.9, 0.1, -0.3, -1.2, 0.4], [], 0.1);
+    let a = [[0.1, 0.9, -0.2, 0.3], [-0.7, 0.2, 0.4, 0.1], [0.3, -0.5, 0.1, 1.1], [0.2, 0.4, -0.8, 0.0]];
+    let s = [[1.0, 0.1, 0.0, 0.2], [0.1, 1.2, 0.3, 0.0], [0.0, 0.3, 0.8, 0.1], [0.2, 0.0, 0.1, 1.1]];
+    all_stages!(Quadratic { a, s, quartic: 0.3 }, [0.3, -0.2, 0.5, 0.1], [], 0.1);
+    all_stages!(LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] }, [1.5, 1.1], [], 0.1);
+    all_stages!(Curved { kappa: 0.3 }, [0.7, 0.2], [], 0.1);
+    all_stages!(GuidingCentre { mu: 0.3, shear: 0.2 }, [0.4, -0.1, 0.2, 0.6], [], 0.1);
+    all_stages!(AblowitzLadik::<3> {}, [0.4, 0.2, -0.1, 0.3, 0.5, 0.2], [], 0.1);
+    all_stages!(Driven { depth: 0.3, omega: 1.1 }, [0.1, 0.4, -0.3, 0.7, -0.2, 0.5], [], 0.02);
+    Ok(())
+}
+
+#[test]
+fn stages_in_lanes_are_those_one_by_one_on_regular_systems() -> Outcome {
+    // M diagonal; full; depending on q; L with terms linear in v; not quadratic in v; with time; at run time.
+    all_stages!(Kepler { mu: 1.0 }, [1.0, 0.1], [0.1, 0.9], 0.05);
+    all_stages!(
+        Ring::<4> { mass: [1.0, 0.5, 2.0, 1.1], alpha: 0.3 },
+        [0.1, -0.3, 0.2, 0.4],
+        [0.2, 0.1, 0.0, -0.4],
+        0.1
+    );
+    all_stages!(MixedVelocities {}, [0.4, 0.3], [-0.2, 0.5], 0.1);
+    all_stages!(Surface { k: 0.8 }, [0.4, 0.3], [-0.2, 0.5], 0.05);
+    all_stages!(MagneticParticle { m: 1.2, b: 1.0 }, [0.3, -0.2, 0.5], [1.0, 0.4, -0.8], 0.05);
+    all_stages!(Relativistic { m: 1.5 }, [0.3, -1.1], [0.6, -0.5], 0.05);
+    all_stages!(DrivenOscillator { depth: 0.4, omega: 1.3 }, [0.4], [0.2], 0.1);
+    all_stages!(GrowingMass {}, [0.8, 0.4], [0.3, -0.9], 0.05);
+    let chain = RunTimeChain { mass: vec![1.0, 1.5, 0.8], coupling: 0.2 };
+    all_stages!(chain, [0.1, 0.3, -0.2, 0.4], [0.2, -0.1, 0.3, 0.0], 0.05);
+    Ok(())
+}
+
+/// Both fail at the same step, with the same numbers in the error.
+#[test]
+fn failures_are_the_same_in_lanes() -> Outcome {
+    fn failure<M: Method<Kepler, f64>>(method: M, h: f64) -> Result<StepError, Box<dyn core::error::Error>> {
+        let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.02 };
+        let mut run = Integrator::new(&Kepler { mu: 1.0 }, method, h, start)?;
+        let Err(error) = run.take_steps(1000) else { return Err("the step is too long".into()) };
+        Ok(error)
+    }
+    for h in [0.1, 0.3, 2.0] {
+        assert_eq!(failure(Gauss::<4>::new(), h)?, failure(Gauss::<4>::new().in_lanes(), h)?);
+    }
+    // Ω vanishes at x = 1.
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = (x - x * x / 2.0) * d(y),
+        hamiltonian = x * x / 4.0 - y,
+    )]
+    struct Folded;
+    fn folded<M: Method<Folded, f64>>(method: M) -> Result<StepError, Box<dyn core::error::Error>> {
+        let mut run = Integrator::new(&Folded, method, 0.25, FoldedState { x: 0.0, y: 0.3 })?;
+        let Err(error) = run.take_steps(1000) else { return Err("it meets the fold".into()) };
+        Ok(error)
+    }
+    assert_eq!(folded(Gauss::<2>::new())?, folded(Gauss::<2>::new().in_lanes())?);
+    Ok(())
+}
+
+/// Parameters of their own in the lanes: two planets of other suns.
+#[test]
+fn parameters_may_differ_from_lane_to_lane() {
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / x.hypot(y),
+    )]
+    struct Planet<P = f64> {
+        mu: P,
+    }
+    fn force<T: dvi_core::Scalar, S: RegularLagrangian<T>>(system: &S, q: [T; 2]) -> [T; 2] {
+        let (zero, mut force) = (T::lift(0.0), [T::lift(0.0); 2]);
+        system.force(&q, &[], zero, &mut force);
+        force
+    }
+    let together = force(&Planet { mu: Varied(Lanes([1.0, 2.5])) }, [Lanes([0.3, 1.0]), Lanes([0.7, -0.4])]);
+    let alone = [force(&Planet { mu: 1.0 }, [0.3, 0.7]), force(&Planet { mu: 2.5 }, [1.0, -0.4])];
+    assert_eq!(together, [0, 1].map(|i| Lanes([alone[0][i], alone[1][i]])));
+}
+
+/// A run goes on from its checkpoint, with stages in lanes, to the bit.
+#[test]
+fn runs_with_stages_in_lanes_go_on_from_a_checkpoint() -> Outcome {
+    let (vortices, start) = quasi_periodic();
+    let method = Gauss::<8>::new().in_lanes();
+    let mut run = Integrator::new(&vortices, method, 0.5, start)?;
+    run.take_steps(7)?;
+    let mut other = Integrator::resume(&vortices, method, &run.checkpoint())?;
+    run.take_steps(9)?;
+    other.take_steps(9)?;
+    assert_eq!(bits(run.q()), bits(other.q()));
+    assert_eq!(run.statistics(), other.statistics());
+    Ok(())
+}
+
+/// Says that a method can be asked for on packs of dual numbers too.
+#[test]
+fn stages_of_dual_numbers_go_into_lanes() -> Outcome {
+    use num_dual::Dual64;
+    fn slope<E>(method: Gauss<4, E>) -> Result<Dual64, Box<dyn core::error::Error>>
+    where
+        E: StageEvaluation<4, Kepler, Dual64> + Copy,
+    {
+        let number = |x: f64| Dual64::from(x);
+        let start =
+            KeplerState { x: number(1.0), y: number(0.0), dot_x: number(0.0), dot_y: Dual64::new(0.9, 1.0) };
+        let mut run = Integrator::new(&Kepler { mu: 1.0 }, method, number(0.1), start)?;
+        run.take_steps(20)?;
+        Ok(run.state().x)
+    }
+    let (alone, together) = (slope(Gauss::<4>::new())?, slope(Gauss::<4>::new().in_lanes())?);
+    assert_eq!([alone.re, alone.eps].map(f64::to_bits), [together.re, together.eps].map(f64::to_bits));
+    Ok(())
+}
