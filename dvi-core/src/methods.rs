@@ -26,6 +26,7 @@ mod rattle;
 mod runge_kutta;
 mod sigma_family;
 mod symmetrised;
+mod together;
 mod variational;
 mod walk;
 
@@ -55,6 +56,7 @@ pub use rattle::{Rattle, RattleMemory};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use sigma_family::{ParasiticMode, Reinitialisation, Sigma, SigmaMemory, Start};
 pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
+pub use together::{Companion, InStep};
 pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
 
 /// The geometric structure that every step of a method preserves, up to rounding.

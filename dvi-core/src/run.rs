@@ -6,6 +6,8 @@ mod integrator;
 mod outside;
 mod physical_time;
 mod step_control;
+#[cfg(feature = "alloc")]
+mod together;
 
 use core::fmt;
 
@@ -24,6 +26,9 @@ pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, EnergyMomentumMemory,
     Osculating, OsculatingMemory, Power, Reversible, ReversibleMemory, StepControl,
 };
+
+#[cfg(feature = "alloc")]
+pub use together::Together;
 
 /// A run of a method on a system: what [`Integrator`], with a fixed step, and
 /// [`ControlledIntegrator`], with steps of a control, can both do. Sections and exponents

@@ -11,9 +11,8 @@ use crate::space::linear::Storing;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 
-pub(crate) use stopping::Convergence;
 pub use stopping::Stopping;
-use stopping::Verdict;
+pub(crate) use stopping::{Convergence, Verdict};
 
 /// The iteration that solves an implicit step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -192,6 +191,11 @@ impl<N> Ladder<N> {
             },
         };
         newton.solve(attempt, statistics, solve_by_newton)
+    }
+
+    /// Whether the next step begins with the fixed point.
+    pub(crate) fn tries_fixed_point(&self) -> bool {
+        self.newton.as_ref().is_none_or(|newton| !newton.always && newton.steps_left == 0)
     }
 
     /// Tries the fixed point in the next step, as in the first.

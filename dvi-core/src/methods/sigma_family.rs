@@ -16,6 +16,7 @@ mod nonlinear;
 mod reinitialisation;
 mod smooth;
 mod start;
+mod together;
 
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};

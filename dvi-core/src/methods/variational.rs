@@ -12,6 +12,7 @@ mod general;
 mod lagrangian;
 mod memory;
 mod separable;
+mod together;
 mod verlet;
 
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};

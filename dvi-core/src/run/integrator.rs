@@ -21,7 +21,7 @@ use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System};
 /// it yields `None`, and [`state`](Run::state) is the last good one. [`advance`](Run::advance) takes a
 /// step without building a state. What can be asked of a run are the methods of the trait [`Run`].
 pub struct Integrator<'a, S: System, M: Carries<S, T>, T: Real = f64> {
-    stepper: Stepper<'a, S, M, T>,
+    pub(super) stepper: Stepper<'a, S, M, T>,
     /// At the start of the run.
     clock: Clock<T>,
     /// If the time is transformed: where the step at hand has begun.
@@ -118,6 +118,18 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
 }
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
+    /// The clock at the present time.
+    #[cfg(feature = "alloc")]
+    pub(super) fn present(&self) -> Clock<T> {
+        self.clock.after(self.stepper.statistics.steps)
+    }
+
+    /// Whether the time is not transformed.
+    #[cfg(feature = "alloc")]
+    pub(super) fn has_plain_time(&self) -> bool {
+        self.kept.is_none()
+    }
+
     #[cold]
     fn error(&mut self, failure: StepFailure) -> StepError {
         self.stepper.error(self.time(), self.step_size(), failure)

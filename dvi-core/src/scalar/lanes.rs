@@ -3,7 +3,6 @@
 //! Each operation is one on an array, which the compiler turns into SIMD instructions where it finds them. Results are those
 //! of the numbers one by one, bit for bit: no lane sees another, and nothing is contracted.
 
-use core::array;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use crate::scalar::Comparison;
@@ -42,14 +41,21 @@ impl<const W: usize, T: Real> Lanes<W, T> {
         Self([value; W])
     }
 
+    // Loops, and no closures in functions of the library: these are not always inlined.
     #[inline(always)]
-    fn each(self, f: impl Fn(T) -> T) -> Self {
-        Self(self.0.map(f))
+    fn each(mut self, f: impl Fn(T) -> T) -> Self {
+        for lane in 0..W {
+            self.0[lane] = f(self.0[lane]);
+        }
+        self
     }
 
     #[inline(always)]
-    fn with(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
-        Self(array::from_fn(|lane| f(self.0[lane], other.0[lane])))
+    fn with(mut self, other: Self, f: impl Fn(T, T) -> T) -> Self {
+        for lane in 0..W {
+            self.0[lane] = f(self.0[lane], other.0[lane]);
+        }
+        self
     }
 }
 
@@ -106,8 +112,11 @@ impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
     }
     #[inline(always)]
     fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
-        let of = |lane: usize| T::choose(a.0[lane], comparison, b.0[lane], then.0[lane], otherwise.0[lane]);
-        Self(array::from_fn(of))
+        let mut chosen = then;
+        for lane in 0..W {
+            chosen.0[lane] = T::choose(a.0[lane], comparison, b.0[lane], then.0[lane], otherwise.0[lane]);
+        }
+        chosen
     }
     #[inline(always)]
     fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {

@@ -121,6 +121,11 @@ impl<T: Real> Convergence<T> {
     #[inline(always)]
     pub(crate) fn new(stopping: Stopping, scale: T, q: &[T], budget: usize) -> Self {
         let judged = if is_below_rounding::<T>(stopping) { smallest(q, scale) } else { scale };
+        Self::of(stopping, scale, judged, budget)
+    }
+
+    #[inline(always)]
+    fn of(stopping: Stopping, scale: T, judged: T, budget: usize) -> Self {
         Self {
             tolerance: T::lift(stopping.tolerance) * judged,
             more: if carries_derivatives::<T>() { MORE_BY_NEWTON } else { 0 },
@@ -136,7 +141,19 @@ impl<T: Real> Convergence<T> {
     /// The same for a fixed point from `q`, which gains a constant factor in each iteration.
     #[inline(always)]
     pub(crate) fn fixed_point(stopping: Stopping, scale: T, q: &[T], budget: usize) -> Self {
-        let mut new = Self::new(stopping, scale, q, budget);
+        Self::new(stopping, scale, q, budget).slow(stopping)
+    }
+
+    /// The same from a point whose smallest coordinate that is not zero is `smallest`, at most `scale`.
+    #[inline(always)]
+    pub(crate) fn of_fixed_point(stopping: Stopping, scale: T, smallest: T, budget: usize) -> Self {
+        let judged = if is_below_rounding::<T>(stopping) { smallest } else { scale };
+        Self::of(stopping, scale, judged, budget).slow(stopping)
+    }
+
+    #[inline(always)]
+    fn slow(self, stopping: Stopping) -> Self {
+        let mut new = self;
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
         }

@@ -3,6 +3,8 @@
 //! The guess is the value at the next step of the polynomial through the last m increments:
 //! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
 
+use core::ops::Deref;
+
 use crate::solve::Guess;
 use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
@@ -11,7 +13,7 @@ use crate::{Real, Scalar, Space, System, Vector};
 ///
 /// More terms guess better and amplify rounding errors more, by 2ᵐ. Iterations per step of the midpoint
 /// scheme on four vortices to a relative 1e-12: 6.0 with m = 3, 5.2 with 5, 4.4 with 7, 4.2 with 8.
-const DEPTH: usize = 7;
+pub(crate) const DEPTH: usize = 7;
 
 /// Row m: the coefficients of the last m increments, the newest first.
 #[rustfmt::skip]
@@ -44,26 +46,34 @@ impl<S: System, T: Real> History<S, T> {
         Self { ring: core::array::from_fn(|_| vector()), len: 0, next: 0, seed: seed.unwrap_or_else(vector) }
     }
 
+    /// Where the next increment goes, if as many are kept as can be.
+    pub(crate) fn place_if_full(&self) -> Option<usize> {
+        (self.len == DEPTH).then_some(self.next)
+    }
+
+    /// Says where the next increment goes.
+    pub(crate) fn set_place(&mut self, place: usize) {
+        self.next = place % DEPTH;
+    }
+
+    /// The increments, not in order.
+    pub(crate) fn ring(&self) -> &[Vector<S, T>; DEPTH] {
+        &self.ring
+    }
+
+    /// The increments, not in order.
+    pub(crate) fn ring_mut(&mut self) -> &mut [Vector<S, T>; DEPTH] {
+        &mut self.ring
+    }
+
     /// Sets `guess` to the extrapolated increment.
     #[inline(always)]
     pub(crate) fn extrapolate(&self, guess: &mut [T]) {
         // The full sum has a known length and makes straight code.
         match self.len {
-            DEPTH => self.combine(DEPTH, guess),
+            DEPTH => extrapolate(&self.ring, self.next, guess),
             0 => guess.copy_from_slice(&self.seed),
-            len => self.combine(len, guess),
-        }
-    }
-
-    #[inline(always)]
-    fn combine(&self, len: usize, guess: &mut [T]) {
-        guess.fill(T::lift(0.0));
-        let mut place = self.next;
-        for &coefficient in &COEFFICIENTS[len][..len] {
-            place = if place == 0 { DEPTH - 1 } else { place - 1 };
-            for (guess, &s) in guess.iter_mut().zip(self.ring[place].iter()) {
-                *guess += T::lift(coefficient) * s;
-            }
+            len => combine(&self.ring, self.next, len, guess),
         }
     }
 
@@ -104,6 +114,28 @@ impl<S: System, T: Real> History<S, T> {
         self.next = if self.next + 1 < DEPTH { self.next + 1 } else { 0 };
         if self.len < DEPTH {
             self.len += 1;
+        }
+    }
+}
+
+/// Sets `guess` to the extrapolation of a full ring, of which the oldest increment is at `place`.
+#[inline(always)]
+pub(crate) fn extrapolate<P: Scalar>(
+    ring: &[impl Deref<Target = [P]>; DEPTH],
+    place: usize,
+    guess: &mut [P],
+) {
+    combine(ring, place, DEPTH, guess);
+}
+
+#[inline(always)]
+fn combine<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], next: usize, len: usize, guess: &mut [P]) {
+    guess.fill(P::lift(0.0));
+    let mut place = next;
+    for &coefficient in &COEFFICIENTS[len][..len] {
+        place = if place == 0 { DEPTH - 1 } else { place - 1 };
+        for (guess, &s) in guess.iter_mut().zip(ring[place].iter()) {
+            *guess += P::lift(coefficient) * s;
         }
     }
 }

@@ -206,6 +206,28 @@ impl<S: System, T: Real> Monitor<S, T> {
         }
     }
 
+    /// The number of steps from now before which no point is looked at.
+    pub(super) fn steps_unseen(&self) -> u64 {
+        let position = (self.steps + KEPT as u64) & (self.period - 1);
+        if position > KEPT as u64 { self.period - position } else { 0 }
+    }
+
+    /// [`look`](Self::look) as the blocks of the explicit scheme have it. Returns the number of steps to the next look.
+    ///
+    /// # Errors
+    /// As there.
+    pub(super) fn look_before_leaps(&mut self, q: &[T]) -> Result<u64, StepFailure> {
+        if self.steps & (self.period - 1) == 0 {
+            self.examine(self.steps, q)?;
+        }
+        let position = self.steps & (self.period - 1);
+        if position + (KEPT as u64) < self.period {
+            return Ok(self.period - KEPT as u64 - position);
+        }
+        self.note(self.steps, q);
+        Ok(1)
+    }
+
     #[inline(never)]
     fn look_closely(&mut self, q: &[T]) -> Result<(), StepFailure> {
         let verdict = if self.steps & (self.period - 1) == 0 { self.examine(self.steps, q) } else { Ok(()) };
@@ -238,13 +260,14 @@ impl<S: System, T: Real> Monitor<S, T> {
         let at_once = step <= self.begun + 2 * KEPT as u64;
         let bounds = [(self.threshold, self.high), (self.limit, self.above)];
         let passed = bounds.map(|(bound, looks)| bound.filter(|&bound| self.has_taken_over(looks, bound)));
-        match passed {
-            [_, Some(limit)] if at_once => Err(StepFailure::ParasiticMode { amplitude, relative, limit }),
-            [Some(limit), _] | [None, Some(limit)] => {
-                Err(StepFailure::ParasiticMode { amplitude, relative, limit })
-            }
-            [None, None] => Ok(()),
-        }
+        let limit = match passed {
+            [_, Some(limit)] if at_once => limit,
+            [Some(limit), _] | [None, Some(limit)] => limit,
+            [None, None] => return Ok(()),
+        };
+        // Whoever tries the step again is to be told again.
+        self.period = self.period.min(KEPT as u64);
+        Err(StepFailure::ParasiticMode { amplitude, relative, limit })
     }
 
     /// Whether the mode is above this bound, and larger than where it came from.

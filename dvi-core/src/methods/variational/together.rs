@@ -1,0 +1,114 @@
+//! Störmer and Verlet's steps of several runs in lanes: kick, drift, kick, as [`verlet`](super::verlet) takes them one run at a time.
+
+use super::Variational;
+use crate::discrete::frequency::FrequencyIn;
+use crate::discrete::quadrature::Rule;
+use crate::mechanics::phase::{Arrival, Inertial};
+use crate::methods::Clock;
+use crate::methods::together::{Companion, InStep, all_finite, load};
+use crate::methods::walk::BLOCK;
+use crate::scalar::Lanes;
+use crate::scalar::lanes::read_lane;
+use crate::scalar::simd::{Task, widest};
+use crate::state::summation::Summation;
+use crate::{NondegenerateLagrangian, RegularLagrangian, Space, System, Vector};
+
+/// q, p and the force, and where the last good ones are kept.
+#[derive(Debug)]
+pub struct Packs<const W: usize, S: System> {
+    now: [Vector<S, Lanes<W>>; 3],
+    kept: [Vector<S, Lanes<W>>; 3],
+    one: [Vector<S, f64>; 3],
+}
+
+impl<const W: usize, S, F, R: Rule> InStep<W, S> for Variational<F, R>
+where
+    S: RegularLagrangian + RegularLagrangian<Lanes<W>>,
+    F: FrequencyIn<f64>,
+{
+    type Packs = Packs<W, S>;
+
+    fn packs(&self, system: &S) -> Packs<W, S> {
+        let vectors = || core::array::from_fn(|_| system.space().vector());
+        Packs { now: vectors(), kept: vectors(), one: core::array::from_fn(|_| system.space().vector()) }
+    }
+
+    fn steps_together(
+        &self,
+        system: &S,
+        packs: &mut Packs<W, S>,
+        runs: &mut [Companion<'_, S, Self>],
+        clock: Clock<f64>,
+        count: u64,
+    ) -> u64 {
+        let is_separable = <S as NondegenerateLagrangian<f64>>::SEPARABLE;
+        if !(self.is_verlet() && is_separable && self.summation == Summation::Plain) {
+            return 0;
+        }
+        let Packs { now, kept, one } = packs;
+        let [q, p, force] = &mut *now;
+        load(q, |run| &*runs[run].q, runs.len());
+        load(p, |run| &runs[run].memory.phase.p, runs.len());
+        load(force, |run| &runs[run].memory.phase.force, runs.len());
+        let Some(Inertial::Constant(mass)) = runs.first().map(|run| &run.memory.inertial) else { return 0 };
+        let Some(reciprocals) = mass.reciprocals() else { return 0 };
+        let mut taken = 0;
+        while taken < count {
+            let steps = BLOCK.min(count - taken);
+            for (kept, now) in kept.iter_mut().zip(now.iter()) {
+                kept.copy_from_slice(now);
+            }
+            widest(Kicks { system, reciprocals, clock: clock.after(taken), steps, packs: now });
+            let [q, p, _] = &*now;
+            // A collision shows in the force, which is in the momentum.
+            if !(all_finite(q) && all_finite(p)) {
+                for (now, kept) in now.iter_mut().zip(kept.iter()) {
+                    now.copy_from_slice(kept);
+                }
+                break;
+            }
+            taken += steps;
+        }
+        for (lane, run) in runs.iter_mut().enumerate() {
+            for (one, packs) in one.iter_mut().zip(now.iter()) {
+                read_lane(lane, packs, one);
+            }
+            let [q, p, force] = &*one;
+            run.memory.phase.set(run.q, &Arrival { q, p, force });
+            run.statistics.gradients += taken;
+            run.statistics.steps += taken;
+        }
+        taken
+    }
+}
+
+/// Some steps.
+struct Kicks<'a, const W: usize, S: System> {
+    system: &'a S,
+    reciprocals: &'a [f64],
+    clock: Clock<f64>,
+    steps: u64,
+    packs: &'a mut [Vector<S, Lanes<W>>; 3],
+}
+
+impl<const W: usize, S: NondegenerateLagrangian<Lanes<W>>> Task for Kicks<'_, W, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { system, reciprocals, clock, steps, packs: [q, p, force] } = self;
+        let (h, half) = (Lanes::all(clock.step_size()), Lanes::all(0.5 * clock.step_size()));
+        for step in 0..steps {
+            for (((q, p), &force), &reciprocal) in
+                q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals)
+            {
+                *p += half * force;
+                *q += h * (*p * Lanes::all(reciprocal));
+            }
+            system.force(q, &[], Lanes::all(clock.after(step + 1).time()), force);
+            for (p, &force) in p.iter_mut().zip(force.iter()) {
+                *p += half * force;
+            }
+        }
+    }
+}

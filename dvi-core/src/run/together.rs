@@ -1,0 +1,125 @@
+//! Runs taken together, in the lanes of packs.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::{Integrator, Run};
+use crate::Lagrangian;
+use crate::error::StepError;
+use crate::methods::{Clock, Companion, InStep};
+
+/// Where not all can go on together, each run takes this many steps alone.
+const ALONE: u64 = 16;
+
+/// Takes steps of several runs in lanes, `W` at a time.
+///
+/// Those of one system, with one method, the same step and at the same time go together. Each run ends, bit for bit, where it
+/// would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same error, whatever becomes of the
+/// others. Runs for which the method has no lanes are taken one by one.
+///
+/// ```
+/// use dvi_core::prelude::*;
+/// use dvi_core::run::Together;
+///
+/// #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + x.cos())]
+/// struct Pendulum;
+///
+/// let begin = |j: u32| {
+///     let start = PendulumState { x: 0.1 * f64::from(j), dot_x: 0.0 };
+///     Integrator::new(&Pendulum, Variational::trapezoid(), 0.05, start)
+/// };
+/// let mut runs = (0..8).map(begin).collect::<Result<Vec<_>, _>>()?;
+/// let mut alone = begin(3)?;
+///
+/// let results = Together::<8, _, _>::new(&runs[0]).take_steps(&mut runs, 1000);
+/// alone.take_steps(1000)?;
+/// assert!(results.iter().all(Result::is_ok));
+/// assert_eq!(runs[3].state().x, alone.state().x);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Together<const W: usize, S: Lagrangian, M: InStep<W, S>> {
+    packs: M::Packs,
+}
+
+impl<const W: usize, S: Lagrangian, M: InStep<W, S>> fmt::Debug for Together<W, S, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Together").field("lanes", &W).finish_non_exhaustive()
+    }
+}
+
+impl<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq> Together<W, S, M> {
+    /// Room for runs on the system of `run`.
+    pub fn new(run: &Integrator<'_, S, M>) -> Self {
+        const { assert!(W > 0, "a pack has at least one lane") };
+        Self { packs: run.method().packs(run.system()) }
+    }
+
+    /// Takes `count` steps of each run, as [`Run::take_steps`] does, and returns how each has ended.
+    pub fn take_steps(
+        &mut self,
+        runs: &mut [Integrator<'_, S, M>],
+        count: u64,
+    ) -> Vec<Result<(), StepError>> {
+        let mut results = alloc::vec![Ok(()); runs.len()];
+        let mut left: Vec<usize> = (0..runs.len()).collect();
+        while let Some(&first) = left.first() {
+            let (mut group, others): (Vec<_>, Vec<_>) = left
+                .into_iter()
+                .partition(|&other| other == first || go_together(&runs[first], &runs[other]));
+            left = others;
+            left.extend(group.split_off(group.len().min(W)));
+            self.take(runs, &group, count, &mut results);
+        }
+        results
+    }
+
+    /// The same of the runs of one `group`.
+    fn take(
+        &mut self,
+        runs: &mut [Integrator<'_, S, M>],
+        group: &[usize],
+        count: u64,
+        results: &mut [Result<(), StepError>],
+    ) {
+        let mut left = count;
+        let mut group: Vec<usize> = group.to_vec();
+        while left > 0 && !group.is_empty() {
+            let in_lanes = group.iter().all(|&run| runs[run].has_plain_time());
+            if in_lanes {
+                left -= self.take_in_lanes(runs, &group, left);
+            }
+            let alone = if in_lanes { left.min(ALONE) } else { left };
+            group.retain(|&run| {
+                results[run] = runs[run].take_steps(alone);
+                results[run].is_ok()
+            });
+            left -= alone;
+        }
+    }
+
+    /// Takes up to `count` steps of all runs of the `group`, and returns how many.
+    fn take_in_lanes(&mut self, runs: &mut [Integrator<'_, S, M>], group: &[usize], count: u64) -> u64 {
+        let mut clock: Option<Clock<f64>> = None;
+        let mut method = None;
+        let mut companions = Vec::with_capacity(group.len());
+        for (index, run) in runs.iter_mut().enumerate() {
+            if group.contains(&index) {
+                clock = Some(run.present());
+                let stepper = &mut run.stepper;
+                method = Some((&stepper.method, stepper.system));
+                let (memory, q) = (&mut stepper.memory, &mut stepper.q);
+                companions.push(Companion { memory, q, statistics: &mut stepper.statistics });
+            }
+        }
+        let (Some(clock), Some((method, system))) = (clock, method) else { return 0 };
+        method.steps_together(system, &mut self.packs, &mut companions, clock, count)
+    }
+}
+
+/// Whether two runs may be in one pack.
+fn go_together<S: Lagrangian, M: InStep<W, S> + PartialEq, const W: usize>(
+    a: &Integrator<'_, S, M>,
+    b: &Integrator<'_, S, M>,
+) -> bool {
+    core::ptr::eq(a.system(), b.system()) && a.method() == b.method() && a.present() == b.present()
+}

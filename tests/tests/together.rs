@@ -1,0 +1,211 @@
+//! Runs taken together in lanes are the runs alone, bit for bit, whatever becomes of the others.
+
+use dvi_core::discrete::{Trapezoid, Unfitted};
+use dvi_core::methods::InStep;
+use dvi_core::prelude::*;
+use dvi_core::run::Together;
+use dvi_core::scalar::Lanes;
+use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
+use dvi_tests::configurations::{chaotic, quasi_periodic};
+use dvi_tests::systems::*;
+use dvi_tests::zoo::regular::*;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// Takes the steps of `strides` with runs from all `starts`, together in packs of `W` and alone. Returns the errors.
+fn check<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq + Clone>(
+    system: &S,
+    method: &M,
+    h: f64,
+    starts: &[S::State<f64>],
+    strides: &[u64],
+) -> Result<Vec<Option<StepError>>, Box<dyn core::error::Error>> {
+    let begin = || -> Result<Vec<_>, Box<dyn core::error::Error>> {
+        let runs = starts.iter().map(|start| Integrator::new(system, method.clone(), h, start.clone()));
+        Ok(runs.collect::<Result<_, _>>()?)
+    };
+    let (mut together, mut alone) = (begin()?, begin()?);
+    let mut packs = Together::<W, _, _>::new(&together[0]);
+    let mut errors = vec![None; starts.len()];
+    for &count in strides {
+        let results = packs.take_steps(&mut together, count);
+        for (j, (run, result)) in alone.iter_mut().zip(results).enumerate() {
+            // No number is equal to itself.
+            assert_eq!(format!("{:?}", run.take_steps(count)), format!("{result:?}"), "run {j}");
+            errors[j] = errors[j].or(result.err());
+        }
+        for (j, (one, other)) in alone.iter().zip(&together).enumerate() {
+            // A run that has ended holds points beyond its end, which it tried.
+            if errors[j].is_none() {
+                assert_eq!(
+                    one.checkpoint(),
+                    other.checkpoint(),
+                    "{}, run {j} of {W} lanes",
+                    S::REPORT.system
+                );
+            }
+            assert_eq!(one.statistics(), other.statistics(), "run {j}");
+            let bits = |run: &Integrator<'_, S, M>| run.q().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(one), bits(other), "run {j}");
+        }
+    }
+    Ok(errors)
+}
+
+/// In packs of one, of three, and of four and eight, which fill registers.
+fn in_lanes<S: Lagrangian, M>(
+    system: &S,
+    method: &M,
+    h: f64,
+    starts: &[S::State<f64>],
+) -> Result<Vec<Option<StepError>>, Box<dyn core::error::Error>>
+where
+    M: InStep<1, S> + InStep<3, S> + InStep<4, S> + InStep<8, S> + PartialEq + Clone,
+{
+    let strides = [1, 2, 5, 300, 1, 150, 3];
+    let errors = check::<1, _, _>(system, method, h, starts, &strides)?;
+    check::<3, _, _>(system, method, h, starts, &strides)?;
+    check::<4, _, _>(system, method, h, starts, &strides)?;
+    check::<8, _, _>(system, method, h, starts, &strides)?;
+    Ok(errors)
+}
+
+fn vortices(count: usize) -> Vec<PointVorticesState<4>> {
+    let (_, start) = quasi_periodic();
+    let moved = |j: usize| {
+        let mut start = start;
+        start.x[0] += 0.01 * j as f64;
+        start.y[2] -= 0.003 * j as f64;
+        start
+    };
+    (0..count).map(moved).collect()
+}
+
+#[test]
+fn sigma_is_the_same_in_lanes() -> Outcome {
+    let (system, _) = quasi_periodic();
+    let starts = vortices(11);
+    for method in [
+        Sigma::leapfrog(),
+        Sigma { parasitic_limit: None, ..Sigma::leapfrog() },
+        Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() },
+        Sigma::midpoint(),
+        Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::midpoint() },
+        Sigma { stopping: Stopping { tolerance: 1e-9, ..Stopping::default() }, ..Sigma::midpoint() },
+        // Those without lanes.
+        Sigma { summation: Summation::Compensated, ..Sigma::midpoint() },
+        Sigma { solver: Solver::Newton, ..Sigma::midpoint() },
+        Sigma { reinitialisation: Reinitialisation::Every(50), ..Sigma::midpoint() },
+        Sigma::new(0.3),
+        Sigma::new(1.0),
+    ] {
+        in_lanes(&system, &method, 0.05, &starts)?;
+    }
+    // A Newton step now and then, and a shift that is no reversal.
+    in_lanes(&system, &Sigma::midpoint(), 0.9, &starts)?;
+    let oblique = |j: u32| ObliqueState { x: 1.0 + 0.1 * f64::from(j), y: 0.3 };
+    let starts: Vec<ObliqueState> = (0..5).map(oblique).collect();
+    in_lanes(&Oblique, &Sigma { parasitic_limit: None, ..Sigma::leapfrog() }, 0.01, &starts)?;
+    in_lanes(&Oblique, &Sigma::midpoint(), 0.1, &starts)?;
+    let curved = |j: u32| CurvedState { x: 0.4 + 0.02 * f64::from(j), y: 0.1 };
+    in_lanes(&Curved { kappa: 0.3 }, &Sigma::midpoint(), 0.05, &(0..4).map(curved).collect::<Vec<_>>())?;
+    Ok(())
+}
+
+/// Two vortices are too near one another for the step, the parasitic mode takes over, a force is no number: each on its own.
+#[test]
+fn one_that_fails_does_not_disturb_the_others() -> Outcome {
+    let (system, _) = quasi_periodic();
+    let mut starts = vortices(10);
+    starts[5].x[1] = starts[5].x[0] + 1e-3;
+    starts[5].y[1] = starts[5].y[0];
+    let method = Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() };
+    let errors = in_lanes(&system, &method, 0.1, &starts)?;
+    let failed: Vec<usize> = errors.iter().enumerate().filter_map(|(j, error)| error.map(|_| j)).collect();
+    assert_eq!(failed, [5], "{errors:?}");
+    // The mode of the chaotic ones takes over at different times.
+    let (system, start) = chaotic();
+    let moved = |j: u32| {
+        let mut start = start;
+        start.x[0] += 0.01 * f64::from(j);
+        start
+    };
+    let starts: Vec<_> = (0..7).map(moved).collect();
+    let method = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() };
+    let errors = in_lanes(&system, &method, 0.1, &starts)?;
+    assert!(errors.iter().flatten().count() > 0, "{errors:?}");
+    // One is so fast that a step leads it to where the force is no number.
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + (1.0 - x).sqrt())]
+    struct Slope;
+    let fast = |j: u32| SlopeState { x: 0.0, dot_x: if j == 3 { 5.0 } else { 0.1 * f64::from(j) } };
+    let starts: Vec<SlopeState> = (0..9).map(fast).collect();
+    let errors = in_lanes(&Slope, &Variational::trapezoid(), 0.05, &starts)?;
+    let failed: Vec<usize> = errors.iter().enumerate().filter_map(|(j, error)| error.map(|_| j)).collect();
+    assert_eq!(failed, [3], "{errors:?}");
+    Ok(())
+}
+
+#[test]
+fn verlet_is_the_same_in_lanes() -> Outcome {
+    let planet = |j: u32| KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.7 + 0.05 * f64::from(j) };
+    let starts: Vec<KeplerState> = (0..9).map(planet).collect();
+    let kepler = Kepler { mu: 1.0 };
+    in_lanes(&kepler, &Variational::trapezoid(), 0.05, &starts)?;
+    // Those without lanes.
+    in_lanes(&kepler, &Variational::midpoint(), 0.05, &starts)?;
+    let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
+    in_lanes(&kepler, &compensated, 0.05, &starts)?;
+    // With time, with a full mass matrix, and at run time.
+    let driven = DrivenOscillator { depth: 0.4, omega: 1.3 };
+    let starts =
+        (0..5).map(|j| DrivenOscillatorState { x: 0.1 * f64::from(j), dot_x: 0.2 }).collect::<Vec<_>>();
+    in_lanes(&driven, &Variational::trapezoid(), 0.1, &starts)?;
+    let chain = RunTimeChain { mass: vec![1.0, 1.5, 0.8], coupling: 0.2 };
+    let state = |j: u32| RunTimeChainState {
+        q: vec![0.1 * f64::from(j), 0.3, -0.2],
+        wall: 0.4,
+        dot_q: vec![0.2, -0.1, 0.3],
+        dot_wall: 0.0,
+    };
+    in_lanes(&chain, &Variational::trapezoid(), 0.05, &(0..3).map(state).collect::<Vec<_>>())?;
+    let free = RunTimeChain { coupling: 0.0, ..chain };
+    in_lanes(&free, &Variational::trapezoid(), 0.05, &(0..6).map(state).collect::<Vec<_>>())?;
+    Ok(())
+}
+
+/// Runs of other systems, methods, steps or times share no lanes with the others.
+#[test]
+fn runs_that_are_not_in_step_are_taken_alone() -> Outcome {
+    let (one, other) = (Kepler { mu: 1.0 }, Kepler { mu: 2.0 });
+    let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.9 };
+    type Run<'a> = Integrator<'a, Kepler, Variational<Unfitted, Trapezoid>>;
+    let begin = || -> Result<[Run<'_>; 6], Box<dyn core::error::Error>> {
+        let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
+        let mut ahead = Integrator::new(&one, Variational::trapezoid(), 0.05, start)?;
+        ahead.take_steps(3)?;
+        Ok([
+            Integrator::new(&one, Variational::trapezoid(), 0.05, start)?,
+            Integrator::new(&other, Variational::trapezoid(), 0.05, start)?,
+            Integrator::new(&one, Variational::trapezoid(), 0.04, start)?,
+            Integrator::new(&one, compensated, 0.05, start)?,
+            ahead,
+            Integrator::new_at(&one, Variational::trapezoid(), 1.0, 0.05, start)?,
+        ])
+    };
+    let (mut together, mut alone) = (begin()?, begin()?);
+    let results = Together::<4, _, _>::new(&together[0]).take_steps(&mut together, 400);
+    for ((one, other), result) in alone.iter_mut().zip(&together).zip(results) {
+        assert_eq!(one.take_steps(400), result);
+        assert_eq!(one.checkpoint(), other.checkpoint());
+    }
+    Ok(())
+}
+
+/// What the documentation says of the two traits that lanes need.
+#[test]
+fn systems_are_computed_in_lanes() {
+    fn degenerate<const W: usize, S: DegenerateLagrangian<Lanes<W>>>(_: &S) {}
+    fn regular<const W: usize, S: RegularLagrangian<Lanes<W>>>(_: &S) {}
+    degenerate::<4, _>(&quasi_periodic().0);
+    regular::<8, _>(&Kepler { mu: 1.0 });
+}
