@@ -15,7 +15,7 @@ use dvi_tests::zoo::regular::{Kepler, KeplerState};
 const RUNS: usize = 8;
 const STEPS: u64 = 512;
 
-fn beside<S: Lagrangian, M: InStep<RUNS, S> + PartialEq + Clone>(
+fn beside<S: Lagrangian + PartialEq, M: InStep<RUNS, S> + PartialEq + Clone>(
     criterion: &mut Criterion,
     name: &str,
     system: &S,

@@ -16,7 +16,7 @@ pub use dvi_examples::models::{PointVortices, PointVorticesState};
         angular   = sum(0..gamma.len(), |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))) / 2.0,
     ),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ManyVortices {
     /// Circulations.
     pub gamma: Vec<f64>,
@@ -29,7 +29,7 @@ pub struct ManyVortices {
     hamiltonian = omega / 2.0 * (x * x + y * y),
     momenta(action = (x * x + y * y) / 2.0),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Oscillator {
     /// Frequency.
     pub omega: f64,
@@ -42,7 +42,7 @@ pub struct Oscillator {
     hamiltonian = sum(0..4, |i| sum(0..4, |j| s[i][j] * z[i] * z[j])) / 2.0
                       + quartic / 4.0 * sum(0..4, |i| z[i].powi(4)),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Quadratic {
     /// The matrix of the one-form, αᵢ = Σ Aᵢⱼzⱼ.
     pub a: [[f64; 4]; 4],
@@ -58,7 +58,7 @@ pub struct Quadratic {
     one_form    = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
     hamiltonian = a[0] * x + a[1] * y + b[0] * x.ln() + b[1] * y.ln(),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LotkaVolterra {
     /// a₁, a₂.
     pub a: [f64; 2],
@@ -72,7 +72,7 @@ pub struct LotkaVolterra {
     one_form    = [-(y + kappa * y.powi(3)) / 2.0, (x + kappa * x.powi(3)) / 2.0],
     hamiltonian = (x * x + y * y) / 2.0 + x.powi(4) / 4.0,
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Curved {
     /// How nonlinear α is.
     pub kappa: f64,
@@ -84,7 +84,7 @@ pub struct Curved {
     one_form    = -gamma * z * d(phi),
     hamiltonian = z * z / 2.0 + phi.cos(),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SphereForm {
     /// Circulation.
     pub gamma: f64,
@@ -97,5 +97,5 @@ pub struct SphereForm {
     one_form    = 0.3 * x * d(y) - 0.7 * y * d(x),
     hamiltonian = (x * x + y * y) / 2.0,
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Oblique;

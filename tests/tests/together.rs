@@ -13,7 +13,7 @@ use dvi_tests::zoo::regular::*;
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Takes the steps of `strides` with runs from all `starts`, together in packs of `W` and alone. Returns the errors.
-fn check<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq + Clone>(
+fn check<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq + Clone>(
     system: &S,
     method: &M,
     h: f64,
@@ -53,7 +53,7 @@ fn check<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq + Clone>(
 }
 
 /// In packs of one, of three, and of four and eight, which fill registers.
-fn in_lanes<S: Lagrangian, M>(
+fn in_lanes<S: Lagrangian + PartialEq, M>(
     system: &S,
     method: &M,
     h: f64,
@@ -136,6 +136,7 @@ fn one_that_fails_does_not_disturb_the_others() -> Outcome {
     assert!(errors.iter().flatten().count() > 0, "{errors:?}");
     // One is so fast that a step leads it to where the force is no number.
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + (1.0 - x).sqrt())]
+    #[derive(PartialEq)]
     struct Slope;
     let fast = |j: u32| SlopeState { x: 0.0, dot_x: if j == 3 { 5.0 } else { 0.1 * f64::from(j) } };
     let starts: Vec<SlopeState> = (0..9).map(fast).collect();

@@ -3,17 +3,17 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Integrator, Run};
+use super::{Integrator, Run, Stepper};
 use crate::Lagrangian;
 use crate::error::StepError;
-use crate::methods::{Clock, Companion, InStep};
+use crate::methods::{Companion, InStep};
 
 /// Where not all can go on together, each run takes this many steps alone.
 const ALONE: u64 = 16;
 
 /// Takes steps of several runs in lanes, `W` at a time.
 ///
-/// Those of one system, with one method, the same step and at the same time go together. Each run ends, bit for bit, where it
+/// Those of equal systems, with equal methods, the same step and at the same time go together. Each run ends, bit for bit, where it
 /// would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same error, whatever becomes of the
 /// others. Runs for which the method has no lanes are taken one by one.
 ///
@@ -22,6 +22,7 @@ const ALONE: u64 = 16;
 /// use dvi_core::run::Together;
 ///
 /// #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + x.cos())]
+/// #[derive(PartialEq)]
 /// struct Pendulum;
 ///
 /// let begin = |j: u32| {
@@ -47,7 +48,7 @@ impl<const W: usize, S: Lagrangian, M: InStep<W, S>> fmt::Debug for Together<W, 
     }
 }
 
-impl<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq> Together<W, S, M> {
+impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Together<W, S, M> {
     /// Room for runs on the system of `run`.
     pub fn new(run: &Integrator<'_, S, M>) -> Self {
         const { assert!(W > 0, "a pack has at least one lane") };
@@ -55,20 +56,24 @@ impl<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq> Together<W, S, 
     }
 
     /// Takes `count` steps of each run, as [`Run::take_steps`] does, and returns how each has ended.
-    pub fn take_steps(
+    pub fn take_steps<'r, 'a: 'r>(
         &mut self,
-        runs: &mut [Integrator<'_, S, M>],
+        runs: impl IntoIterator<Item = &'r mut Integrator<'a, S, M>>,
         count: u64,
-    ) -> Vec<Result<(), StepError>> {
+    ) -> Vec<Result<(), StepError>>
+    where
+        S: 'a,
+        M: 'r,
+    {
+        let mut runs: Vec<_> = runs.into_iter().collect();
         let mut results = alloc::vec![Ok(()); runs.len()];
         let mut left: Vec<usize> = (0..runs.len()).collect();
         while let Some(&first) = left.first() {
-            let (mut group, others): (Vec<_>, Vec<_>) = left
-                .into_iter()
-                .partition(|&other| other == first || go_together(&runs[first], &runs[other]));
+            let (mut group, others): (Vec<_>, Vec<_>) =
+                left.into_iter().partition(|&other| other == first || go_together(runs[first], runs[other]));
             left = others;
             left.extend(group.split_off(group.len().min(W)));
-            self.take(runs, &group, count, &mut results);
+            self.take(&mut runs, group, count, &mut results);
         }
         results
     }
@@ -76,15 +81,14 @@ impl<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq> Together<W, S, 
     /// The same of the runs of one `group`.
     fn take(
         &mut self,
-        runs: &mut [Integrator<'_, S, M>],
-        group: &[usize],
+        runs: &mut [&mut Integrator<'_, S, M>],
+        mut group: Vec<usize>,
         count: u64,
         results: &mut [Result<(), StepError>],
     ) {
+        let in_lanes = group.iter().all(|&run| runs[run].has_plain_time());
         let mut left = count;
-        let mut group: Vec<usize> = group.to_vec();
         while left > 0 && !group.is_empty() {
-            let in_lanes = group.iter().all(|&run| runs[run].has_plain_time());
             if in_lanes {
                 left -= self.take_in_lanes(runs, &group, left);
             }
@@ -98,28 +102,25 @@ impl<const W: usize, S: Lagrangian, M: InStep<W, S> + PartialEq> Together<W, S, 
     }
 
     /// Takes up to `count` steps of all runs of the `group`, and returns how many.
-    fn take_in_lanes(&mut self, runs: &mut [Integrator<'_, S, M>], group: &[usize], count: u64) -> u64 {
-        let mut clock: Option<Clock<f64>> = None;
-        let mut method = None;
+    fn take_in_lanes(&mut self, runs: &mut [&mut Integrator<'_, S, M>], group: &[usize], count: u64) -> u64 {
+        let mut of_all = None;
         let mut companions = Vec::with_capacity(group.len());
-        for (index, run) in runs.iter_mut().enumerate() {
-            if group.contains(&index) {
-                clock = Some(run.present());
-                let stepper = &mut run.stepper;
-                method = Some((&stepper.method, stepper.system));
-                let (memory, q) = (&mut stepper.memory, &mut stepper.q);
-                companions.push(Companion { memory, q, statistics: &mut stepper.statistics });
-            }
+        for (_, run) in runs.iter_mut().enumerate().filter(|(index, _)| group.contains(index)) {
+            let clock = run.present();
+            let Stepper { system, method, memory, q, statistics, .. } = &mut run.stepper;
+            of_all = Some((*system, &*method, clock));
+            companions.push(Companion { memory, q, statistics });
         }
-        let (Some(clock), Some((method, system))) = (clock, method) else { return 0 };
+        let Some((system, method, clock)) = of_all else { return 0 };
         method.steps_together(system, &mut self.packs, &mut companions, clock, count)
     }
 }
 
 /// Whether two runs may be in one pack.
-fn go_together<S: Lagrangian, M: InStep<W, S> + PartialEq, const W: usize>(
+fn go_together<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq>(
     a: &Integrator<'_, S, M>,
     b: &Integrator<'_, S, M>,
 ) -> bool {
-    core::ptr::eq(a.system(), b.system()) && a.method() == b.method() && a.present() == b.present()
+    let same_system = core::ptr::eq(a.system(), b.system()) || a.system() == b.system();
+    same_system && a.method() == b.method() && a.present() == b.present()
 }

@@ -14,7 +14,7 @@ use dvi_core::prelude::*;
         angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))),
     ),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PointVortices<const N: usize> {
     /// The circulations Γ.
     pub gamma: [f64; N],
@@ -26,7 +26,7 @@ pub type FourVortices = PointVortices<4>;
 pub type FourPoints = PointVorticesState<4>;
 
 /// A system with its initial state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     /// The vortices.
     pub vortices: FourVortices,

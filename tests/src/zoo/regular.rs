@@ -8,7 +8,7 @@ use dvi_core::lagrangian;
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / (x * x + y * y).sqrt(),
     momenta(angular = x * dot(y) - y * dot(x)),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Kepler {
     /// Strength of the attraction.
     pub mu: f64,
@@ -26,7 +26,7 @@ pub struct Kepler {
         kinetic - g * height
     },
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DoublePendulum {
     /// Masses.
     pub mass: [f64; 2],
@@ -42,7 +42,7 @@ pub struct DoublePendulum {
     lagrangian = (dot(theta).powi(2) + theta.sin().powi(2) * dot(phi).powi(2)) / 2.0 + g * theta.cos(),
     momenta(vertical = theta.sin().powi(2) * dot(phi)),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SphericalPendulum {
     /// Gravity over length.
     pub g: f64,
@@ -58,7 +58,7 @@ pub struct SphericalPendulum {
         (dot(x).powi(2) + dot(y).powi(2) + rise * rise) / 2.0 - (k * x).cos() * y.cosh() / k
     },
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// Wave number.
     pub k: f64,
@@ -70,7 +70,7 @@ pub struct Surface {
     lagrangian = -m * (1.0 - dot(x).powi(2) - dot(y).powi(2)).sqrt() - (x * x + y * y) / 2.0,
     momenta(p_x = m * dot(x) / (1.0 - dot(x).powi(2) - dot(y).powi(2)).sqrt()),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Relativistic {
     /// Rest mass.
     pub m: f64,
@@ -85,7 +85,7 @@ pub struct Relativistic {
     }),
     momenta(total = sum(0..N, |j| mass[j] * dot(q[j]))),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Ring<const N: usize> {
     /// Masses.
     pub mass: [f64; N],
@@ -103,7 +103,7 @@ pub struct Ring<const N: usize> {
         - sum(1..mass.len(), |j| (q[j] - q[j - 1]).cosh())
         - (q[0] - wall).powi(4) / 4.0,
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RunTimeChain {
     /// Masses.
     pub mass: Vec<f64>,
@@ -116,7 +116,7 @@ pub struct RunTimeChain {
     coordinates(x),
     lagrangian = dot(x).powi(2) / 2.0 - (1.0 + depth * (omega * t).cos()) * (1.0 - x.cos()) + t * x,
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DrivenOscillator {
     /// Depth of the modulation.
     pub depth: f64,
@@ -129,7 +129,7 @@ pub struct DrivenOscillator {
     coordinates(x, y),
     lagrangian = (t / 4.0).exp() * (dot(x).powi(2) + dot(x) * dot(y) + dot(y).powi(2) - x * x * y * y),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GrowingMass {}
 
 /// A charged particle in the magnetic field b (1 + x² + y² / 2) along z.
@@ -139,7 +139,7 @@ pub struct GrowingMass {}
         + b * (-(y / 2.0 + y.powi(3) / 6.0) * dot(x) + (x / 2.0 + x.powi(3) / 3.0) * dot(y))
         - (x * x + y * y - z).powi(2) / 4.0,
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MagneticParticle {
     /// Mass.
     pub m: f64,
@@ -157,7 +157,7 @@ pub struct MagneticParticle {
         angular = sum(0..N, |j| mass[j] * (x[j] * dot(y[j]) - y[j] * dot(x[j]))),
     ),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Gravity<const N: usize> {
     /// Masses.
     pub mass: [f64; N],
@@ -168,7 +168,7 @@ pub struct Gravity<const N: usize> {
     coordinates(x, y),
     lagrangian = dot(x).powi(2) / 2.0 + dot(x) * dot(y) / 3.0 + (dot(y) - dot(x)).powi(2) - (x * x + x * y + y.powi(4)),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MixedVelocities {}
 
 /// Nothing about it is simple: a velocity in a function of a sum, in a power, in a choice, and alone.
@@ -179,7 +179,7 @@ pub struct MixedVelocities {}
         + g * (dot(u).exp() + (dot(x[1]) * u).sin() - x[2] * dot(x[2]) + dot(u) * t),
     momenta(speed = sum(0..3, |j| dot(x[j]).abs()).ln_1p()),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tangled {
     /// Strength of what is least simple.
     pub g: f64,
@@ -190,7 +190,7 @@ pub struct Tangled {
     coordinates(x),
     lagrangian = dot(x).powi(2) / 2.0 - stiffness * x * x / 2.0,
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Spring {
     /// The square of the frequency.
     pub stiffness: f64,
