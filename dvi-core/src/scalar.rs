@@ -9,6 +9,7 @@ mod error_function;
 pub(crate) mod lanes;
 pub(crate) mod norm;
 mod number;
+pub(crate) mod pack;
 pub(crate) mod simd;
 mod sinc;
 
@@ -52,6 +53,9 @@ macro_rules! scalar {
             + SubAssign
             + 'static
         {
+            /// Several of them, which generated loops take at once.
+            #[doc(hidden)]
+            type Pack: pack::Pack<Self>;
             /// The constant `value`.
             fn lift(value: f64) -> Self;
             /// `then` where `a` compares to `b` as asked, `otherwise` elsewhere.
@@ -102,6 +106,7 @@ macro_rules! scalar {
 
         #[diagnostic::do_not_recommend]
         impl<T: RealField + Copy> Scalar for T {
+            type Pack = Lanes<{ pack::CHUNK }, T>;
             #[inline(always)]
             fn lift(value: f64) -> Self {
                 nalgebra::convert(value)

@@ -16,19 +16,20 @@
 //! Sums begin at −0, which is neutral for every number, so that the optimiser may drop the first
 //! addition.
 
-use proc_macro2::{Literal, Span, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use proc_macro2::{Span, TokenStream};
+use quote::{format_ident, quote};
 use syn::{Ident, Path};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
-use crate::internal::internal;
-use crate::model::{Model, ScalarField};
+use crate::model::Model;
 use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
-use crate::symbolic::{Coordinate, Fold, Graph, Id, Node, Parameter, Partial, Relation, Weight};
+use crate::symbolic::{Coordinate, Fold, Graph};
 
 mod indices;
+mod packs;
+mod values;
 
 pub(crate) struct Emitter<'a> {
     pub(crate) graph: &'a Graph,
@@ -38,7 +39,17 @@ pub(crate) struct Emitter<'a> {
 /// Expressions that nest deeper than this are cut into `let`s: the compiler reads them by recursion.
 const DEEPEST_EXPRESSION: u32 = 24;
 
+/// What one evaluation of a body computes.
+#[derive(Clone, Copy)]
+enum Element {
+    /// A number of type `__T`.
+    Number,
+    /// The same of several terms of a loop.
+    Pack,
+}
+
 /// One function on its way to tokens.
+#[derive(Clone, Copy)]
 struct Function<'a> {
     emitter: &'a Emitter<'a>,
     routine: &'a Routine,
@@ -46,6 +57,7 @@ struct Function<'a> {
     inlined: &'a [bool],
     /// Whether a constant stands in the place of functions of several variables where they are not known.
     is_guarded: bool,
+    element: Element,
 }
 
 pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
@@ -96,7 +108,15 @@ impl Emitter<'_> {
                 uses[position] == 1 && !elsewhere[position] && nesting[position] < DEEPEST_EXPRESSION;
             inlined[position] = is_short || matches!(instruction, Instruction::Literal(_));
         }
-        Function { emitter: self, routine, inlined: &inlined, is_guarded }.steps(&routine.steps)
+        let element = Element::Number;
+        let function = Function { emitter: self, routine, inlined: &inlined, is_guarded, element };
+        let body = function.steps(&routine.steps);
+        if routine.has_packs(&function) {
+            let krate = self.krate();
+            quote!(#krate::__private::widest::<__T, _>(__q.len(), #[inline(always)] || { #body }))
+        } else {
+            body
+        }
     }
 }
 
@@ -130,6 +150,15 @@ fn count_uses(
     used
 }
 
+impl Fold {
+    fn neutral(self) -> TokenStream {
+        match self {
+            Self::Sum => quote!(-0.0),
+            Self::Product => quote!(1.0),
+        }
+    }
+}
+
 impl Function<'_> {
     fn steps(&self, steps: &[Step]) -> TokenStream {
         steps.iter().map(|step| self.step(step)).collect()
@@ -143,23 +172,33 @@ impl Function<'_> {
                 quote!(let #name = #value;)
             }
             Step::Loop { over, folds, body } => {
-                let mut begin = TokenStream::new();
-                let mut accumulate = self.steps(body);
-                for Accumulated { fold, result, body } in folds {
-                    let (krate, name) = (self.emitter.krate(), name(*result));
-                    let body = self.signed(*body);
-                    let (neutral, join) = match fold {
-                        Fold::Sum => (quote!(-0.0), quote!(#name += #body;)),
-                        Fold::Product => (quote!(1.0), quote!(#name = #name * #body;)),
-                    };
-                    begin.extend(quote!(let mut #name = <__T as #krate::Scalar>::lift(#neutral);));
-                    accumulate.extend(join);
-                }
-                let repeated = self.emitter.loop_over(over, &accumulate);
-                quote!(#begin #repeated)
+                let krate = self.emitter.krate();
+                let begin = folds.iter().map(|Accumulated { fold, result, .. }| {
+                    let (name, neutral) = (name(*result), fold.neutral());
+                    quote!(let mut #name = <__T as #krate::Scalar>::lift(#neutral);)
+                });
+                let repeated = if self.runs_over_packs(over, folds, body) {
+                    self.packs(over, folds, body)
+                } else {
+                    self.emitter.loop_over(over, &self.terms(folds, body))
+                };
+                quote!(#(#begin)* #repeated)
             }
             Step::Write(statement, value) => self.write(&self.routine.statements[*statement].place, *value),
         }
+    }
+
+    /// The body of a loop.
+    fn terms(&self, folds: &[Accumulated], body: &[Step]) -> TokenStream {
+        let mut terms = self.steps(body);
+        for Accumulated { fold, result, body } in folds {
+            let (name, body) = (name(*result), self.signed(*body));
+            terms.extend(match fold {
+                Fold::Sum => quote!(#name += #body;),
+                Fold::Product => quote!(#name = #name * #body;),
+            });
+        }
+        terms
     }
 
     fn write(&self, place: &Place, value: Signed) -> TokenStream {
@@ -169,6 +208,11 @@ impl Function<'_> {
                 let array =
                     format_ident!("{}", output_block(*output, coordinate.block), span = Span::mixed_site());
                 let index = self.emitter.index(&coordinate.index);
+                if let Element::Pack = self.element {
+                    let (krate, terms) = (self.emitter.krate(), self.register(value.register));
+                    let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
+                    return quote!(#krate::__private::#add(#array, #index, #terms););
+                }
                 quote!(#array[#index])
             }
             Place::MatrixEntry(row, column) => {
@@ -216,146 +260,6 @@ impl Function<'_> {
         let register = self.register(value.register);
         if value.negative { quote!((-#register)) } else { register }
     }
-
-    fn instruction(&self, register: Register) -> TokenStream {
-        let krate = self.emitter.krate();
-        let scalar = quote!(<__T as #krate::Scalar>);
-        match self.routine.code.get(register) {
-            Instruction::Leaf(id) => self.leaf(*id),
-            Instruction::Literal(bits) => {
-                let value = literal(f64::from_bits(*bits));
-                quote!(#scalar::lift(#value))
-            }
-            Instruction::Multiply(a, b) => {
-                let (a, b) = (self.register(*a), self.register(*b));
-                quote!(#a * #b)
-            }
-            Instruction::Divide(a, b) => {
-                let (a, b) = (self.register(*a), self.register(*b));
-                quote!(#a / #b)
-            }
-            Instruction::Sum(terms) => self.sum(terms),
-            Instruction::Unary(function, of) => {
-                let (function, of) = (format_ident!("{}", function.name()), self.signed(*of));
-                quote!(#scalar::#function(#of))
-            }
-            Instruction::Binary(function, a, b) => {
-                let (function, a, b) =
-                    (format_ident!("{}", function.name()), self.signed(*a), self.signed(*b));
-                quote!(#scalar::#function(#a, #b))
-            }
-            Instruction::Power(of, exponent) => {
-                let of = self.register(*of);
-                let exponent = Literal::i32_suffixed(*exponent);
-                quote!(#scalar::powi(#of, #exponent))
-            }
-            Instruction::Call(function, order, of) => {
-                let (name, of) = (own_function(*function as usize, *order as usize), self.signed(*of));
-                quote!(Self::#name(#of))
-            }
-            Instruction::Expansion(field, at) => {
-                let name = scalar_field(*field as usize);
-                let at = at.iter().map(|argument| self.signed(*argument));
-                if !self.is_guarded {
-                    return quote!(self.#name([#(#at),*]));
-                }
-                let ScalarField { text, tokens, arity, span, .. } =
-                    &self.emitter.model.scalar_fields[*field as usize];
-                // With the span of the one above, so that a type that is no such function is one error.
-                let domain = quote_spanned!(*span=> #krate::ScalarField::<#arity>::domain(&#tokens));
-                let arguments = (1..=*arity)
-                    .map(|number| quote!(#krate::__private::Argument { function: #text, number: #number }));
-                quote! {{
-                    let __at = [#(#at),*];
-                    match #krate::__private::outside(&[#(#arguments),*], #domain, __at) {
-                        ::core::option::Option::None => self.#name(__at),
-                        __found => {
-                            __outside = __outside.or(__found);
-                            #krate::__private::constant()
-                        }
-                    }
-                }}
-            }
-            Instruction::Part(expansion, partial) => {
-                let expansion = self.register(*expansion);
-                match partial {
-                    Partial::Value => quote!(#expansion.value),
-                    Partial::First(axis) => quote!(#expansion.gradient[#axis]),
-                    Partial::Second(first, second) => quote!(#expansion.hessian[#first][#second]),
-                }
-            }
-            Instruction::Choose(left, relation, right, then, otherwise) => {
-                let relation = match relation {
-                    Relation::Less => quote!(Less),
-                    Relation::LessOrEqual => quote!(LessOrEqual),
-                    Relation::Greater | Relation::HasMore => quote!(Greater),
-                    Relation::GreaterOrEqual => quote!(GreaterOrEqual),
-                };
-                let [left, right, then, otherwise] =
-                    [left, right, then, otherwise].map(|part| self.signed(*part));
-                quote!(#scalar::choose(#left, #krate::Comparison::#relation, #right, #then, #otherwise))
-            }
-            Instruction::Reduce(..) => {
-                let name = name(register);
-                quote!(#name)
-            }
-        }
-    }
-
-    /// A positive term first: a − b rather than −b + a.
-    fn sum(&self, terms: &[Signed]) -> TokenStream {
-        let mut order: Vec<&Signed> = terms.iter().collect();
-        order.sort_by_key(|term| term.negative);
-        let mut tokens = self.signed(*order[0]);
-        for term in &order[1..] {
-            let value = self.register(term.register);
-            tokens = if term.negative { quote!(#tokens - #value) } else { quote!(#tokens + #value) };
-        }
-        tokens
-    }
-
-    fn leaf(&self, id: Id) -> TokenStream {
-        let krate = self.emitter.krate();
-        match self.emitter.graph.node(id) {
-            Node::Coordinate(coordinate) => self.gather("q", coordinate),
-            Node::Velocity(coordinate) => self.gather("v", coordinate),
-            Node::Parameter(parameter) => self.parameter(parameter),
-            Node::Count(index) => {
-                let index = self.emitter.signed_index(index);
-                quote!(<__T as #krate::Scalar>::lift(#index as f64))
-            }
-            Node::Weight(weight) => match weight {
-                Weight::Qq => quote!(__w.qq),
-                Weight::Qv => quote!(__w.qv),
-                Weight::Vq => quote!(__w.vq),
-                Weight::Vv => quote!(__w.vv),
-                Weight::A => quote!(__a),
-                Weight::B => quote!(__b),
-                Weight::Q => quote!(__weights[0usize]),
-                Weight::V => quote!(__weights[1usize]),
-            },
-            Node::Time => quote!(__t),
-            other => internal(format!("{other:?} is not a leaf")),
-        }
-    }
-
-    fn gather(&self, array: &str, coordinate: &Coordinate) -> TokenStream {
-        let array = local(format_args!("{array}{}", coordinate.block));
-        let index = self.emitter.index(&coordinate.index);
-        quote!(#array[#index])
-    }
-
-    fn parameter(&self, parameter: &Parameter) -> TokenStream {
-        let krate = self.emitter.krate();
-        let name = &self.emitter.model.parameters[parameter.field as usize];
-        let indices = parameter.indices.iter().map(|index| self.emitter.index(index));
-        let place = &name.tokens;
-        let place = quote!(#place #([#indices])*);
-        match &name.generic {
-            Some(generic) => quote!(<#generic as #krate::Parameter<__T>>::value(#place)),
-            None => quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place))),
-        }
-    }
 }
 
 /// The function that calls the user's own: a mistake in its signature is one error, on its path.
@@ -383,16 +287,5 @@ pub(crate) fn output_block(output: Output, block: u32) -> String {
         Output::Lq => format!("__l_q{block}"),
         Output::Lv => format!("__l_v{block}"),
         Output::Vector => format!("__vector{block}"),
-    }
-}
-
-fn literal(value: f64) -> TokenStream {
-    if value.is_finite() {
-        let literal = Literal::f64_suffixed(value);
-        quote!(#literal)
-    } else if value.is_nan() {
-        quote!(f64::NAN)
-    } else {
-        quote!(f64::INFINITY)
     }
 }

@@ -17,7 +17,7 @@ mod shape;
 mod sizes;
 
 pub(crate) use shape::Shape;
-use shape::{generic, is_integer, mentions_generic, shape};
+use shape::{generic, is_integer, is_slice, mentions_generic, shape};
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -52,6 +52,8 @@ pub(crate) struct ParameterName {
     /// The place in a method of the struct.
     pub(crate) tokens: TokenStream,
     pub(crate) shape: Shape,
+    /// Whether its entries are numbers that lie beside one another for certain.
+    pub(crate) is_slice: bool,
     /// Whether its numbers are integers for certain.
     pub(crate) integer: bool,
     /// The generic type of the struct that its numbers are of.
@@ -260,6 +262,7 @@ impl Model {
             self.parameters.push(ParameterName {
                 text,
                 tokens: quote!(#path),
+                is_slice: false,
                 shape: Shape::Unknown,
                 integer: false,
                 generic: None,
@@ -373,6 +376,7 @@ fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
                     // What is wrong with the type of a field is reported on the field.
                     tokens: quote_spanned!(Span::call_site().located_at(name.span())=> self.#name),
                     shape: shape(&field.ty),
+                    is_slice: is_slice(&field.ty, &item.generics),
                     integer: is_integer(&field.ty),
                     generic: generic(&field.ty, &item.generics),
                 })

@@ -110,31 +110,66 @@ fn vortices() {
                 let (__vector0, __rest) = __vector.split_at_mut(N);
                 let (__vector1, __rest) = __rest.split_at_mut(N);
                 let _ = __rest;
-                for __i0 in (0usize)..(N) {
-                    let __r0 = __q0[__i0];
-                    let __r6 = T::lift(0.15915494309189535f64)
-                        * T::lift(
-                            __private::Number::number(self.gamma[__i0]),
-                        );
-                    let __r9 = __q1[__i0];
-                    let mut __r16 = T::lift(-0.0);
-                    let mut __r18 = T::lift(-0.0);
-                    for __i1 in (__i0 + 1usize)..(N) {
-                        let __r2 = __r0 - __q0[__i1];
-                        let __r11 = __r9 - __q1[__i1];
-                        let __r14 = (T::lift(
-                            __private::Number::number(self.gamma[__i1]),
-                        ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
-                        let __r15 = __r2 * __r14;
-                        let __r17 = __r11 * __r14;
-                        __vector0[__i1] -= __r15;
-                        __vector1[__i1] -= __r17;
-                        __r16 += __r15;
-                        __r18 += __r17;
-                    }
-                    __vector0[__i0] += __r16;
-                    __vector1[__i0] += __r18;
-                }
+                __private::widest::<
+                    T,
+                    _,
+                >(
+                    __q.len(),
+                    #[inline(always)]
+                    || {
+                        for __i0 in (0usize)..(N) {
+                            let __r0 = __q0[__i0];
+                            let __r6 = T::lift(0.15915494309189535f64)
+                                * T::lift(
+                                    __private::Number::number(self.gamma[__i0]),
+                                );
+                            let __r9 = __q1[__i0];
+                            let mut __r16 = T::lift(-0.0);
+                            let mut __r18 = T::lift(-0.0);
+                            let __whole = __private::whole(__i0 + 1usize, N);
+                            {
+                                let __r0 = __private::all(__r0);
+                                let __r6 = __private::all(__r6);
+                                let __r9 = __private::all(__r9);
+                                let mut __sum16 = __private::Sums::<T>::empty();
+                                let mut __sum18 = __private::Sums::<T>::empty();
+                                for __i1 in __private::packs::<
+                                    T,
+                                >(__i0 + 1usize, __whole) {
+                                    let __r2 = __r0 - __private::load(__q0, __i1);
+                                    let __r11 = __r9 - __private::load(__q1, __i1);
+                                    let __r14 = (__private::parameters::<
+                                        T,
+                                        _,
+                                    >(&self.gamma, __i1) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
+                                    let __r15 = __r2 * __r14;
+                                    let __r17 = __r11 * __r14;
+                                    __private::subtract_from(__vector0, __i1, __r15);
+                                    __private::subtract_from(__vector1, __i1, __r17);
+                                    __sum16.add_terms(__r15);
+                                    __sum18.add_terms(__r17);
+                                }
+                                __r16 += __sum16.total();
+                                __r18 += __sum18.total();
+                            }
+                            for __i1 in __whole..N {
+                                let __r2 = __r0 - __q0[__i1];
+                                let __r11 = __r9 - __q1[__i1];
+                                let __r14 = (T::lift(
+                                    __private::Number::number(self.gamma[__i1]),
+                                ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
+                                let __r15 = __r2 * __r14;
+                                let __r17 = __r11 * __r14;
+                                __vector0[__i1] -= __r15;
+                                __vector1[__i1] -= __r17;
+                                __r16 += __r15;
+                                __r18 += __r17;
+                            }
+                            __vector0[__i0] += __r16;
+                            __vector1[__i0] += __r18;
+                        }
+                    },
+                )
             }
         "#]],
     );
@@ -160,21 +195,51 @@ fn function_of_a_sum() {
                 let (__vector0, __rest) = __vector.split_at_mut(self.n);
                 let (__vector1, __rest) = __rest.split_at_mut(self.n);
                 let _ = __rest;
-                let mut __r6 = T::lift(-0.0);
-                for __i0 in (0usize)..(self.n) {
-                    let __r1 = __q0[__i0];
-                    let __r3 = __q1[__i0];
-                    let __r5 = (__r1 * __r1) + (__r3 * __r3);
-                    __r6 += __r5;
-                }
-                let __r8 = T::lift(1f64)
-                    / (T::sqrt(__r6));
-                for __i0 in (0usize)..(self.n) {
-                    let __r1 = __q0[__i0];
-                    let __r3 = __q1[__i0];
-                    __vector1[__i0] += (__r8 * __r3);
-                    __vector0[__i0] += (__r8 * __r1);
-                }
+                __private::widest::<
+                    T,
+                    _,
+                >(
+                    __q.len(),
+                    #[inline(always)]
+                    || {
+                        let mut __r6 = T::lift(-0.0);
+                        let __whole = __private::whole(0usize, self.n);
+                        {
+                            let mut __sum6 = __private::Sums::<T>::empty();
+                            for __i0 in __private::packs::<T>(0usize, __whole) {
+                                let __r1 = __private::load(__q0, __i0);
+                                let __r3 = __private::load(__q1, __i0);
+                                let __r5 = (__r1 * __r1) + (__r3 * __r3);
+                                __sum6.add_terms(__r5);
+                            }
+                            __r6 += __sum6.total();
+                        }
+                        for __i0 in __whole..self.n {
+                            let __r1 = __q0[__i0];
+                            let __r3 = __q1[__i0];
+                            let __r5 = (__r1 * __r1) + (__r3 * __r3);
+                            __r6 += __r5;
+                        }
+                        let __r8 = T::lift(1f64)
+                            / (T::sqrt(__r6));
+                        let __whole = __private::whole(0usize, self.n);
+                        {
+                            let __r8 = __private::all(__r8);
+                            for __i0 in __private::packs::<T>(0usize, __whole) {
+                                let __r1 = __private::load(__q0, __i0);
+                                let __r3 = __private::load(__q1, __i0);
+                                __private::add_to(__vector1, __i0, (__r8 * __r3));
+                                __private::add_to(__vector0, __i0, (__r8 * __r1));
+                            }
+                        }
+                        for __i0 in __whole..self.n {
+                            let __r1 = __q0[__i0];
+                            let __r3 = __q1[__i0];
+                            __vector1[__i0] += (__r8 * __r3);
+                            __vector0[__i0] += (__r8 * __r1);
+                        }
+                    },
+                )
             }
         "#]],
     );

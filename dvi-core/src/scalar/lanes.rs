@@ -106,6 +106,7 @@ macro_rules! lane_by_lane {
 
 #[diagnostic::do_not_recommend]
 impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
+    type Pack = Self;
     #[inline(always)]
     fn lift(value: f64) -> Self {
         Self::all(T::lift(value))

@@ -8,7 +8,7 @@ use super::{Emitter, local};
 use crate::internal::internal;
 use crate::symbolic::{Atom, Index, Loop, Range};
 
-fn open(depth: u32) -> Ident {
+pub(super) fn open(depth: u32) -> Ident {
     local(format_args!("i{depth}"))
 }
 

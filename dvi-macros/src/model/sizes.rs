@@ -195,6 +195,7 @@ impl Model {
         self.parameters.push(ParameterName {
             text,
             tokens,
+            is_slice: false,
             shape: Shape::Unknown,
             integer: false,
             generic: None,

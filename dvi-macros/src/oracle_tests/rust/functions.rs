@@ -16,6 +16,8 @@ pub(super) enum Callee {
     Wrap,
     Remainder,
     CheckIndex,
+    /// `__private::whole`
+    Whole,
     /// `Sink::add`, of a dense matrix.
     AddEntry,
     Ok,
@@ -74,6 +76,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "__private", "wrap"] => Callee::Wrap,
         [.., "__private", "remainder"] => Callee::Remainder,
         [.., "__private", "check_index"] => Callee::CheckIndex,
+        [.., "__private", "whole"] => Callee::Whole,
         [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,
         [.., owner, name] if TRAITS.contains(owner) => Callee::Generated((*name).into()),

@@ -7,7 +7,7 @@ use quote::ToTokens;
 use syn::{BinOp, Expr, FnArg, ImplItem, Item, Lit, Pat, RangeLimits, Stmt, Type, UnOp};
 
 use super::code::{Code, Function, Operator, Pattern};
-use super::functions::{callee, comparison};
+use super::functions::{Callee, callee, comparison};
 use super::value::{Kind, Value};
 
 /// The generated functions and constants of a system, by name.
@@ -197,13 +197,15 @@ impl Parser {
             Expr::Call(call) => {
                 let Expr::Path(path) = &*call.func else { unknown("call", call) };
                 let arguments = call.args.iter().map(|argument| self.expr(argument)).collect();
-                Code::Call(callee(&segments(path)), arguments)
+                called(&segments(path), arguments)
             }
             Expr::MethodCall(call) => {
                 let receiver = self.boxed(&call.receiver);
                 let arguments = call.args.iter().map(|argument| self.expr(argument)).collect();
-                Code::Method(receiver, call.method.to_string(), arguments)
+                method(receiver, call.method.to_string(), arguments)
             }
+            // What runs compiled for another processor is the same.
+            Expr::Closure(closure) if closure.inputs.is_empty() => self.expr(&closure.body),
             Expr::Cast(cast) => Code::Cast(self.boxed(&cast.expr), kind(&cast.ty)),
             Expr::Tuple(tuple) if tuple.elems.is_empty() => Code::Value(Value::Unit),
             Expr::Array(array) => Code::Tuple(array.elems.iter().map(|element| self.expr(element)).collect()),
@@ -278,17 +280,59 @@ impl Parser {
     }
 
     fn repeated(&mut self, repeated: &syn::ExprForLoop) -> Code {
-        let Expr::Range(range) = &*repeated.expr else { unknown("loop", repeated) };
-        let (Some(start), Some(end), RangeLimits::HalfOpen(_)) = (&range.start, &range.end, &range.limits)
-        else {
-            unknown("range", range)
+        let bounds = match &*repeated.expr {
+            Expr::Range(range) if matches!(range.limits, RangeLimits::HalfOpen(_)) => {
+                range.start.as_deref().zip(range.end.as_deref())
+            }
+            // Packs of one.
+            Expr::Call(call) => match &*call.func {
+                Expr::Path(path) if segments(path).last().is_some_and(|name| name == "packs") => {
+                    call.args.first().zip(call.args.last())
+                }
+                _ => None,
+            },
+            _ => None,
         };
+        let Some((start, end)) = bounds else { unknown("loop", repeated) };
         let (lower, upper) = (self.boxed(start), self.boxed(end));
         let outside = self.scope.len();
         let pattern = self.pattern(&repeated.pat);
         let body = self.block(&repeated.body);
         self.scope.truncate(outside);
         Code::For(pattern, lower, upper, Box::new(body))
+    }
+}
+
+/// A call. Packs hold one term each, and so are numbers.
+fn called(path: &[String], arguments: Vec<Code>) -> Code {
+    let mut given = arguments.clone().into_iter().map(Box::new);
+    let mut next = || given.next().unwrap_or_else(|| panic!("an argument of {}", path.join("::")));
+    match path.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        [.., "__private", "all"] => *next(),
+        [.., "__private", "load"] => Code::Index(next(), next()),
+        [.., "__private", "parameters"] => Code::Call(Callee::Number, vec![Code::Index(next(), next())]),
+        [.., "__private", add @ ("add_to" | "subtract_from")] => {
+            let operator = if *add == "add_to" { Operator::Add } else { Operator::Subtract };
+            Code::Assign(Some(operator), Box::new(Code::Index(next(), next())), next())
+        }
+        [.., "Sums", "empty"] => Code::Value(Value::Real(-0.0)),
+        [.., "__private", "widest"] => {
+            next();
+            *next()
+        }
+        _ => Code::Call(callee(path), arguments),
+    }
+}
+
+/// A call of a method; the sum of packs of one is a number.
+fn method(receiver: Box<Code>, name: String, mut arguments: Vec<Code>) -> Code {
+    match name.as_str() {
+        "add_terms" => {
+            let terms = arguments.pop().unwrap_or_else(|| panic!("terms to add"));
+            Code::Assign(Some(Operator::Add), receiver, Box::new(terms))
+        }
+        "total" => *receiver,
+        _ => Code::Method(receiver, name, arguments),
     }
 }
 

@@ -1,0 +1,204 @@
+//! The terms of a sum, several at a time.
+//!
+//! A generated loop whose terms need arithmetic alone runs over its first terms in packs of [`CHUNK`], and over the rest one
+//! by one. Each sum then has one partial sum for each place in a pack. Where numbers are packs themselves, the same loop takes
+//! one term at a time and adds it to the same partial sum: its results are those of the lanes, bit for bit.
+
+use core::marker::PhantomData;
+
+use crate::scalar::lanes::Lanes;
+use crate::scalar::simd::{self, Task};
+use crate::{Parameter, Real, Scalar};
+
+/// The number of terms in a pack, and of partial sums.
+pub(crate) const CHUNK: usize = 8;
+
+/// Terms of a sum over numbers `T` that are computed at once.
+pub trait Pack<T>: Scalar {
+    /// How many.
+    const WIDTH: usize;
+    /// See [`all`].
+    fn all(value: T) -> Self;
+    /// See [`load`].
+    fn load(from: &[T], at: usize) -> Self;
+    /// See [`parameters`].
+    fn parameters<P: Parameter<T>>(from: &[P], at: usize) -> Self;
+    /// See [`add_to`].
+    fn add(to: &mut [T], at: usize, terms: Self);
+    /// See [`subtract_from`].
+    fn subtract(to: &mut [T], at: usize, terms: Self);
+}
+
+impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
+    const WIDTH: usize = CHUNK;
+    #[inline(always)]
+    fn all(value: T) -> Self {
+        Lanes::all(value)
+    }
+    #[inline(always)]
+    fn load(from: &[T], at: usize) -> Self {
+        let mut terms = [T::lift(0.0); CHUNK];
+        terms.copy_from_slice(&from[at..at + CHUNK]);
+        Self(terms)
+    }
+    #[inline(always)]
+    fn parameters<P: Parameter<T>>(from: &[P], at: usize) -> Self {
+        let (from, mut terms) = (&from[at..at + CHUNK], [T::lift(0.0); CHUNK]);
+        for term in 0..CHUNK {
+            terms[term] = from[term].value();
+        }
+        Self(terms)
+    }
+    #[inline(always)]
+    fn add(to: &mut [T], at: usize, terms: Self) {
+        let to = &mut to[at..at + CHUNK];
+        for term in 0..CHUNK {
+            to[term] += terms.0[term];
+        }
+    }
+    #[inline(always)]
+    fn subtract(to: &mut [T], at: usize, terms: Self) {
+        let to = &mut to[at..at + CHUNK];
+        for term in 0..CHUNK {
+            to[term] -= terms.0[term];
+        }
+    }
+}
+
+impl<const W: usize, T: Real> Pack<Self> for Lanes<W, T> {
+    const WIDTH: usize = 1;
+    #[inline(always)]
+    fn all(value: Self) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn load(from: &[Self], at: usize) -> Self {
+        from[at]
+    }
+    #[inline(always)]
+    fn parameters<P: Parameter<Self>>(from: &[P], at: usize) -> Self {
+        from[at].value()
+    }
+    #[inline(always)]
+    fn add(to: &mut [Self], at: usize, terms: Self) {
+        to[at] += terms;
+    }
+    #[inline(always)]
+    fn subtract(to: &mut [Self], at: usize, terms: Self) {
+        to[at] -= terms;
+    }
+}
+
+/// `value` in all terms.
+#[inline(always)]
+pub fn all<T: Scalar>(value: T) -> T::Pack {
+    T::Pack::all(value)
+}
+
+/// The entries of `from` that begin at `at`.
+#[inline(always)]
+pub fn load<T: Scalar>(from: &[T], at: usize) -> T::Pack {
+    T::Pack::load(from, at)
+}
+
+/// The parameters `from` that begin at `at`.
+#[inline(always)]
+pub fn parameters<T: Scalar, P: Parameter<T>>(from: &[P], at: usize) -> T::Pack {
+    T::Pack::parameters(from, at)
+}
+
+/// Adds each term to its entry of `to`, beginning at `at`.
+#[inline(always)]
+pub fn add_to<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
+    T::Pack::add(to, at, terms);
+}
+
+/// Subtracts each term from its entry of `to`, beginning at `at`.
+#[inline(always)]
+pub fn subtract_from<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
+    T::Pack::subtract(to, at, terms);
+}
+
+/// The partial sums of a sum over packs.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums<T> {
+    partial: [T; CHUNK],
+    /// Where the next term goes.
+    next: usize,
+}
+
+impl<T: Scalar> Sums<T> {
+    /// No terms yet: −0, which is neutral for every number.
+    #[inline(always)]
+    pub fn empty() -> Self {
+        Self { partial: [T::lift(-0.0); CHUNK], next: 0 }
+    }
+
+    /// Adds terms, each to the partial sum of its place.
+    #[inline(always)]
+    pub fn add_terms(&mut self, terms: T::Pack) {
+        T::Pack::add(&mut self.partial, self.next, terms);
+        self.next = (self.next + T::Pack::WIDTH) % CHUNK;
+    }
+
+    /// The sum of all terms.
+    #[inline(always)]
+    pub fn total(self) -> T {
+        let [mut sum, rest @ ..] = self.partial;
+        for partial in rest {
+            sum += partial;
+        }
+        sum
+    }
+}
+
+/// The end of the last whole chunk of a range.
+#[inline(always)]
+pub fn whole(lower: usize, upper: usize) -> usize {
+    upper - upper.saturating_sub(lower) % CHUNK
+}
+
+/// Where the packs of numbers `T` begin in a range of whole chunks.
+#[inline(always)]
+pub fn packs<T: Scalar>(lower: usize, upper: usize) -> Packs<T> {
+    Packs { next: lower, upper, numbers: PhantomData }
+}
+
+/// The places that [`packs`] names.
+#[derive(Debug)]
+pub struct Packs<T> {
+    next: usize,
+    upper: usize,
+    numbers: PhantomData<T>,
+}
+
+impl<T: Scalar> Iterator for Packs<T> {
+    type Item = usize;
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let here = self.next;
+        (here < self.upper).then(|| {
+            self.next = here + T::Pack::WIDTH;
+            here
+        })
+    }
+}
+
+/// Loops over fewer numbers than this are not worth a choice of instructions.
+const FEW: usize = 32;
+
+/// What `body` returns; where it takes many numbers at once, it runs compiled for the widest instructions of the processor.
+#[inline(always)]
+pub fn widest<T: Scalar, R>(size: usize, body: impl FnOnce() -> R) -> R {
+    struct Body<F>(F);
+
+    impl<R, F: FnOnce() -> R> Task for Body<F> {
+        type Output = R;
+        #[inline(always)]
+        fn run(self) -> R {
+            (self.0)()
+        }
+    }
+
+    if T::Pack::WIDTH > 1 && size >= FEW { simd::widest(Body(body)) } else { body() }
+}

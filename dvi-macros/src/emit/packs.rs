@@ -1,0 +1,171 @@
+//! Loops over packs of terms.
+//!
+//! An innermost loop with many terms that need arithmetic alone, on entries that lie beside one another, becomes
+//! ```text
+//! let mut __r9 = __T::lift(-0.0);
+//! let __whole = whole(lower, upper);
+//! {
+//!     let __r1 = all(__r1);
+//!     let mut __sum9 = Sums::<__T>::empty();
+//!     for __i1 in packs::<__T>(lower, __whole) {
+//!         let __r2 = __r1 - load(__q0, __i1);
+//!         …
+//!         subtract_from(__vector0, __i1, …);
+//!         __sum9.add_terms(…);
+//!     }
+//!     __r9 += __sum9.total();
+//! }
+//! for __i1 in __whole..upper {
+//!     …
+//! }
+//! ```
+//! and the function around it is compiled for the widest instructions of the processor.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::indices::open;
+use super::{Element, Function, local, name};
+use crate::instructions::{Instruction, Register, Signed};
+use crate::model::Shape;
+use crate::program::Place;
+use crate::routine::Routine;
+use crate::schedule::{Accumulated, Step};
+use crate::symbolic::{Atom, Fold, Index, Loop, Node, Parameter, Unary};
+
+/// A range whose bounds are literals and that has fewer terms is not worth it.
+const FEWEST: i64 = 16;
+
+impl Routine {
+    /// Whether one of its loops runs over packs.
+    pub(super) fn has_packs(&self, function: &Function<'_>) -> bool {
+        fn any(steps: &[Step], function: &Function<'_>) -> bool {
+            steps.iter().any(|step| match step {
+                Step::Loop { over, folds, body } => {
+                    function.runs_over_packs(over, folds, body) || any(body, function)
+                }
+                Step::Let(_) | Step::Write(..) => false,
+            })
+        }
+        any(&self.steps, function)
+    }
+}
+
+impl Function<'_> {
+    /// Whether the terms of a loop can be taken in packs.
+    pub(super) fn runs_over_packs(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> bool {
+        let lower = over.range.lower.as_literal().unwrap_or(0);
+        let is_short = over.range.upper.as_literal().is_some_and(|upper| upper - lower < FEWEST);
+        let sums = folds.iter().all(|fold| fold.fold == Fold::Sum);
+        let mut blocks = Vec::new();
+        let steps = body.iter().all(|step| match step {
+            Step::Let(register) => self.is_packed(*register, over.depth),
+            Step::Loop { .. } => false,
+            Step::Write(statement, _) => match &self.routine.statements[*statement].place {
+                // Where two statements add to the same entries, packs would add in another order.
+                Place::Entry(output, entry) => {
+                    let block = (*output, entry.block);
+                    let is_new = !blocks.contains(&block);
+                    blocks.push(block);
+                    is_new && follows(&entry.index, over.depth)
+                }
+                Place::Result
+                | Place::MatrixEntry(..)
+                | Place::Constraint(_)
+                | Place::ConstraintDerivative(..) => false,
+            },
+        });
+        !is_short && over.range.left_out().next().is_none() && sums && steps
+    }
+
+    /// Whether a register can be computed for several terms at once.
+    fn is_packed(&self, register: Register, depth: u32) -> bool {
+        match self.routine.code.get(register) {
+            Instruction::Literal(_)
+            | Instruction::Multiply(..)
+            | Instruction::Divide(..)
+            | Instruction::Sum(_)
+            | Instruction::Unary(Unary::Sqrt, _) => true,
+            Instruction::Leaf(id) => match self.emitter.graph.node(*id) {
+                Node::Coordinate(entry) | Node::Velocity(entry) => follows(&entry.index, depth),
+                Node::Parameter(parameter) => self.is_packed_parameter(parameter, depth),
+                _ => false,
+            },
+            Instruction::Unary(..)
+            | Instruction::Binary(..)
+            | Instruction::Power(..)
+            | Instruction::Call(..)
+            | Instruction::Expansion(..)
+            | Instruction::Part(..)
+            | Instruction::Choose(..)
+            | Instruction::Reduce(..) => false,
+        }
+    }
+
+    fn is_packed_parameter(&self, parameter: &Parameter, depth: u32) -> bool {
+        let known = &self.emitter.model.parameters[parameter.field as usize];
+        let [index] = parameter.indices.as_slice() else { return false };
+        known.is_slice && matches!(known.shape, Shape::Array(..)) && follows(index, depth)
+    }
+
+    /// A loop, as packs and then what is left. `begin` and `over` are those of the loop term by term.
+    pub(super) fn packs(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> TokenStream {
+        let krate = self.emitter.krate();
+        let packed = Function { element: Element::Pack, ..*self };
+        let (index, whole) = (open(over.depth), local("whole"));
+        let [lower, upper] =
+            [&over.range.lower, &over.range.upper].map(|bound| self.emitter.range_bound(bound));
+        let outside = self.from_outside(folds, body).into_iter().map(|register| {
+            let name = name(register);
+            quote!(let #name = #krate::__private::all(#name);)
+        });
+        let sums: Vec<_> = folds.iter().map(|fold| local(format_args!("sum{}", fold.result.0))).collect();
+        let terms = folds.iter().map(|fold| packed.signed(fold.body));
+        let results = folds.iter().map(|fold| name(fold.result));
+        let steps = packed.steps(body);
+        let rest = self.terms(folds, body);
+        quote! {
+            let #whole = #krate::__private::whole(#lower, #upper);
+            {
+                #(#outside)*
+                #(let mut #sums = #krate::__private::Sums::<__T>::empty();)*
+                for #index in #krate::__private::packs::<__T>(#lower, #whole) {
+                    #steps
+                    #(#sums.add_terms(#terms);)*
+                }
+                #(#results += #sums.total();)*
+            }
+            for #index in #whole..#upper { #rest }
+        }
+    }
+
+    /// The registers that the body of a loop reads and does not compute.
+    fn from_outside(&self, folds: &[Accumulated], body: &[Step]) -> Vec<Register> {
+        let code = &self.routine.code;
+        let mut used: Vec<Register> = folds.iter().map(|fold| fold.body.register).collect();
+        let mut inside = Vec::new();
+        for step in body {
+            match step {
+                Step::Let(register) => {
+                    used.extend(code.get(*register).operands());
+                    inside.push(*register);
+                }
+                Step::Write(_, Signed { register, .. }) => used.push(*register),
+                Step::Loop { .. } => {}
+            }
+        }
+        used.sort_unstable();
+        used.dedup();
+        used.retain(|register| {
+            !inside.contains(register) && !matches!(code.get(*register), Instruction::Literal(_))
+        });
+        used
+    }
+}
+
+/// Whether an index goes on by one with the index of the loop at `depth`.
+fn follows(index: &Index, depth: u32) -> bool {
+    let mentions = |atom: &Atom| Index::atom(atom.clone()).free().open & (1 << depth) != 0;
+    let mut with_it = index.terms.iter().filter(|(atom, _)| mentions(atom));
+    matches!((with_it.next(), with_it.next()), (Some((Atom::Open(_), 1)), None))
+}

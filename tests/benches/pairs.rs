@@ -1,0 +1,105 @@
+//! The right side of many vortices, each of which moves all others: the generated gradient beside two by hand.
+//!
+//! `cargo bench -p dvi-benches --bench pairs`. Throughput counts ordered pairs: n(n − 1) of n vortices.
+
+use std::f64::consts::PI;
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use dvi_core::DegenerateLagrangian;
+use dvi_core::prelude::*;
+
+/// Vortices in the plane.
+#[degenerate_lagrangian(
+    coordinates(x[gamma.len()], y[gamma.len()]),
+    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
+        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2)).ln()),
+)]
+struct Vortices {
+    gamma: Vec<f64>,
+}
+
+impl Vortices {
+    fn new(n: usize) -> Self {
+        Self { gamma: (0..n).map(|j| (1.0 + (j % 5) as f64) / n as f64).collect() }
+    }
+
+    /// Where they are on a disc: all x, then all y.
+    fn places(n: usize) -> Vec<f64> {
+        let radius = |j: usize| ((j as f64 + 0.5) / n as f64).sqrt();
+        let angle = |j: usize| 2.399_963_229_728_653 * j as f64;
+        let x = (0..n).map(|j| radius(j) * angle(j).cos());
+        x.chain((0..n).map(|j| radius(j) * angle(j).sin())).collect()
+    }
+
+    /// ∇H, vortex by vortex, as one writes it first.
+    fn naive(&self, q: &[f64], gradient: &mut [f64]) {
+        let n = self.gamma.len();
+        for i in 0..n {
+            let mut sum = [0.0; 2];
+            for j in (0..n).filter(|j| *j != i) {
+                let apart = [q[i] - q[j], q[n + i] - q[n + j]];
+                let strength = self.gamma[j] / (apart[0].powi(2) + apart[1].powi(2));
+                sum[0] += strength * apart[0];
+                sum[1] += strength * apart[1];
+            }
+            gradient[i] = -self.gamma[i] / (2.0 * PI) * sum[0];
+            gradient[n + i] = -self.gamma[i] / (2.0 * PI) * sum[1];
+        }
+    }
+
+    /// ∇H, each pair once.
+    fn by_pairs(&self, q: &[f64], gradient: &mut [f64]) {
+        let n = self.gamma.len();
+        gradient.fill(0.0);
+        for i in 0..n {
+            let mut sum = [0.0; 2];
+            for j in i + 1..n {
+                let apart = [q[i] - q[j], q[n + i] - q[n + j]];
+                let strength =
+                    self.gamma[i] * self.gamma[j] / (2.0 * PI * (apart[0] * apart[0] + apart[1] * apart[1]));
+                let force = [strength * apart[0], strength * apart[1]];
+                sum[0] += force[0];
+                sum[1] += force[1];
+                gradient[j] += force[0];
+                gradient[n + j] += force[1];
+            }
+            gradient[i] -= sum[0];
+            gradient[n + i] -= sum[1];
+        }
+    }
+}
+
+/// The generated gradient is that by hand.
+fn compare(system: &Vortices, q: &[f64]) {
+    let [mut expected, mut gradient] = [vec![0.0; q.len()], vec![0.0; q.len()]];
+    system.naive(q, &mut expected);
+    system.hamiltonian_gradient(q, 0.0, &mut gradient);
+    let largest = expected.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+    let apart = expected.iter().zip(&gradient).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart <= 1e-12 * largest, "the gradients differ by {apart:e} of {largest:e}");
+}
+
+fn gradients(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("∇H of n vortices");
+    for n in [32, 256, 1024, 4096] {
+        let (system, q) = (Vortices::new(n), Vortices::places(n));
+        let mut gradient = vec![0.0; 2 * n];
+        compare(&system, &q);
+        group.throughput(Throughput::Elements((n * (n - 1)) as u64));
+        group.bench_function(BenchmarkId::new("by hand, vortex by vortex", n), |bencher| {
+            bencher.iter(|| system.naive(black_box(&q), &mut gradient));
+        });
+        group.bench_function(BenchmarkId::new("by hand, each pair once", n), |bencher| {
+            bencher.iter(|| system.by_pairs(black_box(&q), &mut gradient));
+        });
+        group.bench_function(BenchmarkId::new("generated", n), |bencher| {
+            bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, gradients);
+criterion_main!(benches);
