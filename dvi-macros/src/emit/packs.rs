@@ -115,7 +115,7 @@ impl Function<'_> {
         let (index, whole) = (open(over.depth), local("whole"));
         let [lower, upper] =
             [&over.range.lower, &over.range.upper].map(|bound| self.emitter.range_bound(bound));
-        let outside = self.from_outside(folds, body).into_iter().map(|register| {
+        let outside = self.read_from_outside(folds, body).into_iter().map(|register| {
             let name = name(register);
             quote!(let #name = #krate::__private::all(#name);)
         });
@@ -140,7 +140,7 @@ impl Function<'_> {
     }
 
     /// The registers that the body of a loop reads and does not compute.
-    fn from_outside(&self, folds: &[Accumulated], body: &[Step]) -> Vec<Register> {
+    fn read_from_outside(&self, folds: &[Accumulated], body: &[Step]) -> Vec<Register> {
         let code = &self.routine.code;
         let mut used: Vec<Register> = folds.iter().map(|fold| fold.body.register).collect();
         let mut inside = Vec::new();

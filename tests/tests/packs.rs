@@ -1,0 +1,291 @@
+//! Loops that run over packs of eight terms: for every number of terms, and so for every number that is left over, they add
+//! up what a loop by hand adds up, and numbers in lanes get what each of them gets alone, bit for bit.
+
+use dvi_core::prelude::*;
+use dvi_core::scalar::Lanes;
+use dvi_core::{DegenerateLagrangian, Lagrangian, Varied};
+
+const SIZES: core::ops::Range<usize> = 1..45;
+const W: usize = 3;
+
+/// A number between −1 and 1 that depends on `seed` in no simple way.
+fn number(seed: usize) -> f64 {
+    (1.7 * seed as f64 + 0.3).sin() * (0.37 * (seed * seed) as f64).cos()
+}
+
+fn numbers(count: usize, seed: usize) -> Vec<f64> {
+    (0..count).map(|j| number(1000 * seed + j)).collect()
+}
+
+/// Terms added up with an error that is far below that of the sum.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    sum: f64,
+    lost: f64,
+    size: f64,
+}
+
+impl Sum {
+    fn add(&mut self, term: f64) {
+        let sum = self.sum + term;
+        let shared = sum - self.sum;
+        self.lost += (self.sum - (sum - shared)) + (term - shared);
+        self.sum = sum;
+        self.size += term.abs();
+    }
+}
+
+/// Compares with sums by hand, up to the rounding errors of the terms.
+fn agree(found: &[f64], expected: &[Sum], what: &str) {
+    for (index, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let apart = (found - expected.sum - expected.lost).abs();
+        let bound = 1e-14 * expected.size;
+        assert!(apart <= bound, "{what}, entry {index}: {found:e}, by hand {:e}", expected.sum);
+    }
+}
+
+/// Compares a vector in lanes with that of each lane alone, bit for bit.
+fn lanes_agree(
+    q: &[f64],
+    together: impl Fn(&[Lanes<W>], &mut [Lanes<W>]),
+    alone: impl Fn(&[f64], &mut [f64]),
+) {
+    let moved = |lane: usize, i: usize| q[i] * (1.0 + 0.01 * lane as f64) + 0.02 * (lane * i) as f64;
+    let packs: Vec<_> = (0..q.len()).map(|i| Lanes(core::array::from_fn(|lane| moved(lane, i)))).collect();
+    let mut found = vec![Lanes::all(0.0); q.len()];
+    together(&packs, &mut found);
+    for lane in 0..W {
+        let point: Vec<f64> = (0..q.len()).map(|i| moved(lane, i)).collect();
+        let mut expected = vec![0.0; q.len()];
+        alone(&point, &mut expected);
+        let same = found.iter().zip(&expected).all(|(pack, x)| pack.0[lane].to_bits() == x.to_bits());
+        assert!(same, "{} numbers, lane {lane}", q.len());
+    }
+}
+
+/// Vortices in the plane.
+#[degenerate_lagrangian(
+    coordinates(x[gamma.len()], y[gamma.len()]),
+    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
+        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
+)]
+#[derive(PartialEq)]
+struct Vortices {
+    gamma: Vec<f64>,
+}
+
+fn vortices_by_hand(gamma: &[f64], q: &[f64]) -> Vec<Sum> {
+    let n = gamma.len();
+    let mut gradient = vec![Sum::default(); 2 * n];
+    for i in 0..n {
+        for j in (0..n).filter(|j| *j != i) {
+            let apart = [q[i] - q[j], q[n + i] - q[n + j]];
+            let square = apart[0] * apart[0] + apart[1] * apart[1] + 0.01;
+            let strength = -gamma[i] * gamma[j] / (2.0 * core::f64::consts::PI * square);
+            gradient[i].add(strength * apart[0]);
+            gradient[n + i].add(strength * apart[1]);
+        }
+    }
+    gradient
+}
+
+#[test]
+fn pairs_of_vortices() {
+    for n in SIZES {
+        let (system, q) = (Vortices { gamma: numbers(n, 1) }, numbers(2 * n, 2));
+        let mut gradient = vec![0.0; 2 * n];
+        system.hamiltonian_gradient(&q, 0.0, &mut gradient);
+        agree(&gradient, &vortices_by_hand(&system.gamma, &q), &format!("{n} vortices"));
+        lanes_agree(
+            &q,
+            |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
+            |q, out| system.hamiltonian_gradient(q, 0.0, out),
+        );
+    }
+}
+
+/// Masses in space that attract each other; of the generic type are the masses, integers the charges.
+#[lagrangian(
+    coordinates(x[m.len()], y[m.len()], z[m.len()]),
+    lagrangian = sum(0..m.len(), |j| m[j] * (dot(x[j]).powi(2) + dot(y[j]).powi(2) + dot(z[j]).powi(2)) / 2.0)
+        + sum_pairs(0..m.len(), |i, j| (m[i] * m[j] - charge[i] * charge[j])
+            / ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + (z[i] - z[j]).powi(2) + softening * softening).sqrt()),
+)]
+struct Bodies<P = f64> {
+    m: Box<[P]>,
+    charge: Vec<i32>,
+    softening: f64,
+}
+
+fn bodies(n: usize) -> Bodies {
+    let charge = (0..n).map(|j| (j % 5) as i32 - 2).collect();
+    Bodies { m: numbers(n, 3).into_iter().map(|m| 1.5 + m).collect(), charge, softening: 0.1 }
+}
+
+fn forces_by_hand(system: &Bodies, q: &[f64]) -> Vec<Sum> {
+    let n = system.m.len();
+    let mut forces = vec![Sum::default(); 3 * n];
+    for i in 0..n {
+        for j in (0..n).filter(|j| *j != i) {
+            let apart = [0, n, 2 * n].map(|block| q[block + j] - q[block + i]);
+            let square: f64 = apart.iter().map(|x| x * x).sum::<f64>() + system.softening.powi(2);
+            let charges = f64::from(system.charge[i] * system.charge[j]);
+            let strength = (system.m[i] * system.m[j] - charges) / (square * square.sqrt());
+            for (block, apart) in apart.into_iter().enumerate() {
+                forces[block * n + i].add(strength * apart);
+            }
+        }
+    }
+    forces
+}
+
+#[test]
+fn forces_between_bodies() {
+    for n in SIZES {
+        let (system, q, v) = (bodies(n), numbers(3 * n, 4), numbers(3 * n, 5));
+        let [mut force, mut momentum] = [vec![0.0; 3 * n], vec![0.0; 3 * n]];
+        system.gradient(&q, &v, 0.0, &mut force, &mut momentum);
+        agree(&force, &forces_by_hand(&system, &q), &format!("{n} bodies"));
+        let kinetic = v.iter().enumerate().map(|(i, v)| system.m[i % n] * v);
+        let expected: Vec<f64> = kinetic.collect();
+        assert!(momentum.iter().zip(&expected).all(|(a, b)| (a - b).abs() <= 1e-15 * b.abs()));
+        lanes_agree(
+            &q,
+            |q, out| {
+                let v: Vec<_> = v.iter().map(|v| Lanes::all(*v)).collect();
+                system.gradient(q, &v, Lanes::all(0.0), out, &mut vec![Lanes::all(0.0); 3 * n]);
+            },
+            |q, out| system.gradient(q, &v, 0.0, out, &mut vec![0.0; 3 * n]),
+        );
+    }
+}
+
+#[test]
+fn forces_between_bodies_with_masses_in_lanes() {
+    for n in SIZES {
+        let mass = |j: usize, lane: usize| 1.0 + 0.1 * (j + lane) as f64;
+        let masses = (0..n).map(|j| Varied(Lanes::<W>(core::array::from_fn(|lane| mass(j, lane)))));
+        let together = Bodies { m: masses.collect(), charge: vec![1; n], softening: 0.1 };
+        let q = numbers(3 * n, 6);
+        let packs: Vec<_> = q.iter().map(|q| Lanes::<W>::all(*q)).collect();
+        let [mut found, mut momentum] = [vec![Lanes::<W>::all(0.0); 3 * n], vec![Lanes::all(0.0); 3 * n]];
+        together.gradient(&packs, &packs, Lanes::all(0.0), &mut found, &mut momentum);
+        for lane in 0..W {
+            let alone =
+                Bodies { m: (0..n).map(|j| mass(j, lane)).collect(), charge: vec![1; n], softening: 0.1 };
+            let [mut expected, mut momentum] = [vec![0.0; 3 * n], vec![0.0; 3 * n]];
+            alone.gradient(&q, &q, 0.0, &mut expected, &mut momentum);
+            let same = found.iter().zip(&expected).all(|(pack, x)| pack.0[lane].to_bits() == x.to_bits());
+            assert!(same, "{n} bodies, lane {lane}");
+        }
+    }
+}
+
+/// One sum, with neighbours: entries beside that of the index, and parameters that begin elsewhere.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| y[j] * d(x[j])),
+    hamiltonian = sum(0..n, |j| (k[j + 2] * x[j] * x[j] + y[j] * y[j]) / 2.0) * sum(1..n, |j| x[j] * y[j - 1]),
+)]
+struct Products<'a> {
+    n: usize,
+    k: &'a [f32],
+}
+
+fn product_by_hand(system: &Products<'_>, q: &[f64]) -> (Vec<Sum>, f64) {
+    let n = system.n;
+    let k = |j: usize| f64::from(system.k[j + 2]);
+    let square: f64 = (0..n).map(|j| (k(j) * q[j] * q[j] + q[n + j] * q[n + j]) / 2.0).sum();
+    let product: f64 = (1..n).map(|j| q[j] * q[n + j - 1]).sum();
+    let mut gradient = vec![Sum::default(); 2 * n];
+    for j in 0..n {
+        gradient[j].add(k(j) * q[j] * product);
+        gradient[n + j].add(q[n + j] * product);
+        if j > 0 {
+            gradient[j].add(square * q[n + j - 1]);
+            gradient[n + j - 1].add(square * q[j]);
+        }
+    }
+    // The sums are known to rounding errors of their terms only.
+    for entry in &mut gradient {
+        entry.size += square * (n as f64);
+    }
+    (gradient, square * product)
+}
+
+#[test]
+fn sums_with_neighbours() {
+    let k: Vec<f32> = numbers(SIZES.end + 2, 7).into_iter().map(|k| k as f32 + 2.0).collect();
+    for n in SIZES {
+        let (system, q) = (Products { n, k: &k }, numbers(2 * n, 8));
+        let (expected, energy) = product_by_hand(&system, &q);
+        let mut gradient = vec![0.0; 2 * n];
+        system.hamiltonian_gradient(&q, 0.0, &mut gradient);
+        agree(&gradient, &expected, &format!("{n} terms"));
+        let found = system.hamiltonian(&q, 0.0);
+        assert!((found - energy).abs() <= 1e-14 * (n * n) as f64, "{n} terms: H = {found}, by hand {energy}");
+        lanes_agree(
+            &q,
+            |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
+            |q, out| system.hamiltonian_gradient(q, 0.0, out),
+        );
+    }
+}
+
+/// A number of terms that the compiler knows.
+#[degenerate_lagrangian(
+    coordinates(x[N], y[N]),
+    one_form = sum(0..N, |j| gamma[j] * y[j] * d(x[j])),
+    hamiltonian = -sum_pairs(0..N, |i, j| gamma[i] * gamma[j] / (4.0 * PI)
+        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
+)]
+struct FixedSize<P: Copy, const N: usize> {
+    gamma: [P; N],
+}
+
+fn fixed<const N: usize>() {
+    let q = numbers(2 * N, 9);
+    let system = FixedSize::<f64, N> { gamma: core::array::from_fn(|j| number(j + 17)) };
+    let mut gradient = vec![0.0; 2 * N];
+    system.hamiltonian_gradient(&q, 0.0, &mut gradient);
+    agree(&gradient, &vortices_by_hand(&system.gamma, &q), &format!("{N} vortices, as the compiler knows"));
+    lanes_agree(
+        &q,
+        |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
+        |q, out| system.hamiltonian_gradient(q, 0.0, out),
+    );
+}
+
+#[test]
+fn pairs_of_a_number_that_the_compiler_knows() {
+    fixed::<1>();
+    fixed::<8>();
+    fixed::<9>();
+    fixed::<16>();
+    fixed::<17>();
+    fixed::<31>();
+    fixed::<33>();
+}
+
+/// A run of many vortices is the same alone and in lanes, step by step.
+#[test]
+fn runs_of_many_vortices() -> Result<(), Box<dyn core::error::Error>> {
+    let n = 21;
+    let system = Vortices { gamma: numbers(n, 1).into_iter().map(|gamma| 1.2 + gamma).collect() };
+    let places = |seed| VorticesState { x: numbers(n, seed), y: numbers(n, seed + 1) };
+    let method = Sigma::midpoint();
+    let mut alone: Vec<_> = (0..W)
+        .map(|j| Integrator::new(&system, method.clone(), 0.01, places(10 * j)))
+        .collect::<Result<_, _>>()?;
+    let mut together: Vec<_> = (0..W)
+        .map(|j| Integrator::new(&system, method.clone(), 0.01, places(10 * j)))
+        .collect::<Result<_, _>>()?;
+    let results = dvi_core::run::Together::<W, _, _>::new(&together[0]).take_steps(&mut together, 50);
+    assert!(results.iter().all(Result::is_ok));
+    for (alone, together) in alone.iter_mut().zip(&together) {
+        alone.take_steps(50)?;
+        assert_eq!(alone.state(), together.state());
+    }
+    Ok(())
+}
