@@ -39,6 +39,21 @@ pub fn check_index(array: &'static str, index: i64, len: usize) -> Result<(), In
     }
 }
 
+/// Checks the indices from `first` to the one before `past`.
+///
+/// # Errors
+/// [`IndexError`] with the first of them that is not in 0..len.
+pub fn check_indices(array: &'static str, first: i64, past: i64, len: usize) -> Result<(), IndexError> {
+    if first >= past {
+        return Ok(());
+    }
+    check_index(array, first, len)?;
+    match usize::try_from(past) {
+        Ok(past) if past <= len => Ok(()),
+        _ => Err(IndexError { array, index: len as i64, len }),
+    }
+}
+
 /// The first argument of a function that leaves its domain.
 pub fn outside<const D: usize, T: Real>(
     arguments: &'static [Argument; D],

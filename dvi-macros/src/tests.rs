@@ -258,13 +258,12 @@ fn check_of_indices() {
         "check",
         &expect![[r#"
             fn check() {
-                for __i0 in (0usize)..(self.k.len()) {
-                    __private::check_index(
-                        "mass",
-                        (0i64 + 1i64 * (__i0 as i64)),
-                        self.mass.len(),
-                    )?;
-                }
+                __private::check_indices(
+                    "mass",
+                    (0i64),
+                    (0i64 + 1i64 * (self.k.len() as i64)),
+                    self.mass.len(),
+                )?;
                 ::core::result::Result::Ok(())
             }
         "#]],

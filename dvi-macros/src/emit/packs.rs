@@ -31,7 +31,7 @@ use crate::model::Shape;
 use crate::program::Place;
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
-use crate::symbolic::{Atom, Fold, Index, Loop, Node, Parameter, Unary};
+use crate::symbolic::{Fold, Loop, Node, Parameter, Unary};
 
 /// A range whose bounds are literals and that has fewer terms is not worth it.
 const FEWEST: i64 = 16;
@@ -67,7 +67,7 @@ impl Function<'_> {
                     let block = (*output, entry.block);
                     let is_new = !blocks.contains(&block);
                     blocks.push(block);
-                    is_new && follows(&entry.index, over.depth)
+                    is_new && entry.index.follows(over.depth)
                 }
                 Place::Result
                 | Place::MatrixEntry(..)
@@ -87,7 +87,7 @@ impl Function<'_> {
             | Instruction::Sum(_)
             | Instruction::Unary(Unary::Sqrt, _) => true,
             Instruction::Leaf(id) => match self.emitter.graph.node(*id) {
-                Node::Coordinate(entry) | Node::Velocity(entry) => follows(&entry.index, depth),
+                Node::Coordinate(entry) | Node::Velocity(entry) => entry.index.follows(depth),
                 Node::Parameter(parameter) => self.is_packed_parameter(parameter, depth),
                 _ => false,
             },
@@ -105,7 +105,7 @@ impl Function<'_> {
     fn is_packed_parameter(&self, parameter: &Parameter, depth: u32) -> bool {
         let known = &self.emitter.model.parameters[parameter.field as usize];
         let [index] = parameter.indices.as_slice() else { return false };
-        known.is_slice && matches!(known.shape, Shape::Array(..)) && follows(index, depth)
+        known.is_slice && matches!(known.shape, Shape::Array(..)) && index.follows(depth)
     }
 
     /// A loop, as packs and then what is left. `begin` and `over` are those of the loop term by term.
@@ -161,11 +161,4 @@ impl Function<'_> {
         });
         used
     }
-}
-
-/// Whether an index goes on by one with the index of the loop at `depth`.
-fn follows(index: &Index, depth: u32) -> bool {
-    let mentions = |atom: &Atom| Index::atom(atom.clone()).free().open & (1 << depth) != 0;
-    let mut with_it = index.terms.iter().filter(|(atom, _)| mentions(atom));
-    matches!((with_it.next(), with_it.next()), (Some((Atom::Open(_), 1)), None))
 }

@@ -29,6 +29,12 @@ struct Access {
     index: Index,
 }
 
+/// The length of an array, and the indices that it depends on.
+struct Length {
+    tokens: TokenStream,
+    free: Free,
+}
+
 struct Walk<'a> {
     emitter: &'a Emitter<'a>,
     seen: HashSet<Access>,
@@ -77,7 +83,8 @@ impl Walk<'_> {
                     let index = place.index(&c.index);
                     if !self.emitter.stays_inside(&index, &size, &place.loops) {
                         let length = self.emitter.index(&size);
-                        self.access(place, index.free(), block.name.to_string(), &length, &index);
+                        let length = Length { tokens: length, free: Free::default() };
+                        self.access(place, block.name.to_string(), &length, &index);
                     }
                 }
             }
@@ -87,8 +94,9 @@ impl Walk<'_> {
                 let mut free = Free::default();
                 for index in &p.indices {
                     let index = place.index(index);
+                    let length = Length { tokens: quote!(#tokens.len()), free };
+                    self.access(place, parameter.text.clone(), &length, &index);
                     free = free.and(index.free());
-                    self.access(place, free, parameter.text.clone(), &quote!(#tokens.len()), &index);
                     let index = self.emitter.index(&index);
                     tokens = quote!(#tokens[#index]);
                 }
@@ -100,10 +108,10 @@ impl Walk<'_> {
         }
     }
 
-    /// The check of one access. A loop around it that nothing in it depends on is no more than the condition
-    /// that it is not empty.
-    fn access(&mut self, place: &Place, free: Free, array: String, length: &TokenStream, index: &Index) {
-        let mut needed = free.open;
+    /// The check of one access. Where its index goes on by one in the innermost loop, the bounds of that are enough. A loop
+    /// around it that nothing in it depends on is no more than the condition that it is not empty.
+    fn access(&mut self, place: &Place, array: String, length: &Length, index: &Index) {
+        let mut needed = length.free.and(index.free()).open;
         let mut around: Vec<(&Loop, bool)> = Vec::new();
         for over in place.loops.iter().rev() {
             let is_needed = needed & (1 << over.depth) != 0;
@@ -116,9 +124,21 @@ impl Walk<'_> {
         if !self.seen.insert(Access { loops, array: array.clone(), index: index.clone() }) {
             return;
         }
-        let krate = self.emitter.krate();
-        let value = self.emitter.signed_index(index);
-        let mut tokens = quote!(#krate::__private::check_index(#array, #value, #length)?;);
+        let mut around = around.into_iter().peekable();
+        let run = around.next_if(|(over, is_needed)| {
+            let is_fixed = length.free.open & (1 << over.depth) == 0;
+            *is_needed && is_fixed && over.range.left_out().next().is_none() && index.follows(over.depth)
+        });
+        let (krate, length) = (self.emitter.krate(), &length.tokens);
+        let mut tokens = if let Some((over, _)) = run {
+            let [first, past] = [&over.range.lower, &over.range.upper].map(|bound| {
+                self.emitter.signed_index(&index.plus(&Index::open(over.depth), -1).plus(bound, 1))
+            });
+            quote!(#krate::__private::check_indices(#array, #first, #past, #length)?;)
+        } else {
+            let value = self.emitter.signed_index(index);
+            quote!(#krate::__private::check_index(#array, #value, #length)?;)
+        };
         for (over, is_needed) in around {
             tokens = if is_needed || over.range.left_out().next().is_some() {
                 self.emitter.loop_over(over, &tokens)

@@ -162,6 +162,13 @@ impl Index {
         self.terms.iter().filter(move |(atom, _)| !is_zero(atom))
     }
 
+    /// Whether this index goes on by one with that of the loop at `depth`.
+    pub(crate) fn follows(&self, depth: u32) -> bool {
+        let mut with_it =
+            self.terms.iter().filter(|(atom, _)| Self::atom(atom.clone()).free().open & (1 << depth) != 0);
+        matches!((with_it.next(), with_it.next()), (Some((Atom::Open(_), 1)), None))
+    }
+
     /// Whether no value of this index is negative, because nothing is subtracted in it.
     pub(crate) fn is_natural(&self) -> bool {
         self.constant >= 0 && self.terms.iter().all(|(_, coefficient)| *coefficient > 0)

@@ -323,26 +323,34 @@ fn the_rods_of_a_chain_are_checked() {
         hanging_chain(),
         "check",
         &expect![[r#"
-        fn check() {
-            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
-                __private::check_index("x", (0i64 + 1i64 * (__i0 as i64)), self.n)?;
-            }
-            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
-                __private::check_index("x", (1i64 + 1i64 * (__i0 as i64)), self.n)?;
-            }
-            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
-                __private::check_index("y", (0i64 + 1i64 * (__i0 as i64)), self.n)?;
-            }
-            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
-                __private::check_index(
+            fn check() {
+                __private::check_indices(
+                    "x",
+                    (0i64),
+                    (-1i64 + 1i64 * (self.n as i64)),
+                    self.n,
+                )?;
+                __private::check_indices(
+                    "x",
+                    (1i64),
+                    (0i64 + 1i64 * (self.n as i64)),
+                    self.n,
+                )?;
+                __private::check_indices(
+                    "y",
+                    (0i64),
+                    (-1i64 + 1i64 * (self.n as i64)),
+                    self.n,
+                )?;
+                __private::check_indices(
                     "rods",
-                    (0i64 + 1i64 * (__i0 as i64)),
+                    (0i64),
+                    (-1i64 + 1i64 * (self.n as i64)),
                     self.rods.len(),
                 )?;
+                ::core::result::Result::Ok(())
             }
-            ::core::result::Result::Ok(())
-        }
-    "#]],
+        "#]],
     );
 }
 

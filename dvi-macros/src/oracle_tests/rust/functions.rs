@@ -16,6 +16,7 @@ pub(super) enum Callee {
     Wrap,
     Remainder,
     CheckIndex,
+    CheckIndices,
     /// `__private::whole`
     Whole,
     /// `Sink::add`, of a dense matrix.
@@ -76,6 +77,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "__private", "wrap"] => Callee::Wrap,
         [.., "__private", "remainder"] => Callee::Remainder,
         [.., "__private", "check_index"] => Callee::CheckIndex,
+        [.., "__private", "check_indices"] => Callee::CheckIndices,
         [.., "__private", "whole"] => Callee::Whole,
         [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,

@@ -271,14 +271,14 @@ impl Machine<'_> {
                 let left_over = (integer(1) - integer(0)).max(0) % 2;
                 Ok(Value::Integer(integer(1) - left_over, Kind::Usize))
             }
-            Callee::CheckIndex => {
-                let (index, length) = (integer(1), integer(2));
-                Ok(if (0..length).contains(&index) {
-                    Value::Unit
-                } else {
+            Callee::CheckIndex | Callee::CheckIndices => {
+                let length = arguments[arguments.len() - 1].integer();
+                let past = if let Callee::CheckIndices = callee { integer(2) } else { integer(1) + 1 };
+                let outside = (integer(1)..past).find(|index| !(0..length).contains(index));
+                Ok(outside.map_or(Value::Unit, |index| {
                     let Value::Text(array) = &arguments[0] else { panic!("an array has a name") };
                     Value::Failure(format!("index {index} of `{array}`, of length {length}"))
-                })
+                }))
             }
             Callee::AddEntry => {
                 let Value::View { array, start, length } = arguments[0] else {
