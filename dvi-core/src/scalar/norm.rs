@@ -8,10 +8,25 @@ pub(crate) fn reported<T: Real>(value: T) -> f64 {
     nalgebra::convert_unchecked(value)
 }
 
+/// Where a vector has this many entries, it is worth to look at several at once.
+const MANY: usize = 32;
+
 /// maxᵢ |xᵢ|; an entry that is not a number does not count.
 #[inline(always)]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
-    x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)))
+    let of = |x: &[T]| x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)));
+    if x.len() < MANY {
+        return of(x);
+    }
+    // Eight do not wait for one another.
+    let (chunks, rest) = x.as_chunks::<8>();
+    let mut partial = [of(rest); 8];
+    for chunk in chunks {
+        for (largest, &x) in partial.iter_mut().zip(chunk) {
+            *largest = larger(*largest, Scalar::abs(x));
+        }
+    }
+    of(&partial)
 }
 
 /// Sets `mean` to (a + b)/2.

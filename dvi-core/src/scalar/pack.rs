@@ -7,7 +7,7 @@
 use core::marker::PhantomData;
 
 use crate::scalar::lanes::Lanes;
-use crate::scalar::simd::{self, Task};
+use crate::scalar::simd::widest_if;
 use crate::{Parameter, Real, Scalar};
 
 /// The number of terms in a pack, and of partial sums.
@@ -190,15 +190,5 @@ const FEW: usize = 32;
 /// What `body` returns; where it takes many numbers at once, it runs compiled for the widest instructions of the processor.
 #[inline(always)]
 pub fn widest<T: Scalar, R>(size: usize, body: impl FnOnce() -> R) -> R {
-    struct Body<F>(F);
-
-    impl<R, F: FnOnce() -> R> Task for Body<F> {
-        type Output = R;
-        #[inline(always)]
-        fn run(self) -> R {
-            (self.0)()
-        }
-    }
-
-    if T::Pack::WIDTH > 1 && size >= FEW { simd::widest(Body(body)) } else { body() }
+    widest_if(T::Pack::WIDTH > 1 && size >= FEW, body)
 }

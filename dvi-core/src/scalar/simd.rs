@@ -1,7 +1,6 @@
 //! The widest SIMD instructions that the processor has, chosen when a program runs.
 
-/// Something to do. A closure would do, if stable Rust could say that it is always to be inlined: what is not inlined is
-/// compiled for the instructions that all processors have.
+/// Something to do. What is not inlined is compiled for the instructions that all processors have.
 pub trait Task {
     /// What comes of it.
     type Output;
@@ -33,4 +32,20 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
 #[inline(always)]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     task.run()
+}
+
+/// Runs `body`, a closure that is `#[inline(always)]` where it is written; compiled as by [`widest`] if it is `worth_it`.
+#[inline(always)]
+pub(crate) fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
+    struct Body<F>(F);
+
+    impl<R, F: FnOnce() -> R> Task for Body<F> {
+        type Output = R;
+        #[inline(always)]
+        fn run(self) -> R {
+            (self.0)()
+        }
+    }
+
+    if worth_it { widest(Body(body)) } else { body() }
 }

@@ -21,16 +21,16 @@ const RESONANCE: f64 = 1e-4;
 pub(super) trait Coefficients<T: Real> {
     /// The weight of a node.
     fn weight(&self, node: usize) -> T;
-    /// b, b̄, B and B̄ of a node.
-    fn basis(&self, node: usize, coordinate: usize) -> Basis<T>;
-    /// The sums of the kinetic part.
-    fn sums(&self, coordinate: usize) -> Sums<T>;
+    /// b, b̄, B and B̄ of a node, coordinate by coordinate.
+    fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T>;
+    /// The sums of the kinetic part, coordinate by coordinate.
+    fn sums(&self) -> impl Fn(usize) -> Sums<T>;
 
     /// Sets `point` to qʲ and `velocity` to q̇ʲ of a node.
     fn place<S: System>(&self, node: usize, h: T, ends: Ends<'_, T>, at: &mut NodeWork<S, T>) {
-        let (Ends { q0, delta }, per_h) = (ends, T::lift(1.0) / h);
+        let (Ends { q0, delta }, per_h, basis) = (ends, T::lift(1.0) / h, self.bases(node));
         for i in 0..q0.len() {
-            let Basis { b, b_bar, d, d_bar } = self.basis(node, i);
+            let Basis { b, b_bar, d, d_bar } = basis(i);
             at.point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
             at.velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
         }
@@ -259,12 +259,14 @@ impl<T: Real> Coefficients<T> for Uniform<T> {
         self.weights[node]
     }
     #[inline(always)]
-    fn basis(&self, node: usize, _coordinate: usize) -> Basis<T> {
-        self.bases[node]
+    fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T> {
+        let basis = self.bases[node];
+        move |_| basis
     }
     #[inline(always)]
-    fn sums(&self, _coordinate: usize) -> Sums<T> {
-        self.sums
+    fn sums(&self) -> impl Fn(usize) -> Sums<T> {
+        let sums = self.sums;
+        move |_| sums
     }
 }
 
@@ -382,16 +384,13 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Coefficients<T> for Each<S, T> {
     fn weight(&self, node: usize) -> T {
         self.weights[node]
     }
-    fn basis(&self, node: usize, i: usize) -> Basis<T> {
-        Basis {
-            b: self.b[node][i],
-            b_bar: self.b_bar[node][i],
-            d: self.d[node][i],
-            d_bar: self.d_bar[node][i],
-        }
+    fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T> {
+        let [b, b_bar, d, d_bar] =
+            [&self.b, &self.b_bar, &self.d, &self.d_bar].map(|of_nodes| &of_nodes[node]);
+        move |i| Basis { b: b[i], b_bar: b_bar[i], d: d[i], d_bar: d_bar[i] }
     }
-    fn sums(&self, i: usize) -> Sums<T> {
-        let (left, right) = (self.left[i], self.right[i]);
-        Sums { mixed: self.mixed[i], left, right, inverse_kappa: self.inverse_kappa[i] }
+    fn sums(&self) -> impl Fn(usize) -> Sums<T> {
+        let Self { mixed, left, right, inverse_kappa, .. } = self;
+        move |i| Sums { mixed: mixed[i], left: left[i], right: right[i], inverse_kappa: inverse_kappa[i] }
     }
 }

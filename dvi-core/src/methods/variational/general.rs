@@ -64,7 +64,7 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
         trial.copy_from_slice(p);
         let ends = Ends { q0: q, delta: increment };
         l_d.derivatives(step.span(ends), trial, sum, statistics)?;
-        let inverse_kappa = Coefficients::<T>::sums(l_d.coefficients, 0).inverse_kappa;
+        let inverse_kappa = Coefficients::<T>::sums(l_d.coefficients)(0).inverse_kappa;
         mass.solve(trial, &mut l_d.node.velocity);
         let mut correction = T::lift(0.0);
         for (delta, &velocity) in increment.iter_mut().zip(l_d.node.velocity.iter()) {

@@ -218,9 +218,9 @@ fn add_derivatives<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, C: Adju
         let NodeWork { point, velocity, gradient, momentum } = &mut *work;
         step.system.gradient(point, velocity, step.node_time(c), gradient, momentum);
         statistics.gradients += 1;
-        let weight = coefficients.weight(node);
+        let (weight, basis) = (coefficients.weight(node), coefficients.bases(node));
         for (i, sum) in sum.iter_mut().enumerate() {
-            let Basis { b, b_bar, d, d_bar } = coefficients.basis(node, i);
+            let Basis { b, b_bar, d, d_bar } = basis(i);
             *sum += weight * (step.h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
         }
         add_first(coefficients, node, step.h, work, d1);
@@ -259,9 +259,9 @@ fn add_first<S: NondegenerateLagrangian<T>, C: Coefficients<T>, T: Real>(
     NodeWork { gradient, momentum, .. }: &NodeWork<S, T>,
     d1: &mut [T],
 ) {
-    let weight = coefficients.weight(node);
+    let (weight, basis) = (coefficients.weight(node), coefficients.bases(node));
     for (i, d1) in d1.iter_mut().enumerate() {
-        let Basis { b, d, .. } = coefficients.basis(node, i);
+        let Basis { b, d, .. } = basis(i);
         *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
     }
 }

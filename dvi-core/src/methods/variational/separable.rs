@@ -18,9 +18,10 @@ use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::{Arrival, PhasePoint};
 use crate::scalar::norm;
+use crate::scalar::simd::widest_if;
 use crate::solve::{Convergence, iterate};
 use crate::state::Statistics;
-use crate::{NondegenerateLagrangian, Real, Scalar, Space, Vector};
+use crate::{NondegenerateLagrangian, Real, Space, Vector};
 
 #[inline(always)]
 pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
@@ -40,15 +41,21 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
     } else {
         work
     };
-    match interpolation {
-        // Coefficients that change in each iteration belong into registers.
-        Interpolation::Uniform(_) if step.method.frequency.reading().is_some() => {
-            let coefficients = &mut Uniform::linear(&step.method.rule);
-            complete(step, coefficients, mass, phase, work, q, budget, statistics)
-        }
-        Interpolation::Uniform(uniform) => complete(step, uniform, mass, phase, work, q, budget, statistics),
-        Interpolation::Each(each) => complete(step, each, mass, phase, work, q, budget, statistics),
-    }
+    widest_if(
+        !<S::Space as Space>::ON_STACK,
+        #[inline(always)]
+        || match interpolation {
+            // Coefficients that change in each iteration belong into registers.
+            Interpolation::Uniform(_) if step.method.frequency.reading().is_some() => {
+                let coefficients = &mut Uniform::linear(&step.method.rule);
+                complete(step, coefficients, mass, phase, work, q, budget, statistics)
+            }
+            Interpolation::Uniform(uniform) => {
+                complete(step, uniform, mass, phase, work, q, budget, statistics)
+            }
+            Interpolation::Each(each) => complete(step, each, mass, phase, work, q, budget, statistics),
+        },
+    )
 }
 
 #[inline(always)]
@@ -65,14 +72,7 @@ fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjust
 ) -> Result<(), StepFailure> {
     let start = T::lift(0.0);
     let mut attempt = Attempt { step, coefficients, mass, phase, q, work, start, gradients: 0 };
-    let result = attempt.read_start().and_then(|()| {
-        if step.method.is_explicit() {
-            attempt.kick_drift_kick();
-            return Ok(());
-        }
-        attempt.solve(budget, statistics)?;
-        attempt.finish()
-    });
+    let result = attempt.run(budget, statistics);
     statistics.gradients += attempt.gradients;
     result?;
     let Work { node, next, increment, .. } = work;
@@ -96,6 +96,17 @@ struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
 impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
     Attempt<'_, S, F, R, C, T>
 {
+    #[inline(always)]
+    fn run(&mut self, budget: usize, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        self.read_start()?;
+        if self.step.method.is_explicit() {
+            self.kick_drift_kick();
+            return Ok(());
+        }
+        self.solve(budget, statistics)?;
+        self.finish()
+    }
+
     /// The coefficients, as far as the start of the step decides them.
     #[inline(always)]
     fn read_start(&mut self) -> Result<(), StepFailure> {
@@ -118,12 +129,17 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         self.phase.guess(Some(self.mass), &self.phase.p, self.step.h, &mut self.work.increment);
         let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
         let convergence = Convergence::fixed_point(self.step.method.stopping, scale, self.q, budget);
-        iterate(convergence, statistics, |_| {
-            if self.step.method.reads_both_ends() {
-                self.read_both_ends()?;
-            }
-            Ok(self.improve())
-        })?;
+        iterate(
+            convergence,
+            statistics,
+            #[inline(always)]
+            |_| {
+                if self.step.method.reads_both_ends() {
+                    self.read_both_ends()?;
+                }
+                Ok(self.improve())
+            },
+        )?;
         norm::finite(&self.work.increment)
     }
 
@@ -171,15 +187,17 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         }
         let Work { increment, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
         self.mass.solve(momentum, velocity);
-        let mut correction = T::lift(0.0);
-        for i in 0..self.q.len() {
-            let sums = self.coefficients.sums(i);
-            let residual = h * velocity[i] + sums.left * self.q[i] - sums.mixed * increment[i];
-            let change = residual * sums.inverse_kappa;
-            increment[i] += change;
-            correction = norm::larger(correction, Scalar::abs(change));
+        let sums = self.coefficients.sums();
+        for (i, ((velocity, delta), &q)) in
+            velocity.iter_mut().zip(increment.iter_mut()).zip(self.q).enumerate()
+        {
+            let sums = sums(i);
+            let residual = h * *velocity + sums.left * q - sums.mixed * *delta;
+            // It is of no use any more.
+            *velocity = residual * sums.inverse_kappa;
+            *delta += *velocity;
         }
-        correction
+        norm::largest(velocity)
     }
 
     /// Adds the impulse h w F(qʲ) of a node to `momentum`, times the factor that `share` picks.
@@ -193,16 +211,18 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         } else if c == 1.0 {
             gradient
         } else {
-            for i in 0..self.q.len() {
-                let Basis { b, b_bar, .. } = self.coefficients.basis(node, i);
-                point[i] = (b + b_bar) * self.q[i] + b_bar * increment[i];
+            let basis = self.coefficients.bases(node);
+            for (i, ((point, &q), &delta)) in point.iter_mut().zip(self.q).zip(increment.iter()).enumerate() {
+                let Basis { b, b_bar, .. } = basis(i);
+                *point = (b + b_bar) * q + b_bar * delta;
             }
             self.step.system.force(point, &[], self.step.node_time(c), trial);
             self.gradients += 1;
             trial
         };
+        let basis = self.coefficients.bases(node);
         for (i, (p, &f)) in momentum.iter_mut().zip(force).enumerate() {
-            *p += weight * share(self.coefficients.basis(node, i)) * f;
+            *p += weight * share(basis(i)) * f;
         }
     }
 
@@ -213,8 +233,11 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         self.kick_at(0.0);
         let Work { increment, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
         self.mass.solve(momentum, velocity);
-        for (i, (delta, &v)) in increment.iter_mut().zip(velocity.iter()).enumerate() {
-            *delta = self.step.h * v / self.coefficients.sums(i).mixed;
+        {
+            let (h, sums) = (self.step.h, self.coefficients.sums());
+            for (i, (delta, &v)) in increment.iter_mut().zip(velocity.iter()).enumerate() {
+                *delta = h * v / sums(i).mixed;
+            }
         }
         self.reach();
         self.kick_at(1.0);
@@ -233,8 +256,9 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         }
         let Work { next, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
         let point: &[T] = if c == 0.0 { self.q } else { next };
+        let sums = self.coefficients.sums();
         for (i, (v, &q)) in velocity.iter_mut().zip(point).enumerate() {
-            let sums = self.coefficients.sums(i);
+            let sums = sums(i);
             *v = if c == 0.0 { sums.left } else { sums.right } * q;
         }
         self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
@@ -254,8 +278,9 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         }
         if !F::UNFITTED {
             let Work { next, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
+            let sums = self.coefficients.sums();
             for i in 0..self.q.len() {
-                let sums = self.coefficients.sums(i);
+                let sums = sums(i);
                 velocity[i] = sums.left * self.q[i] + sums.right * next[i];
             }
             self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
