@@ -141,7 +141,8 @@ fn vortices() {
                                     let __r14 = (__private::parameters::<
                                         T,
                                         _,
-                                    >(&self.gamma, __i1) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
+                                    >(&self.gamma[..], __i1) * __r6)
+                                        / ((__r2 * __r2) + (__r11 * __r11));
                                     let __r15 = __r2 * __r14;
                                     let __r17 = __r11 * __r14;
                                     __private::subtract_from(__vector0, __i1, __r15);

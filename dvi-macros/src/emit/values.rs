@@ -153,7 +153,7 @@ impl Function<'_> {
         let indices = parameter.indices.iter().map(|index| self.emitter.index(index));
         let place = &name.tokens;
         if let Element::Pack = self.element {
-            return quote!(#krate::__private::parameters::<__T, _>(&#place, #(#indices)*));
+            return quote!(#krate::__private::parameters::<__T, _>(&#place[..], #(#indices)*));
         }
         let place = quote!(#place #([#indices])*);
         match &name.generic {

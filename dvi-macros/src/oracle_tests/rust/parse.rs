@@ -186,6 +186,9 @@ impl Parser {
             Expr::Field(field) => {
                 Code::Field(self.boxed(&field.base), field.member.to_token_stream().to_string())
             }
+            Expr::Index(index) if matches!(&*index.index, Expr::Range(all) if all.start.is_none() && all.end.is_none()) => {
+                self.expr(&index.expr)
+            }
             Expr::Index(index) => Code::Index(self.boxed(&index.expr), self.boxed(&index.index)),
             Expr::Unary(unary) => match unary.op {
                 UnOp::Neg(_) => Code::Negative(self.boxed(&unary.expr)),
