@@ -75,6 +75,7 @@
 //! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), on rotations and unit vectors (`Geodesic`), compositions, Gauss, Runge–Kutta |
 //! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
 //! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
+//! | `ensemble` | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
 //! | [`solve`] | how implicit steps are solved, and when they count as solved |
 //! | [`mechanics`] | the equations of motion, and what can be asked of a system at one state |
@@ -90,6 +91,7 @@
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
+//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `std`, `random` and `serde`.
 //! - `random` (default): methods with noise.
 //! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when
 //!   the program runs. Without it, those that the program is compiled for.
@@ -99,12 +101,16 @@
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+#[cfg(feature = "ensembles")]
+extern crate std;
 
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
 pub mod diagnostics;
 pub mod discrete;
+#[cfg(feature = "ensembles")]
+pub mod ensemble;
 pub mod error;
 pub mod field;
 pub mod guide;

@@ -16,7 +16,7 @@ mod constrained;
 mod holonomic;
 mod kind;
 mod manifold;
-mod names;
+pub(crate) mod names;
 mod nondegenerate;
 mod nonholonomic;
 mod report;

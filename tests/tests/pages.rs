@@ -44,6 +44,9 @@ fn the_readme_shows_the_examples() {
     let vortices = include_str!("../../dvi-core/examples/vortices.rs");
     let shown = format!("```rust,ignore\n{}\n```", excerpt(vortices, "/// Point vortices", "fn main"));
     assert!(README.contains(&shown), "the README should show the system of `vortices`:\n{shown}");
+    let ensemble = include_str!("../../dvi-core/examples/ensemble.rs");
+    let shown = format!("```rust,ignore\n{}\n```", excerpt(ensemble, "fn run(", "fn main"));
+    assert!(README.contains(&shown), "the README should show the function `run` of `ensemble`:\n{shown}");
 }
 
 #[test]

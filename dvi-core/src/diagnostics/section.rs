@@ -29,6 +29,18 @@ pub enum Direction {
     Either,
 }
 
+impl Direction {
+    /// Whether a function that goes from `a` to `b` crosses zero in this direction.
+    pub(crate) fn crosses<T: Real>(self, a: T, b: T) -> bool {
+        let zero = T::lift(0.0);
+        match self {
+            Self::Rising => a < zero && b >= zero,
+            Self::Falling => a > zero && b <= zero,
+            Self::Either => (a < zero && b >= zero) || (a > zero && b <= zero),
+        }
+    }
+}
+
 /// A point of a section.
 #[derive(Clone, Debug)]
 pub struct Crossing<S, T> {
@@ -149,12 +161,7 @@ impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
 
     fn crosses(&self, interval: usize) -> bool {
         let [a, b] = [interval, interval + 1].map(|i| self.values[(self.oldest + i) % WINDOW]);
-        let zero = R::Scalar::lift(0.0);
-        match self.direction {
-            Direction::Rising => a < zero && b >= zero,
-            Direction::Falling => a > zero && b <= zero,
-            Direction::Either => (a < zero && b >= zero) || (a > zero && b <= zero),
-        }
+        self.direction.crosses(a, b)
     }
 
     /// The times of the points since the oldest, in units of the newest step: whole numbers where all steps are alike.

@@ -1,0 +1,274 @@
+//! Ensembles: many runs of one method over all cores, from a table or a distribution of initial conditions or parameters.
+//!
+//! Each member has a record of its own: how its run has ended and when, its last state, its energies and momenta. A member that fails is
+//! recorded, and the others go on. The results are bit for bit the same for every number of threads and of lanes, whatever was
+//! interrupted and resumed, and whether the ensemble was run as a whole or in shards.
+//!
+//! ```
+//! use dvi_core::ensemble::{Draws, Ensemble, Outcome};
+//! use dvi_core::prelude::*;
+//!
+//! /// Hénon & Heiles 1964.
+//! #[lagrangian(
+//!     coordinates(x, y),
+//!     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0
+//!         - (x * x + y * y) / 2.0 - x * x * y + y.powi(3) / 3.0,
+//! )]
+//! #[derive(Debug, PartialEq)]
+//! struct HenonHeiles;
+//!
+//! let states = Draws::new(7).take(100, |draw| HenonHeilesState {
+//!     x: draw.normal(0.0, 0.2),
+//!     y: draw.normal(0.0, 0.2),
+//!     dot_x: draw.uniform(-0.5, 0.5),
+//!     dot_y: 0.0,
+//! });
+//! let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states)
+//!     .until(|_, state| (state.x.hypot(state.y) > 3.0).then_some("left the well"))
+//!     .in_lanes::<8>()
+//!     .take_steps(2000)?;
+//! let left = results.members().iter().filter(|member| matches!(member.outcome, Outcome::Exited { .. }));
+//! println!("{} of 100 have left", left.count());
+//! let mut table = Vec::new();
+//! results.write_csv(&mut table)?;
+//! # assert_eq!(results.members().len(), 100);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! All cores are those of the thread pool of rayon in which [`Ensemble::take_steps`] is called: `pool.install(|| …)` takes another, and
+//! the environment variable `RAYON_NUM_THREADS` sets the number of threads of the usual one.
+//!
+//! # Checkpoints and shards
+//!
+//! With [`Ensemble::checkpoints`] a run that was killed goes on where it was: begin it again. With [`Ensemble::shard`] several processes
+//! share the members. Each writes a checkpoint, which holds its results in the end; [`Results::read`] and [`Results::merge`] put them
+//! together:
+//!
+//! ```no_run
+//! use dvi_core::ensemble::{Results, Shard};
+//!
+//! let shards = (0..8).map(|index| Results::read(Shard::new(index, 8)?.path("run.ckpt")).map_err(Into::into));
+//! let whole = Results::merge(shards.collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?)?;
+//! whole.write_csv(std::fs::File::create("run.csv")?)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod draws;
+mod error;
+mod file;
+mod group;
+mod growth;
+mod lanes;
+mod member;
+mod plan;
+mod results;
+mod rounds;
+mod settings;
+mod shard;
+mod table;
+
+use std::borrow::ToOwned;
+use std::boxed::Box;
+use std::fmt;
+use std::format;
+use std::path::Path;
+use std::time::Duration;
+
+use crate::Lagrangian;
+use crate::diagnostics::{Direction, LyapunovExponent};
+use crate::discrete::TwiceDifferentiable;
+use crate::methods::{InStep, Method, VariationalMethod};
+use crate::run::Together;
+use plan::Plan;
+use rounds::{Checkpoints, Rounds};
+use settings::{Settings, Systems};
+
+pub use draws::{Draw, Draws};
+pub use error::{Difference, EnsembleError, MergeError};
+pub use member::{Energy, Member, Outcome};
+pub use results::Results;
+pub use shard::{Shard, ShardError};
+pub use table::{Table, TableError};
+
+type Tell<'a> = Box<dyn FnMut(&Progress) + Send + 'a>;
+
+/// Runs from many states, or on many systems.
+#[must_use = "an ensemble does nothing before `take_steps`"]
+pub struct Ensemble<'a, S: Lagrangian, M: Method<S, f64>> {
+    settings: Settings<'a, S, M>,
+    shard: Shard,
+    checkpoints: Option<Checkpoints>,
+    on_progress: Option<Tell<'a>>,
+}
+
+/// How far an ensemble, or a shard of one, has got.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Progress {
+    /// The members.
+    pub members: u64,
+    /// Those that have taken all steps.
+    pub finished: u64,
+    /// Those that have left.
+    pub exited: u64,
+    /// Those that have failed.
+    pub failed: u64,
+    /// The steps that all members together have taken.
+    pub steps: u128,
+}
+
+impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
+    /// Runs on one system from each of the `states`, at time 0 and with step `h`, which may be negative.
+    pub fn new(system: &'a S, method: M, h: f64, states: impl IntoIterator<Item = S::State<f64>>) -> Self {
+        Self::of(Systems::Same(system), method, h, states)
+    }
+
+    /// Runs on a system for each of the `states`, such as one with parameters from a table.
+    pub fn with_systems(
+        systems: &'a [S],
+        method: M,
+        h: f64,
+        states: impl IntoIterator<Item = S::State<f64>>,
+    ) -> Self {
+        Self::of(Systems::Each(systems), method, h, states)
+    }
+
+    fn of(
+        systems: Systems<'a, S>,
+        method: M,
+        h: f64,
+        states: impl IntoIterator<Item = S::State<f64>>,
+    ) -> Self {
+        let settings = Settings {
+            systems,
+            states: states.into_iter().collect(),
+            method,
+            vary: None,
+            h,
+            stride: 100,
+            exit: None,
+            section: None,
+            packs: None,
+            growth: None,
+            texts: None,
+        };
+        Self { settings, shard: Shard::WHOLE, checkpoints: None, on_progress: None }
+    }
+
+    /// Changes the method of each member by its number: `Langevin` needs a seed of its own in each, for else all have the same noise.
+    pub fn vary_method(mut self, vary: impl Fn(u64, &mut M) + Send + Sync + 'a) -> Self {
+        self.settings.vary = Some(Box::new(vary));
+        self
+    }
+
+    /// Looks at each member every `steps` steps, at its start and at its end: at the energy, the exit condition and the section. It is 100
+    /// if nothing else is said. What happens between two looks is not seen.
+    pub fn stride(mut self, steps: u64) -> Self {
+        self.settings.stride = steps;
+        self
+    }
+
+    /// Ends the run of a member when `exit` gives a reason, such as "left the region". It is asked every [`stride`](Self::stride) steps,
+    /// and the first time at the start.
+    pub fn until(
+        mut self,
+        exit: impl Fn(&S, &S::State<f64>) -> Option<&'static str> + Send + Sync + 'a,
+    ) -> Self {
+        self.settings.exit = Some(Box::new(exit));
+        self
+    }
+
+    /// Counts how often each member crosses the section g = 0, by the signs of `g` at the [looks](Self::stride): with a stride of one,
+    /// from step to step. The points of a section are those of [`Section`](crate::diagnostics::Section).
+    pub fn section(
+        mut self,
+        direction: Direction,
+        g: impl Fn(&S, &S::State<f64>) -> f64 + Send + Sync + 'a,
+    ) -> Self {
+        self.settings.section = Some((direction, Box::new(g)));
+        self
+    }
+
+    /// Computes the [largest Lyapunov exponent](LyapunovExponent) of each member over its run. Members then go alone, not in lanes.
+    pub fn exponents<L>(mut self) -> Self
+    where
+        M: VariationalMethod<S, f64, DiscreteLagrangian = L>,
+        L: TwiceDifferentiable<S, f64> + 'a,
+    {
+        self.settings.growth = Some(|run| Box::new(LyapunovExponent::new(run)));
+        self
+    }
+
+    /// Takes `W` members at a time in lanes, as [`Together`] does: members of equal systems, which are neighbours in their shard. It is
+    /// faster, and the results are the same.
+    pub fn in_lanes<const W: usize>(mut self) -> Self
+    where
+        S: PartialEq,
+        M: InStep<W, S, Packs: 'a> + PartialEq + 'a,
+    {
+        const { assert!(W > 0, "a pack has at least one lane") };
+        self.settings.packs = Some((W, |run| Box::new(Together::<W, S, M>::new(run))));
+        self
+    }
+
+    /// Writes a checkpoint to `path` about `every` so often, and at the end; goes on from it if it is there. A shard has a file of its
+    /// own, [`Shard::path`]. The file is replaced as a whole, so that a process that is killed, at whatever moment, leaves a good one. Only
+    /// one process at a time may use it.
+    ///
+    /// A checkpoint of another ensemble is an error that says in what it differs. Initial states are compared by their bits, the method
+    /// and the systems by what [`Debug`](fmt::Debug) says of them; so that must show all parameters, and be the same in each process,
+    /// which the address of a function is not. Exit conditions and sections are functions, which cannot be compared: remove the file
+    /// when they change.
+    pub fn checkpoints(mut self, path: impl AsRef<Path>, every: Duration) -> Self
+    where
+        S: fmt::Debug,
+        M: fmt::Debug,
+    {
+        self.settings.texts = Some((|method| format!("{method:?}"), |system| format!("{system:?}")));
+        self.checkpoints = Some(Checkpoints { path: path.as_ref().to_owned(), every });
+        self
+    }
+
+    /// Takes the members of a shard only. All shards are given all states.
+    pub fn shard(mut self, shard: Shard) -> Self {
+        self.shard = shard;
+        self
+    }
+
+    /// Calls `tell` at the start, about once in a second, and at the end: from one thread, and never twice at once.
+    pub fn on_progress(mut self, tell: impl FnMut(&Progress) + Send + 'a) -> Self {
+        self.on_progress = Some(Box::new(tell));
+        self
+    }
+
+    /// Takes up to `count` steps of each member.
+    ///
+    /// # Errors
+    /// [`EnsembleError`] if the ensemble makes no sense, or its checkpoint cannot be written or is not its own. Members that fail are no
+    /// error: their [`Outcome`] says so.
+    pub fn take_steps(mut self, count: u64) -> Result<Results, EnsembleError>
+    where
+        S: Sync,
+        S::State<f64>: Sync,
+        M: Clone + Sync,
+    {
+        let plan = Plan::new(&self.settings, count)?;
+        if let Some(checkpoints) = &mut self.checkpoints {
+            checkpoints.path = self.shard.path(&checkpoints.path);
+        }
+        let checkpoints = self.checkpoints.as_ref();
+        let rounds = Rounds::begin(plan, self.shard, count, checkpoints)?;
+        rounds.run(&self.settings, checkpoints, self.on_progress)
+    }
+}
+
+impl<S: Lagrangian, M: Method<S, f64> + fmt::Debug> fmt::Debug for Ensemble<'_, S, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Ensemble")
+            .field("system", &S::REPORT.system)
+            .field("method", &self.settings.method)
+            .field("members", &self.settings.states.len())
+            .field("shard", &self.shard)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,124 @@
+//! What keeps an ensemble from running, and shards from being put together.
+
+use std::io;
+use std::path::PathBuf;
+use std::string::String;
+
+use thiserror::Error;
+
+use super::Shard;
+use crate::error::StartError;
+
+/// An ensemble that cannot run. The failure of a member is none: it is the [`Outcome`](super::Outcome) of that member.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EnsembleError {
+    /// The step is zero, infinite or not a number.
+    #[error("the step h = {h} must be finite and different from zero")]
+    Step {
+        /// The step that was given.
+        h: f64,
+    },
+    /// The stride is zero.
+    #[error("the stride must be at least one step")]
+    Stride,
+    /// There is not one system for each state.
+    #[error("there are {systems} systems for {states} states")]
+    Systems {
+        /// The number of systems.
+        systems: usize,
+        /// The number of states.
+        states: usize,
+    },
+    /// The systems differ in the sizes of their arrays, and their states do not go into one table.
+    #[error("the system of member {member} has another number of coordinates than that of member 0")]
+    Shape {
+        /// The member.
+        member: usize,
+    },
+    /// The file of a checkpoint cannot be read or written.
+    #[error("{}: {source}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: io::Error,
+    },
+    /// The file is no checkpoint, or not all of one.
+    #[error("{} is no whole checkpoint of an ensemble: {reason}", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: &'static str,
+    },
+    /// The file is a checkpoint of another ensemble. To begin anew, remove it.
+    #[error("{} is the checkpoint of another ensemble: {difference}", .path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What differs.
+        difference: Difference,
+    },
+    /// A member cannot go on from its checkpoint.
+    #[error("member {member} cannot go on from its checkpoint: {error}")]
+    Resume {
+        /// The member.
+        member: u64,
+        /// Why.
+        error: StartError,
+    },
+    /// The checkpoint has no results yet.
+    #[error("{} has the results of {ended} members only: {members} belong to it", .path.display())]
+    UnderWay {
+        /// The file.
+        path: PathBuf,
+        /// The members that have ended.
+        ended: usize,
+        /// Those of the shard.
+        members: usize,
+    },
+}
+
+/// In what two ensembles differ.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("its {what} is `{found}`, and `{expected}` is expected")]
+pub struct Difference {
+    /// What it is.
+    pub what: String,
+    /// What is expected.
+    pub expected: String,
+    /// What is found instead. Numbers in hexadecimal digits are fingerprints.
+    pub found: String,
+}
+
+/// Shards whose results are not those of one ensemble.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum MergeError {
+    /// There are no shards.
+    #[error("there are no results to put together")]
+    Nothing,
+    /// The shards are those of different ensembles.
+    #[error("shard {shard} belongs to another ensemble: {difference}")]
+    Foreign {
+        /// The shard.
+        shard: Shard,
+        /// What differs.
+        difference: Difference,
+    },
+    /// A member occurs more than once.
+    #[error("member {member} occurs more than once: a shard was given twice, or shards overlap")]
+    Twice {
+        /// The first such member.
+        member: u64,
+    },
+    /// A member does not occur.
+    #[error("member {member} of {members} is missing: not all shards were given")]
+    Missing {
+        /// The first such member.
+        member: u64,
+        /// The number of members of the ensemble.
+        members: u64,
+    },
+}

@@ -1,0 +1,183 @@
+//! What is known of a member at the end of its run.
+
+use serde::{Deserialize, Serialize};
+use std::string::String;
+use std::vec::Vec;
+
+use super::settings::Settings;
+use crate::methods::Method;
+use crate::run::{Integrator, Run};
+use crate::system::names::entries;
+use crate::{Lagrangian, Space, State, System};
+
+/// The record of one member.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Member {
+    /// Its number, counted from 0, in the order of the states.
+    pub number: u64,
+    /// How its run has ended.
+    pub outcome: Outcome,
+    /// The time that it has reached: the last, that of the exit, or that of the last good state before a failure.
+    pub time: f64,
+    /// The steps that it has completed.
+    pub steps: u64,
+    /// The iterations of nonlinear solvers.
+    pub iterations: u64,
+    /// The last good state, in the order of [`System::names`].
+    pub state: Vec<f64>,
+    /// Its energy.
+    pub energy: Energy,
+    /// The first and the last value of each declared momentum.
+    pub momenta: Vec<[f64; 2]>,
+    /// The largest Lyapunov exponent, if it is [asked for](super::Ensemble::exponents); none before the first step.
+    pub exponent: Option<f64>,
+    /// How often it has crossed the [section](super::Ensemble::section); zero if there is none.
+    pub crossings: u64,
+}
+
+/// How the run of a member has ended.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Outcome {
+    /// It has taken all steps.
+    Finished,
+    /// The [exit condition](super::Ensemble::until) held.
+    Exited {
+        /// What it said.
+        reason: String,
+    },
+    /// It could not begin, or a step has failed.
+    Failed {
+        /// The text of the error.
+        error: String,
+    },
+}
+
+/// The energy of a member, looked at every [`stride`](super::Ensemble::stride) steps.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// At the start.
+    pub first: f64,
+    /// In the last good state.
+    pub last: f64,
+    /// The largest |E − E₀| that was seen; not a number if one was not.
+    pub largest_error: f64,
+}
+
+/// What is seen of a run that is under way.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Seen {
+    energy: Energy,
+    first_momenta: Vec<f64>,
+    /// The value of the section function.
+    section: Option<f64>,
+    crossings: u64,
+}
+
+impl Seen {
+    /// What is seen at the start of a run.
+    pub(super) fn first<S: Lagrangian, M: Method<S, f64>>(run: &Integrator<'_, S, M>) -> Self {
+        let energy = plain(run.energy());
+        Self {
+            energy: Energy { first: energy, last: energy, largest_error: 0.0 },
+            first_momenta: run.momenta().map(|(_, value)| plain(value)).collect(),
+            section: None,
+            crossings: 0,
+        }
+    }
+
+    /// Looks at a run: the reason to leave, if there is one.
+    pub(super) fn look<S: Lagrangian, M: Method<S, f64>>(
+        &mut self,
+        settings: &Settings<'_, S, M>,
+        run: &Integrator<'_, S, M>,
+    ) -> Option<&'static str> {
+        self.energy = self.energy.with(run.energy());
+        if settings.exit.is_none() && settings.section.is_none() {
+            return None;
+        }
+        let state = run.state();
+        if let Some((direction, section)) = &settings.section {
+            let now = plain(section(run.system(), &state));
+            let crosses = self.section.is_some_and(|before| direction.crosses(before, now));
+            self.crossings += u64::from(crosses);
+            self.section = Some(now);
+        }
+        settings.exit.as_ref().and_then(|exit| exit(run.system(), &state))
+    }
+
+    /// The record of a run that has ended.
+    pub(super) fn member<S: Lagrangian, M: Method<S, f64>>(
+        self,
+        number: u64,
+        run: &Integrator<'_, S, M>,
+        exponent: Option<f64>,
+        outcome: Outcome,
+    ) -> Member {
+        let (q, statistics) = (run.q(), run.statistics());
+        let last_momenta = run.momenta().map(|(_, value)| plain(value));
+        Member {
+            number,
+            outcome,
+            time: run.time(),
+            steps: statistics.steps,
+            iterations: statistics.iterations,
+            state: run.stepper().with_velocity(run.time(), |v| flat(run.system(), q, v)),
+            energy: self.energy.with(run.energy()),
+            momenta: self.first_momenta.into_iter().zip(last_momenta).map(Into::into).collect(),
+            exponent: exponent.map(plain),
+            crossings: self.crossings,
+        }
+    }
+}
+
+impl Energy {
+    fn with(self, now: f64) -> Self {
+        let (last, error) = (plain(now), plain((now - self.first).abs()));
+        let is_larger = error > self.largest_error || error.is_nan();
+        Self { last, largest_error: if is_larger { error } else { self.largest_error }, ..self }
+    }
+}
+
+impl Member {
+    /// A member whose run could not begin. Its state is the initial one, if that has the right shape.
+    pub(super) fn without_run<S: Lagrangian>(
+        number: u64,
+        system: &S,
+        state: &S::State<f64>,
+        error: String,
+    ) -> Self {
+        let (mut q, mut v) = (system.space().vector(), system.space().vector());
+        if state.write(|block| system.block_len(block), &mut q, &mut v).is_err() {
+            q.fill(f64::NAN);
+            v.fill(f64::NAN);
+        }
+        let none = f64::NAN;
+        Self {
+            number,
+            outcome: Outcome::Failed { error },
+            time: 0.0,
+            steps: 0,
+            iterations: 0,
+            state: flat(system, &q, &v),
+            energy: Energy { first: none, last: none, largest_error: none },
+            momenta: S::REPORT.momenta.iter().map(|_| [none; 2]).collect(),
+            exponent: None,
+            crossings: 0,
+        }
+    }
+}
+
+/// The entries of a state, in the order of the names.
+fn flat<S: System>(system: &S, q: &[f64], v: &[f64]) -> Vec<f64> {
+    entries(system)
+        .map(|(name, place)| if name.is_velocity { v[place] } else { q[place] })
+        .map(plain)
+        .collect()
+}
+
+/// The number, or the one bit pattern that stands for all that are none: which of them an operation yields differs from instruction to
+/// instruction.
+pub(super) fn plain(x: f64) -> f64 {
+    if x.is_nan() { f64::NAN } else { x }
+}

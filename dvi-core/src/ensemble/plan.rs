@@ -1,0 +1,189 @@
+//! What tells one ensemble from another: results and checkpoints belong to one plan.
+
+use std::format;
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+use serde::{Deserialize, Serialize};
+
+use super::error::{Difference, EnsembleError};
+use super::member::plain;
+use super::settings::{Settings, Systems};
+use crate::methods::Method;
+use crate::{Lagrangian, Space, State};
+
+/// What an ensemble computes, as texts and fingerprints, and what its table looks like.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Plan {
+    /// Each with what it is.
+    facts: Vec<(String, String)>,
+    pub(super) members: u64,
+    /// The names of the entries of a state.
+    pub(super) names: Vec<String>,
+    /// The names of the declared momenta.
+    pub(super) momenta: Vec<String>,
+    pub(super) has_exponents: bool,
+    pub(super) has_section: bool,
+}
+
+impl Plan {
+    pub(super) fn new<S: Lagrangian, M: Method<S, f64> + Clone>(
+        settings: &Settings<'_, S, M>,
+        steps: u64,
+    ) -> Result<Self, EnsembleError> {
+        let Settings { h, stride, ref states, ref section, .. } = *settings;
+        let names = names(settings)?;
+        if !h.is_finite() || h == 0.0 {
+            return Err(EnsembleError::Step { h });
+        }
+        if stride == 0 {
+            return Err(EnsembleError::Stride);
+        }
+        let [starts, systems] = fingerprints(settings);
+        let method_text = |method: &M| settings.texts.map_or_else(String::new, |(text, _)| text(method));
+        let mut varied = Fingerprint::new();
+        if settings.vary.is_some() {
+            (0..states.len() as u64).for_each(|number| varied.text(&method_text(&settings.method(number))));
+        }
+        let direction = section.as_ref().map(|(direction, _)| direction);
+        let facts = [
+            ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
+            ("system", S::REPORT.system.to_string()),
+            ("number of members", states.len().to_string()),
+            ("list of coordinates", names.join(" ")),
+            ("fingerprint of the formulas", formulas::<S>()),
+            ("fingerprint of the parameters", systems),
+            ("fingerprint of the initial states", starts),
+            ("method", method_text(&settings.method)),
+            ("fingerprint of the methods of members", varied.to_string()),
+            ("step h", format!("{h:?}")),
+            ("number of steps", steps.to_string()),
+            ("stride", stride.to_string()),
+            ("exit condition", settings.exit.is_some().to_string()),
+            ("section", format!("{direction:?}")),
+            ("Lyapunov exponent", settings.growth.is_some().to_string()),
+        ];
+        Ok(Self {
+            facts: facts.into_iter().map(|(what, value)| (what.to_string(), value)).collect(),
+            members: states.len() as u64,
+            names,
+            momenta: S::REPORT.momenta.iter().map(|&name| name.into()).collect(),
+            has_exponents: settings.growth.is_some(),
+            has_section: section.is_some(),
+        })
+    }
+
+    /// The first thing in which `found` differs.
+    pub(super) fn difference(&self, found: &Self) -> Option<Difference> {
+        let differ = self.facts.iter().zip(&found.facts).find(|(expected, found)| expected != found);
+        let difference = differ.map(|((what, expected), (_, found))| Difference {
+            what: what.clone(),
+            expected: expected.clone(),
+            found: found.clone(),
+        });
+        difference.or_else(|| {
+            (self != found).then(|| Difference {
+                what: "layout".to_string(),
+                expected: format!("{} facts", self.facts.len()),
+                found: format!("{} facts", found.facts.len()),
+            })
+        })
+    }
+}
+
+/// The names of the entries of a state, which are the same for all members.
+fn names<S: Lagrangian, M: Method<S, f64>>(
+    settings: &Settings<'_, S, M>,
+) -> Result<Vec<String>, EnsembleError> {
+    let of = |system: &S| system.names().map(|name| name.to_string()).collect::<Vec<_>>();
+    match settings.systems {
+        Systems::Same(system) => Ok(of(system)),
+        Systems::Each(systems) => {
+            let states = settings.states.len();
+            if systems.len() != states {
+                return Err(EnsembleError::Systems { systems: systems.len(), states });
+            }
+            let Some(first) = systems.first() else { return Ok(Vec::new()) };
+            let sizes = |system: &S| -> Vec<usize> {
+                (0..S::REPORT.coordinates.len()).map(|block| system.block_len(block)).collect()
+            };
+            let expected = sizes(first);
+            match systems.iter().position(|system| sizes(system) != expected) {
+                Some(member) => Err(EnsembleError::Shape { member }),
+                None => Ok(of(first)),
+            }
+        }
+    }
+}
+
+fn formulas<S: Lagrangian>() -> String {
+    let mut fingerprint = Fingerprint::new();
+    for formula in S::REPORT.formulas {
+        fingerprint.text(formula.name);
+        fingerprint.text(formula.text);
+    }
+    fingerprint.to_string()
+}
+
+/// Those of the initial states and of the systems.
+fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>) -> [String; 2] {
+    let (mut starts, mut systems) = (Fingerprint::new(), Fingerprint::new());
+    for (member, state) in settings.states.iter().enumerate() {
+        let system = settings.system(member);
+        let (mut q, mut v) = (system.space().vector(), system.space().vector());
+        match state.write(|block| system.block_len(block), &mut q, &mut v) {
+            Ok(()) => [&q, &v].into_iter().flat_map(|half| half.iter()).for_each(|&x| starts.number(x)),
+            Err(error) => starts.text(&error.to_string()),
+        }
+        if member > 0 && matches!(settings.systems, Systems::Same(_)) {
+            continue;
+        }
+        match settings.texts {
+            Some((_, text)) => systems.text(&text(system)),
+            // What the parameters do, where they are not asked what they are.
+            None if system.check().is_ok() => {
+                systems.number(system.energy(&q, &v, 0.0));
+                let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
+                system.gradient(&q, &v, 0.0, &mut l_q, &mut l_v);
+                l_q.iter().chain(l_v.iter()).for_each(|&x| systems.number(x));
+            }
+            None => {}
+        }
+    }
+    [starts.to_string(), systems.to_string()]
+}
+
+/// A hash of 64 bits, FNV-1a: it tells mistakes apart, not attacks.
+pub(super) struct Fingerprint(u64);
+
+impl Fingerprint {
+    pub(super) fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    pub(super) fn bytes(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    pub(super) fn value(&self) -> u64 {
+        self.0
+    }
+
+    fn text(&mut self, text: &str) {
+        self.bytes(text.as_bytes());
+        // No text has this byte, so that two of them are told from one.
+        self.bytes(&[0xff]);
+    }
+
+    fn number(&mut self, x: f64) {
+        self.bytes(&plain(x).to_bits().to_le_bytes());
+    }
+}
+
+impl core::fmt::Display for Fingerprint {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}

@@ -1,0 +1,140 @@
+//! An ensemble on all cores, round after round. Between two rounds nobody else is at work: then checkpoints are written, and progress is
+//! told.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use std::vec::Vec;
+
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
+
+use super::error::EnsembleError;
+use super::file;
+use super::group::{Place, Slot};
+use super::plan::Plan;
+use super::settings::Settings;
+use super::{Outcome, Progress, Results, Shard};
+use crate::Lagrangian;
+use crate::methods::Method;
+
+/// How often progress is told.
+const PROGRESS: Duration = Duration::from_secs(1);
+
+/// The file of a checkpoint, and how often it is written.
+pub(super) struct Checkpoints {
+    pub(super) path: PathBuf,
+    pub(super) every: Duration,
+}
+
+/// The members of a shard, and how far they have got.
+pub(super) struct Rounds {
+    pub(super) plan: Plan,
+    pub(super) shard: Shard,
+    pub(super) steps: u64,
+    pub(super) slots: Vec<Slot>,
+}
+
+impl Rounds {
+    /// Those that wait, or as the checkpoint has left them.
+    pub(super) fn begin(
+        plan: Plan,
+        shard: Shard,
+        steps: u64,
+        checkpoints: Option<&Checkpoints>,
+    ) -> Result<Self, EnsembleError> {
+        let saved = checkpoints.map(|Checkpoints { path, .. }| Ok((path, file::read(path)?))).transpose()?;
+        let Some((path, Some(saved))) = saved else {
+            let slots =
+                (0..plan.members).filter(|&member| shard.contains(member)).map(Slot::waiting).collect();
+            return Ok(Self { plan, shard, steps, slots });
+        };
+        let of_shard = super::error::Difference {
+            what: "shard".into(),
+            expected: std::format!("{shard}"),
+            found: std::format!("{}", saved.shard()),
+        };
+        let other_shard = (saved.shard() != shard).then_some(of_shard);
+        match plan.difference(&saved.plan).or(other_shard) {
+            Some(difference) => Err(EnsembleError::Foreign { path: path.clone(), difference }),
+            None => Ok(Self { plan, shard, steps, slots: saved.slots }),
+        }
+    }
+
+    /// Goes on until all members have ended.
+    pub(super) fn run<S, M>(
+        mut self,
+        settings: &Settings<'_, S, M>,
+        checkpoints: Option<&Checkpoints>,
+        mut on_progress: Option<impl FnMut(&Progress)>,
+    ) -> Result<Results, EnsembleError>
+    where
+        S: Lagrangian + Sync,
+        S::State<f64>: Sync,
+        M: Method<S, f64> + Clone + Sync,
+    {
+        // A path that cannot be written to shows before the work is done.
+        self.write(checkpoints)?;
+        let mut written = Instant::now();
+        while !self.have_ended() {
+            self.tell(&mut on_progress);
+            let rest = checkpoints.map(|checkpoints| checkpoints.every.saturating_sub(written.elapsed()));
+            let length = on_progress.as_ref().map(|_| PROGRESS).into_iter().chain(rest).min();
+            self.round(settings, length)?;
+            if checkpoints.is_some_and(|checkpoints| written.elapsed() >= checkpoints.every) {
+                self.write(checkpoints)?;
+                written = Instant::now();
+            }
+        }
+        self.write(checkpoints)?;
+        self.tell(&mut on_progress);
+        Ok(Results::of(self.plan, self.shard, self.slots))
+    }
+
+    /// Takes members on until they have ended or, if the round has a `length`, it is over. In each round at least one of them gets on.
+    fn round<S, M>(
+        &mut self,
+        settings: &Settings<'_, S, M>,
+        length: Option<Duration>,
+    ) -> Result<(), EnsembleError>
+    where
+        S: Lagrangian + Sync,
+        S::State<f64>: Sync,
+        M: Method<S, f64> + Clone + Sync,
+    {
+        let begin = Instant::now();
+        let is_over = || length.is_some_and(|length| begin.elapsed() >= length);
+        let has_begun = AtomicBool::new(false);
+        let steps = self.steps;
+        self.slots.par_chunks_mut(settings.group()).with_max_len(1).try_for_each(|group| {
+            if group.iter().all(Slot::has_ended) || (has_begun.swap(true, Ordering::Relaxed) && is_over()) {
+                return Ok(());
+            }
+            settings.advance(group, steps, is_over)
+        })
+    }
+
+    fn have_ended(&self) -> bool {
+        self.slots.iter().all(Slot::has_ended)
+    }
+
+    fn write(&self, checkpoints: Option<&Checkpoints>) -> Result<(), EnsembleError> {
+        checkpoints
+            .map_or(Ok(()), |Checkpoints { path, .. }| file::write(path, &self.plan, self.shard, &self.slots))
+    }
+
+    fn tell(&self, on_progress: &mut Option<impl FnMut(&Progress)>) {
+        let Some(on_progress) = on_progress else { return };
+        let mut progress = Progress { members: self.slots.len() as u64, ..Progress::default() };
+        for slot in &self.slots {
+            progress.steps += u128::from(slot.steps());
+            let Place::Ended(member) = &slot.place else { continue };
+            match member.outcome {
+                Outcome::Finished => progress.finished += 1,
+                Outcome::Exited { .. } => progress.exited += 1,
+                Outcome::Failed { .. } => progress.failed += 1,
+            }
+        }
+        on_progress(&progress);
+    }
+}

@@ -1,0 +1,78 @@
+//! What the threads share while an ensemble runs.
+
+use std::boxed::Box;
+use std::string::String;
+use std::vec::Vec;
+
+use super::growth::Growth;
+use super::lanes::Packs;
+use crate::Lagrangian;
+use crate::diagnostics::Direction;
+use crate::methods::Method;
+use crate::run::Integrator;
+
+/// The condition under which a member leaves, with the reason.
+pub(super) type Exit<'a, S, Q> = Box<dyn Fn(&S, &Q) -> Option<&'static str> + Send + Sync + 'a>;
+/// The function whose zeros are the section, and which of them count.
+pub(super) type Crossed<'a, S, Q> = (Direction, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
+/// What is special to the method of one member.
+pub(super) type Vary<'a, M> = Box<dyn Fn(u64, &mut M) + Send + Sync + 'a>;
+/// Room for runs that are taken together.
+pub(super) type NewPacks<'a, S, M> = fn(&Integrator<'a, S, M>) -> Box<dyn Packs<'a, S, M> + 'a>;
+/// The growth of a perturbation from the current state of a run on.
+pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<'a, S, M>) -> Box<dyn Growth<'a, S, M> + 'a>;
+
+/// The texts of a method and of a system.
+pub(super) type Texts<S, M> = (fn(&M) -> String, fn(&S) -> String);
+
+/// One system for all members, or one for each.
+pub(super) enum Systems<'a, S> {
+    Same(&'a S),
+    Each(&'a [S]),
+}
+
+/// Everything that the record of a member depends on, but for the number of steps.
+pub(super) struct Settings<'a, S: Lagrangian, M: Method<S, f64>> {
+    pub(super) systems: Systems<'a, S>,
+    pub(super) states: Vec<S::State<f64>>,
+    pub(super) method: M,
+    pub(super) vary: Option<Vary<'a, M>>,
+    pub(super) h: f64,
+    pub(super) stride: u64,
+    pub(super) exit: Option<Exit<'a, S, S::State<f64>>>,
+    pub(super) section: Option<Crossed<'a, S, S::State<f64>>>,
+    /// With the number of lanes.
+    pub(super) packs: Option<(usize, NewPacks<'a, S, M>)>,
+    pub(super) growth: Option<NewGrowth<'a, S, M>>,
+    /// The options of the method and the parameters of a system as texts, for a checkpoint to be compared with.
+    pub(super) texts: Option<Texts<S, M>>,
+}
+
+impl<'a, S: Lagrangian, M: Method<S, f64>> Settings<'a, S, M> {
+    pub(super) fn system(&self, member: usize) -> &'a S {
+        match self.systems {
+            Systems::Same(system) => system,
+            Systems::Each(systems) => &systems[member],
+        }
+    }
+
+    /// The method of a member.
+    pub(super) fn method(&self, number: u64) -> M
+    where
+        M: Clone,
+    {
+        let mut method = self.method.clone();
+        if let Some(vary) = &self.vary {
+            vary(number, &mut method);
+        }
+        method
+    }
+
+    /// The members that go together into lanes.
+    pub(super) fn group(&self) -> usize {
+        match (self.packs, self.growth) {
+            (Some((lanes, _)), None) => lanes,
+            (Some(_), Some(_)) | (None, _) => 1,
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Every method on every kind of system, interrupted at each look: the same as without.
+
+use std::fmt::Debug;
+use std::time::Duration;
+
+use dvi_core::ensemble::Ensemble;
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+
+use crate::{Checked, HenonHeiles, HenonHeilesState, bytes, file, wells};
+
+/// The second half of the states leads to failures, or is meant to.
+fn check<S, M>(name: &str, system: &S, method: M, h: f64, states: &[S::State<f64>]) -> Checked
+where
+    S: Lagrangian + Debug + Sync,
+    S::State<f64>: Sync,
+    M: Method<S, f64> + Clone + Sync + Debug,
+{
+    let ensemble = || Ensemble::new(system, method.clone(), h, states.iter().cloned());
+    let plain = ensemble().stride(3).take_steps(31)?;
+    let path = file(&format!("{name}.ckpt"));
+    let interrupted = ensemble().stride(3).checkpoints(&path, Duration::ZERO).take_steps(31)?;
+    let [plain, interrupted] = [bytes(&plain)?, bytes(&interrupted)?];
+    assert!(
+        plain == interrupted,
+        "{name}:\n{}{}",
+        String::from_utf8_lossy(&plain[0]),
+        String::from_utf8_lossy(&interrupted[0])
+    );
+    Ok(())
+}
+
+#[test]
+fn of_regular_systems() -> Checked {
+    let mut states = wells(2);
+    // They fall without end, until numbers end.
+    states.extend((0..5).map(|k| HenonHeilesState { x: -10.0_f64.powi(k), y: -2.0, dot_x: 0.0, dot_y: 0.1 }));
+    let (system, h, states) = (&HenonHeiles, 0.3, &states[..]);
+    check("trapezoid", system, Variational::trapezoid(), h, states)?;
+    check("midpoint", system, Variational::midpoint(), h, states)?;
+    check("simpson", system, Variational::simpson(), -h, states)?;
+    check("galerkin", system, Galerkin::<3>::new(), h, states)?;
+    check("newmark", system, Newmark::new(0.25), h, states)?;
+    check("gauss", system, Gauss::<2>::new(), h, states)?;
+    check("gauss-lanes", system, Gauss::<4>::new().in_lanes(), h, states)?;
+    check("heun", system, RungeKutta::heun(), h, states)?;
+    check("classical", system, RungeKutta::classical(), h, states)?;
+    check("composition", system, Composition::kahan_li_8(Variational::trapezoid()), h, states)?;
+    check("langevin", system, Langevin { friction: 1.0, temperature: 0.01, seed: 3 }, h, states)?;
+    let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
+    check("compensated", system, compensated, h, states)?;
+    check("limit", system, EnergyLimit { method: Variational::midpoint(), limit: 0.1 }, h, states)?;
+    check("fitted", system, Variational::simpson().phase_fitted(Constant(1.0)), h, states)
+}
+
+#[test]
+fn of_degenerate_systems() -> Checked {
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = y.ln() / x * d(x),
+        hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
+    )]
+    #[derive(Debug)]
+    struct Predators;
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = y.ln() / x * d(x),
+        hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
+        time_transform = 1.0 / (x + y),
+    )]
+    #[derive(Debug)]
+    struct Slow;
+    let state = |k: u32| PredatorsState { x: 1.0 + 0.5 * f64::from(k), y: 1.0 - 0.24 * f64::from(k) };
+    let states: Vec<_> = (0..6).map(state).collect();
+    check("one-step", &Predators, OneStep::midpoint(), 0.3, &states)?;
+    check("one-step-gauss", &Predators, OneStepGauss::<2>::new(), 0.3, &states)?;
+    check("projected", &Predators, Projected::symmetric(), 0.1, &states)?;
+    check("sigma", &Predators, Sigma::midpoint(), 0.1, &states)?;
+    check("sigma-smooth", &Predators, Sigma { start: Start::Smooth, ..Sigma::midpoint() }, 0.1, &states)?;
+    check("degenerate-gauss", &Predators, Gauss::<3>::new(), 0.3, &states)?;
+    let state = |k: u32| SlowState { x: 1.0 + f64::from(k), y: 0.9, t: 0.0, energy: 0.0 };
+    let mut states = (0..4).map(|k| Slow.with_energy(state(k))).collect::<Result<Vec<_>, _>>()?;
+    states.push(state(5));
+    check("transformed", &Slow, OneStep::midpoint(), 0.3, &states)?;
+    check("transformed-gauss", &Slow, OneStepGauss::<3>::new(), 0.3, &states)
+}
+
+#[test]
+fn with_constraints_impacts_and_rotations() -> Checked {
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y,
+        constraint = x * x + y * y - 1.0,
+    )]
+    #[derive(Debug)]
+    struct Bob;
+    let state = |k: u32| BobState { x: f64::from(k).sin(), y: f64::from(k).cos(), dot_x: 0.0, dot_y: 0.0 };
+    let mut states: Vec<_> = (0..4).map(state).collect();
+    states.push(BobState { x: 2.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 });
+    states.push(BobState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 40.0 });
+    check("rattle", &Bob, Rattle::default(), 0.1, &states)?;
+    check("constrained", &Bob, Constrained::new(Variational::midpoint()), 0.1, &states)?;
+
+    #[lagrangian(coordinates(z), lagrangian = dot(z).powi(2) / 2.0 - z, impact = z)]
+    #[derive(Debug)]
+    struct Ball;
+    let states: Vec<_> = (0..5).map(|k| BallState { z: -0.5 + 0.3 * f64::from(k), dot_z: 0.1 }).collect();
+    check("impacts", &Ball, Impacts::reflecting(Variational::trapezoid()), 0.1, &states)?;
+    check("restitution", &Ball, Impacts::new(Variational::midpoint()).with_restitution(0.5), 0.1, &states)?;
+
+    #[lagrangian(
+        coordinates(R: SO3),
+        lagrangian = (omega(R)[0].powi(2) + 2.0 * omega(R)[1].powi(2) + 3.0 * omega(R)[2].powi(2)) / 2.0 - R[2][2],
+    )]
+    #[derive(Debug)]
+    struct Top;
+    let state = |k: u32| {
+        let rotation = dvi_core::rotations::exp([0.1 * f64::from(k), 0.2, 0.3]);
+        TopState { R: rotation, omega_R: [0.1, f64::from(k), 1.0] }
+    };
+    let states: Vec<_> = (0..4).map(state).collect();
+    check("geodesic", &Top, Geodesic::midpoint(), 0.1, &states)?;
+    check("geodesic-trapezoid", &Top, Geodesic::trapezoid(), 0.1, &states)
+}

@@ -1,0 +1,125 @@
+//! Checkpoints that are damaged, or those of another ensemble: errors that say what is wrong, and the file is left as it is.
+
+use std::time::Duration;
+
+use dvi_core::ensemble::{Ensemble, EnsembleError, MergeError, Results, Shard};
+use dvi_core::prelude::*;
+
+use crate::{Checked, HenonHeiles, Kepler, Verlet, file, left, planets, said, wells};
+
+fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
+    Ensemble::new(system, Variational::trapezoid(), 0.05, wells(3))
+}
+
+const RARELY: Duration = Duration::from_secs(3600);
+
+#[test]
+fn every_damage_is_seen() -> Checked {
+    let path = file("damaged.ckpt");
+    ensemble(&HenonHeiles).checkpoints(&path, RARELY).take_steps(10)?;
+    let whole = std::fs::read(&path)?;
+    let mut damaged: Vec<Vec<u8>> = (0..whole.len()).map(|len| whole[..len].to_vec()).collect();
+    for place in 0..whole.len() {
+        let mut other = whole.clone();
+        other[place] ^= 1 << (place % 8);
+        damaged.push(other);
+    }
+    damaged.push([&whole[..], b"\0"].concat());
+    damaged.push(b"x,y\n1,2\n".to_vec());
+    for bytes in damaged {
+        std::fs::write(&path, &bytes)?;
+        let result = ensemble(&HenonHeiles).checkpoints(&path, RARELY).take_steps(10);
+        assert!(matches!(result, Err(EnsembleError::Damaged { .. })), "{result:?}");
+        assert!(matches!(Results::read(&path), Err(EnsembleError::Damaged { .. })));
+        assert_eq!(std::fs::read(&path)?, bytes, "the file is left alone");
+    }
+    Ok(())
+}
+
+#[test]
+fn another_ensemble_is_told_from_this_one() -> Checked {
+    let path = file("foreign.ckpt");
+    let this = || ensemble(&HenonHeiles).checkpoints(&path, RARELY);
+    this().take_steps(10)?;
+    let kept = std::fs::read(&path)?;
+    let differs =
+        |text: String, what: &str| assert!(text.contains(&format!("its {what} is")), "{what}: {text}");
+    let mut moved = wells(3);
+    moved[2].dot_y += 1e-16;
+    moved[2].dot_y = moved[2].dot_y.next_up();
+    let trapezoid = Variational::trapezoid;
+    let of = |method, h, states| Ensemble::new(&HenonHeiles, method, h, states).checkpoints(&path, RARELY);
+    differs(said(this().take_steps(11)), "number of steps");
+    differs(said(this().stride(7).take_steps(10)), "stride");
+    differs(said(of(trapezoid(), 0.05, moved).take_steps(10)), "fingerprint of the initial states");
+    differs(said(of(trapezoid(), 0.05, wells(4)).take_steps(10)), "number of members");
+    differs(said(of(trapezoid(), 0.051, wells(3)).take_steps(10)), "step h");
+    let gauss = Ensemble::new(&HenonHeiles, Gauss::<2>::new(), 0.05, wells(3)).checkpoints(&path, RARELY);
+    differs(said(gauss.take_steps(10)), "method");
+    differs(said(this().until(left).take_steps(10)), "exit condition");
+    differs(said(this().exponents().take_steps(10)), "Lyapunov exponent");
+    differs(said(this().section(Direction::Falling, |_, state| state.x).take_steps(10)), "section");
+    assert_eq!(said(this().take_steps(10)), "no error");
+    assert!(std::fs::read(&path)? == kept);
+
+    let path = file("foreign-parameters.ckpt");
+    let (mut systems, states) = planets(3);
+    let of = |systems: &[Kepler]| {
+        let ensemble =
+            Ensemble::with_systems(systems, Variational::trapezoid(), 0.05, states.iter().cloned());
+        ensemble.checkpoints(&path, RARELY).take_steps(10)
+    };
+    of(&systems)?;
+    systems[1].mu = systems[1].mu.next_up();
+    differs(said(of(&systems)), "fingerprint of the parameters");
+    // Another system altogether.
+    let foreign = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(3));
+    differs(said(foreign.checkpoints(&path, RARELY).take_steps(10)), "system");
+    // The file of another shard.
+    let path = file("foreign-shard.ckpt");
+    let shards = [Shard::new(0, 3)?, Shard::new(1, 3)?];
+    ensemble(&HenonHeiles).checkpoints(&path, RARELY).shard(shards[0]).take_steps(10)?;
+    std::fs::rename(shards[0].path(&path), shards[1].path(&path))?;
+    let other = ensemble(&HenonHeiles).checkpoints(&path, RARELY).shard(shards[1]);
+    differs(said(other.take_steps(10)), "shard");
+    Ok(())
+}
+
+#[test]
+fn files_that_cannot_be_written_or_read() -> Checked {
+    let nowhere = file("no-such-folder").join("run.ckpt");
+    let mut begun = false;
+    let result =
+        ensemble(&HenonHeiles).checkpoints(&nowhere, RARELY).on_progress(|_| begun = true).take_steps(10);
+    assert!(matches!(result, Err(EnsembleError::File { .. })), "{result:?}");
+    assert!(!begun, "it shows before the work is done");
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    let result = ensemble(&HenonHeiles).checkpoints(folder, RARELY).take_steps(10);
+    assert!(matches!(result, Err(EnsembleError::File { .. })), "{result:?}");
+    assert!(matches!(Results::read(&nowhere), Err(EnsembleError::File { .. })));
+    Ok(())
+}
+
+#[test]
+fn shards_that_do_not_go_together() -> Checked {
+    let shard = |index, of, steps| -> Result<Results, Box<dyn std::error::Error>> {
+        Ok(ensemble(&HenonHeiles).shard(Shard::new(index, of)?).take_steps(steps)?)
+    };
+    let error = |shards: Vec<Results>| Results::merge(shards).err();
+    assert_eq!(error(vec![]), Some(MergeError::Nothing));
+    let twice = error(vec![shard(0, 2, 10)?, shard(1, 2, 10)?, shard(0, 2, 10)?]);
+    assert_eq!(twice, Some(MergeError::Twice { member: 0 }));
+    let overlapping = error(vec![shard(0, 2, 10)?, shard(1, 2, 10)?, shard(1, 3, 10)?]);
+    assert_eq!(overlapping, Some(MergeError::Twice { member: 1 }));
+    let missing = |member| Some(MergeError::Missing { member, members: 3 });
+    assert_eq!(error(vec![shard(0, 3, 10)?, shard(2, 3, 10)?]), missing(1));
+    assert_eq!(error(vec![shard(0, 3, 10)?, shard(1, 3, 10)?]), missing(2));
+    assert_eq!(error(vec![shard(4, 5, 10)?]), missing(0));
+    let foreign = Results::merge([shard(0, 2, 10)?, shard(1, 2, 11)?]);
+    let Err(MergeError::Foreign { shard, difference }) = foreign else { return Err("they differ".into()) };
+    assert_eq!(
+        (shard.to_string(), difference.what, difference.found),
+        ("1/2".into(), "number of steps".into(), "11".into())
+    );
+    Ok(())
+}

@@ -1,0 +1,112 @@
+//! Ensembles: what their records say, that they are the same however they are computed, and what becomes of mistakes.
+
+mod every_method;
+mod files;
+mod left_later;
+mod members;
+mod mistakes;
+mod resumed;
+mod same;
+mod tables;
+
+use dvi_core::ensemble::{Draws, EnsembleError, Results};
+use dvi_core::prelude::*;
+
+type Verlet = Variational<dvi_core::discrete::Unfitted, dvi_core::discrete::Trapezoid>;
+type Checked = Result<(), Box<dyn std::error::Error>>;
+
+/// Hénon & Heiles 1964: explicit steps, and motions that leave.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0
+        - (x * x + y * y) / 2.0 - x * x * y + y.powi(3) / 3.0,
+)]
+#[derive(Clone, Debug, PartialEq)]
+struct HenonHeiles;
+
+/// A planet that falls into the sun if it has no angular momentum.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / (x * x + y * y).sqrt(),
+    momenta(angular = x * dot(y) - y * dot(x)),
+)]
+#[derive(Clone, Debug, PartialEq)]
+struct Kepler {
+    mu: f64,
+}
+
+/// Point vortices: a degenerate system, with arrays.
+#[degenerate_lagrangian(
+    coordinates(x[N], y[N]),
+    one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
+        * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
+    momenta(
+        impulse = sum(0..N, |j| gamma[j] * y[j]),
+        angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))),
+    ),
+)]
+#[derive(Clone, Debug, PartialEq)]
+struct Vortices<const N: usize> {
+    gamma: [f64; N],
+}
+
+/// Some of them leave the well: the energy at which they can is 1/6.
+fn wells(count: u64) -> Vec<HenonHeilesState> {
+    let state = |draw: &mut dvi_core::ensemble::Draw| HenonHeilesState {
+        x: draw.normal(0.0, 0.2),
+        y: draw.normal(0.0, 0.2),
+        dot_x: draw.uniform(-0.5, 0.5),
+        dot_y: draw.normal(0.0, 0.2),
+    };
+    Draws::new(7).take(count, state).collect()
+}
+
+fn left(_: &HenonHeiles, state: &HenonHeilesState) -> Option<&'static str> {
+    (state.x.hypot(state.y) > 3.0).then_some("left the well")
+}
+
+/// Planets, every third of which falls into the sun, and one of which begins there.
+fn planets(count: u64) -> (Vec<Kepler>, Vec<KeplerState>) {
+    let system = |draw: &mut dvi_core::ensemble::Draw| Kepler { mu: draw.uniform(0.9, 1.1) };
+    let mut states: Vec<_> = (0..count)
+        .map(|k| {
+            let dot_y = if k % 3 == 2 { 0.0 } else { 0.9 + 0.005 * k as f64 };
+            KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y }
+        })
+        .collect();
+    if let Some(state) = states.get_mut(4) {
+        state.x = 0.0;
+    }
+    (Draws::new(1).take(count, system).collect(), states)
+}
+
+/// The bytes of both tables.
+fn bytes(results: &Results) -> std::io::Result<[Vec<u8>; 2]> {
+    let [mut csv, mut npy] = [Vec::new(), Vec::new()];
+    results.write_csv(&mut csv)?;
+    results.write_npy(&mut npy)?;
+    Ok([csv, npy])
+}
+
+/// A file of this name that is not there yet, in a folder for files of tests.
+fn file(name: &str) -> std::path::PathBuf {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    for shard in 0..9 {
+        for of in 1..9 {
+            if let Ok(shard) = dvi_core::ensemble::Shard::new(shard, of) {
+                // It need not be there.
+                let _ = std::fs::remove_file(shard.path(&path));
+            }
+        }
+    }
+    path
+}
+
+/// The text of an error.
+fn said<T>(result: Result<T, EnsembleError>) -> String {
+    match result {
+        Ok(_) => "no error".into(),
+        Err(error) => error.to_string(),
+    }
+}

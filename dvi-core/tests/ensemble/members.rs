@@ -1,0 +1,162 @@
+//! The records of members, beside runs by hand.
+
+use dvi_core::ensemble::{Draws, Ensemble, Outcome};
+use dvi_core::prelude::*;
+
+use crate::{Checked, HenonHeiles, HenonHeilesState, Kepler, KeplerState, left, planets, wells};
+
+#[test]
+fn a_record_is_that_of_the_run() -> Checked {
+    let states = wells(5);
+    let results =
+        Ensemble::new(&HenonHeiles, Gauss::<2>::new(), 0.05, states.clone()).stride(3).take_steps(100)?;
+    for (member, state) in results.members().iter().zip(states) {
+        let mut run = Integrator::new(&HenonHeiles, Gauss::<2>::new(), 0.05, state)?;
+        let (first, mut largest) = (run.energy(), 0.0_f64);
+        for _ in 0..33 {
+            run.take_steps(3)?;
+            largest = largest.max((run.energy() - first).abs());
+        }
+        run.take_steps(1)?;
+        largest = largest.max((run.energy() - first).abs());
+        let values: Vec<f64> = HenonHeiles.values(&run.state())?.collect();
+        assert_eq!((&member.state, member.time, member.steps), (&values, run.time(), 100));
+        assert_eq!(member.iterations, run.statistics().iterations);
+        let energy = member.energy;
+        assert_eq!([energy.first, energy.last, energy.largest_error], [first, run.energy(), largest]);
+        assert_eq!((&member.outcome, member.exponent, member.crossings), (&Outcome::Finished, None, 0));
+    }
+    assert_eq!(results.names().collect::<Vec<_>>(), ["x", "y", "dot_x", "dot_y"]);
+    Ok(())
+}
+
+#[test]
+fn a_member_leaves_at_the_first_look_outside() -> Checked {
+    let state = |dot_x| KeplerState { x: 1.0, y: 0.0, dot_x, dot_y: 1.0 };
+    let far = |_: &Kepler, state: &KeplerState| (state.x.hypot(state.y) > 4.0).then_some("far");
+    let far_at_once = KeplerState { x: 5.0, ..state(0.0) };
+    let states = [state(0.0), state(3.0), far_at_once];
+    let results = Ensemble::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.01, states)
+        .stride(10)
+        .until(far)
+        .take_steps(1000)?;
+    let [stays, leaves, never_in] = results.members() else { return Err("there are three".into()) };
+    assert_eq!((&stays.outcome, stays.steps), (&Outcome::Finished, 1000));
+    let exited = Outcome::Exited { reason: "far".into() };
+    assert_eq!((&leaves.outcome, &never_in.outcome), (&exited, &exited));
+    assert_eq!((never_in.steps, never_in.time), (0, 0.0));
+    // It is outside now, and was inside at the look before.
+    let mut run = Integrator::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.01, state(3.0))?;
+    run.take_steps(leaves.steps - 10)?;
+    assert!(far(run.system(), &run.state()).is_none());
+    run.take_steps(10)?;
+    assert!(far(run.system(), &run.state()).is_some());
+    assert_eq!(leaves.time, run.time());
+    // The last look is at the last step, also if that is no multiple of the stride.
+    let last = Ensemble::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.01, [state(3.0)])
+        .stride(u64::MAX)
+        .until(far)
+        .take_steps(leaves.steps)?;
+    assert_eq!(last.members()[0].outcome, exited);
+    Ok(())
+}
+
+/// A fall into the sun ends with the error and the time that it has alone; a start in the sun is a failure at time 0.
+#[test]
+fn failures_are_recorded() -> Checked {
+    let (systems, states) = planets(6);
+    let method = EnergyLimit { method: Variational::trapezoid(), limit: 0.01 };
+    let results = Ensemble::with_systems(&systems, method, 0.01, states.clone()).take_steps(300)?;
+    for (member, (system, state)) in results.members().iter().zip(systems.iter().zip(states)) {
+        let expected = match Integrator::new(system, method, 0.01, state) {
+            Err(error) => (Outcome::Failed { error: error.to_string() }, 0.0),
+            Ok(mut run) => match run.take_steps(300) {
+                Ok(()) => (Outcome::Finished, run.time()),
+                Err(error) => (Outcome::Failed { error: error.to_string() }, run.time()),
+            },
+        };
+        assert_eq!((member.outcome.clone(), member.time), expected);
+    }
+    let failed = results.members().iter().map(|member| matches!(member.outcome, Outcome::Failed { .. }));
+    assert_eq!(failed.collect::<Vec<_>>(), [false, false, true, false, true, true]);
+    let never = &results.members()[4];
+    assert_eq!((never.state[0], never.steps, never.energy.first.is_nan()), (0.0, 0, true));
+    Ok(())
+}
+
+#[test]
+fn states_that_are_no_numbers_fail_alone() -> Checked {
+    let mut states = wells(3);
+    states[1].y = f64::NAN;
+    let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states).take_steps(10)?;
+    let [a, b, c] = results.members() else { return Err("there are three".into()) };
+    assert_eq!([&a.outcome, &c.outcome], [&Outcome::Finished; 2]);
+    assert_eq!(b.outcome, Outcome::Failed { error: "y = NaN in the state".into() });
+    Ok(())
+}
+
+#[test]
+fn exponents_are_those_of_the_diagnostic() -> Checked {
+    let states = wells(4);
+    let ensemble = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states.clone());
+    let results = ensemble.until(left).exponents().in_lanes::<4>().take_steps(2000)?;
+    for (member, state) in results.members().iter().zip(states) {
+        let mut run = Integrator::new(&HenonHeiles, Variational::trapezoid(), 0.05, state)?;
+        let mut exponent = LyapunovExponent::new(&run);
+        (0..member.steps).try_for_each(|_| exponent.advance(&mut run))?;
+        assert_eq!(member.exponent, exponent.exponent());
+    }
+    Ok(())
+}
+
+/// A harmonic motion crosses x = 0 upwards once in each period.
+#[test]
+fn crossings_are_counted() -> Checked {
+    #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
+    struct Spring;
+    let crossings = |direction| {
+        let start = SpringState { x: 1.0, dot_x: 0.0 };
+        let ensemble = Ensemble::new(&Spring, Variational::trapezoid(), 0.01, [start]);
+        ensemble.section(direction, |_, state| state.x).stride(5).take_steps(6200)
+    };
+    // Ten periods are 62.8.
+    assert_eq!(crossings(Direction::Rising)?.members()[0].crossings, 10);
+    assert_eq!(crossings(Direction::Falling)?.members()[0].crossings, 10);
+    assert_eq!(crossings(Direction::Either)?.members()[0].crossings, 20);
+    Ok(())
+}
+
+#[test]
+fn draws_depend_on_seed_and_member_alone() {
+    let of = |draw: &mut dvi_core::ensemble::Draw| [draw.normal(0.0, 1.0), draw.uniform(-1.0, 3.0)];
+    let draws = Draws::new(3);
+    let many: Vec<_> = draws.take(20_000, of).collect();
+    let few: Vec<_> = draws.take(10, of).collect();
+    assert_eq!(many[..10], few);
+    assert_eq!(of(&mut draws.member(12_345)), many[12_345]);
+    assert_ne!(of(&mut Draws::new(4).member(0)), many[0]);
+    let moment = |of: &dyn Fn(&[f64; 2]) -> f64| many.iter().map(of).sum::<f64>() / many.len() as f64;
+    // Five standard errors of the means and of the mean square.
+    assert!(moment(&|x| x[0]).abs() < 5.0 / 20_000_f64.sqrt());
+    assert!((moment(&|x| x[0] * x[0]) - 1.0).abs() < 5.0 * (2.0 / 20_000_f64).sqrt());
+    assert!((moment(&|x| x[1]) - 1.0).abs() < 5.0 * 4.0 / (12.0 * 20_000_f64).sqrt());
+    assert!(many.iter().all(|x| (-1.0..3.0).contains(&x[1])));
+}
+
+/// Where a member is known is in order, and the counts of progress only grow.
+#[test]
+fn progress_is_told_in_order() -> Checked {
+    let mut told = Vec::new();
+    let states: Vec<HenonHeilesState> = wells(30);
+    let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states)
+        .until(left)
+        .on_progress(|progress| told.push(*progress))
+        .take_steps(5000)?;
+    let ended = |p: &dvi_core::ensemble::Progress| p.finished + p.exited + p.failed;
+    assert!(told.is_sorted_by_key(|p| (p.steps, ended(p))));
+    let (Some(first), Some(last)) = (told.first(), told.last()) else { return Err("it was told".into()) };
+    assert_eq!((first.steps, ended(first), ended(last), last.members), (0, 0, 30, 30));
+    assert_eq!(last.steps, results.members().iter().map(|member| u128::from(member.steps)).sum());
+    assert!(results.members().iter().map(|member| member.number).eq(0..30));
+    Ok(())
+}

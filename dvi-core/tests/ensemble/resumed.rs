@@ -1,0 +1,160 @@
+//! Runs that are killed, and go on where they were.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
+use dvi_core::prelude::*;
+
+use crate::{Checked, HenonHeiles, Verlet, Vortices, VorticesState, bytes, file, left, planets, wells};
+
+const STEPS: u64 = 2000;
+
+/// In the process that is killed: the file of its checkpoint.
+const CHILD: &str = "DVI_ENSEMBLE_CHECKPOINT";
+
+fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
+    let ensemble = Ensemble::new(system, Variational::trapezoid(), 0.05, wells(30)).until(left).stride(100);
+    ensemble.section(Direction::Rising, |_, state| state.x).exponents()
+}
+
+/// The process that is killed. Without one, there is nothing to do.
+#[test]
+fn child() -> Checked {
+    let Some(path) = std::env::var_os(CHILD) else { return Ok(()) };
+    let ensemble = ensemble(&HenonHeiles).checkpoints(path, Duration::ZERO);
+    ensemble.on_progress(|progress| println!("\nsteps {}", progress.steps)).take_steps(STEPS)?;
+    Ok(())
+}
+
+/// Runs the child until it has said `lines` times how far it is, and kills it. Returns how far it was at the first and at the last.
+fn killed_after(lines: usize, path: &Path) -> Result<Option<[u128; 2]>, Box<dyn std::error::Error>> {
+    let mut child = Command::new(std::env::current_exe()?)
+        .args(["--exact", "resumed::child", "--nocapture"])
+        .env(CHILD, path)
+        .stdout(Stdio::piped())
+        .spawn()?;
+    let Some(output) = child.stdout.take() else { return Err("it has an output".into()) };
+    let mut steps = Vec::new();
+    for line in BufReader::new(output).lines() {
+        if let Some(("steps", count)) = line?.split_once(' ') {
+            steps.push(count.parse()?);
+        }
+        if steps.len() == lines {
+            child.kill()?;
+            break;
+        }
+    }
+    let has_succeeded = child.wait()?.success();
+    let (Some(&first), Some(&last)) = (steps.first(), steps.last()) else {
+        return Err("it said nothing".into());
+    };
+    Ok((!has_succeeded).then_some([first, last]))
+}
+
+#[test]
+fn a_killed_process_goes_on_where_it_was() -> Checked {
+    let path = file("killed.ckpt");
+    let mut before = 0;
+    for lines in [2, 11, 40, 63] {
+        let Some([first, last]) = killed_after(lines, &path)? else { return Err("it was not killed".into()) };
+        assert!(first >= before && last > first, "{first} to {last}, after {before}");
+        before = last;
+        assert!(matches!(Results::read(&path), Err(EnsembleError::UnderWay { .. })));
+    }
+    // What a process leaves that is killed while it writes.
+    std::fs::write(path.with_extension("ckpt.new"), "dvi ens")?;
+    let resumed = ensemble(&HenonHeiles).checkpoints(&path, Duration::from_secs(60)).take_steps(STEPS)?;
+    let whole = ensemble(&HenonHeiles).take_steps(STEPS)?;
+    assert!(bytes(&resumed)? == bytes(&whole)?);
+    // The file has the results now, and to run it again changes nothing.
+    assert!(bytes(&Results::read(&path)?)? == bytes(&whole)?);
+    let again = ensemble(&HenonHeiles).checkpoints(&path, Duration::from_secs(60)).take_steps(STEPS)?;
+    assert!(bytes(&again)? == bytes(&whole)?);
+    Ok(())
+}
+
+/// Interrupted at every look, and resumed by the same process.
+#[test]
+fn interruptions_change_nothing() -> Checked {
+    let system = Vortices { gamma: [1.0, 2.0, -0.5] };
+    let state = |k: u32| VorticesState { x: [-1.0, 0.01 * f64::from(k), 1.0], y: [0.0, 0.3, 0.1] };
+    for method in [Sigma::midpoint(), Sigma::leapfrog(), Sigma::new(0.3)] {
+        let ensemble = || Ensemble::new(&system, method, 0.05, (0..6).map(state)).stride(20);
+        let (plain, path) = (ensemble().take_steps(200)?, file("interrupted.ckpt"));
+        assert_eq!(bytes(&ensemble().checkpoints(&path, Duration::ZERO).take_steps(200)?)?, bytes(&plain)?);
+        let path = file("interrupted-in-lanes.ckpt");
+        let in_lanes = ensemble().in_lanes::<4>().checkpoints(&path, Duration::ZERO).take_steps(200)?;
+        assert_eq!(bytes(&in_lanes)?, bytes(&plain)?);
+    }
+    let (systems, states) = planets(9);
+    let gauss =
+        || Ensemble::with_systems(&systems, Gauss::<3>::new(), 0.01, states.iter().cloned()).stride(20);
+    let path = file("interrupted-gauss.ckpt");
+    let interrupted = gauss().checkpoints(&path, Duration::ZERO).take_steps(200)?;
+    assert_eq!(bytes(&interrupted)?, bytes(&gauss().take_steps(200)?)?);
+    Ok(())
+}
+
+/// Noise comes from the seed of each member.
+#[test]
+fn noise_is_that_of_the_member() -> Checked {
+    let method = Langevin { friction: 1.0, temperature: 0.01, seed: 0 };
+    let ensemble = || {
+        let ensemble = Ensemble::new(&HenonHeiles, method, 0.05, [wells(1)[0]; 6]).stride(10);
+        ensemble.vary_method(|number, method| method.seed = number)
+    };
+    let (plain, path) = (ensemble().take_steps(100)?, file("noise.ckpt"));
+    assert!(bytes(&ensemble().checkpoints(&path, Duration::ZERO).take_steps(100)?)? == bytes(&plain)?);
+    assert_ne!(plain.members()[0].state, plain.members()[1].state);
+    let others =
+        ensemble().vary_method(|number, method| method.seed = number + 1).checkpoints(&path, Duration::ZERO);
+    assert!(matches!(others.take_steps(100), Err(EnsembleError::Foreign { .. })));
+    Ok(())
+}
+
+/// A run that was begun with some lanes goes on with others, or without.
+#[test]
+fn lanes_may_change_on_the_way() -> Checked {
+    let plain = || {
+        let ensemble = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(30)).until(left);
+        ensemble.stride(50)
+    };
+    let expected = bytes(&plain().take_steps(STEPS)?)?;
+    let (path, kept) = (file("lanes.ckpt"), file("lanes-kept.ckpt"));
+    // Copies of the checkpoint of a run that is under way.
+    let mut rounds = 0;
+    let keep = |_: &dvi_core::ensemble::Progress| {
+        rounds += 1;
+        if rounds == 25 {
+            assert!(std::fs::copy(&path, &kept).is_ok());
+        }
+    };
+    plain().checkpoints(&path, Duration::ZERO).on_progress(keep).take_steps(STEPS)?;
+    assert!(matches!(Results::read(&kept), Err(EnsembleError::UnderWay { .. })));
+    let begun = std::fs::read(&kept)?;
+    let resumed = plain().in_lanes::<8>().checkpoints(&kept, Duration::ZERO).take_steps(STEPS)?;
+    assert_eq!(bytes(&resumed)?, expected);
+    std::fs::write(&kept, begun)?;
+    let resumed = plain().in_lanes::<3>().checkpoints(&kept, Duration::from_secs(9)).take_steps(STEPS)?;
+    assert_eq!(bytes(&resumed)?, expected);
+    Ok(())
+}
+
+#[test]
+fn shards_have_files_of_their_own() -> Checked {
+    let path = file("sharded.ckpt");
+    let mut shards = Vec::new();
+    for index in 0..3 {
+        let shard = Shard::new(index, 3)?;
+        ensemble(&HenonHeiles).checkpoints(&path, Duration::ZERO).shard(shard).take_steps(300)?;
+        shards.push(Results::read(shard.path(&path))?);
+    }
+    assert!(!path.exists());
+    // Neither checkpoints nor shards are part of what is computed.
+    let whole = ensemble(&HenonHeiles).checkpoints(&path, Duration::ZERO).take_steps(300)?;
+    assert_eq!(bytes(&Results::merge(shards)?)?, bytes(&whole)?);
+    Ok(())
+}
