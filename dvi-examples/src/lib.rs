@@ -1,3 +1,6 @@
-//! The systems of the gallery, for those who run them elsewhere: the tests and the benchmarks do.
+//! The systems of the gallery and its figures, for those who use them elsewhere: the tests and the benchmarks do.
 
+#[allow(missing_docs, reason = "what a figure is made of is named as in any figure")]
+pub mod figure;
 pub mod models;
+pub mod output;

@@ -8,11 +8,9 @@
 mod claim;
 mod deviation;
 mod experiments;
-mod figure;
 mod gallery;
 mod job;
 mod options;
-mod output;
 mod progress;
 mod record;
 mod summary;
@@ -25,7 +23,7 @@ use anyhow::{Context as _, Result};
 use clap::Parser as _;
 use console::Term;
 
-use dvi_examples::models;
+use dvi_examples::{figure, models, output};
 
 use crate::gallery::{Ended, Experiment};
 use crate::job::Length;

@@ -47,6 +47,7 @@ pub fn number(value: f64) -> String {
 
 /// What a table can hold.
 pub trait Cell {
+    /// The content of the cell.
     fn text(&self) -> String;
 }
 
@@ -82,12 +83,17 @@ pub struct Table {
 }
 
 impl Table {
+    /// A table with these columns and no rows.
     pub fn new(columns: &[&str]) -> Result<Self> {
         let mut table = Self { columns: columns.len(), writer: csv::Writer::from_writer(Vec::new()) };
         table.row(columns)?;
         Ok(table)
     }
 
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// If it has more or fewer cells than there are columns.
     pub fn row<I>(&mut self, cells: I) -> Result<()>
     where
         I: IntoIterator<Item: Cell>,

@@ -1,6 +1,7 @@
 //! The experiments, a file each: one model and one picture.
 
 mod accelerations;
+mod accuracy_cost;
 mod barnes;
 mod beam;
 mod billiard;
@@ -68,6 +69,7 @@ pub const ALL: &[Experiment] = &[
     kepler_long::EXPERIMENT,
     kepler_frequency::EXPERIMENT,
     kepler_work::EXPERIMENT,
+    accuracy_cost::EXPERIMENT,
     barnes::EXPERIMENT,
     double_pendulum::EXPERIMENT,
     friction::EXPERIMENT,

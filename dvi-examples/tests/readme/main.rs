@@ -4,6 +4,7 @@
 //! `cargo run --release -p dvi-examples && cp results/summary.csv dvi-examples/full-run.csv`, and write into the README
 //! what this test asks for. A test of the short run compares claims and verdicts with that table.
 
+mod accuracy;
 mod constraints;
 mod elastic;
 mod energy;
