@@ -276,10 +276,10 @@ fn runs_of_many_vortices() -> Result<(), Box<dyn core::error::Error>> {
     let places = |seed| VorticesState { x: numbers(n, seed), y: numbers(n, seed + 1) };
     let method = Sigma::midpoint();
     let mut alone: Vec<_> = (0..W)
-        .map(|j| Integrator::new(&system, method.clone(), 0.01, places(10 * j)))
+        .map(|j| Integrator::new(&system, method, 0.01, places(10 * j)))
         .collect::<Result<_, _>>()?;
     let mut together: Vec<_> = (0..W)
-        .map(|j| Integrator::new(&system, method.clone(), 0.01, places(10 * j)))
+        .map(|j| Integrator::new(&system, method, 0.01, places(10 * j)))
         .collect::<Result<_, _>>()?;
     let results = dvi_core::run::Together::<W, _, _>::new(&together[0]).take_steps(&mut together, 50);
     assert!(results.iter().all(Result::is_ok));
