@@ -275,12 +275,10 @@ fn runs_of_many_vortices() -> Result<(), Box<dyn core::error::Error>> {
     let system = Vortices { gamma: numbers(n, 1).into_iter().map(|gamma| 1.2 + gamma).collect() };
     let places = |seed| VorticesState { x: numbers(n, seed), y: numbers(n, seed + 1) };
     let method = Sigma::midpoint();
-    let mut alone: Vec<_> = (0..W)
-        .map(|j| Integrator::new(&system, method, 0.01, places(10 * j)))
-        .collect::<Result<_, _>>()?;
-    let mut together: Vec<_> = (0..W)
-        .map(|j| Integrator::new(&system, method, 0.01, places(10 * j)))
-        .collect::<Result<_, _>>()?;
+    let mut alone: Vec<_> =
+        (0..W).map(|j| Integrator::new(&system, method, 0.01, places(10 * j))).collect::<Result<_, _>>()?;
+    let mut together: Vec<_> =
+        (0..W).map(|j| Integrator::new(&system, method, 0.01, places(10 * j))).collect::<Result<_, _>>()?;
     let results = dvi_core::run::Together::<W, _, _>::new(&together[0]).take_steps(&mut together, 50);
     assert!(results.iter().all(Result::is_ok));
     for (alone, together) in alone.iter_mut().zip(&together) {
