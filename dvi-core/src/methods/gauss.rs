@@ -284,13 +284,10 @@ where
     #[inline(always)]
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { system, memory, t, h, .. } = self;
+        let mut largest = T::lift(0.0);
         for part in (0..memory.y.len()).rev() {
-            memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
+            largest = memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
         }
-        let changes = memory.slopes[0].iter().zip(memory.updated[0].iter());
-        let largest = changes.fold(T::lift(0.0), |largest, (now, before)| {
-            norm::larger(largest, norm::distance(&now.0, &before.0))
-        });
         Ok(Scalar::abs(*h) * largest)
     }
 }
@@ -306,7 +303,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         }
     }
 
-    /// Evaluates one part of the slopes of all stages; `updated` has those before.
+    /// Evaluates one part of the slopes of all stages, and returns the largest change of one.
     #[inline(always)]
     fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
@@ -315,7 +312,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         t: T,
         h: T,
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<T, StepFailure> {
         let Self { equations, coefficients, slopes, updated, stages, y, rest, work, .. } = self;
         let weights = Lanes::all(h) * coefficients.b;
         // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
@@ -327,8 +324,16 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
         let at = AtStages { system, y: &*stages, t: times, slopes: &*slopes };
         E::evaluate_part(equations, part, &at, work, &mut updated[part], statistics)?;
-        core::mem::swap(&mut slopes[part], &mut updated[part]);
-        Ok(())
+        // Of each stage first, as the stages are beside one another.
+        let mut largest = [T::lift(0.0); STAGES];
+        for (slope, &updated) in slopes[part].iter_mut().zip(updated[part].iter()) {
+            for stage in 0..STAGES {
+                let change = Scalar::abs(updated.0[stage] - slope.0[stage]);
+                largest[stage] = norm::larger(largest[stage], change);
+            }
+            *slope = updated;
+        }
+        Ok(norm::largest(&largest))
     }
 
     /// Moves to the end of the step.
