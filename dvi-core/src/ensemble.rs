@@ -53,6 +53,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![cfg_attr(
+    feature = "mpi",
+    doc = "With the feature `mpi`, [`Ensemble::take_steps_on`] does all this over the processes of an MPI program."
+)]
+
 mod draws;
 mod error;
 mod file;
@@ -61,6 +66,8 @@ mod growth;
 mod lanes;
 mod member;
 mod plan;
+#[cfg(feature = "mpi")]
+mod ranks;
 mod results;
 mod rounds;
 mod settings;
@@ -86,6 +93,8 @@ use settings::{Settings, Systems};
 pub use draws::{Draw, Draws};
 pub use error::{Difference, EnsembleError, MergeError};
 pub use member::{Energy, Member, Outcome};
+#[cfg(feature = "mpi")]
+pub use ranks::RanksError;
 pub use results::Results;
 pub use shard::{Shard, ShardError};
 pub use table::{Table, TableError};

@@ -92,6 +92,7 @@
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
 //! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `std`, `random` and `serde`.
+//! - `mpi`: ensembles over the processes of an MPI program; needs MPI on the system, and libclang to build. Implies `ensembles`.
 //! - `random` (default): methods with noise.
 //! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when
 //!   the program runs. Without it, those that the program is compiled for.

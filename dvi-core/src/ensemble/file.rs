@@ -41,18 +41,22 @@ impl Saved {
 
 /// Writes beside the file, makes sure that it is on the disk, and puts it in the place of the file.
 pub(super) fn write(path: &Path, plan: &Plan, shard: Shard, slots: &[Slot]) -> Result<(), EnsembleError> {
-    let saved = Borrowed { plan, shard: [shard.index, shard.of], slots };
-    let written = postcard::to_allocvec(&saved)
-        .map_err(io::Error::other)
-        .and_then(|content| replace(path, &[MARK, &fingerprint(&content), &content]));
+    let written = encode(plan, shard, slots).and_then(|bytes| replace(path, &bytes));
     written.map_err(|source| EnsembleError::File { path: path.to_owned(), source })
 }
 
-fn replace(path: &Path, parts: &[&[u8]]) -> io::Result<()> {
+/// The bytes of a file.
+pub(super) fn encode(plan: &Plan, shard: Shard, slots: &[Slot]) -> io::Result<Vec<u8>> {
+    let saved = Borrowed { plan, shard: [shard.index, shard.of], slots };
+    let content = postcard::to_allocvec(&saved).map_err(io::Error::other)?;
+    Ok([MARK, &fingerprint(&content), &content].concat())
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut beside = path.as_os_str().to_owned();
     beside.push(".new");
     let mut file = File::create(&beside)?;
-    parts.iter().try_for_each(|part| file.write_all(part))?;
+    file.write_all(bytes)?;
     file.sync_all()?;
     drop(file);
     fs::rename(&beside, path)?;
@@ -80,7 +84,11 @@ pub(super) fn read(path: &Path) -> Result<Option<Saved>, EnsembleError> {
     }
 }
 
-fn decode(bytes: &[u8]) -> Result<Saved, &'static str> {
+/// Reads the bytes of a file.
+///
+/// # Errors
+/// What is wrong with them.
+pub(super) fn decode(bytes: &[u8]) -> Result<Saved, &'static str> {
     let rest = bytes.strip_prefix(MARK).ok_or("it does not begin as one")?;
     let (found, content) = rest.split_first_chunk::<8>().ok_or("it ends too early")?;
     if *found != fingerprint(content) {

@@ -10,7 +10,7 @@ use std::string::{String, ToString};
 use std::vec::Vec;
 
 use super::error::{EnsembleError, MergeError};
-use super::file;
+use super::file::{self, Saved};
 use super::group::{Place, Slot};
 use super::member::Member;
 use super::plan::Plan;
@@ -35,6 +35,23 @@ impl Results {
         Self { plan, shard, members: members.collect() }
     }
 
+    /// The results in a file.
+    pub(super) fn of_file(saved: Saved) -> Self {
+        let shard = saved.shard();
+        Self::of(saved.plan, shard, saved.slots)
+    }
+
+    /// The bytes of the file of these results.
+    ///
+    /// # Errors
+    /// What keeps them from being written.
+    #[cfg(feature = "mpi")]
+    pub(super) fn encoded(&self) -> io::Result<Vec<u8>> {
+        let slot = |member: &Member| Slot { number: member.number, place: Place::Ended(member.clone()) };
+        let slots: Vec<Slot> = self.members.iter().map(slot).collect();
+        file::encode(&self.plan, self.shard, &slots)
+    }
+
     /// Reads the results of a shard from its [checkpoint](super::Ensemble::checkpoints), to be [put together](Self::merge) with others.
     ///
     /// # Errors
@@ -45,8 +62,8 @@ impl Results {
             let source = io::Error::from(io::ErrorKind::NotFound);
             return Err(EnsembleError::File { path: path.to_owned(), source });
         };
-        let (members, shard) = (saved.slots.len(), saved.shard());
-        let results = Self::of(saved.plan, shard, saved.slots);
+        let members = saved.slots.len();
+        let results = Self::of_file(saved);
         let ended = results.members.len();
         if ended < members {
             return Err(EnsembleError::UnderWay { path: path.to_owned(), ended, members });

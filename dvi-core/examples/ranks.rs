@@ -1,0 +1,42 @@
+//! An ensemble over the processes of an MPI program: pendulums that begin at random angles, with a restoring torque and a drive.
+//!
+//! `cargo build --release -p dvi-core --features mpi --example ranks`, and then `mpirun -n 4 target/release/examples/ranks results.csv`.
+//! The table is the same, byte for byte, for every number of processes. `tests/mpi/run` compares them.
+
+use std::error::Error;
+use std::fs::File;
+use std::io::BufWriter;
+
+use dvi_core::ensemble::{Draws, Ensemble};
+use dvi_core::prelude::*;
+use mpi::Threading;
+use mpi::traits::Communicator;
+
+#[lagrangian(
+    coordinates(angle),
+    lagrangian = dot(angle).powi(2) / 2.0 + angle.cos() + drive * angle * t.cos(),
+)]
+#[derive(Debug, PartialEq)]
+struct Pendulum {
+    drive: f64,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let path = std::env::args().nth(1).ok_or("the name of the table is missing")?;
+    let (universe, _) = mpi::initialize_with_threading(Threading::Funneled).ok_or("MPI has begun before")?;
+    let world = universe.world();
+    let states = Draws::new(11).take(1001, |draw| PendulumState {
+        angle: draw.uniform(-3.0, 3.0),
+        dot_angle: draw.normal(0.0, 0.5),
+    });
+    let results = Ensemble::new(&Pendulum { drive: 0.5 }, Variational::trapezoid(), 0.05, states)
+        .until(|_, state| (state.angle.abs() > 10.0).then_some("has turned over"))
+        .stride(10)
+        .in_lanes::<8>()
+        .take_steps_on(&world, 5000)?;
+    if let Some(results) = results {
+        results.write_csv(BufWriter::new(File::create(&path)?))?;
+        println!("{} members on {} processes: {path}", results.members().len(), world.size());
+    }
+    Ok(())
+}
