@@ -32,26 +32,21 @@ pub fn remainder(index: i64, modulus: i64) -> i64 {
 ///
 /// # Errors
 /// [`IndexError`] if it is not in 0..len.
-pub fn check_index(array: &'static str, index: i64, len: usize) -> Result<(), IndexError> {
-    match usize::try_from(index) {
-        Ok(position) if position < len => Ok(()),
-        _ => Err(IndexError { array, index, len }),
-    }
+pub fn check_index(array: &'static str, index: i128, len: usize) -> Result<(), IndexError> {
+    check_indices(array, index, index + 1, len)
 }
 
 /// Checks the indices from `first` to the one before `past`.
 ///
 /// # Errors
 /// [`IndexError`] with the first of them that is not in 0..len.
-pub fn check_indices(array: &'static str, first: i64, past: i64, len: usize) -> Result<(), IndexError> {
-    if first >= past {
+pub fn check_indices(array: &'static str, first: i128, past: i128, len: usize) -> Result<(), IndexError> {
+    let outside = if (0..len as i128).contains(&first) { len as i128 } else { first };
+    if outside >= past {
         return Ok(());
     }
-    check_index(array, first, len)?;
-    match usize::try_from(past) {
-        Ok(past) if past <= len => Ok(()),
-        _ => Err(IndexError { array, index: len as i64, len }),
-    }
+    let index = i64::try_from(outside).unwrap_or(if outside < 0 { i64::MIN } else { i64::MAX });
+    Err(IndexError { array, index, len })
 }
 
 /// The first argument of a function that leaves its domain.

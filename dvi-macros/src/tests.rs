@@ -261,10 +261,22 @@ fn check_of_indices() {
             fn check() {
                 __private::check_indices(
                     "mass",
-                    (0i64),
-                    (0i64 + 1i64 * (self.k.len() as i64)),
+                    (0i128),
+                    (0i128 + 1i128 * (self.k.len() as i128)),
                     self.mass.len(),
                 )?;
+                for __i0 in (0usize)..(self.k.len()) {
+                    __private::check_index(
+                        "q",
+                        (0i128
+                            + 1i128
+                                * (__private::remainder(
+                                    (1i64 + 1i64 * (__i0 as i64)),
+                                    (0i64 + 1i64 * (self.k.len() as i64)),
+                                ) as i128)),
+                        self.k.len(),
+                    )?;
+                }
                 ::core::result::Result::Ok(())
             }
         "#]],

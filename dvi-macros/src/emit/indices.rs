@@ -70,21 +70,30 @@ impl Emitter<'_> {
 
     /// An index as an expression of type `i64`.
     pub(crate) fn signed_index(&self, index: &Index) -> TokenStream {
+        self.integer(index, &quote!(i64), Literal::i64_suffixed)
+    }
+
+    /// An index as an expression of type `i128`, which no size makes overflow.
+    pub(crate) fn wide_index(&self, index: &Index) -> TokenStream {
+        self.integer(index, &quote!(i128), |value| Literal::i128_suffixed(value.into()))
+    }
+
+    fn integer(&self, index: &Index, kind: &TokenStream, literal: fn(i64) -> Literal) -> TokenStream {
         let krate = self.krate();
-        let mut terms =
-            vec![Literal::i64_suffixed(index.constant)].into_iter().map(|c| quote!(#c)).collect::<Vec<_>>();
+        let constant = literal(index.constant);
+        let mut terms = vec![quote!(#constant)];
         for (atom, coefficient) in index.counted_terms() {
             let atom = match atom {
                 Atom::Remainder(value, modulus) => {
                     let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
-                    quote!(#krate::__private::remainder(#value, #modulus))
+                    quote!((#krate::__private::remainder(#value, #modulus) as #kind))
                 }
                 Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => {
                     let value = self.atom(atom);
-                    quote!((#value as i64))
+                    quote!((#value as #kind))
                 }
             };
-            let coefficient = Literal::i64_suffixed(*coefficient);
+            let coefficient = literal(*coefficient);
             terms.push(quote!(#coefficient * #atom));
         }
         quote!((#(#terms)+*))
@@ -112,7 +121,7 @@ impl Emitter<'_> {
             (0, [(Atom::Open(depth), 1)]) => {
                 loops.iter().any(|over| over.depth == *depth && over.range.upper == *length)
             }
-            (0, [(Atom::Remainder(_, modulus), 1)]) => **modulus == *length,
+            (0, [(Atom::Remainder(_, modulus), 1)]) => **modulus == *length && is_natural(length),
             _ => false,
         }
     }

@@ -21,11 +21,12 @@ struct Place {
     names: Vec<Renaming>,
 }
 
-/// An access: the loops around it, the array as text, the index.
+/// An access: the loops around it, the length of the array as text, which says which row of a table it is, the index.
 #[derive(PartialEq, Eq, Hash)]
 struct Access {
     loops: Vec<Loop>,
     array: String,
+    length: String,
     index: Index,
 }
 
@@ -108,51 +109,38 @@ impl Walk<'_> {
         }
     }
 
-    /// The check of one access. Where its index goes on by one in the innermost loop, the bounds of that are enough. A loop
-    /// around it that nothing in it depends on is no more than the condition that it is not empty.
+    /// The check of one access, in the loops that it depends on: whatever else is around it may run or not, as it is read outside of
+    /// what it does not depend on. Where its index goes on by one in the innermost loop, the bounds of that are enough.
     fn access(&mut self, place: &Place, array: String, length: &Length, index: &Index) {
         let mut needed = length.free.and(index.free()).open;
-        let mut around: Vec<(&Loop, bool)> = Vec::new();
+        let mut around: Vec<&Loop> = Vec::new();
         for over in place.loops.iter().rev() {
-            let is_needed = needed & (1 << over.depth) != 0;
-            if is_needed || !self.certainly_runs(&over.range) {
+            if needed & (1 << over.depth) != 0 {
                 needed |= over.range.free().open;
-                around.push((over, is_needed));
+                around.push(over);
             }
         }
-        let loops: Vec<Loop> = around.iter().map(|(over, _)| (*over).clone()).collect();
-        if !self.seen.insert(Access { loops, array: array.clone(), index: index.clone() }) {
+        let loops = around.iter().map(|over| (*over).clone()).collect();
+        let access =
+            Access { loops, array: array.clone(), length: length.tokens.to_string(), index: index.clone() };
+        if !self.seen.insert(access) {
             return;
         }
         let mut around = around.into_iter().peekable();
-        let run = around.next_if(|(over, is_needed)| {
+        let run = around.next_if(|over| {
             let is_fixed = length.free.open & (1 << over.depth) == 0;
-            *is_needed && is_fixed && over.range.left_out().next().is_none() && index.follows(over.depth)
+            is_fixed && over.range.left_out().next().is_none() && index.follows(over.depth)
         });
         let (krate, length) = (self.emitter.krate(), &length.tokens);
-        let mut tokens = if let Some((over, _)) = run {
+        let tokens = if let Some(over) = run {
             let [first, past] = [&over.range.lower, &over.range.upper].map(|bound| {
-                self.emitter.signed_index(&index.plus(&Index::open(over.depth), -1).plus(bound, 1))
+                self.emitter.wide_index(&index.plus(&Index::open(over.depth), -1).plus(bound, 1))
             });
             quote!(#krate::__private::check_indices(#array, #first, #past, #length)?;)
         } else {
-            let value = self.emitter.signed_index(index);
+            let value = self.emitter.wide_index(index);
             quote!(#krate::__private::check_index(#array, #value, #length)?;)
         };
-        for (over, is_needed) in around {
-            tokens = if is_needed || over.range.left_out().next().is_some() {
-                self.emitter.loop_over(over, &tokens)
-            } else {
-                let [lower, upper] =
-                    [&over.range.lower, &over.range.upper].map(|bound| self.emitter.range_bound(bound));
-                quote!(if (#lower) < (#upper) { #tokens })
-            };
-        }
-        self.tokens.extend(tokens);
-    }
-
-    fn certainly_runs(&self, range: &Range) -> bool {
-        let length = range.upper.plus(&range.lower, -1).as_literal();
-        length.is_some_and(|length| length > range.left_out().count() as i64)
+        self.tokens.extend(around.fold(tokens, |tokens, over| self.emitter.loop_over(over, &tokens)));
     }
 }

@@ -76,14 +76,20 @@ pub(super) fn generic(ty: &Type, generics: &Generics) -> Option<Ident> {
 
 /// Whether a type is that of numbers that lie beside one another for certain.
 pub(super) fn is_slice(ty: &Type, generics: &Generics) -> bool {
-    let is_number = |ty: &Type| shape(ty) == Shape::Number || generic(ty, generics).is_some();
+    let is_number = |ty: &Type| match ty {
+        Type::Path(path) if path.path.get_ident().is_some() => {
+            shape(ty) == Shape::Number || generic(ty, generics).is_some()
+        }
+        _ => false,
+    };
     match ty {
         Type::Array(array) => is_number(&array.elem),
         Type::Slice(slice) => is_number(&slice.elem),
         Type::Reference(reference) => is_slice(&reference.elem, generics),
         Type::Paren(inner) => is_slice(&inner.elem, generics),
         Type::Group(inner) => is_slice(&inner.elem, generics),
-        Type::Path(path) => {
+        // Another type of this name would have another path.
+        Type::Path(path) if path.path.segments.len() == 1 => {
             path.path.segments.last().is_some_and(|last| match (&last.arguments, last.ident.to_string().as_str()) {
                 (PathArguments::AngleBracketed(list), "Vec") => {
                     matches!(list.args.first(), Some(GenericArgument::Type(entry)) if is_number(entry))

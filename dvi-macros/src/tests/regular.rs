@@ -326,26 +326,26 @@ fn the_rods_of_a_chain_are_checked() {
             fn check() {
                 __private::check_indices(
                     "x",
-                    (0i64),
-                    (-1i64 + 1i64 * (self.n as i64)),
+                    (0i128),
+                    (-1i128 + 1i128 * (self.n as i128)),
                     self.n,
                 )?;
                 __private::check_indices(
                     "x",
-                    (1i64),
-                    (0i64 + 1i64 * (self.n as i64)),
+                    (1i128),
+                    (0i128 + 1i128 * (self.n as i128)),
                     self.n,
                 )?;
                 __private::check_indices(
                     "y",
-                    (0i64),
-                    (-1i64 + 1i64 * (self.n as i64)),
+                    (0i128),
+                    (-1i128 + 1i128 * (self.n as i128)),
                     self.n,
                 )?;
                 __private::check_indices(
                     "rods",
-                    (0i64),
-                    (-1i64 + 1i64 * (self.n as i64)),
+                    (0i128),
+                    (-1i128 + 1i128 * (self.n as i128)),
                     self.rods.len(),
                 )?;
                 ::core::result::Result::Ok(())

@@ -347,7 +347,7 @@ fn segments(path: &syn::ExprPath) -> Vec<String> {
 fn kind(ty: &Type) -> Kind {
     match ty.to_token_stream().to_string().as_str() {
         "usize" => Kind::Usize,
-        "i64" => Kind::I64,
+        "i64" | "i128" => Kind::I64,
         "i32" => Kind::I32,
         "f64" => Kind::F64,
         _ => unknown("type", ty),
@@ -359,7 +359,7 @@ fn literal_value(literal: &Lit) -> Value {
         Lit::Int(value) => {
             let kind = match value.suffix() {
                 "usize" => Kind::Usize,
-                "i64" => Kind::I64,
+                "i64" | "i128" => Kind::I64,
                 "i32" => Kind::I32,
                 "" => Kind::Open,
                 "f64" => return Value::Real(value.base10_parse().expect("a number")),
