@@ -171,7 +171,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     }
 
     /// Looks at each member every `steps` steps, at its start and at its end: at the energy, the exit condition and the section. It is 100
-    /// if nothing else is said. What happens between two looks is not seen.
+    /// if nothing else is said. What happens between two looks is not seen; where a member fails, only its energy is looked at.
     pub fn stride(mut self, steps: u64) -> Self {
         self.settings.stride = steps;
         self
@@ -209,7 +209,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     }
 
     /// Takes `W` members at a time in lanes, as [`Together`] does: members of equal systems, which are neighbours in their shard. It is
-    /// faster, and the results are the same.
+    /// faster, and the results are the same, as long as systems that are equal by `==` do the same: 0.0 and −0.0 are equal.
     pub fn in_lanes<const W: usize>(mut self) -> Self
     where
         S: PartialEq,
@@ -224,16 +224,16 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// own, [`Shard::path`]. The file is replaced as a whole, so that a process that is killed, at whatever moment, leaves a good one. Only
     /// one process at a time may use it.
     ///
-    /// A checkpoint of another ensemble is an error that says in what it differs. Initial states are compared by their bits, the method
-    /// and the systems by what [`Debug`](fmt::Debug) says of them; so that must show all parameters, and be the same in each process,
-    /// which the address of a function is not. Exit conditions and sections are functions, which cannot be compared: remove the file
-    /// when they change.
+    /// A checkpoint of another ensemble is an error that says in what it differs. Initial states are compared by their bits; the method
+    /// by its type and by what [`Debug`](fmt::Debug) says of it; the systems by their type, their formulas, energy and gradient at the
+    /// start, and by what `Debug` says of them. So that must be the same in each process, which the address of a function is not. Exit
+    /// conditions, sections and functions of your own in formulas cannot be compared: remove the file when they change. It is
+    /// written between two [looks](Self::stride), so that a long stride makes it late.
     pub fn checkpoints(mut self, path: impl AsRef<Path>, every: Duration) -> Self
     where
         S: fmt::Debug,
-        M: fmt::Debug,
     {
-        self.settings.texts = Some((|method| format!("{method:?}"), |system| format!("{system:?}")));
+        self.settings.texts = Some(|system| format!("{system:?}"));
         self.checkpoints = Some(Checkpoints { path: path.as_ref().to_owned(), every });
         self
     }
@@ -244,7 +244,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Calls `tell` at the start, about once in a second, and at the end: from one thread, and never twice at once.
+    /// Calls `tell` at the start, about once in a second as far as the [stride](Self::stride) allows, and at the end: from one thread, and
+    /// never twice at once.
     pub fn on_progress(mut self, tell: impl FnMut(&Progress) + Send + 'a) -> Self {
         self.on_progress = Some(Box::new(tell));
         self
@@ -259,7 +260,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     where
         S: Sync,
         S::State<f64>: Sync,
-        M: Clone + Sync,
+        M: Clone + Sync + fmt::Debug,
     {
         let plan = Plan::new(&self.settings, count)?;
         if let Some(checkpoints) = &mut self.checkpoints {

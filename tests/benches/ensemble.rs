@@ -27,7 +27,7 @@ fn row<S, M>(
 where
     S: Lagrangian + PartialEq + Sync,
     S::State<f64>: Sync + Send,
-    M: InStep<LANES, S> + PartialEq + Clone + Sync + Send,
+    M: InStep<LANES, S> + PartialEq + Clone + Sync + Send + std::fmt::Debug,
 {
     let ensemble = || Ensemble::new(system, method.clone(), h, (0..MEMBERS).map(&start)).stride(steps);
     let mut best = [Duration::MAX; 4];

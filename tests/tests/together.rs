@@ -202,6 +202,40 @@ fn runs_that_are_not_in_step_are_taken_alone() -> Outcome {
     Ok(())
 }
 
+/// Springs side by side.
+#[lagrangian(
+    coordinates(x[k.len()]),
+    lagrangian = sum(0..k.len(), |j| dot(x[j]).powi(2) - k[j] * x[j] * x[j]) / 2.0,
+)]
+#[derive(PartialEq)]
+struct Springs {
+    k: Vec<f64>,
+}
+
+#[test]
+fn runs_of_other_sizes_are_taken_alone() -> Outcome {
+    let systems = [2, 3, 3, 5].map(|n| Springs { k: vec![1.5; n] });
+    let begin = || -> Result<Vec<_>, Box<dyn core::error::Error>> {
+        let mut runs = Vec::new();
+        for system in &systems {
+            let n = system.k.len();
+            let state = SpringsState { x: vec![0.3; n], dot_x: vec![0.1; n] };
+            runs.push(Integrator::new(system, Variational::trapezoid(), 0.1, state)?);
+        }
+        Ok(runs)
+    };
+    for first in 0..systems.len() {
+        let (mut together, mut alone) = (begin()?, begin()?);
+        let results = Together::<4, _, _>::new(&together[first]).take_steps(&mut together, 40);
+        assert!(results.iter().all(Result::is_ok));
+        for (one, other) in alone.iter_mut().zip(&together) {
+            one.take_steps(40)?;
+            assert_eq!(one.checkpoint(), other.checkpoint());
+        }
+    }
+    Ok(())
+}
+
 /// What the documentation says of the two traits that lanes need.
 #[test]
 fn systems_are_computed_in_lanes() {

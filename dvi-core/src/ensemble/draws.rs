@@ -28,7 +28,10 @@ impl Draws {
 
     /// Those of one member, from the first on.
     pub fn member(self, number: u64) -> Draw {
-        let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
+        // Not the numbers that a method with the same seed has.
+        let mut key = *b"\0\0\0\0\0\0\0\0dvi ensemble draws 1\0\0\0\0";
+        key[..8].copy_from_slice(&self.seed.to_le_bytes());
+        let mut generator = ChaCha8Rng::from_seed(key);
         generator.set_stream(number);
         Draw { generator }
     }
@@ -46,7 +49,8 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// A number that is uniformly distributed between `low` and `high`.
+    /// A number that is uniformly distributed from `low` to below `high`. Rounding may make it `high`, where few numbers lie between; and
+    /// `high` − `low` must be a number.
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         // 53 bits, as many as a number has.
         let unit = (self.generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;

@@ -1,5 +1,6 @@
 //! An ensemble over the processes of an MPI program: each takes a shard, and the first puts the results together.
 
+use std::fmt;
 use std::io;
 use std::vec;
 use std::vec::Vec;
@@ -62,7 +63,7 @@ impl<S: Lagrangian, M: Method<S, f64>> Ensemble<'_, S, M> {
     where
         S: Sync,
         S::State<f64>: Sync,
-        M: Clone + Sync,
+        M: Clone + Sync + fmt::Debug,
     {
         let of = world.size();
         let shard = Shard::new(world.rank() as u64, of as u64)?;

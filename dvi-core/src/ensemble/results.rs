@@ -74,7 +74,8 @@ impl Results {
     /// Puts the results of all shards together, in any order: they are then, bit for bit, those of the whole.
     ///
     /// # Errors
-    /// [`MergeError`] if they belong to different ensembles, if a member occurs twice, or if one is missing.
+    /// [`MergeError`] if they are seen to belong to different ensembles, as [a checkpoint](super::Ensemble::checkpoints) is, if a member occurs
+    /// twice, or if one is missing.
     pub fn merge(shards: impl IntoIterator<Item = Self>) -> Result<Self, MergeError> {
         let mut shards = shards.into_iter();
         let mut whole = shards.next().ok_or(MergeError::Nothing)?;

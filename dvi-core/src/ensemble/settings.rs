@@ -22,9 +22,6 @@ pub(super) type NewPacks<'a, S, M> = fn(&Integrator<'a, S, M>) -> Box<dyn Packs<
 /// The growth of a perturbation from the current state of a run on.
 pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<'a, S, M>) -> Box<dyn Growth<'a, S, M> + 'a>;
 
-/// The texts of a method and of a system.
-pub(super) type Texts<S, M> = (fn(&M) -> String, fn(&S) -> String);
-
 /// One system for all members, or one for each.
 pub(super) enum Systems<'a, S> {
     Same(&'a S),
@@ -44,8 +41,8 @@ pub(super) struct Settings<'a, S: Lagrangian, M: Method<S, f64>> {
     /// With the number of lanes.
     pub(super) packs: Option<(usize, NewPacks<'a, S, M>)>,
     pub(super) growth: Option<NewGrowth<'a, S, M>>,
-    /// The options of the method and the parameters of a system as texts, for a checkpoint to be compared with.
-    pub(super) texts: Option<Texts<S, M>>,
+    /// The parameters of a system as a text, for a checkpoint to be compared with.
+    pub(super) texts: Option<fn(&S) -> String>,
 }
 
 impl<'a, S: Lagrangian, M: Method<S, f64>> Settings<'a, S, M> {

@@ -10,7 +10,8 @@ use thiserror::Error;
 use crate::system::names::entries;
 use crate::{Lagrangian, Space, State};
 
-/// A table in CSV: names in the first line, then a line for each member. Columns that nobody asks for may hold anything.
+/// A table in CSV: names in the first line, then a line for each member. Columns that nobody asks for may hold any text, in
+/// UTF-8.
 ///
 /// ```
 /// use dvi_core::ensemble::Table;
@@ -28,7 +29,14 @@ use crate::{Lagrangian, Space, State};
 #[derive(Clone, Debug)]
 pub struct Table {
     names: Vec<String>,
-    rows: Vec<csv::StringRecord>,
+    rows: Vec<Row>,
+}
+
+#[derive(Clone, Debug)]
+struct Row {
+    /// Counted from 1.
+    line: u64,
+    entries: csv::StringRecord,
 }
 
 /// A table that cannot be read, or does not have what is asked for.
@@ -73,8 +81,10 @@ impl Table {
     ///
     /// # Errors
     /// [`TableError::Csv`] and [`TableError::Duplicate`].
-    pub fn read(from: impl Read) -> Result<Self, TableError> {
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(from);
+    pub fn read(mut from: impl Read) -> Result<Self, TableError> {
+        let mut text = Vec::new();
+        from.read_to_end(&mut text).map_err(csv::Error::from)?;
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&text[..]);
         let names: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
         for (second, name) in names.iter().enumerate() {
             if let Some(first) = names[..second].iter().position(|other| other == name) {
@@ -82,7 +92,12 @@ impl Table {
                 return Err(TableError::Duplicate { name: name.clone(), first, second });
             }
         }
-        let rows = reader.records().collect::<Result<_, _>>()?;
+        let (mut rows, mut lines) = (Vec::new(), Lines { text: &text, at: 0, line: 1 });
+        for entries in reader.records() {
+            let entries = entries?;
+            let line = entries.position().map_or(0, |position| lines.of(position.byte() as usize));
+            rows.push(Row { line, entries });
+        }
         Ok(Self { names, rows })
     }
 
@@ -132,12 +147,32 @@ impl Table {
             .ok_or_else(|| TableError::Missing { name: name.to_owned(), columns: self.names.join(", ") })
     }
 
-    fn number(&self, row: &csv::StringRecord, place: usize) -> Result<f64, TableError> {
-        let text = &row[place];
+    fn number(&self, row: &Row, place: usize) -> Result<f64, TableError> {
+        let text = &row.entries[place];
         text.parse().map_err(|_| TableError::Number {
-            line: row.position().map_or(0, csv::Position::line),
+            line: row.line,
             column: self.names[place].clone(),
             text: text.to_owned(),
         })
+    }
+}
+
+/// Counts the lines of a text, from its beginning to its end.
+struct Lines<'t> {
+    text: &'t [u8],
+    at: usize,
+    line: u64,
+}
+
+impl Lines<'_> {
+    /// The line of the first entry that begins at `byte` or after ends of lines there.
+    fn of(&mut self, byte: usize) -> u64 {
+        while let Some(&next) =
+            self.text.get(self.at).filter(|&&c| self.at < byte || matches!(c, b'\r' | b'\n'))
+        {
+            self.line += u64::from(next == b'\n');
+            self.at += 1;
+        }
+        self.line
     }
 }

@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::{Integrator, Run, Stepper};
-use crate::Lagrangian;
 use crate::error::StepError;
 use crate::methods::{Companion, InStep};
+use crate::{Lagrangian, Space};
 
 /// Where not all can go on together, each run takes this many steps alone.
 const ALONE: u64 = 16;
@@ -15,7 +15,8 @@ const ALONE: u64 = 16;
 ///
 /// Those of equal systems, with equal methods, the same step and at the same time go together. Each run ends, bit for bit, where it
 /// would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same error, whatever becomes of the
-/// others. Runs for which the method has no lanes are taken one by one.
+/// others. Systems and methods are equal that `==` says are; it must not say so of two that do different things, as of parameters
+/// 0.0 and −0.0 in `atan2`. Runs for which the method has no lanes are taken one by one.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -40,6 +41,8 @@ const ALONE: u64 = 16;
 /// ```
 pub struct Together<const W: usize, S: Lagrangian, M: InStep<W, S>> {
     packs: M::Packs,
+    /// The number of coordinates that there is room for.
+    dimension: usize,
 }
 
 impl<const W: usize, S: Lagrangian, M: InStep<W, S>> fmt::Debug for Together<W, S, M> {
@@ -49,10 +52,10 @@ impl<const W: usize, S: Lagrangian, M: InStep<W, S>> fmt::Debug for Together<W, 
 }
 
 impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Together<W, S, M> {
-    /// Room for runs on the system of `run`.
+    /// Room for runs on the system of `run`, and on others with as many coordinates.
     pub fn new(run: &Integrator<'_, S, M>) -> Self {
         const { assert!(W > 0, "a pack has at least one lane") };
-        Self { packs: run.method().packs(run.system()) }
+        Self { packs: run.method().packs(run.system()), dimension: run.system().space().dimension() }
     }
 
     /// Takes `count` steps of each run, as [`Run::take_steps`] does, and returns how each has ended.
@@ -86,7 +89,9 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
         count: u64,
         results: &mut [Result<(), StepError>],
     ) {
-        let in_lanes = group.iter().all(|&run| runs[run].has_plain_time());
+        let in_lanes = group.iter().all(|&run| {
+            runs[run].has_plain_time() && runs[run].system().space().dimension() == self.dimension
+        });
         let mut left = count;
         while left > 0 && !group.is_empty() {
             if in_lanes {

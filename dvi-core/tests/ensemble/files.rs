@@ -123,3 +123,29 @@ fn shards_that_do_not_go_together() -> Checked {
     );
     Ok(())
 }
+
+/// The number of stages is in the type of a method alone.
+#[test]
+fn a_method_with_other_stages_is_another_ensemble() -> Checked {
+    let path = file("stages.ckpt");
+    Ensemble::new(&HenonHeiles, Gauss::<2>::new(), 0.5, wells(4))
+        .checkpoints(&path, Duration::ZERO)
+        .take_steps(20)?;
+    let other =
+        Ensemble::new(&HenonHeiles, Gauss::<3>::new(), 0.5, wells(4)).checkpoints(&path, Duration::ZERO);
+    assert!(matches!(other.take_steps(20), Err(EnsembleError::Foreign { .. })));
+    let shard = |index| Shard::new(index, 2);
+    let by_verlet = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(4)).shard(shard(0)?);
+    let by_midpoint = Ensemble::new(&HenonHeiles, Variational::midpoint(), 0.05, wells(4)).shard(shard(1)?);
+    let merged = Results::merge([by_verlet.take_steps(20)?, by_midpoint.take_steps(20)?]);
+    assert!(matches!(merged, Err(MergeError::Foreign { .. })));
+    // What a checkpoint asks beyond that does not keep shards of one ensemble apart.
+    let verlet = |index| {
+        Ok::<_, Box<dyn std::error::Error>>(
+            Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(4)).shard(shard(index)?),
+        )
+    };
+    let with = verlet(0)?.checkpoints(file("asked.ckpt"), Duration::ZERO).take_steps(20)?;
+    assert_eq!(Results::merge([with, verlet(1)?.take_steps(20)?])?.members().len(), 4);
+    Ok(())
+}

@@ -27,6 +27,13 @@ fn a_table_of_states_and_parameters() -> Checked {
 
 #[test]
 fn mistakes_have_a_line_and_a_column() {
+    for (text, line) in
+        [("x\r\n1\r\nbad\r\n", 3), ("x\n1\n\n\nbad\n", 5), ("x\nbad", 2), ("x,r\n1,\"a\nb\"\nbad,c\n", 4)]
+    {
+        let Ok(table) = Table::read(text.as_bytes()) else { panic!("{text:?} is a table") };
+        let said = table.column("x").map_err(|error| error.to_string());
+        assert_eq!(said, Err(std::format!("line {line}, column `x`: `bad` is no number")));
+    }
     let read = |text: &str| Table::read(text.as_bytes()).and_then(|table| table.states(&Kepler { mu: 1.0 }));
     assert_eq!(said(read("x,y,dot_x,dot_y\n1,2,3,4\n1,2,,4\n")), "line 3, column `dot_x`: `` is no number");
     assert_eq!(said(read("x,y,dot_x,dot_y\n1,l0,3,4\n")), "line 2, column `y`: `l0` is no number");

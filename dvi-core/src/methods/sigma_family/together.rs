@@ -280,7 +280,7 @@ fn midpoints<const W: usize, S: DegenerateLagrangian + DegenerateLagrangian<Lane
         }
         run.memory.run.history.set_place(place);
         if taken % 2 == 1 {
-            run.memory.run.defect.iter_mut().for_each(|c| *c = -*c);
+            run.memory.run.defect.iter_mut().for_each(|c| *c = 0.0 - *c);
         }
         run.statistics.steps += taken;
     }
