@@ -1,8 +1,8 @@
 //! Ensembles: many runs of one method over all cores, from a table or a distribution of initial conditions or parameters.
 //!
 //! Each member has a record of its own: how its run has ended and when, its last state, its energies and momenta. A member that fails is
-//! recorded, and the others go on. The results are bit for bit the same for every number of threads and of lanes, whatever was
-//! interrupted and resumed, and whether the ensemble was run as a whole or in shards.
+//! recorded, and the others go on. The results are bit for bit the same for every number of threads, with interruptions and without, as a
+//! whole and in shards; and for every number of lanes, if systems that are equal by `==` do the same.
 //!
 //! ```
 //! use dvi_core::ensemble::{Draws, Ensemble, Outcome};
@@ -221,7 +221,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     }
 
     /// Writes a checkpoint to `path` about `every` so often, and at the end; goes on from it if it is there. A shard has a file of its
-    /// own, [`Shard::path`]. The file is replaced as a whole, so that a process that is killed, at whatever moment, leaves a good one. Only
+    /// own, [`Shard::path`]. The file is replaced as a whole, so that a process that is killed leaves a good one. Only
     /// one process at a time may use it.
     ///
     /// A checkpoint of another ensemble is an error that says in what it differs. Initial states are compared by their bits; the method

@@ -4,20 +4,23 @@
 //! they are.
 
 use proc_macro2::{Span, TokenStream};
-use quote::{ToTokens, format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote};
 use syn::ext::IdentExt as _;
-use syn::{Fields, Ident, ItemStruct, Path, Type};
+use syn::{Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
 use crate::lower::{reserved, words};
 use crate::symbolic::{Index, Names};
 use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, ScalarFieldPath};
 
+mod parameters;
 mod shape;
 mod sizes;
 
+pub(crate) use parameters::ParameterName;
+use parameters::fields;
 pub(crate) use shape::Shape;
-use shape::{generic, is_integer, is_slice, mentions_generic, shape};
+use shape::mentions_generic;
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -43,21 +46,6 @@ pub(crate) struct SizeName {
     pub(crate) tokens: TokenStream,
     /// Whether the compiler knows it: a const generic.
     pub(crate) constant: bool,
-}
-
-/// A constant of the system: a field of the struct, or a path.
-#[derive(Debug)]
-pub(crate) struct ParameterName {
-    pub(crate) text: String,
-    /// The place in a method of the struct.
-    pub(crate) tokens: TokenStream,
-    pub(crate) shape: Shape,
-    /// Whether its entries are numbers that lie beside one another for certain.
-    pub(crate) is_slice: bool,
-    /// Whether its numbers are integers for certain.
-    pub(crate) integer: bool,
-    /// The generic type of the struct that its numbers are of.
-    pub(crate) generic: Option<Ident>,
 }
 
 /// A function of several variables that a formula calls: a field of the struct, or a path.
@@ -259,14 +247,7 @@ impl Model {
         let text = path.to_token_stream().to_string().replace(' ', "");
         let known = self.parameters.iter().position(|parameter| parameter.text == text);
         let position = known.unwrap_or_else(|| {
-            self.parameters.push(ParameterName {
-                text,
-                tokens: quote!(#path),
-                is_slice: false,
-                shape: Shape::Unknown,
-                integer: false,
-                generic: None,
-            });
+            self.parameters.push(ParameterName::of_unknown_type(text, quote!(#path)));
             self.parameters.len() - 1
         });
         position as u32
@@ -361,34 +342,6 @@ fn velocity_name(coordinate: &Ident, factor: Factor) -> Ident {
     match factor {
         Factor::Line | Factor::Sphere => format_ident!("dot_{}", coordinate),
         Factor::Rotation => format_ident!("omega_{}", coordinate),
-    }
-}
-
-fn fields(item: &ItemStruct, errors: &mut Errors) -> Vec<ParameterName> {
-    match &item.fields {
-        Fields::Named(fields) => fields
-            .named
-            .iter()
-            .filter_map(|field| {
-                let name = field.ident.as_ref()?;
-                Some(ParameterName {
-                    text: name.to_string(),
-                    // What is wrong with the type of a field is reported on the field.
-                    tokens: quote_spanned!(Span::call_site().located_at(name.span())=> self.#name),
-                    shape: shape(&field.ty),
-                    is_slice: is_slice(&field.ty, &item.generics),
-                    integer: is_integer(&field.ty),
-                    generic: generic(&field.ty, &item.generics),
-                })
-            })
-            .collect(),
-        Fields::Unit => Vec::new(),
-        Fields::Unnamed(fields) => {
-            let message =
-                "the fields are the parameters of the system and need names: write `struct S { name: f64 }`";
-            errors.push(fields, message);
-            Vec::new()
-        }
     }
 }
 

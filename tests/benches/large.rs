@@ -6,6 +6,8 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dvi_core::prelude::*;
+use dvi_core::system::Regular;
+use dvi_core::{NondegenerateLagrangian, RegularLagrangian, System};
 use std::hint::black_box;
 
 /// Toda's chain between walls.
@@ -51,6 +53,36 @@ fn newton(criterion: &mut Criterion) {
             bencher.iter(|| assert!(run.advance().is_ok()));
         });
     }
+    group.finish();
+}
+
+/// A step of the midpoint rule by the fixed point, and as many evaluations of the force alone as it takes.
+fn fixed_point(criterion: &mut Criterion) {
+    for n in [1000, 10_000, 100_000] {
+        let toda = TodaState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
+        beside_its_forces(criterion, "Toda", n, &Toda { n }, toda);
+        let fput = FputState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
+        beside_its_forces(criterion, "FPUT", n, &Fput { n, alpha: ALPHA }, fput);
+    }
+}
+
+fn beside_its_forces<S>(criterion: &mut Criterion, name: &str, n: usize, system: &S, start: S::State<f64>)
+where
+    S: RegularLagrangian + NondegenerateLagrangian + System<Kind = Regular>,
+{
+    let method = Variational { solver: Solver::FixedPoint, ..Variational::midpoint() };
+    let Ok(mut run) = Integrator::new(system, method, H, start) else { panic!("it starts") };
+    assert!(run.take_steps(20).is_ok());
+    let evaluations = run.statistics().gradients.div_ceil(20);
+    let mut group = criterion.benchmark_group(format!("{name}, midpoint, fixed point, h = {H}"));
+    group.throughput(Throughput::Elements(n as u64));
+    group.bench_function(BenchmarkId::new("a step", n), |bencher| {
+        bencher.iter(|| assert!(run.advance().is_ok()));
+    });
+    let (q, mut force) = (wave(n, 0.0), vec![0.0; n]);
+    group.bench_function(BenchmarkId::new(format!("{evaluations} forces"), n), |bencher| {
+        bencher.iter(|| (0..evaluations).for_each(|_| system.force(black_box(&q), &[], 0.0, &mut force)));
+    });
     group.finish();
 }
 
@@ -163,5 +195,5 @@ fn verlet(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, newton, many_bodies, verlet);
+criterion_group!(benches, newton, fixed_point, many_bodies, verlet);
 criterion_main!(benches);

@@ -1,4 +1,5 @@
-//! The right side of many vortices, each of which moves all others: the generated gradient beside two by hand.
+//! The right side of many vortices, each of which moves all others: the generated gradient beside two by hand; and the check of
+//! indices before a run.
 //!
 //! `cargo bench -p dvi-benches --bench pairs`. Throughput counts ordered pairs: n(n − 1) of n vortices.
 
@@ -6,8 +7,8 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use dvi_core::DegenerateLagrangian;
 use dvi_core::prelude::*;
+use dvi_core::{DegenerateLagrangian, System};
 
 /// Vortices in the plane.
 #[degenerate_lagrangian(
@@ -101,5 +102,28 @@ fn gradients(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, gradients);
+/// Vortices whose number is a field, so that each access is checked against the length of an array.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = -sum_pairs(0..n, |i, j| gamma[i] * gamma[j] / (4.0 * PI)
+        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2)).ln()),
+)]
+struct Counted {
+    n: usize,
+    gamma: Vec<f64>,
+}
+
+fn checks(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("the check of n vortices");
+    for n in [1000, 10_000, 100_000] {
+        let system = Counted { n, gamma: vec![1.0; n] };
+        group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
+            bencher.iter(|| assert!(black_box(&system).check().is_ok()));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, gradients, checks);
 criterion_main!(benches);

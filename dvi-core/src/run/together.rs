@@ -14,8 +14,8 @@ const ALONE: u64 = 16;
 /// Takes steps of several runs in lanes, `W` at a time.
 ///
 /// Those of equal systems, with equal methods, the same step and at the same time go together. Each run ends, bit for bit, where it
-/// would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same error, whatever becomes of the
-/// others. Systems and methods are equal that `==` says are; it must not say so of two that do different things, as of parameters
+/// would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same error, also where others
+/// fail. Systems and methods are equal that `==` says are; it must not say so of two that do different things, as of parameters
 /// 0.0 and −0.0 in `atan2`. Runs for which the method has no lanes are taken one by one.
 ///
 /// ```

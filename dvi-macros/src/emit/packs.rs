@@ -27,7 +27,6 @@ use quote::quote;
 use super::indices::open;
 use super::{Element, Function, local, name};
 use crate::instructions::{Instruction, Register, Signed};
-use crate::model::Shape;
 use crate::program::Place;
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
@@ -89,6 +88,7 @@ impl Function<'_> {
             Instruction::Leaf(id) => match self.emitter.graph.node(*id) {
                 Node::Coordinate(entry) | Node::Velocity(entry) => entry.index.follows(depth),
                 Node::Parameter(parameter) => self.is_packed_parameter(parameter, depth),
+                // Those that depend on the index are numbers of their own.
                 _ => false,
             },
             Instruction::Unary(..)
@@ -105,10 +105,10 @@ impl Function<'_> {
     fn is_packed_parameter(&self, parameter: &Parameter, depth: u32) -> bool {
         let known = &self.emitter.model.parameters[parameter.field as usize];
         let [index] = parameter.indices.as_slice() else { return false };
-        known.is_slice && matches!(known.shape, Shape::Array(..)) && index.follows(depth)
+        known.is_slice && index.follows(depth)
     }
 
-    /// A loop, as packs and then what is left. `begin` and `over` are those of the loop term by term.
+    /// A loop, as packs and then what is left. Its sums have begun.
     pub(super) fn packs(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> TokenStream {
         let krate = self.emitter.krate();
         let packed = Function { element: Element::Pack, ..*self };

@@ -192,14 +192,7 @@ impl Model {
             return Some(known as u32);
         }
         let tokens = quote!(#tokens.#member);
-        self.parameters.push(ParameterName {
-            text,
-            tokens,
-            is_slice: false,
-            shape: Shape::Unknown,
-            integer: false,
-            generic: None,
-        });
+        self.parameters.push(ParameterName::of_unknown_type(text, tokens));
         Some(self.parameters.len() as u32 - 1)
     }
 

@@ -3,6 +3,8 @@
 
 use std::f64::consts::PI;
 
+use crate::kernels::vortices_by_hand;
+
 /// y' = f(y), with its energy.
 pub(crate) trait Field<const N: usize>: Clone + 'static {
     fn slope(&self, y: &[f64; N]) -> [f64; N];
@@ -19,32 +21,19 @@ pub(crate) trait Forces<const N: usize>: Clone + 'static {
 #[derive(Clone)]
 pub(crate) struct Vortices {
     pub(crate) gamma: [f64; 4],
-    /// Γ/2π
-    strength: [f64; 4],
+    field: vortices_by_hand::Field,
 }
 
 impl Vortices {
     pub(crate) fn new(gamma: [f64; 4]) -> Self {
-        Self { gamma, strength: gamma.map(|gamma| gamma / (2.0 * PI)) }
+        Self { gamma, field: vortices_by_hand::Field::new(gamma) }
     }
 }
 
 impl Field<8> for Vortices {
     #[inline(always)]
     fn slope(&self, z: &[f64; 8]) -> [f64; 8] {
-        let mut v = [0.0; 8];
-        for j in 0..4 {
-            for k in j + 1..4 {
-                let (dx, dy) = (z[j] - z[k], z[4 + j] - z[4 + k]);
-                let inverse = 1.0 / (dx * dx + dy * dy);
-                let (from_j, from_k) = (self.strength[j] * inverse, self.strength[k] * inverse);
-                v[j] -= from_k * dy;
-                v[4 + j] += from_k * dx;
-                v[k] += from_j * dy;
-                v[4 + k] -= from_j * dx;
-            }
-        }
-        v
+        self.field.velocity(z)
     }
 
     fn energy(&self, z: &[f64; 8]) -> f64 {

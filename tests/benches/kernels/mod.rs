@@ -4,7 +4,7 @@ mod kepler_by_hand;
 mod predators_by_hand;
 mod rattle_by_hand;
 mod top_by_hand;
-mod vortices_by_hand;
+pub(crate) mod vortices_by_hand;
 
 use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;

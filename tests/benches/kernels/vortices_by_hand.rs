@@ -18,7 +18,7 @@ impl Field {
     }
 
     #[inline(always)]
-    fn velocity(&self, z: &State) -> State {
+    pub(crate) fn velocity(&self, z: &State) -> State {
         let mut v = [0.0; 8];
         for j in 0..4 {
             for k in j + 1..4 {

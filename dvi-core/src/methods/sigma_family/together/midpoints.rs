@@ -1,0 +1,231 @@
+//! The fixed point of σ = ½ in lanes.
+
+use super::{Packed, Packs, look};
+use crate::methods::Clock;
+use crate::methods::sigma_family::Sigma;
+use crate::methods::together::{Companion, all_finite, load};
+use crate::scalar::lanes::read_lane;
+use crate::scalar::simd::{Task, widest};
+use crate::scalar::{Comparison, Lanes};
+use crate::solve::{Convergence, Stopping, Verdict};
+use crate::state::history::{DEPTH, extrapolate};
+use crate::{DegenerateLagrangian, Scalar, System};
+
+/// Up to `count` steps; returns how many.
+pub(super) fn midpoints<const W: usize, S: DegenerateLagrangian + DegenerateLagrangian<Lanes<W>>>(
+    method: &Sigma,
+    system: &S,
+    packs: &mut Packs<W, S>,
+    runs: &mut [Companion<'_, S, Sigma>],
+    clock: Clock<f64>,
+    count: u64,
+) -> u64 {
+    let Packs { q, ahead, other, gradient, point, shift, history, reciprocals, one, .. } = packs;
+    let Some(first) = runs.first().map(|run| &run.memory.run) else { return 0 };
+    let (Some(mut place), vanishes) = (first.history.place_if_full(), first.defect_vanishes) else {
+        return 0;
+    };
+    let budget = first.ladder.budget(method.stopping.max_iterations, 12 + one.len());
+    let are_alike = runs.iter().map(|run| &run.memory.run).all(|run| {
+        run.history.place_if_full() == Some(place)
+            && run.defect_vanishes == vanishes
+            && run.ladder.tries_fixed_point()
+    });
+    if !are_alike {
+        return 0;
+    }
+    load(q, |run| &*runs[run].q, runs.len());
+    for (entry, packs) in history.iter_mut().enumerate() {
+        load(packs, |run| &*runs[run].memory.run.history.ring()[entry], runs.len());
+    }
+    for run in runs.iter_mut().filter(|_| !vanishes) {
+        run.memory.run.shift_by_defect(system);
+    }
+    load(shift, |run| &*runs[run].memory.run.work.shift, runs.len());
+    let mut taken = 0;
+    while taken < count {
+        let steps = look(runs, q, one, count - taken, |monitor, q| {
+            monitor.look(q)?;
+            Ok(monitor.steps_unseen().max(1))
+        });
+        let (done, iterations) = widest(Midpoints {
+            system,
+            stopping: method.stopping,
+            budget,
+            reciprocals,
+            clock: clock.after(taken),
+            steps,
+            has_shift: !vanishes,
+            q,
+            origin: ahead,
+            increment: other,
+            point,
+            gradient,
+            shift,
+            history,
+            place: &mut place,
+        });
+        taken += done;
+        for (run, iterations) in runs.iter_mut().zip(iterations) {
+            run.memory.run.monitor.steps += done;
+            run.statistics.iterations += iterations;
+            run.statistics.gradients += iterations;
+        }
+        if done < steps || steps == 0 {
+            break;
+        }
+    }
+    for (lane, run) in runs.iter_mut().enumerate() {
+        read_lane(lane, q, run.q);
+        for (entry, packs) in history.iter().enumerate() {
+            read_lane(lane, packs, &mut run.memory.run.history.ring_mut()[entry]);
+        }
+        run.memory.run.history.set_place(place);
+        if taken % 2 == 1 {
+            run.memory.run.defect.iter_mut().for_each(|c| *c = 0.0 - *c);
+        }
+        run.statistics.steps += taken;
+    }
+    taken
+}
+
+/// Some steps with σ = ½: s ← −½h K⁻¹∇H(q0 + ½K⁻¹c0 + ½s), q1 = q0 + K⁻¹c0 + s.
+struct Midpoints<'a, const W: usize, S: System> {
+    system: &'a S,
+    stopping: Stopping,
+    budget: usize,
+    reciprocals: &'a [f64],
+    clock: Clock<f64>,
+    steps: u64,
+    has_shift: bool,
+    q: &'a mut Packed<W, S>,
+    origin: &'a mut Packed<W, S>,
+    increment: &'a mut Packed<W, S>,
+    point: &'a mut Packed<W, S>,
+    gradient: &'a mut Packed<W, S>,
+    shift: &'a mut Packed<W, S>,
+    history: &'a mut [Packed<W, S>; DEPTH],
+    /// Where the next increment goes in the history.
+    place: &'a mut usize,
+}
+
+impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Midpoints<'_, W, S> {
+    /// How many steps all runs have taken, and the iterations of each in these.
+    type Output = (u64, [u64; W]);
+
+    #[inline(always)]
+    fn run(mut self) -> (u64, [u64; W]) {
+        let mut iterations = [0; W];
+        for step in 0..self.steps {
+            let Some(of_step) = self.step(step) else { return (step, iterations) };
+            for (sum, of_step) in iterations.iter_mut().zip(of_step) {
+                *sum += of_step;
+            }
+        }
+        (self.steps, iterations)
+    }
+}
+
+impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
+    /// Takes a step and returns the iterations; nothing has moved if there is none that all runs agree on.
+    #[inline(always)]
+    fn step(&mut self, number: u64) -> Option<[u64; W]> {
+        let half = Lanes::all(0.5);
+        extrapolate(self.history, *self.place, self.increment);
+        let mut scale = largest(self.q) + largest(self.increment);
+        if self.has_shift {
+            scale += largest(self.shift);
+            for ((origin, &q), &shift) in self.origin.iter_mut().zip(self.q.iter()).zip(self.shift.iter()) {
+                *origin = q + half * shift;
+            }
+        } else {
+            self.origin.copy_from_slice(self.q);
+        }
+        let smallest = smallest(self.q, scale);
+        let mut convergence: [Convergence<f64>; W] = core::array::from_fn(|lane| {
+            Convergence::of_fixed_point(self.stopping, scale.0[lane], smallest.0[lane], self.budget)
+        });
+        let time = self.clock.after(number);
+        let time = Lanes::all(time.time() + 0.5 * time.step_size());
+        let mut active = [true; W];
+        while active != [false; W] {
+            let correction = self.iterate(time, &active);
+            for lane in 0..W {
+                if active[lane] {
+                    match convergence[lane].judge(correction.0[lane]) {
+                        Verdict::Continue => {}
+                        Verdict::Accept => active[lane] = false,
+                        Verdict::GiveUp => return None,
+                    }
+                }
+            }
+        }
+        for ((next, &q), (&shift, &s)) in
+            self.point.iter_mut().zip(self.q.iter()).zip(self.shift.iter().zip(self.increment.iter()))
+        {
+            *next = q + if self.has_shift { shift + s } else { s };
+        }
+        if !(all_finite(self.increment) && all_finite(self.point)) {
+            return None;
+        }
+        self.q.copy_from_slice(self.point);
+        self.shift.iter_mut().for_each(|shift| *shift = -*shift);
+        self.history[*self.place].copy_from_slice(self.increment);
+        *self.place = (*self.place + 1) % DEPTH;
+        Some(convergence.map(|convergence| convergence.iterations as u64))
+    }
+
+    /// Applies a correction in the active lanes, and returns its size.
+    #[inline(always)]
+    fn iterate(&mut self, time: Lanes<W>, active: &[bool; W]) -> Lanes<W> {
+        let half = Lanes::all(0.5);
+        for ((point, &origin), &s) in self.point.iter_mut().zip(self.origin.iter()).zip(self.increment.iter())
+        {
+            *point = origin + half * s;
+        }
+        self.system.hamiltonian_gradient(self.point, time, self.gradient);
+        let mut correction = Lanes::all(0.0);
+        let all_active = *active == [true; W];
+        for ((j, &reciprocal), s) in self.reciprocals.iter().enumerate().zip(self.increment.iter_mut()) {
+            let trial = self.gradient[self.system.conjugate(j)] * Lanes::all(reciprocal);
+            correction = larger(correction, Scalar::abs(trial - *s));
+            // Stores with a mask are slow, and needed in the last iterations only.
+            if all_active {
+                *s = trial;
+            } else {
+                for lane in 0..W {
+                    s.0[lane] = if active[lane] { trial.0[lane] } else { s.0[lane] };
+                }
+            }
+        }
+        correction
+    }
+}
+
+/// As [`norm::larger`](crate::scalar::norm::larger).
+#[inline(always)]
+fn larger<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
+    Lanes::choose(b, Comparison::Greater, a, b, a)
+}
+
+/// As [`norm::largest`](crate::scalar::norm::largest).
+#[inline(always)]
+fn largest<const W: usize>(x: &[Lanes<W>]) -> Lanes<W> {
+    let mut largest = Lanes::all(0.0);
+    for &x in x {
+        largest = larger(largest, Scalar::abs(x));
+    }
+    largest
+}
+
+/// As [`norm::smallest`](crate::scalar::norm::smallest).
+#[inline(always)]
+fn smallest<const W: usize>(x: &[Lanes<W>], bound: Lanes<W>) -> Lanes<W> {
+    let mut smallest = bound;
+    for &x in x {
+        let x = Scalar::abs(x);
+        let if_positive = Lanes::choose(x, Comparison::Greater, Lanes::all(0.0), x, smallest);
+        smallest = Lanes::choose(x, Comparison::Less, smallest, if_positive, smallest);
+    }
+    smallest
+}
