@@ -102,7 +102,7 @@
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
-#[cfg(feature = "ensembles")]
+#[cfg(any(feature = "ensembles", feature = "fast-sums"))]
 extern crate std;
 
 #[doc(hidden)]
@@ -113,6 +113,8 @@ pub mod discrete;
 #[cfg(feature = "ensembles")]
 pub mod ensemble;
 pub mod error;
+#[cfg(feature = "fast-sums")]
+pub mod fast_sum;
 pub mod field;
 pub mod guide;
 pub mod mechanics;
@@ -138,7 +140,7 @@ pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
     AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula,
     HolonomicLagrangian, Lagrangian, Linear, ManifoldLagrangian, ManifoldSystem, Matrix,
-    NondegenerateLagrangian, NonholonomicLagrangian, OperationCount, Permutation, ProperlyDegenerate,
+    NondegenerateLagrangian, NonholonomicLagrangian, OperationCount, PairSum, Permutation, ProperlyDegenerate,
     QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, System, TimeTransformed,
     UnilateralLagrangian, Vector, Weights,
 };

@@ -11,7 +11,7 @@ use crate::internal::guarded;
 use crate::lower::lints::warnings;
 use crate::model::Model;
 use crate::program::{DegeneratePrograms, RegularPrograms};
-use crate::structure::{MassMatrix, OneForm};
+use crate::structure::{MassMatrix, OneForm, PairSum};
 use crate::symbolic::Graph;
 use crate::syntax::{Attribute, Kind, depth, parse_attribute};
 use crate::validate::{self, Checked, Difference};
@@ -38,7 +38,9 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         structure.check(&stages.model, stages.attribute.symplectic_part(), &mut stages.errors);
         stages.barrier()?;
         let canonical = structure.canonical;
-        let programs = DegeneratePrograms::new(&mut stages.graph, &formulas, &form_entries, canonical);
+        let pairs = PairSum::find(&mut stages.graph, &stages.model, formulas.hamiltonian);
+        let programs =
+            DegeneratePrograms::new(&mut stages.graph, &formulas, &form_entries, canonical, pairs.as_ref());
         let Stages { graph, model, attribute, .. } = &*stages;
         let checked = validate::degenerate(graph, model, attribute, &programs, &structure);
         let checked = stages.agrees(checked)?;

@@ -27,6 +27,7 @@ mod constraints;
 mod degenerate;
 mod document;
 mod manifold;
+mod pairs;
 mod regular;
 mod state;
 
@@ -229,6 +230,11 @@ fn is_parameter(node: &Node, field: usize) -> bool {
 
 /// The implementation of a trait that a system has in all numbers `__T`.
 fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStream) -> TokenStream {
+    in_numbers_with(emitter, &quote!(#implemented<__T>), items)
+}
+
+/// The same, of a trait that is given with its arguments.
+fn in_numbers_with(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStream) -> TokenStream {
     let (krate, name, allow) = (emitter.krate(), &emitter.model.item.ident, allow());
     let generics = over_numbers(emitter);
     let (impl_generics, _, where_clause) = generics.split_for_impl();
@@ -236,7 +242,7 @@ fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStr
     quote! {
         #[automatically_derived]
         #allow
-        impl #impl_generics #krate::#implemented<__T> for #name #type_generics #where_clause { #items }
+        impl #impl_generics #krate::#implemented for #name #type_generics #where_clause { #items }
     }
 }
 

@@ -11,10 +11,12 @@ use crate::syntax::Constrained;
 
 mod constraints;
 mod degenerate;
+mod pairs;
 mod regular;
 
 pub(crate) use constraints::{Constraint, Constraints, DeclaredConstraints, Row};
 pub(crate) use degenerate::{DegenerateFormulas, DegeneratePrograms, TimeTransform, dalpha};
+pub(crate) use pairs::PairPrograms;
 pub(crate) use regular::{RegularFormulas, RegularPrograms};
 
 /// An array that a generated function writes to.
@@ -92,9 +94,7 @@ impl Programs {
         constraints: Option<&DeclaredConstraints>,
         momenta: &[Expr],
     ) -> Self {
-        let by_lagrangian = graph.gradient(lagrangian, &[]);
-        let contributions = added(graph, by_lagrangian, force.iter().cloned());
-        let gradient = statements(graph, contributions, Output::Lq, Output::Lv);
+        let gradient = gradient(graph, lagrangian, force);
         entries.extend(force_derivatives(graph, force));
         let mut linearize = gradient.clone();
         linearize.extend(weighted_hessian(graph, &entries));
@@ -109,6 +109,13 @@ impl Programs {
             entries,
         }
     }
+}
+
+/// ∂L/∂q + F and ∂L/∂v
+fn gradient(graph: &mut Graph, lagrangian: Expr, force: &Force) -> Vec<Statement> {
+    let by_lagrangian = graph.gradient(lagrangian, &[]);
+    let contributions = added(graph, by_lagrangian, force.iter().cloned());
+    statements(graph, contributions, Output::Lq, Output::Lv)
 }
 
 fn applied(graph: &mut Graph, force: &Force) -> Routine {

@@ -7,11 +7,13 @@ mod class;
 pub(crate) mod gauge;
 mod mass;
 mod one_form;
+mod pairs;
 mod singular;
 
 pub(crate) use class::{Class, Components};
 pub(crate) use mass::MassMatrix;
 pub(crate) use one_form::OneForm;
+pub(crate) use pairs::PairSum;
 
 /// Whether each row of a symmetric matrix with entries at these places, and their mirror images, can have
 /// a column of its own, by augmenting paths. Among arrays this is not decided: true.

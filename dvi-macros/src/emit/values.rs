@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
-use super::{Element, Function, local, name, own_function, scalar_field};
+use super::{Element, Emitter, Function, local, name, own_function, scalar_field};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
 use crate::model::ScalarField;
@@ -155,10 +155,19 @@ impl Function<'_> {
         if let Element::Pack = self.element {
             return quote!(#krate::__private::parameters::<__T, _>(&#place[..], #(#indices)*));
         }
-        let place = quote!(#place #([#indices])*);
+        self.emitter.parameter(parameter.field, &quote!(#([#indices])*))
+    }
+}
+
+impl Emitter<'_> {
+    /// A parameter as a number, with its indices in brackets.
+    pub(crate) fn parameter(&self, field: u32, indices: &TokenStream) -> TokenStream {
+        let krate = self.krate();
+        let name = &self.model.parameters[field as usize];
+        let place = &name.tokens;
         match &name.generic {
-            Some(generic) => quote!(<#generic as #krate::Parameter<__T>>::value(#place)),
-            None => quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place))),
+            Some(generic) => quote!(<#generic as #krate::Parameter<__T>>::value(#place #indices)),
+            None => quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place #indices))),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! What is special to L = α·v − H: the one-form, the Hamiltonian, the right side of the flow.
 
+use super::pairs::PairPrograms;
 use super::{
     Force, Output, Place, Programs, Statement, Variable, added, first_derivatives, mirrored_pair, rates,
     result, statements, variable,
 };
 use crate::internal::internal;
 use crate::routine::Routine;
+use crate::structure::PairSum;
 use crate::symbolic::{Contribution, Coordinate, Expr, Graph, SecondContribution, Weight};
 
 /// The formulas of a degenerate system.
@@ -46,6 +48,7 @@ pub(crate) struct DegeneratePrograms {
     pub(crate) conjugate_entries: Routine,
     pub(crate) momentum_gradients: Vec<Routine>,
     pub(crate) time: Option<TimeTransform<Routine>>,
+    pub(crate) pairs: Option<PairPrograms>,
 }
 
 impl DegeneratePrograms {
@@ -55,13 +58,12 @@ impl DegeneratePrograms {
         formulas: &DegenerateFormulas,
         form_entries: &[SecondContribution],
         canonical: bool,
+        pairs: Option<&PairSum>,
     ) -> Self {
         let lagrangian = graph.subtract(formulas.one_form, formulas.hamiltonian);
         let entries = graph.hessian(lagrangian);
         let shared = Programs::new(graph, lagrangian, entries, &formulas.force, None, &formulas.momenta);
-        let by_hamiltonian = graph.gradient(formulas.hamiltonian, &[]);
-        let contributions = added(graph, by_hamiltonian, negated(&formulas.force));
-        let hamiltonian_gradient = statements(graph, contributions, Output::Vector, Output::Lv);
+        let hamiltonian_gradient = hamiltonian_gradient(graph, formulas.hamiltonian, &formulas.force);
         let one_form = one_form(graph, formulas.one_form);
         let flow_source = flow_source(graph, &hamiltonian_gradient, &one_form);
         let one_form_jacobian = one_form_jacobian(graph, form_entries);
@@ -73,9 +75,11 @@ impl DegeneratePrograms {
             rate: Routine::new(graph, result(rate)),
             hamiltonian: Routine::new(graph, result(hamiltonian)),
         });
+        let pairs = pairs.map(|sum| PairPrograms::new(graph, formulas, sum, &one_form));
         Self {
             shared,
             time,
+            pairs,
             hamiltonian: Routine::new(graph, result(formulas.hamiltonian)),
             hamiltonian_gradient: Routine::new(graph, hamiltonian_gradient),
             one_form: Routine::new(graph, one_form),
@@ -90,6 +94,13 @@ impl DegeneratePrograms {
     }
 }
 
+/// ∇H − F
+pub(super) fn hamiltonian_gradient(graph: &mut Graph, hamiltonian: Expr, force: &Force) -> Vec<Statement> {
+    let by_hamiltonian = graph.gradient(hamiltonian, &[]);
+    let contributions = added(graph, by_hamiltonian, negated(force));
+    statements(graph, contributions, Output::Vector, Output::Lv)
+}
+
 fn negated(force: &Force) -> impl Iterator<Item = Contribution> {
     force.iter().map(|part| Contribution { value: part.value.negated(), ..part.clone() })
 }
@@ -100,7 +111,7 @@ fn one_form(graph: &mut Graph, one_form: Expr) -> Vec<Statement> {
     derivatives.into_iter().filter(|s| matches!(s.place, Place::Entry(Output::Vector, _))).collect()
 }
 
-fn flow_source(
+pub(super) fn flow_source(
     graph: &mut Graph,
     hamiltonian_gradient: &[Statement],
     one_form: &[Statement],

@@ -280,7 +280,7 @@ impl Graph {
         }
     }
 
-    pub(super) fn factors(&self, node: Id) -> Vec<(Id, u32)> {
+    pub(crate) fn factors(&self, node: Id) -> Vec<(Id, u32)> {
         match self.node(node) {
             Node::One => Vec::new(),
             Node::Product(factors) => factors.clone(),

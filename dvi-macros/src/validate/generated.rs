@@ -104,6 +104,11 @@ impl Functions<'_> {
                     add("time_transform", Quantity::TimeRate, value(&time.rate));
                     add("time_transform", Quantity::Untransformed, value(&time.hamiltonian));
                 }
+                if let Some(pairs) = &programs.pairs {
+                    add("rest_hamiltonian", Quantity::Hamiltonian, value(&pairs.together));
+                    let gradient = vector(&pairs.together_gradient);
+                    add("rest_hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
+                }
                 let jacobian = machine.run(&programs.one_form_jacobian).matrix;
                 add("one_form_jacobian", Quantity::OneFormJacobian, jacobian);
                 for (number, gradient) in programs.momentum_gradients.iter().enumerate() {

@@ -1,0 +1,66 @@
+//! What an evaluation needs that does not depend on the places of the bodies.
+
+use alloc::vec::Vec;
+
+use super::basis::Basis;
+use super::transfer::Transfer;
+
+/// The functions of the basis that differ in their last degree only.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<const D: usize> {
+    /// Their other degrees.
+    pub(super) degrees: [usize; D],
+    pub(super) first: usize,
+    pub(super) len: usize,
+}
+
+/// The basis of all expansions, and the matrices that act on them.
+#[derive(Clone, Debug)]
+pub(super) struct Expansion<const D: usize> {
+    pub(super) basis: Basis<D>,
+    pub(super) rows: Vec<Row<D>>,
+    tolerance: f64,
+    /// For each side of a cube: the matrix that takes moments of the part to the whole, column by column, and its transpose.
+    refinements: Vec<[Vec<f64>; 2]>,
+    transfers: Vec<Transfer>,
+}
+
+impl<const D: usize> Expansion<D> {
+    /// Functions with a total degree below `order`, and matrices without singular values below `tolerance` times the largest.
+    pub(super) fn new(order: usize, tolerance: f64) -> Self {
+        let basis = Basis::new(order);
+        let firsts = basis.degrees.iter().enumerate().filter(|(_, degrees)| degrees[D - 1] == 0);
+        let row = |(first, degrees): (usize, &[usize; D])| {
+            let len = order - degrees.iter().sum::<usize>();
+            Row { degrees: *degrees, first, len }
+        };
+        let rows = firsts.map(row).collect();
+        let refinements = (0..1_usize << D).map(|sides| {
+            let matrix = basis.refinement(core::array::from_fn(|axis| sides >> axis & 1 == 1));
+            let size = basis.len();
+            let transpose = (0..size * size).map(|entry| matrix[entry % size * size + entry / size]).collect();
+            [transpose, matrix]
+        });
+        let refinements = refinements.collect();
+        Self { basis, rows, tolerance, refinements, transfers: Vec::new() }
+    }
+
+    /// The matrices for a part on this side of a cube.
+    #[inline(always)]
+    pub(super) fn refinement(&self, side: [bool; D]) -> &[Vec<f64>; 2] {
+        let sides = (0..D).fold(0, |sides, axis| sides | usize::from(side[axis]) << axis);
+        &self.refinements[sides]
+    }
+
+    /// Where the matrices between cubes with this edge are; they are computed where they are needed first.
+    pub(super) fn position(&mut self, edge: i32, kernel: impl Fn(f64) -> f64) -> usize {
+        self.transfers.iter().position(|known| known.edge == edge).unwrap_or_else(|| {
+            self.transfers.push(Transfer::new(&self.basis, self.tolerance, edge, kernel));
+            self.transfers.len() - 1
+        })
+    }
+
+    pub(super) fn transfer(&self, position: usize) -> &Transfer {
+        &self.transfers[position]
+    }
+}

@@ -1,0 +1,74 @@
+//! Several bodies, or several cubes, in lanes; and products with matrices.
+
+use alloc::vec::Vec;
+
+use crate::scalar::Lanes;
+
+/// Bodies, or cubes, that are computed at once.
+pub(super) const LANES: usize = 8;
+pub(super) type Pack = Lanes<LANES>;
+
+/// Some numbers.
+#[inline(always)]
+pub(super) fn load(from: &[f64], first: usize) -> Pack {
+    let mut pack = [0.0; LANES];
+    pack.copy_from_slice(&from[first..first + LANES]);
+    Lanes(pack)
+}
+
+/// Some numbers, zero from `past` on.
+#[inline(always)]
+pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
+    let mut pack = load(from, first);
+    for lane in 0..LANES {
+        if first + lane >= past {
+            pack.0[lane] = 0.0;
+        }
+    }
+    pack
+}
+
+/// Adds the components of what was found for some bodies, those before `past`.
+#[inline(always)]
+pub(super) fn add_before<const D: usize>(past: usize, sums: &mut [Vec<f64>; D], first: usize, found: &[Pack]) {
+    let count = LANES.min(past - first);
+    for (sums, found) in sums.iter_mut().zip(found) {
+        for (sum, found) in sums[first..first + count].iter_mut().zip(&found.0) {
+            *sum += found;
+        }
+    }
+}
+
+/// Adds the product of a matrix, given column by column, with a vector.
+#[inline(always)]
+pub(super) fn add_product(to: &mut [f64], columns: &[f64], vector: &[f64]) {
+    for (column, &factor) in columns.chunks_exact(to.len()).zip(vector) {
+        for (to, entry) in to.iter_mut().zip(column) {
+            *to += entry * factor;
+        }
+    }
+}
+
+/// Rows of a matrix that are multiplied at once.
+const ROWS: usize = 4;
+
+/// The product of a square matrix, given row by row, with several vectors in lanes.
+#[inline(always)]
+pub(super) fn multiply(matrix: &[f64], vectors: &[Pack], out: &mut [Pack]) {
+    let size = vectors.len();
+    for (number, out) in out.chunks_mut(ROWS).enumerate() {
+        let row = |row: usize| {
+            // The last row again where there are fewer.
+            let start = (number * ROWS + row).min(size - 1) * size;
+            &matrix[start..start + size]
+        };
+        let rows: [&[f64]; ROWS] = [row(0), row(1), row(2), row(3)];
+        let mut products = [Pack::all(0.0); ROWS];
+        for (column, vector) in vectors.iter().enumerate() {
+            for row in 0..ROWS {
+                products[row] += Pack::all(rows[row][column]) * *vector;
+            }
+        }
+        out.copy_from_slice(&products[..out.len()]);
+    }
+}

@@ -1,0 +1,137 @@
+//! A fast sum as a system: what `S` is, with the sum over pairs exchanged.
+
+use super::FastSum;
+use super::packs::Pack;
+use crate::error::{IndexError, OutsideError};
+use crate::space::sink::Sink;
+use crate::system::TimeTransform;
+use crate::{
+    AffineOneForm, DegenerateLagrangian, Lagrangian, PairSum, ProperlyDegenerate, Report, Scalar, System, Weights,
+};
+
+impl<S: System, const D: usize> System for FastSum<'_, S, D> {
+    type Space = S::Space;
+    type State<T: Scalar> = S::State<T>;
+    type Kind = S::Kind;
+    const REPORT: Report = S::REPORT;
+    const HAS_SCALAR_FIELDS: bool = S::HAS_SCALAR_FIELDS;
+    const TIME_TRANSFORMED: bool = S::TIME_TRANSFORMED;
+    const AUTONOMOUS: bool = S::AUTONOMOUS;
+    const FORCED: bool = S::FORCED;
+
+    fn space(&self) -> S::Space {
+        self.system.space()
+    }
+    fn block_len(&self, block: usize) -> usize {
+        self.system.block_len(block)
+    }
+    fn check(&self) -> Result<(), IndexError> {
+        self.system.check()
+    }
+}
+
+impl<S, const D: usize> Lagrangian for FastSum<'_, S, D>
+where
+    S: PairSum<f64, D> + PairSum<Pack, D>,
+{
+    fn lagrangian(&self, q: &[f64], v: &[f64], t: f64) -> f64 {
+        self.system.rest_lagrangian(q, v, t) - self.pair_energy(q)
+    }
+    fn gradient(&self, q: &[f64], v: &[f64], t: f64, l_q: &mut [f64], l_v: &mut [f64]) {
+        self.system.rest_gradient(q, v, t, l_q, l_v);
+        self.add_pairs(q, -1.0, l_q);
+    }
+    fn linearize<K: Sink<f64>>(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        t: f64,
+        w: Weights<f64>,
+        l_q: &mut [f64],
+        l_v: &mut [f64],
+        sink: &mut K,
+    ) {
+        self.system.linearize(q, v, t, w, l_q, l_v, sink);
+        self.gradient(q, v, t, l_q, l_v);
+    }
+    fn applied_force(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
+        self.system.applied_force(q, v, t, out);
+    }
+    fn outside(&self, q: &[f64], v: &[f64], t: f64) -> Option<OutsideError> {
+        self.system.outside(q, v, t)
+    }
+    fn time_transform(&self, q: &[f64]) -> Option<TimeTransform<f64>> {
+        self.system.time_transform(q)
+    }
+    fn energy(&self, q: &[f64], _v: &[f64], t: f64) -> f64 {
+        self.hamiltonian(q, t)
+    }
+    fn momentum(&self, index: usize, q: &[f64], v: &[f64], t: f64) -> f64 {
+        self.system.momentum(index, q, v, t)
+    }
+}
+
+impl<S, const D: usize> FastSum<'_, S, D>
+where
+    S: PairSum<f64, D> + PairSum<Pack, D>,
+{
+    /// Adds the gradient of the sum over pairs, times `factor`.
+    fn add_pairs(&self, q: &[f64], factor: f64, out: &mut [f64]) {
+        let first: [usize; D] = core::array::from_fn(|axis| PairSum::<f64, D>::place(self.system, axis));
+        self.pair_gradient(q, |body, gradient| {
+            for axis in 0..D {
+                out[first[axis] + body] += factor * gradient[axis];
+            }
+        });
+    }
+}
+
+impl<S, const D: usize> DegenerateLagrangian for FastSum<'_, S, D>
+where
+    S: PairSum<f64, D> + PairSum<Pack, D>,
+{
+    const AFFINE: bool = <S as DegenerateLagrangian<f64>>::AFFINE;
+    const MATCHING: bool = <S as DegenerateLagrangian<f64>>::MATCHING;
+    const CANONICAL: bool = <S as DegenerateLagrangian<f64>>::CANONICAL;
+
+    fn hamiltonian(&self, q: &[f64], t: f64) -> f64 {
+        self.system.rest_hamiltonian(q, t) + self.pair_energy(q)
+    }
+    fn hamiltonian_gradient(&self, q: &[f64], t: f64, out: &mut [f64]) {
+        self.system.rest_hamiltonian_gradient(q, t, out);
+        self.add_pairs(q, 1.0, out);
+    }
+    fn flow_source(&self, q: &[f64], t: f64, out: &mut [f64]) {
+        self.system.rest_flow_source(q, t, out);
+        self.add_pairs(q, 1.0, out);
+    }
+    fn one_form(&self, q: &[f64], t: f64, out: &mut [f64]) {
+        self.system.one_form(q, t, out);
+    }
+    fn one_form_jacobian<K: Sink<f64>>(&self, q: &[f64], t: f64, a: f64, b: f64, sink: &mut K) {
+        self.system.one_form_jacobian(q, t, a, b, sink);
+    }
+    fn conjugate_entries(&self, q: &[f64], t: f64, a: f64, b: f64, out: &mut [f64]) {
+        self.system.conjugate_entries(q, t, a, b, out);
+    }
+    fn conjugate(&self, i: usize) -> usize {
+        DegenerateLagrangian::<f64>::conjugate(self.system, i)
+    }
+    fn momentum_gradient(&self, index: usize, q: &[f64], t: f64, out: &mut [f64]) {
+        self.system.momentum_gradient(index, q, t, out);
+    }
+}
+
+impl<S, const D: usize> AffineOneForm for FastSum<'_, S, D> where
+    S: PairSum<f64, D> + PairSum<Pack, D> + AffineOneForm
+{
+}
+
+impl<S, const D: usize> ProperlyDegenerate for FastSum<'_, S, D>
+where
+    S: PairSum<f64, D> + PairSum<Pack, D> + ProperlyDegenerate,
+{
+    fn place(&self, coordinate: usize) -> usize {
+        ProperlyDegenerate::place(self.system, coordinate)
+    }
+}

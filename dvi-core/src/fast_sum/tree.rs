@@ -1,0 +1,181 @@
+//! Bodies sorted into a tree of cubes, of which each has half the edge of the one around it.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+/// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
+const LEVELS: u32 = 20;
+/// A cube with no more bodies is not divided.
+const FEW: usize = 48;
+
+/// A cube with its bodies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cube<const D: usize> {
+    pub(super) level: u32,
+    /// Its place among the cubes of its level.
+    pub(super) cell: [u32; D],
+    /// Its bodies, in the order of the tree.
+    pub(super) first: usize,
+    pub(super) past: usize,
+    /// Its parts, in the order of the cubes; none if it is not divided.
+    pub(super) first_part: usize,
+    pub(super) past_part: usize,
+}
+
+impl<const D: usize> Cube<D> {
+    pub(super) fn bodies(&self) -> Range<usize> {
+        self.first..self.past
+    }
+
+    pub(super) fn parts(&self) -> Range<usize> {
+        self.first_part..self.past_part
+    }
+
+    pub(super) fn is_divided(&self) -> bool {
+        !self.parts().is_empty()
+    }
+
+    /// How many cubes away the `other` of the same level is along each axis.
+    pub(super) fn offset(&self, other: &Self) -> [i32; D] {
+        core::array::from_fn(|axis| self.cell[axis] as i32 - other.cell[axis] as i32)
+    }
+
+    /// On which half of the cube around it this one lies.
+    pub(super) fn side(&self) -> [bool; D] {
+        self.cell.map(|place| place & 1 == 1)
+    }
+}
+
+/// The cubes, from the largest down, and the order of the bodies in them.
+#[derive(Clone, Debug)]
+pub(super) struct Tree<const D: usize> {
+    /// The body at each place, with what it is sorted by.
+    pub(super) order: Vec<(u64, u32)>,
+    pub(super) cubes: Vec<Cube<D>>,
+    /// The binary logarithm of the edge of the largest cube.
+    edge: i32,
+    corner: [f64; D],
+}
+
+/// A coordinate is not finite, or too large to be squared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct NotFinite;
+
+impl<const D: usize> Tree<D> {
+    pub(super) fn new(bodies: usize) -> Self {
+        let order = (0..bodies).map(|body| (0, body as u32)).collect();
+        Self { order, cubes: Vec::new(), edge: 0, corner: [0.0; D] }
+    }
+
+    /// Sorts bodies at these places.
+    ///
+    /// The largest cube depends on nothing but the extent of the bodies, and its edges are powers of two, so that the same cubes are
+    /// found again while the bodies move a little.
+    pub(super) fn sort(&mut self, places: [&[f64]; D]) -> Result<(), NotFinite> {
+        self.enclose(places)?;
+        let cells = f64::from(1_u32 << LEVELS) / exp2(self.edge);
+        for (key, body) in &mut self.order {
+            *key = interleaved::<D>(core::array::from_fn(|axis| {
+                let cell = ((places[axis][*body as usize] - self.corner[axis]) * cells) as u32;
+                cell.min((1 << LEVELS) - 1)
+            }));
+        }
+        self.order.sort_unstable();
+        self.divide();
+        Ok(())
+    }
+
+    fn enclose(&mut self, places: [&[f64]; D]) -> Result<(), NotFinite> {
+        let mut ends = [(0.0, 0.0); D];
+        let mut extent = 0.0;
+        for (end, places) in ends.iter_mut().zip(places) {
+            // The sum is not finite if a place is not.
+            let sum: f64 = places.iter().map(|place| place.abs()).sum();
+            if !sum.is_finite() {
+                return Err(NotFinite);
+            }
+            let lowest = places.iter().fold(f64::INFINITY, |lowest, &place| if place < lowest { place } else { lowest });
+            let highest = places.iter().fold(f64::NEG_INFINITY, |highest, &place| if place > highest { place } else { highest });
+            *end = (lowest, highest);
+            extent = if highest - lowest > extent { highest - lowest } else { extent };
+        }
+        let mut exponent = exponent(extent);
+        // Bodies far from the origin: places that are no multiples of a cell of the smallest cubes.
+        loop {
+            if exponent > 500 {
+                return Err(NotFinite);
+            }
+            let step = exp2(exponent);
+            self.corner = ends.map(|(lowest, _)| (lowest / step).floor() * step);
+            self.edge = exponent + 1;
+            let encloses = ends.iter().zip(self.corner).all(|(&(_, highest), corner)| highest - corner < 2.0 * step);
+            if encloses {
+                return Ok(());
+            }
+            exponent += 1;
+        }
+    }
+
+    fn divide(&mut self) {
+        let whole = Cube { level: 0, cell: [0; D], first: 0, past: self.order.len(), first_part: 0, past_part: 0 };
+        self.cubes.clear();
+        self.cubes.push(whole);
+        let mut next = 0;
+        while next < self.cubes.len() {
+            let cube = self.cubes[next];
+            if cube.past - cube.first > FEW && cube.level < LEVELS {
+                let first_part = self.cubes.len();
+                self.divide_cube(&cube);
+                (self.cubes[next].first_part, self.cubes[next].past_part) = (first_part, self.cubes.len());
+            }
+            next += 1;
+        }
+    }
+
+    fn divide_cube(&mut self, cube: &Cube<D>) {
+        let shift = (LEVELS - cube.level - 1) * D as u32;
+        let mut first = cube.first;
+        for part in 0..1_u64 << D {
+            let bodies = &self.order[first..cube.past];
+            let past = first + bodies.partition_point(|(key, _)| (key >> shift) & ((1 << D) - 1) <= part);
+            if past > first {
+                let cell = core::array::from_fn(|axis| 2 * cube.cell[axis] + (part >> axis & 1) as u32);
+                self.cubes.push(Cube { level: cube.level + 1, cell, first, past, first_part: 0, past_part: 0 });
+            }
+            first = past;
+        }
+    }
+
+    /// The binary logarithm of the edge of a cube of this level.
+    pub(super) fn edge(&self, level: u32) -> i32 {
+        self.edge - level as i32
+    }
+
+    /// The middle of a cube, and half its edge.
+    pub(super) fn frame(&self, cube: &Cube<D>) -> ([f64; D], f64) {
+        let edge = exp2(self.edge(cube.level));
+        let middle = |axis: usize| self.corner[axis] + (f64::from(cube.cell[axis]) + 0.5) * edge;
+        (core::array::from_fn(middle), edge / 2.0)
+    }
+}
+
+/// Bit b of coordinate a becomes bit D b + a.
+fn interleaved<const D: usize>(cell: [u32; D]) -> u64 {
+    let mut key = 0;
+    for (axis, place) in cell.into_iter().enumerate() {
+        for bit in 0..LEVELS {
+            key |= u64::from(place >> bit & 1) << (bit * D as u32 + axis as u32);
+        }
+    }
+    key
+}
+
+/// 2^exponent.
+pub(super) fn exp2(exponent: i32) -> f64 {
+    2.0_f64.powi(exponent)
+}
+
+/// The least exponent of a power of two that is not below `extent`, and 0 for none.
+fn exponent(extent: f64) -> i32 {
+    if extent > 0.0 { extent.log2().ceil() as i32 } else { 0 }
+}
