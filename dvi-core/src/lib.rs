@@ -76,6 +76,7 @@
 //! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
 //! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
 //! | `ensemble` | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
+//! | `fast_sum` | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
 //! | [`solve`] | how implicit steps are solved, and when they count as solved |
 //! | [`mechanics`] | the equations of motion, and what can be asked of a system at one state |
@@ -92,6 +93,7 @@
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
 //! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `std`, `random` and `serde`.
+//! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`; implies `std`.
 //! - `mpi`: ensembles over the processes of an MPI program; needs MPI on the system, and libclang to build. Implies `ensembles`.
 //! - `random` (default): methods with noise.
 //! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when
@@ -140,7 +142,7 @@ pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
     AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula,
     HolonomicLagrangian, Lagrangian, Linear, ManifoldLagrangian, ManifoldSystem, Matrix,
-    NondegenerateLagrangian, NonholonomicLagrangian, OperationCount, PairSum, Permutation, ProperlyDegenerate,
-    QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, System, TimeTransformed,
-    UnilateralLagrangian, Vector, Weights,
+    NondegenerateLagrangian, NonholonomicLagrangian, OperationCount, PairSum, Permutation,
+    ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, System,
+    TimeTransformed, UnilateralLagrangian, Vector, Weights,
 };

@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use dvi_core::fast_sum::FastSum;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, System};
 
@@ -102,6 +103,28 @@ fn gradients(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// ∇H by the fast multipole method beside the sum over all pairs; prints how far they are apart.
+fn fast_sums(criterion: &mut Criterion) {
+    const TOLERANCE: f64 = 1e-8;
+    let mut group = criterion.benchmark_group("∇H of many vortices");
+    group.sample_size(10);
+    for n in [1000, 10_000, 100_000] {
+        let (system, q) = (Vortices::new(n), Vortices::places(n));
+        let state = VorticesState { x: q[..n].to_vec(), y: q[n..].to_vec() };
+        let fast = FastSum::<_, 2>::new(&system, TOLERANCE).expect("a tolerance in range");
+        let error = fast.measured_error(&state, 200).expect("arrays of the declared length");
+        println!("n = {n}: the fast sum has a relative error of {error:.1e}");
+        let mut gradient = vec![0.0; 2 * n];
+        group.bench_function(BenchmarkId::new("all pairs", n), |bencher| {
+            bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
+        });
+        group.bench_function(BenchmarkId::new("fast sum", n), |bencher| {
+            bencher.iter(|| fast.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
+        });
+    }
+    group.finish();
+}
+
 /// Vortices whose number is a field, so that each access is checked against the length of an array.
 #[degenerate_lagrangian(
     coordinates(x[n], y[n]),
@@ -125,5 +148,5 @@ fn checks(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, gradients, checks);
+criterion_group!(benches, gradients, fast_sums, checks);
 criterion_main!(benches);

@@ -38,7 +38,8 @@ impl<const D: usize> Expansion<D> {
         let refinements = (0..1_usize << D).map(|sides| {
             let matrix = basis.refinement(core::array::from_fn(|axis| sides >> axis & 1 == 1));
             let size = basis.len();
-            let transpose = (0..size * size).map(|entry| matrix[entry % size * size + entry / size]).collect();
+            let transpose =
+                (0..size * size).map(|entry| matrix[entry % size * size + entry / size]).collect();
             [transpose, matrix]
         });
         let refinements = refinements.collect();

@@ -30,7 +30,12 @@ pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
 
 /// Adds the components of what was found for some bodies, those before `past`.
 #[inline(always)]
-pub(super) fn add_before<const D: usize>(past: usize, sums: &mut [Vec<f64>; D], first: usize, found: &[Pack]) {
+pub(super) fn add_before<const D: usize>(
+    past: usize,
+    sums: &mut [Vec<f64>; D],
+    first: usize,
+    found: &[Pack],
+) {
     let count = LANES.min(past - first);
     for (sums, found) in sums.iter_mut().zip(found) {
         for (sum, found) in sums[first..first + count].iter_mut().zip(&found.0) {
@@ -39,33 +44,43 @@ pub(super) fn add_before<const D: usize>(past: usize, sums: &mut [Vec<f64>; D], 
     }
 }
 
+/// Rows or columns of a matrix that are multiplied at once.
+const FOUR: usize = 4;
+
 /// Adds the product of a matrix, given column by column, with a vector.
 #[inline(always)]
 pub(super) fn add_product(to: &mut [f64], columns: &[f64], vector: &[f64]) {
-    for (column, &factor) in columns.chunks_exact(to.len()).zip(vector) {
+    let size = to.len();
+    let (fours, rest) = vector.split_at(vector.len() / FOUR * FOUR);
+    let (columns, last) = columns.split_at(fours.len() * size);
+    for (columns, factors) in columns.chunks_exact(FOUR * size).zip(fours.chunks_exact(FOUR)) {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|column| &columns[column * size..(column + 1) * size]);
+        for row in 0..size {
+            to[row] +=
+                (a[row] * factors[0] + b[row] * factors[1]) + (c[row] * factors[2] + d[row] * factors[3]);
+        }
+    }
+    for (column, factor) in last.chunks_exact(to.len()).zip(rest) {
         for (to, entry) in to.iter_mut().zip(column) {
             *to += entry * factor;
         }
     }
 }
 
-/// Rows of a matrix that are multiplied at once.
-const ROWS: usize = 4;
-
 /// The product of a square matrix, given row by row, with several vectors in lanes.
 #[inline(always)]
 pub(super) fn multiply(matrix: &[f64], vectors: &[Pack], out: &mut [Pack]) {
     let size = vectors.len();
-    for (number, out) in out.chunks_mut(ROWS).enumerate() {
+    for (number, out) in out.chunks_mut(FOUR).enumerate() {
         let row = |row: usize| {
             // The last row again where there are fewer.
-            let start = (number * ROWS + row).min(size - 1) * size;
+            let start = (number * FOUR + row).min(size - 1) * size;
             &matrix[start..start + size]
         };
-        let rows: [&[f64]; ROWS] = [row(0), row(1), row(2), row(3)];
-        let mut products = [Pack::all(0.0); ROWS];
+        let rows: [&[f64]; FOUR] = [row(0), row(1), row(2), row(3)];
+        let mut products = [Pack::all(0.0); FOUR];
         for (column, vector) in vectors.iter().enumerate() {
-            for row in 0..ROWS {
+            for row in 0..FOUR {
                 products[row] += Pack::all(rows[row][column]) * *vector;
             }
         }

@@ -116,7 +116,14 @@ impl<const D: usize> Work<D> {
                     if !cube.is_divided() {
                         packs.fill(Pack::all(0.0));
                         for first in cube.bodies().step_by(LANES) {
-                            set_polynomials::<D, false>(&mut at, expansion, places, tree.frame(cube), first, cube.past);
+                            set_polynomials::<D, false>(
+                                &mut at,
+                                expansion,
+                                places,
+                                tree.frame(cube),
+                                first,
+                                cube.past,
+                            );
                             add_moments(packs, &expansion.rows, &at, load_before(cube.past, weights, first));
                         }
                         for (moment, pack) in moments.iter_mut().zip(packs.iter()) {
@@ -196,7 +203,14 @@ impl<const D: usize> Work<D> {
                     }
                     let (_, half) = tree.frame(cube);
                     for first in cube.bodies().step_by(LANES) {
-                        set_polynomials::<D, true>(&mut at, expansion, places, tree.frame(cube), first, cube.past);
+                        set_polynomials::<D, true>(
+                            &mut at,
+                            expansion,
+                            places,
+                            tree.frame(cube),
+                            first,
+                            cube.past,
+                        );
                         let found = evaluated::<D, Q>(local, &expansion.rows, &at, 1.0 / half);
                         add_before(cube.past, sums, first, found.as_ref());
                     }
@@ -215,21 +229,22 @@ impl<const D: usize> Work<D> {
                 for &(target, source) in &lists.near {
                     let [target, source] = [target, source].map(|cube| &tree.cubes[cube as usize]);
                     for first in target.bodies().step_by(LANES) {
-                        let at: [Pack; D] = core::array::from_fn(|axis| load(&places[axis], first));
                         let mut found = Q::none();
-                        for body in source.bodies() {
+                        let at: [Pack; D] = core::array::from_fn(|axis| load(&places[axis], first));
+                        // The bodies in these lanes act on all others of them only.
+                        let [own, past] =
+                            [first, first + LANES].map(|end| end.clamp(source.first, source.past));
+                        for others in [source.first..own, past..source.past] {
+                            for body in others {
+                                let place: [f64; D] = core::array::from_fn(|axis| places[axis][body]);
+                                add_pairs(quantity, &mut found, &at, place, Pack::all(weights[body]), None);
+                            }
+                        }
+                        for body in own..past {
+                            let place: [f64; D] = core::array::from_fn(|axis| places[axis][body]);
                             let mut weight = Pack::all(weights[body]);
-                            let mut r2 = Pack::all(0.0);
-                            let mut difference = at;
-                            for axis in 0..D {
-                                difference[axis] = at[axis] - Pack::all(places[axis][body]);
-                                r2 += difference[axis] * difference[axis];
-                            }
-                            if (first..first + LANES).contains(&body) {
-                                // A body does nothing to itself, and in the place of its kernel stands one that is a number.
-                                (weight.0[body - first], r2.0[body - first]) = (0.0, 1.0);
-                            }
-                            quantity.add_pair(&mut found, weight, difference, r2);
+                            weight.0[body - first] = 0.0;
+                            add_pairs(quantity, &mut found, &at, place, weight, Some(body - first));
                         }
                         add_before(target.past, sums, first, found.as_ref());
                     }
@@ -237,6 +252,28 @@ impl<const D: usize> Work<D> {
             },
         );
     }
+}
+
+/// Adds what a body at `place` does to bodies in lanes, of which one may be itself: there a number stands in the place of the distance.
+#[inline(always)]
+fn add_pairs<const D: usize, Q: Quantity<D>>(
+    quantity: &Q,
+    found: &mut Q::Sums,
+    at: &[Pack; D],
+    place: [f64; D],
+    weight: Pack,
+    itself: Option<usize>,
+) {
+    let mut difference = *at;
+    let mut r2 = Pack::all(0.0);
+    for axis in 0..D {
+        difference[axis] = at[axis] - Pack::all(place[axis]);
+        r2 += difference[axis] * difference[axis];
+    }
+    if let Some(lane) = itself {
+        r2.0[lane] = 1.0;
+    }
+    quantity.add_pair(found, weight, difference, r2);
 }
 
 /// Sets the polynomials at some bodies of a cube; for those from `past` on, to the ones in its middle.

@@ -13,7 +13,13 @@ pub(super) trait Quantity<const D: usize> {
     fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: [Pack; D], r2: Pack);
     /// Adds that of one row of a local expansion: the polynomials at the place and the degrees of the row in all coordinates but the
     /// last, the sums of coefficients times T and times T' over the degrees of the last, and du/dx.
-    fn add_row(sums: &mut Self::Sums, at: &[Chebyshev<Pack>; D], degrees: &[usize; D], row: [Pack; 2], scale: f64);
+    fn add_row(
+        sums: &mut Self::Sums,
+        at: &[Chebyshev<Pack>; D],
+        degrees: &[usize; D],
+        row: [Pack; 2],
+        scale: f64,
+    );
 }
 
 /// Σ w K.
@@ -32,7 +38,13 @@ impl<const D: usize, S: PairSum<Pack, D>> Quantity<D> for Potential<'_, S> {
         sums[0] += weight * self.0.kernel(r2);
     }
     #[inline(always)]
-    fn add_row(sums: &mut Self::Sums, at: &[Chebyshev<Pack>; D], degrees: &[usize; D], row: [Pack; 2], _scale: f64) {
+    fn add_row(
+        sums: &mut Self::Sums,
+        at: &[Chebyshev<Pack>; D],
+        degrees: &[usize; D],
+        row: [Pack; 2],
+        _scale: f64,
+    ) {
         let mut value = row[0];
         for axis in 0..D - 1 {
             value = value * at[axis].value[degrees[axis]];
@@ -55,7 +67,13 @@ impl<const D: usize, S: PairSum<Pack, D>> Quantity<D> for Gradient<'_, S> {
         }
     }
     #[inline(always)]
-    fn add_row(sums: &mut Self::Sums, at: &[Chebyshev<Pack>; D], degrees: &[usize; D], row: [Pack; 2], scale: f64) {
+    fn add_row(
+        sums: &mut Self::Sums,
+        at: &[Chebyshev<Pack>; D],
+        degrees: &[usize; D],
+        row: [Pack; 2],
+        scale: f64,
+    ) {
         for axis in 0..D {
             let mut slope = if axis == D - 1 { row[1] } else { row[0] };
             for other in 0..D - 1 {

@@ -6,7 +6,8 @@ use crate::error::{IndexError, OutsideError};
 use crate::space::sink::Sink;
 use crate::system::TimeTransform;
 use crate::{
-    AffineOneForm, DegenerateLagrangian, Lagrangian, PairSum, ProperlyDegenerate, Report, Scalar, System, Weights,
+    AffineOneForm, DegenerateLagrangian, Lagrangian, PairSum, ProperlyDegenerate, Report, Scalar, System,
+    Weights,
 };
 
 impl<S: System, const D: usize> System for FastSum<'_, S, D> {

@@ -77,7 +77,15 @@ const SAMPLES: usize = 8;
 /// An orthonormal basis of the columns of all matrices, as far as they are not below the tolerance, by the singular values of the
 /// products with a few vectors that look random (Halko, Martinsson & Tropp 2011). With each κ comes its transpose, that of −t, so the
 /// columns are the rows as well.
-fn range<'m>(matrices: impl Iterator<Item = &'m DMatrix<f64>>, size: usize, tolerance: f64) -> DMatrix<f64> {
+///
+/// They are measured by what varies: the constant part of a kernel makes no forces.
+fn range<'m>(
+    matrices: impl Iterator<Item = &'m DMatrix<f64>> + Clone,
+    size: usize,
+    tolerance: f64,
+) -> DMatrix<f64> {
+    let varying = |matrix: &DMatrix<f64>| (matrix.norm_squared() - matrix[(0, 0)].powi(2)).max(0.0).sqrt();
+    let largest = matrices.clone().map(varying).fold(0.0, |a: f64, b| if b > a { b } else { a });
     let mut state = 2009_u64;
     let mut entry = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -87,7 +95,6 @@ fn range<'m>(matrices: impl Iterator<Item = &'m DMatrix<f64>>, size: usize, tole
         matrices.map(|matrix| matrix * DMatrix::from_fn(size, SAMPLES.min(size), |_, _| entry())).collect();
     let columns: Vec<_> = samples.iter().flat_map(|sample| sample.column_iter()).collect();
     let svd = DMatrix::from_columns(&columns).svd(true, false);
-    let largest = svd.singular_values.max();
     let rank = svd.singular_values.iter().filter(|value| **value > tolerance * largest).count().max(1);
     svd.u.map_or_else(|| DMatrix::identity(size, size), |u| u.columns(0, rank).into_owned())
 }
@@ -102,7 +109,8 @@ impl<const D: usize> Full<D> {
         let nodes = basis::nodes(basis.order);
         let to_coefficients = basis::coefficients(basis.order);
         let all = (0..offsets::<D>()).map(offset);
-        let representatives = all.filter(|t: &[i32; D]| !touch(*t) && t.is_sorted_by(|a, b| a >= b) && t[D - 1] >= 0);
+        let representatives =
+            all.filter(|t: &[i32; D]| !touch(*t) && t.is_sorted_by(|a, b| a >= b) && t[D - 1] >= 0);
         let coefficients = |t| transformed(between(&nodes, t, &kernel), &to_coefficients, basis.order, 2 * D);
         Self { representatives: representatives.map(|t| (t, coefficients(t))).collect() }
     }
@@ -114,7 +122,8 @@ impl<const D: usize> Full<D> {
         from.sort_by_key(|&axis| -t[axis].abs());
         let representative = from.map(|axis| t[axis].abs());
         let (_, coefficients) = self.representatives.iter().find(|(known, _)| *known == representative)?;
-        let place = |degrees: &[usize; D]| from.iter().fold(0, |place, &axis| place * basis.order + degrees[axis]);
+        let place =
+            |degrees: &[usize; D]| from.iter().fold(0, |place, &axis| place * basis.order + degrees[axis]);
         let sign = |degrees: &[usize; D]| {
             let odd = (0..D).filter(|&axis| t[axis] < 0 && degrees[axis] % 2 == 1).count();
             if odd % 2 == 0 { 1.0 } else { -1.0 }
@@ -151,7 +160,7 @@ fn transformed(mut values: Vec<f64>, matrix: &[f64], order: usize, axes: usize) 
     let mut column = alloc::vec![0.0; order];
     for axis in 0..axes {
         let stride = order.pow(axis as u32);
-        for start in (0..values.len()).filter(|place| place / stride % order == 0) {
+        for start in (0..values.len()).filter(|place| (place / stride).is_multiple_of(order)) {
             for (m, entry) in column.iter_mut().enumerate() {
                 *entry = (0..order).map(|i| matrix[m * order + i] * values[start + i * stride]).sum();
             }

@@ -6,7 +6,7 @@ use core::ops::Range;
 /// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
 const LEVELS: u32 = 20;
 /// A cube with no more bodies is not divided.
-const FEW: usize = 48;
+const FEW: usize = 64;
 
 /// A cube with its bodies.
 #[derive(Clone, Copy, Debug)]
@@ -94,8 +94,12 @@ impl<const D: usize> Tree<D> {
             if !sum.is_finite() {
                 return Err(NotFinite);
             }
-            let lowest = places.iter().fold(f64::INFINITY, |lowest, &place| if place < lowest { place } else { lowest });
-            let highest = places.iter().fold(f64::NEG_INFINITY, |highest, &place| if place > highest { place } else { highest });
+            let lowest = places
+                .iter()
+                .fold(f64::INFINITY, |lowest, &place| if place < lowest { place } else { lowest });
+            let highest = places
+                .iter()
+                .fold(f64::NEG_INFINITY, |highest, &place| if place > highest { place } else { highest });
             *end = (lowest, highest);
             extent = if highest - lowest > extent { highest - lowest } else { extent };
         }
@@ -108,7 +112,8 @@ impl<const D: usize> Tree<D> {
             let step = exp2(exponent);
             self.corner = ends.map(|(lowest, _)| (lowest / step).floor() * step);
             self.edge = exponent + 1;
-            let encloses = ends.iter().zip(self.corner).all(|(&(_, highest), corner)| highest - corner < 2.0 * step);
+            let encloses =
+                ends.iter().zip(self.corner).all(|(&(_, highest), corner)| highest - corner < 2.0 * step);
             if encloses {
                 return Ok(());
             }
@@ -117,7 +122,8 @@ impl<const D: usize> Tree<D> {
     }
 
     fn divide(&mut self) {
-        let whole = Cube { level: 0, cell: [0; D], first: 0, past: self.order.len(), first_part: 0, past_part: 0 };
+        let whole =
+            Cube { level: 0, cell: [0; D], first: 0, past: self.order.len(), first_part: 0, past_part: 0 };
         self.cubes.clear();
         self.cubes.push(whole);
         let mut next = 0;
@@ -140,7 +146,14 @@ impl<const D: usize> Tree<D> {
             let past = first + bodies.partition_point(|(key, _)| (key >> shift) & ((1 << D) - 1) <= part);
             if past > first {
                 let cell = core::array::from_fn(|axis| 2 * cube.cell[axis] + (part >> axis & 1) as u32);
-                self.cubes.push(Cube { level: cube.level + 1, cell, first, past, first_part: 0, past_part: 0 });
+                self.cubes.push(Cube {
+                    level: cube.level + 1,
+                    cell,
+                    first,
+                    past,
+                    first_part: 0,
+                    past_part: 0,
+                });
             }
             first = past;
         }

@@ -18,7 +18,8 @@ pub(super) fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStre
     let weight = weight(emitter, pairs);
     let square = local(format_args!("q{}", pairs.sum.blocks[0]));
     let [kernel, kernel_slope] = [&pairs.kernel, &pairs.kernel_slope].map(|routine| emitter.body(routine));
-    let [lagrangian, hamiltonian] = [&pairs.lagrangian, &pairs.hamiltonian].map(|routine| emitter.value(routine));
+    let [lagrangian, hamiltonian] =
+        [&pairs.lagrangian, &pairs.hamiltonian].map(|routine| emitter.value(routine));
     let (read, body) = (emitter.read(&pairs.gradient), emitter.body(&pairs.gradient));
     let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
     let [gradient, source] =

@@ -2,7 +2,9 @@
 //! H = H_rest + Σ_{j<k} w_j w_k K(r²).
 
 use crate::model::Model;
-use crate::symbolic::{Atom, Binary, Coordinate, Expr, Fold, Graph, Id, Index, Node, Parameter, Range, Unary};
+use crate::symbolic::{
+    Atom, Binary, Coordinate, Expr, Fold, Graph, Id, Index, Node, Parameter, Range, Unary,
+};
 
 /// The most coordinates that a body has.
 const MOST_AXES: usize = 3;
@@ -39,8 +41,12 @@ impl PairSum {
         };
         (0..terms.len()).find_map(|number| {
             let mut sum = Self::of_term(graph, model, terms[number])?;
-            let others: Vec<Expr> =
-                terms.iter().enumerate().filter(|(other, _)| *other != number).map(|(_, term)| *term).collect();
+            let others: Vec<Expr> = terms
+                .iter()
+                .enumerate()
+                .filter(|(other, _)| *other != number)
+                .map(|(_, term)| *term)
+                .collect();
             sum.rest = if others.is_empty() { Expr::ZERO } else { graph.sum(&others) };
             Some(sum)
         })
@@ -52,7 +58,8 @@ impl PairSum {
         let is_sum = |id: Id| matches!(graph.node(id), Node::Reduce { fold: Fold::Sum, .. });
         let sum = factors.iter().position(|(id, exponent)| *exponent == 1 && is_sum(*id))?;
         let pairs = pairs(graph, model, factors[sum].0)?;
-        let others = factors.iter().enumerate().filter(|(number, _)| *number != sum).map(|(_, factor)| *factor);
+        let others =
+            factors.iter().enumerate().filter(|(number, _)| *number != sum).map(|(_, factor)| *factor);
         let mut kernel: Vec<(Id, u32)> = others.collect();
         let mut weights = [Vec::new(), Vec::new()];
         for (factor, exponent) in graph.factors(pairs.body.node) {
@@ -79,7 +86,8 @@ impl PairSum {
 
     /// The difference of two bodies along an axis, and the square of their distance.
     pub(crate) fn distance(&self, graph: &mut Graph, bodies: [Atom; 2]) -> (Vec<Expr>, Expr) {
-        let differences: Vec<Expr> = self.blocks.iter().map(|block| difference(graph, *block, &bodies)).collect();
+        let differences: Vec<Expr> =
+            self.blocks.iter().map(|block| difference(graph, *block, &bodies)).collect();
         let squares: Vec<Expr> = differences.iter().map(|difference| graph.power(*difference, 2)).collect();
         let square = graph.sum(&squares);
         (differences, square)
@@ -103,8 +111,11 @@ impl PairSum {
 
 /// What a sum over j < k sums, if the number of bodies is known at run time only.
 fn pairs(graph: &Graph, model: &Model, sum: Id) -> Option<Pairs> {
-    let Node::Reduce { fold: Fold::Sum, height: outer, range: first, body } = graph.node(sum) else { return None };
-    let Node::Reduce { fold: Fold::Sum, height: inner, range: second, body: term } = graph.node(body.node) else {
+    let Node::Reduce { fold: Fold::Sum, height: outer, range: first, body } = graph.node(sum) else {
+        return None;
+    };
+    let Node::Reduce { fold: Fold::Sum, height: inner, range: second, body: term } = graph.node(body.node)
+    else {
         return None;
     };
     let indices = [Atom::Bound(*outer), Atom::Bound(*inner)];
@@ -113,9 +124,8 @@ fn pairs(graph: &Graph, model: &Model, sum: Id) -> Option<Pairs> {
     let above = Index::atom(indices[0].clone()).plus(&one, 1);
     let ends_before = |range: &Range, end: &Index| range.upper == *end || range.upper.plus(&one, 1) == *end;
     let is_after = second.lower == above && ends_before(first, &second.upper);
-    let is_before = second.lower == Index::literal(0) && second.upper == Index::atom(indices[0].clone());
-    let bodies = if is_after { second.upper.clone() } else { first.upper.clone() };
-    let is_all = is_plain(first) && is_plain(second) && first.lower == Index::literal(0) && (is_after || is_before);
+    let bodies = second.upper.clone();
+    let is_all = is_plain(first) && is_plain(second) && first.lower == Index::literal(0) && is_after;
     let is_known_late = bodies.free() == crate::symbolic::Free::default() && !model.is_constant(&bodies);
     (is_all && is_known_late).then(|| Pairs { indices, bodies, body: term.scaled(body.scale) })
 }
@@ -145,10 +155,22 @@ fn blocks(graph: &Graph, pairs: &Pairs, kernel: Expr) -> Option<Vec<u32>> {
 }
 
 fn difference(graph: &mut Graph, block: u32, bodies: &[Atom; 2]) -> Expr {
-    let [first, second] = bodies.clone().map(|body| {
-        graph.intern(Node::Coordinate(Coordinate { block, index: Index::atom(body) }))
-    });
+    let [first, second] = bodies
+        .clone()
+        .map(|body| graph.intern(Node::Coordinate(Coordinate { block, index: Index::atom(body) })));
     graph.subtract(first.into(), second.into())
+}
+
+/// The terms of a sum, with those of sums among them.
+fn ungrouped(graph: &Graph, terms: &[Expr]) -> Vec<Expr> {
+    let inside = terms.iter().flat_map(|term| match graph.node(term.node) {
+        Node::Sum(inner) => {
+            let scaled: Vec<Expr> = inner.iter().map(|inner| inner.scaled(term.scale)).collect();
+            ungrouped(graph, &scaled)
+        }
+        _ => vec![*term],
+    });
+    inside.collect()
 }
 
 /// The kernel with `square` in the place of the square of the distance, if it depends on nothing else of the bodies.
@@ -165,6 +187,7 @@ fn of_square(graph: &mut Graph, pairs: &Pairs, blocks: &[u32], kernel: Expr, squ
     }
     let replace = |graph: &mut Graph, id: Id| match graph.node(id).clone() {
         Node::Sum(terms) => {
+            let terms = ungrouped(graph, &terms);
             let of = |known: &[Id; 2]| terms.iter().position(|term| known.contains(&term.node));
             let places: Vec<usize> = squares.iter().map(of).collect::<Option<_>>()?;
             let scale = terms[places[0]].scale;
@@ -178,7 +201,8 @@ fn of_square(graph: &mut Graph, pairs: &Pairs, blocks: &[u32], kernel: Expr, squ
         }
         Node::Product(_) if blocks.len() == 1 && squares[0].contains(&id) => Some(square.into()),
         Node::Binary(Binary::Hypot, a, b) => {
-            let is = |axis: usize, of: Expr| differences.get(axis).is_some_and(|known| known.contains(&of.node));
+            let is =
+                |axis: usize, of: Expr| differences.get(axis).is_some_and(|known| known.contains(&of.node));
             let is_distance = blocks.len() == 2 && a.scale.abs() == 1.0 && b.scale.abs() == 1.0;
             let is_distance = is_distance && (is(0, a) && is(1, b) || is(1, a) && is(0, b));
             is_distance.then(|| graph.unary(Unary::Sqrt, square.into()))
@@ -188,7 +212,15 @@ fn of_square(graph: &mut Graph, pairs: &Pairs, blocks: &[u32], kernel: Expr, squ
     let replaced = graph.rebuild(kernel.node, replace).scaled(kernel.scale);
     let depends_otherwise = graph.free(replaced.node) != crate::symbolic::Free::default()
         || graph.depends(replaced.node, |node| {
-            matches!(node, Node::Velocity(_) | Node::Time | Node::ScalarField(..) | Node::Weight(_) | Node::Reduce { .. })
+            matches!(
+                node,
+                Node::Velocity(_)
+                    | Node::Time
+                    | Node::ScalarField(..)
+                    | Node::Weight(_)
+                    | Node::Reduce { .. }
+            )
         });
-    (!depends_otherwise && graph.depends(replaced.node, |node| *node == *graph.node(square))).then_some(replaced)
+    (!depends_otherwise && graph.depends(replaced.node, |node| *node == *graph.node(square)))
+        .then_some(replaced)
 }

@@ -204,7 +204,7 @@ fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
         momenta: Vec::new(),
     };
     let entries = graph.hessian(one_form);
-    let programs = DegeneratePrograms::new(&mut graph, &formulas, &entries, false);
+    let programs = DegeneratePrograms::new(&mut graph, &formulas, &entries, false, None);
     let values = [&programs.shared.lagrangian, &programs.hamiltonian, &programs.hamiltonian_gradient];
     let forms = [
         &programs.shared.gradient,
