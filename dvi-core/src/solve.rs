@@ -129,9 +129,10 @@ pub(crate) fn repeat<T: Real>(
         match convergence.judge(correction) {
             Verdict::Continue => {}
             // Comparisons have not seen the derivatives that numbers may carry.
-            Verdict::Accept => {
+            Verdict::Accept if carries_derivatives::<T>() => {
                 break (0..convergence.more).try_for_each(|_| iteration.improve(statistics).map(drop));
             }
+            Verdict::Accept => break Ok(()),
             Verdict::GiveUp => break Err(convergence.failure()),
         }
     };

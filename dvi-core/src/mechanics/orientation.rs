@@ -13,6 +13,7 @@ use crate::error::CheckpointError;
 use crate::error::StepFailure;
 use crate::scalar::norm::reported;
 use crate::space::inertia::{Inertia, inertia};
+use crate::space::scratch;
 use crate::space::sink::Places;
 use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
@@ -65,35 +66,35 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     /// [`StepFailure::Orientation`]; the last is kept then.
     #[inline]
     pub(crate) fn check(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
-        let after = self.compare(system, q, t)?;
         match self {
             Self::Constant => {}
-            Self::Pairs([entries, next]) => core::mem::swap(entries, next),
-            Self::Pfaffian(before, _) => *before = after,
-        }
-        Ok(())
-    }
-
-    /// Compares Ω at (`q`, `t`), within a step, with the last; returns the signed pivot where it is kept.
-    ///
-    /// # Errors
-    /// [`StepFailure::Orientation`].
-    #[inline]
-    pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<T, StepFailure> {
-        match self {
-            Self::Constant => Ok(T::lift(0.0)),
             Self::Pairs([entries, next]) => {
-                system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
-                for (&before, &after) in entries.iter().zip(next.iter()) {
-                    compare(before, after)?;
-                }
-                Ok(T::lift(0.0))
+                scratch!(next = system, *next);
+                compare_pairs(system, q, t, entries, next)?;
+                entries.copy_from_slice(next);
             }
             Self::Pfaffian(before, matrix) => {
                 let after = Self::pfaffian(system, q, t, matrix);
                 compare(*before, after)?;
-                Ok(after)
+                *before = after;
             }
+        }
+        Ok(())
+    }
+
+    /// Compares Ω at (`q`, `t`), within a step, with the last.
+    ///
+    /// # Errors
+    /// [`StepFailure::Orientation`].
+    #[inline]
+    pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
+        match self {
+            Self::Constant => Ok(()),
+            Self::Pairs([entries, next]) => {
+                scratch!(next = system, *next);
+                compare_pairs(system, q, t, entries, next)
+            }
+            Self::Pfaffian(before, matrix) => compare(*before, Self::pfaffian(system, q, t, matrix)),
         }
     }
 
@@ -102,6 +103,23 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
         system.one_form_jacobian(q, t, T::lift(-1.0), T::lift(1.0), matrix);
         pfaffian_sign(matrix, system.space().dimension())
     }
+}
+
+/// Sets `next` to the entries of Ω at (`q`, `t`), and compares them with the last.
+#[inline(always)]
+fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
+    system: &S,
+    q: &[T],
+    t: T,
+    entries: &[T],
+    next: &mut [T],
+) -> Result<(), StepFailure> {
+    system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
+    // Ω is skew: the other row of a pair has the same entry with the other sign.
+    for i in (0..entries.len()).filter(|&i| i < system.conjugate(i)) {
+        compare(entries[i], next[i])?;
+    }
+    Ok(())
 }
 
 impl<S: System, T: Real> Memory<T> for FormOrientation<S, T> {

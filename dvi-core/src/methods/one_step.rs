@@ -109,7 +109,7 @@ impl Scheme for OneStep {
         }
     }
     fn is_symmetric(&self) -> bool {
-        matches!(self.rule, Rule::Midpoint | Rule::Trapezoid)
+        self.rule.is_symmetric()
     }
     fn preserved_form(&self) -> PreservedForm {
         if self.is_symmetric() { PreservedForm::Omega } else { PreservedForm::Conjugate }
@@ -119,6 +119,13 @@ impl Scheme for OneStep {
 /// What a run of a one-step scheme carries.
 #[derive(Debug)]
 pub struct OneStepMemory<S: System, T: Real> {
+    point: Point<S, T>,
+    work: Work<S, T>,
+}
+
+/// What a step leaves to the next.
+#[derive(Debug)]
+struct Point<S: System, T: Real> {
     /// ϑ at the current point, zero along y.
     p: Vector<S, T>,
     /// The velocity of x at the current point, and zero along y, for the schemes A and B.
@@ -126,12 +133,22 @@ pub struct OneStepMemory<S: System, T: Real> {
     /// The mean rates of change of the last steps, that of y to where it stands in the equations.
     rates: Rates<S, T>,
     orientation: FormOrientation<S, T>,
-    split: Split<S, T>,
+}
+
+/// What is written before it is read.
+#[derive(Debug)]
+struct Work<S: System, T: Real> {
     stage: Stage<S, T>,
+    split: Split<S, T>,
+    /// The end of the step.
     next: Vector<S, T>,
 }
 
 impl<S: System, T: Real> Memory<T> for OneStepMemory<S, T> {
+    lasting!(T; part point);
+}
+
+impl<S: System, T: Real> Memory<T> for Point<S, T> {
     lasting!(T; numbers p, numbers velocity, part rates, part orientation);
 }
 
@@ -142,20 +159,13 @@ impl<S: System, T: Real> Carries<S, T> for OneStep {
 impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        let split = Split::new(system);
         let [mut p, mut velocity]: [Vector<S, T>; 2] = core::array::from_fn(|_| system.space().vector());
         system.one_form(q, t, &mut p);
         let rates = VectorField::starting(system, q, t)?;
         copy_x(system, &rates, &mut velocity);
-        Ok(OneStepMemory {
-            p,
-            velocity,
-            rates: Rates::new(system, rates),
-            orientation: FormOrientation::new(system, q, t),
-            stage: Stage::new(system, q, t),
-            split,
-            next: system.space().vector(),
-        })
+        let (rates, orientation) = (Rates::new(system, rates), FormOrientation::new(system, q, t));
+        let point = Point { p, velocity, rates, orientation };
+        Ok(OneStepMemory { point, work: Work::new(system, q, t) })
     }
 
     #[inline]
@@ -168,115 +178,133 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        // Where steps are long, extrapolation is off, or leads to another branch.
-        self.attempt(system, memory, q, [t, h], Guess::Extrapolated, statistics)
-            .or_else(|_| self.attempt(system, memory, q, [t, h], Guess::Zero, statistics))?;
-        memory.arrive(system, q, h);
-        Ok(())
+        let mut guess = Guess::Extrapolated;
+        if S::Space::ON_STACK && self.rule == Rule::Midpoint {
+            // What no other function sees may stay in registers, and of one rule the compiler knows the nodes. Nothing up to
+            // `leave` may therefore be a closure or a function that is not inlined.
+            let midpoint = Self { rule: Rule::Midpoint, ..*self };
+            let (point, mut work) = (&mut memory.point, Work::new(system, q, t));
+            let step = Step { system, q: &*q, t, h, nodes: midpoint.rule.nodes() };
+            if midpoint.attempt(&step, point, &mut work, guess, statistics).is_ok() {
+                work.leave(system, q, point, h);
+                return Ok(());
+            }
+            guess = Guess::Zero;
+        }
+        self.solve(system, memory, q, [t, h], guess, statistics)
     }
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {}
 
+impl Rule {
+    #[inline(always)]
+    fn nodes(self) -> &'static [Node] {
+        match self {
+            Self::A => &[Node::END],
+            Self::B => &[Node::BEGIN],
+            Self::Midpoint => &[Node::CENTRE],
+            Self::Trapezoid => &Node::ENDS,
+        }
+    }
+
+    #[inline(always)]
+    fn is_symmetric(self) -> bool {
+        matches!(self, Self::Midpoint | Self::Trapezoid)
+    }
+}
+
 impl OneStep {
-    /// Sets `next` to q1, if it is on the branch of ϑ(x, y) = p that q0 is on.
-    fn attempt<S: ProperlyDegenerate<T>, T: Real>(
+    /// A step from `guess`, of any rule and in any space.
+    #[inline(never)]
+    fn solve<S: ProperlyDegenerate<T>, T: Real>(
         &self,
         system: &S,
-        memory: &mut OneStepMemory<S, T>,
-        q: &Vector<S, T>,
+        OneStepMemory { point, work }: &mut OneStepMemory<S, T>,
+        q: &mut Vector<S, T>,
         [t, h]: [T; 2],
+        mut guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, q: &*q, t, h, nodes: self.rule.nodes() };
+        // Where steps are long, extrapolation is off, or leads to another branch.
+        loop {
+            match (self.attempt(&step, point, work, guess, statistics), guess) {
+                (Ok(()), _) => break,
+                (Err(_), Guess::Extrapolated) => guess = Guess::Zero,
+                (failed, Guess::Zero) => return failed,
+            }
+        }
+        work.leave(system, q, point, h);
+        Ok(())
+    }
+
+    /// Sets `work.next` to q1, `work.stage.momentum` to p1, and `work.stage.rates` to the rates of change, if q1 is on the branch
+    /// of ϑ(x, y) = p that q0 is on.
+    #[inline(always)]
+    fn attempt<S: ProperlyDegenerate<T>, T: Real>(
+        &self,
+        step: &Step<'_, S, T>,
+        point: &mut Point<S, T>,
+        work: &mut Work<S, T>,
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, .. } = *step;
         let half = T::lift(0.5);
-        match self.rule {
-            Rule::Midpoint | Rule::Trapezoid => memory.guess(system, q, h, half, guess),
-            Rule::A | Rule::B => memory.guess(system, q, h, T::lift(1.0), guess),
+        let until_y = if self.is_symmetric() { half } else { T::lift(1.0) };
+        point.guess(step, guess, until_y, &mut work.stage.unknown);
+        work.stage.momentum.copy_from_slice(&point.p);
+        let begin = if self.is_symmetric() { t } else { self.depart(step, point, work, statistics) };
+        let from = if self.is_symmetric() { q } else { &work.next };
+        work.stage.solve(&Step { q: from, t: begin, ..*step }, self.stopping, statistics)?;
+        if self.is_symmetric() {
+            work.end(step, point, self.stopping, statistics)?;
+        } else {
+            self.end(step, work);
         }
-        match self.rule {
-            Rule::Midpoint => self.variational(system, memory, q, [t, h], &[Node::CENTRE], statistics)?,
-            Rule::Trapezoid => self.variational(system, memory, q, [t, h], &Node::ENDS, statistics)?,
-            Rule::A => self.first_order(system, memory, q, [t, h], Node::END, statistics)?,
-            Rule::B => self.first_order(system, memory, q, [t, h], Node::BEGIN, statistics)?,
-        }
-        norm::finite(&memory.next)?;
-        let OneStepMemory { orientation, stage, next, .. } = memory;
+        let Work { stage, next, .. } = work;
+        norm::finite(next)?;
         // Between two branches Ω changes its sign.
         norm::mean(q, next, &mut stage.point);
-        orientation.compare(system, &stage.point, t + half * h)?;
-        orientation.check(system, next, t + h)
+        point.orientation.compare(system, &stage.point, t + half * h)?;
+        point.orientation.check(system, next, t + h)
     }
 
-    /// Sets `next` to q1 of a symmetric scheme, `stage.momentum` to p1, and `stage.rates` to the rates of change.
-    fn variational<S: ProperlyDegenerate<T>, T: Real>(
+    /// Sets `work.next` to where A and B begin and `work.stage.momentum` to the momentum there, and returns its time. The node
+    /// of A is at the end, that of B at the beginning of the interval that comes next.
+    fn depart<S: ProperlyDegenerate<T>, T: Real>(
         &self,
-        system: &S,
-        memory: &mut OneStepMemory<S, T>,
-        q: &Vector<S, T>,
-        [t, h]: [T; 2],
-        nodes: &[Node],
+        step: &Step<'_, S, T>,
+        point: &Point<S, T>,
+        work: &mut Work<S, T>,
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let half = T::lift(0.5);
-        let OneStepMemory { p, orientation, split, stage, next, .. } = memory;
-        stage.momentum.copy_from_slice(p);
-        let step = Step { system, q, t, h, nodes, stopping: self.stopping };
-        stage.solve(&step, statistics)?;
-        // p1 = p0 + h Σ w f_x, from the nodes at the solution.
-        let time = stage.kick(&step, statistics);
-        // Between two branches Ω changes its sign.
-        orientation.compare(system, &stage.point, time)?;
-        for i in 0..q.len() {
-            let is_x = is_x(system, i);
-            // From ȳ on, as far again.
-            next[i] =
-                if is_x { q[i] + stage.unknown[i] } else { stage.unknown[i] + (stage.unknown[i] - q[i]) };
-            stage.rates[i] = if is_x { stage.unknown[i] } else { (stage.unknown[i] - q[i]) / half } / h;
-        }
-        let end = t + h;
-        split.solve_y(system, next, end, &stage.momentum, self.stopping, statistics).or_else(|_| {
-            // From where y was, if as far again is too far.
-            for i in (0..q.len()).filter(|&i| !is_x(system, i)) {
-                next[i] = stage.unknown[i];
-            }
-            split.solve_y(system, next, end, &stage.momentum, self.stopping, statistics)
-        })
-    }
-
-    /// The same for A, whose node is at the end, and B, whose node is at the beginning of the interval that comes next.
-    fn first_order<S: ProperlyDegenerate<T>, T: Real>(
-        &self,
-        system: &S,
-        memory: &mut OneStepMemory<S, T>,
-        q: &Vector<S, T>,
-        [t, h]: [T; 2],
-        node: Node,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let OneStepMemory { p, velocity, stage, next, .. } = memory;
-        stage.momentum.copy_from_slice(p);
-        let is_b = node == Node::BEGIN;
+    ) -> T {
+        let Step { system, q, t, h, .. } = *step;
+        let Work { stage, next, .. } = work;
         next.copy_from_slice(q);
-        let begin = if is_b {
-            for i in 0..q.len() {
-                next[i] += h * velocity[i];
+        if self.rule == Rule::B {
+            for (next, &v) in next.iter_mut().zip(point.velocity.iter()) {
+                *next += h * v;
             }
-            t + h
-        } else {
-            system.gradient(q, velocity, t, &mut stage.gradient, &mut stage.one_form);
-            statistics.gradients += 1;
-            for i in (0..q.len()).filter(|&i| is_x(system, i)) {
-                stage.momentum[i] += h * stage.gradient[i];
-            }
-            t
-        };
-        let step = Step { system, q: next, t: begin, h, nodes: &[node], stopping: self.stopping };
-        stage.solve(&step, statistics)?;
+            return t + h;
+        }
+        system.gradient(q, &point.velocity, t, &mut stage.gradient, &mut stage.one_form);
+        statistics.gradients += 1;
+        for i in (0..q.len()).filter(|&i| is_x(system, i)) {
+            stage.momentum[i] += h * stage.gradient[i];
+        }
+        t
+    }
+
+    /// Sets `work.next` to where A and B end, and the momentum and the rates.
+    fn end<S: ProperlyDegenerate<T>, T: Real>(&self, step: &Step<'_, S, T>, work: &mut Work<S, T>) {
+        let Step { system, q, t, h, .. } = *step;
+        let Work { stage, next, .. } = work;
         for i in 0..q.len() {
             if is_x(system, i) {
                 stage.rates[i] = stage.unknown[i] / h;
-                if !is_b {
+                if self.rule == Rule::A {
                     next[i] = q[i] + stage.unknown[i];
                 }
             } else {
@@ -285,26 +313,79 @@ impl OneStep {
             }
         }
         system.one_form(next, t + h, &mut stage.momentum);
-        Ok(())
     }
 }
 
-impl<S: ProperlyDegenerate<T>, T: Real> OneStepMemory<S, T> {
-    /// Sets `stage.unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
-    fn guess(&mut self, system: &S, q: &Vector<S, T>, h: T, c: T, guess: Guess) {
-        let Self { rates, stage, .. } = self;
-        rates.guess(h, guess, &mut stage.unknown);
-        for (i, unknown) in stage.unknown.iter_mut().enumerate() {
-            *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
+impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
+    #[inline(always)]
+    fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
+        Self { stage: Stage::new(system, q, t), split: Split::new(system), next: system.space().vector() }
+    }
+
+    /// Sets `next` to the end of a symmetric scheme's step, and the momentum and the rates.
+    #[inline(always)]
+    fn end(
+        &mut self,
+        step: &Step<'_, S, T>,
+        point: &mut Point<S, T>,
+        stopping: Stopping,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Step { system, q, h, .. } = *step;
+        let half = T::lift(0.5);
+        let stage = &mut self.stage;
+        // p1 = p0 + h Σ w f_x, from the nodes at the solution.
+        let time = stage.kick(step, statistics);
+        // Between two branches Ω changes its sign.
+        point.orientation.compare(system, &stage.point, time)?;
+        for i in 0..q.len() {
+            let unknown = stage.unknown[i];
+            stage.rates[i] = if is_x(system, i) { unknown } else { (unknown - q[i]) / half } / h;
+        }
+        // From ȳ on, as far again; from there, if as far again is too far.
+        match self.solve_y(step, 1.0, stopping, statistics) {
+            Err(_) => self.solve_y(step, 0.0, stopping, statistics),
+            solved => solved,
         }
     }
 
-    /// Moves to `next`, with the momentum and the rates of the stage.
-    fn arrive(&mut self, system: &S, q: &mut Vector<S, T>, h: T) {
-        let Self { p, velocity, rates, stage, next, .. } = self;
+    /// Sets `next` to the end of the step, with y from `again` times as far as to ȳ beyond it.
+    #[inline(always)]
+    fn solve_y(
+        &mut self,
+        step: &Step<'_, S, T>,
+        again: f64,
+        stopping: Stopping,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let (Self { stage, split, next }, Step { system, q, t, h, .. }) = (self, step);
+        for i in 0..q.len() {
+            let unknown = stage.unknown[i];
+            next[i] =
+                if is_x(*system, i) { q[i] + unknown } else { unknown + T::lift(again) * (unknown - q[i]) };
+        }
+        split.solve_y(system, next, *t + *h, &stage.momentum, stopping, statistics)
+    }
+
+    /// Moves `q` and `point` to the end of the step.
+    #[inline(always)]
+    fn leave(&self, system: &S, q: &mut Vector<S, T>, point: &mut Point<S, T>, h: T) {
+        let Self { stage, next, .. } = self;
         q.copy_from_slice(next);
-        p.copy_from_slice(&stage.momentum);
-        copy_x(system, &stage.rates, velocity);
-        rates.push(h, &stage.rates);
+        point.p.copy_from_slice(&stage.momentum);
+        copy_x(system, &stage.rates, &mut point.velocity);
+        point.rates.push(h, &stage.rates);
+    }
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> Point<S, T> {
+    /// Sets `unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
+    #[inline(always)]
+    fn guess(&self, step: &Step<'_, S, T>, guess: Guess, c: T, unknown: &mut Vector<S, T>) {
+        let Step { system, q, h, .. } = *step;
+        self.rates.guess(h, guess, unknown);
+        for (i, unknown) in unknown.iter_mut().enumerate() {
+            *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
+        }
     }
 }

@@ -70,6 +70,7 @@ impl StepFailure {
     ///
     /// # Errors
     /// This failure, if it has not.
+    #[inline(always)]
     pub(crate) fn unless_rounding<T: Real>(
         self,
         scale: impl FnOnce() -> Result<T, Self>,

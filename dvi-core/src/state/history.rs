@@ -193,7 +193,7 @@ impl<S: System, T: Real> Memory<T> for Rates<S, T> {
 #[inline(always)]
 pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
     let [size, last_size] = [h, last].map(Scalar::abs);
-    h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size
+    h == last || h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size
 }
 
 #[cfg(test)]

@@ -2,17 +2,15 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
-use crate::space::elimination;
+use crate::solve::{Convergence, Iteration, Stopping, repeat};
 use crate::space::sink::Places;
+use crate::space::{elimination, scratch};
 use crate::state::Statistics;
-use crate::{Matrix, Permutation, ProperlyDegenerate, Real, Space, System, Vector};
+use crate::{Matrix, ProperlyDegenerate, Real, Space, System, Vector};
 
-/// Which coordinates are x and which y, and storage for equations in y.
+/// Storage for equations in y.
 #[derive(Debug)]
 pub(super) struct Split<S: System, T: Real> {
-    /// The place of each coordinate in the order (x, y).
-    places: Permutation<S>,
     /// ∂ϑ/∂y, the first (n/2)² entries.
     block: Matrix<S, T>,
     /// ϑ − p, and the change of y in its order.
@@ -35,53 +33,41 @@ pub(super) fn copy_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, from: &[T], 
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
+    #[inline(always)]
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
-        let mut places = space.permutation();
-        for (coordinate, place) in places.iter_mut().enumerate() {
-            *place = system.place(coordinate);
-        }
-        Self { places, block: space.matrix(), form: space.vector(), change: space.vector() }
+        Self { block: space.matrix(), form: space.vector(), change: space.vector() }
     }
 
     /// Improves y in `q` until ϑ(q, t) = `p`.
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where ∂ϑ/∂y is, [`StepFailure::NotConverged`].
+    #[inline(always)]
     pub(super) fn solve_y(
         &mut self,
         system: &S,
         q: &mut Vector<S, T>,
         t: T,
-        p: &[T],
+        p: &Vector<S, T>,
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let convergence = Convergence::new(stopping, norm::largest(q), q, stopping.max_iterations);
-        let half = self.places.len() / 2;
-        let solved = iterate(convergence, statistics, |statistics| {
-            system.one_form(q, t, &mut self.form);
-            for (form, &p) in self.form.iter_mut().zip(p) {
-                *form -= p;
-            }
-            self.solve_once(system, q, t, statistics)?;
-            for (i, q) in q.iter_mut().enumerate() {
-                if let Some(y) = self.places[i].checked_sub(half) {
-                    *q -= self.change[y];
-                }
-            }
-            Ok(norm::largest(&self.change[..half]))
-        });
-        solved.or_else(|failure| {
-            failure.unless_rounding(|| {
+        let newton = Newton { split: self, system, q, t, p };
+        match repeat(convergence, statistics, newton) {
+            Err(failure @ StepFailure::NotConverged { .. }) => {
                 self.form.copy_from_slice(p);
-                self.solve_once(system, q, t, statistics)?;
-                Ok(norm::largest(&self.change[..half]))
-            })
-        })
+                let solved = self.solve_once(system, q, t, statistics);
+                let scale = solved.map(|()| norm::largest(&self.change[..q.len() / 2]));
+                failure.unless_rounding(|| scale)
+            }
+            solved => solved,
+        }
     }
 
     /// Sets `change` to (∂ϑ/∂y)⁻¹`form`.
+    #[inline(always)]
     fn solve_once(
         &mut self,
         system: &S,
@@ -89,31 +75,36 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         t: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let half = self.places.len() / 2;
+        let half = q.len() / 2;
         if S::CANONICAL {
-            self.divide(system, q, t)?;
-        } else {
-            self.eliminate(system, q, t, half, statistics)?;
+            return self.divide(system, q, t);
         }
+        self.eliminate(system, q, t, half, statistics)?;
         norm::finite(&self.change[..half])
     }
 
-    /// Sets `change` to (∂ϑ/∂y)⁻¹`form` where each row has one entry.
+    /// The same where each row has one entry.
+    #[inline(always)]
     fn divide(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
-        let half = self.places.len() / 2;
-        let entries = &mut self.block[..self.places.len()];
+        let half = q.len() / 2;
+        scratch!(entries = system, self.block[..q.len()]);
         system.conjugate_entries(q, t, T::lift(1.0), T::lift(0.0), entries);
-        for i in 0..self.places.len() {
-            if 2 * self.places[i] < self.places.len() {
-                let column = system.conjugate(i);
-                let reciprocal = norm::reciprocal(entries[i], column)?;
-                self.change[self.places[column] - half] = self.form[i] * reciprocal;
+        let rows = || (0..q.len()).filter(|&i| is_x(system, i)).map(|i| (i, system.conjugate(i)));
+        for (i, column) in rows() {
+            self.change[system.place(column) - half] = self.form[i] * (T::lift(1.0) / entries[i]);
+        }
+        let finite = norm::finite(&self.change[..half]);
+        // Where a reciprocal is not finite, its product is not either.
+        if finite.is_err() {
+            for (i, column) in rows() {
+                norm::reciprocal(entries[i], column)?;
             }
         }
-        Ok(())
+        finite
     }
 
     /// The same by elimination.
+    #[inline(never)]
     fn eliminate(
         &mut self,
         system: &S,
@@ -122,11 +113,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         half: usize,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { places, block, form, change } = self;
+        let Self { block, form, change } = self;
         let block = &mut block[..half * half];
         block.fill(T::lift(0.0));
         let mut sink = Places(|row: usize, column: usize, entry: T| {
-            let (row, column) = (places[row], places[column]);
+            let (row, column) = (system.place(row), system.place(column));
             if row < half && column >= half {
                 block[row * half + (column - half)] += entry;
             }
@@ -134,10 +125,38 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         system.one_form_jacobian(q, t, T::lift(1.0), T::lift(0.0), &mut sink);
         statistics.factorisations += 1;
         for (i, &form) in form.iter().enumerate() {
-            if places[i] < half {
-                change[places[i]] = form;
+            if system.place(i) < half {
+                change[system.place(i)] = form;
             }
         }
         elimination::eliminate(block, &mut change[..half])
+    }
+}
+
+/// Newton's method for y.
+struct Newton<'a, S: System, T: Real> {
+    split: &'a mut Split<S, T>,
+    system: &'a S,
+    q: &'a mut Vector<S, T>,
+    t: T,
+    p: &'a Vector<S, T>,
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
+    #[inline(always)]
+    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { split, system, q, t, p } = self;
+        system.one_form(q, *t, &mut split.form);
+        for (form, &p) in split.form.iter_mut().zip(p.iter()) {
+            *form -= p;
+        }
+        split.solve_once(system, q, *t, statistics)?;
+        let half = q.len() / 2;
+        for (i, q) in q.iter_mut().enumerate() {
+            if let Some(y) = system.place(i).checked_sub(half) {
+                *q -= split.change[y];
+            }
+        }
+        Ok(norm::largest(&split.change[..half]))
     }
 }

@@ -9,7 +9,7 @@ use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Iteration, Stopping, repeat};
 use crate::space::sink::Scaled;
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
@@ -37,7 +37,6 @@ pub(super) struct Step<'a, S: System, T: Real> {
     pub(super) t: T,
     pub(super) h: T,
     pub(super) nodes: &'a [Node],
-    pub(super) stopping: Stopping,
 }
 
 /// The unknowns, with the storage that solving for them needs.
@@ -60,6 +59,7 @@ pub(super) struct Stage<S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
+    #[inline(always)]
     pub(super) fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
         let vector = || system.space().vector();
         let rest: Vector<S, T> = vector();
@@ -80,38 +80,58 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
+    #[inline(always)]
     pub(super) fn solve(
         &mut self,
         step: &Step<'_, S, T>,
+        stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { unknown, momentum, gradient, one_form, solver, point, velocity, correction, .. } = self;
-        let Step { q, stopping, nodes, .. } = *step;
-        let scale = norm::larger(norm::largest(q), norm::largest(unknown));
+        let Step { system, q, t, h, nodes } = *step;
+        let scale = norm::larger(norm::largest(q), norm::largest(&self.unknown));
         let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
-        let solved = iterate(convergence, statistics, |statistics| {
-            statistics.linearizations += nodes.len() as u64;
-            statistics.factorisations += 1;
-            let work = [&mut *point, &mut *velocity, &mut *gradient, &mut *one_form];
-            let mut equations = Equations { step, unknown: &*unknown, momentum: &*momentum, work };
-            solver.solve(&mut equations, correction)?;
-            norm::finite(correction)?;
-            for (unknown, &change) in unknown.iter_mut().zip(correction.iter()) {
-                *unknown -= change;
-            }
-            Ok(norm::largest(correction))
-        });
-        solved.or_else(|failure| {
-            failure.unless_rounding(|| {
-                let work = [&mut *point, &mut *velocity, &mut *gradient, &mut *one_form];
-                let equations = Equations { step, unknown: &*unknown, momentum: &*momentum, work };
-                solver.solve(&mut OfMomentum(equations), correction)?;
-                Ok(norm::largest(correction))
-            })
-        })
+        let Err(failure) = repeat(convergence, statistics, Newton { step, stage: self }) else {
+            return Ok(());
+        };
+        if !S::Space::ON_STACK {
+            return failure.unless_rounding(|| self.of_momentum(system, q, [t, h], nodes));
+        }
+        // What another function sees has no place in registers.
+        let mut apart = Self::new(system, q, t);
+        apart.unknown.copy_from_slice(&self.unknown);
+        apart.momentum.copy_from_slice(&self.momentum);
+        failure.unless_rounding(|| apart.of_momentum(system, q, [t, h], nodes))
+    }
+
+    /// What a relative error of the momentum makes of the unknowns.
+    #[cold]
+    #[inline(never)]
+    fn of_momentum(
+        &mut self,
+        system: &S,
+        q: &Vector<S, T>,
+        [t, h]: [T; 2],
+        nodes: &[Node],
+    ) -> Result<T, StepFailure> {
+        let step = Step { system, q, t, h, nodes };
+        let (equations, solver, correction) = self.equations(&step);
+        solver.solve(&mut OfMomentum(equations), correction)?;
+        Ok(norm::largest(correction))
+    }
+
+    /// The equations at the unknowns.
+    #[inline(always)]
+    fn equations<'a>(&'a mut self, step: &'a Step<'a, S, T>) -> Posed<'a, S, T> {
+        let Self { unknown, momentum, gradient, one_form, solver, point, velocity, correction, .. } = self;
+        (
+            Equations { step, unknown, momentum, work: [point, velocity, gradient, one_form] },
+            solver,
+            correction,
+        )
     }
 
     /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`, and returns the time of `point`.
+    #[inline(always)]
     pub(super) fn kick(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> T {
         let Self { unknown, momentum, gradient, one_form, point, velocity, .. } = self;
         let mut time = step.t;
@@ -149,6 +169,31 @@ impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
         self.t + c * self.h
     }
 }
+
+/// Newton's method for the unknowns.
+struct Newton<'a, S: System, T: Real> {
+    step: &'a Step<'a, S, T>,
+    stage: &'a mut Stage<S, T>,
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
+    #[inline(always)]
+    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { step, stage } = self;
+        statistics.linearizations += step.nodes.len() as u64;
+        statistics.factorisations += 1;
+        let (mut equations, solver, correction) = stage.equations(step);
+        solver.solve(&mut equations, correction)?;
+        norm::finite(correction)?;
+        for (unknown, &change) in stage.unknown.iter_mut().zip(stage.correction.iter()) {
+            *unknown -= change;
+        }
+        Ok(norm::largest(&stage.correction))
+    }
+}
+
+/// Equations, what solves them, and where the solution goes.
+type Posed<'a, S, T> = (Equations<'a, S, T>, &'a mut Linear<S, T>, &'a mut Vector<S, T>);
 
 struct Equations<'a, S: System, T: Real> {
     step: &'a Step<'a, S, T>,
