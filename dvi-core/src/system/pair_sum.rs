@@ -11,7 +11,7 @@ use crate::{DegenerateLagrangian, Scalar};
 ///
 /// The attribute implements it where it finds one such sum in H, as a term or a factor of a term, if the number of bodies is known at run
 /// time only: over all j < k from 0, each coordinate of a body in an array of its own, weights that are parameters with one index, and no
-/// other index or coordinate, nor the time, in K. [`FastSum`](crate::fast_sum::FastSum) is for such systems.
+/// other index or coordinate, nor the time, in K. `fast_sum::FastSum`, with the feature `fast-sums`, is for such systems.
 #[diagnostic::on_unimplemented(
     message = "no sum over all pairs of bodies of a function of their distance is seen in the Hamiltonian of `{Self}`",
     label = "its pairs cannot be summed fast",
