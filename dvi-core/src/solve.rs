@@ -19,8 +19,8 @@ pub(crate) use stopping::{Convergence, Verdict};
 pub enum Solver {
     /// Fixed point where it contracts fast, Newton where it does not: a step whose fixed-point iteration
     /// is slow is done again by Newton, and so are the 31 steps after it before the fixed point is tried
-    /// anew. It holds storage for the Newton matrix, unless that would be full and of more than 1024 rows: there it is
-    /// [`NewtonKrylov`](Self::NewtonKrylov) that stands by.
+    /// anew. It holds storage for the Newton matrix, unless that would take more than 1024 numbers for each coordinate: there
+    /// it is [`NewtonKrylov`](Self::NewtonKrylov) that stands by.
     #[default]
     Automatic,
     /// One gradient per iteration, no matrix (nonlinear α: one matrix of first derivatives per step).

@@ -32,6 +32,17 @@ struct Fput {
     alpha: f64,
 }
 
+/// Rows of `side` masses one after the other, on springs to the neighbours before and behind, left and right.
+#[lagrangian(
+    coordinates(q[n]),
+    lagrangian = sum(0..n, |j| dot(q[j]).powi(2) - q[j].powi(4) / 2.0) / 2.0
+        - sum(1..n, |j| (q[j] - q[j - 1]).cosh()) - sum(side..n, |j| (q[j] - q[j - side]).cosh()),
+)]
+struct Lattice {
+    n: usize,
+    side: usize,
+}
+
 const ALPHA: f64 = 0.25;
 const H: f64 = 0.1;
 
@@ -47,6 +58,24 @@ fn newton(criterion: &mut Criterion) {
         let system = Toda { n };
         let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
         let start = TodaState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
+        let Ok(mut run) = Integrator::new(&system, method, 1.0, start) else { panic!("it starts") };
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
+            bencher.iter(|| assert!(run.advance().is_ok()));
+        });
+    }
+    group.finish();
+}
+
+/// Steps by Newton on square lattices, whose matrices are sparse.
+fn lattice(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("lattice, midpoint, Newton, h = 1");
+    group.sample_size(10);
+    for side in [50, 100, 200] {
+        let n = side * side;
+        let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
+        let start = LatticeState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
+        let system = Lattice { n, side };
         let Ok(mut run) = Integrator::new(&system, method, 1.0, start) else { panic!("it starts") };
         group.throughput(Throughput::Elements(n as u64));
         group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
@@ -197,5 +226,5 @@ fn verlet(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, newton, fixed_point, many_bodies, verlet);
+criterion_group!(benches, newton, lattice, fixed_point, many_bodies, verlet);
 criterion_main!(benches);

@@ -126,6 +126,33 @@ fn of_bodies<M: Method<Rubbed, f64>>(method: M, n: usize) -> f64 {
     (dhat::HeapStats::get().total_bytes - before) as f64
 }
 
+/// Masses on springs between each and the two below it.
+#[lagrangian(
+    coordinates(q[2 * half + 1]),
+    lagrangian = sum(0..2 * half + 1, |j| dot(q[j]).powi(2) / 2.0 - q[j].powi(4) / 4.0)
+        - sum(0..half, |j| (q[2 * j + 1] - q[j]).powi(2) + (q[2 * j + 2] - q[j]).powi(2)),
+)]
+#[derive(Debug)]
+struct Tree {
+    half: usize,
+}
+
+/// A tree of `2 half + 1` masses.
+fn tree(half: usize) -> (Tree, TreeState) {
+    let q: Vec<f64> = (0..2 * half + 1).map(|j| (j as f64).sin()).collect();
+    (Tree { half }, TreeState { dot_q: vec![0.0; q.len()], q })
+}
+
+/// Bytes that a run of such a tree takes.
+fn of_tree(half: usize) -> f64 {
+    let ((system, start), solver) = (tree(half), Solver::Newton);
+    let before = dhat::HeapStats::get().total_bytes;
+    let method = Variational { solver, ..Variational::midpoint() };
+    let mut run = Integrator::new(&system, method, 0.1, start).expect("starts");
+    run.take_steps(3).expect("steps");
+    (dhat::HeapStats::get().total_bytes - before) as f64
+}
+
 /// Vortices on a spiral.
 fn spiral(n: usize) -> (ManyVortices, ManyVorticesState) {
     let at = |j: usize, phase: f64| (1.0 + j as f64).sqrt() * (2.4 * j as f64 + phase).sin();
@@ -298,6 +325,12 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Galerkin::<3>::new(),
         Galerkin { solver: newton, ..Galerkin::<4>::new() },
     );
+
+    // Sparse matrices: the tree has no narrow band.
+    let (system, start) = tree(100);
+    assert_none!(system, start, Variational { solver: newton, ..Variational::midpoint() });
+    let [small, large] = [1023, 4095].map(of_tree);
+    assert!(large < 4.1 * small, "{small} bytes and {large}");
 
     // A field on a grid, on every kind of axis.
     let axes = [

@@ -17,7 +17,7 @@ use crate::space::{FixedSquare, Sink};
 #[cfg(feature = "alloc")]
 use crate::Scalar;
 #[cfg(feature = "alloc")]
-use crate::space::square::{Pattern, RunTimeSquare};
+use crate::space::square::{Layout, Pattern, RunTimeSquare};
 #[cfg(feature = "alloc")]
 use krylov::Krylov;
 
@@ -70,15 +70,15 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> LinearS
 pub enum Storing {
     /// It is, in the storage that its pattern needs.
     Always,
-    /// It is, unless it would be full and of more than 1024 rows.
+    /// It is, unless it would take more than 1024 numbers for each row on average.
     IfSmall,
     /// It is not: products with vectors have to do. A matrix of fixed size is stored all the same.
     Never,
 }
 
-/// The largest dimension of a full matrix that is stored where that is asked for if small: 8 MB in double precision.
+/// How many numbers a matrix takes at most for each of its rows, where it is stored if it is small.
 #[cfg(feature = "alloc")]
-const LARGEST_FULL: usize = 1024;
+const NUMBERS_IN_A_ROW: usize = 1024;
 
 /// The linear solver of a [`RunTime`](crate::RunTime) space.
 #[cfg(feature = "alloc")]
@@ -105,12 +105,12 @@ impl<T: Scalar> RunTimeSolver<T> {
         }
         let mut pattern = Pattern::new(dimension);
         entries(&mut |row, column| pattern.add(row, column));
-        let order = pattern.banded();
-        let is_large = storing == Storing::IfSmall && dimension > LARGEST_FULL;
-        Self(if order.is_none() && is_large {
+        let layout = Layout::of(pattern);
+        let is_large = layout.storage(dimension) > NUMBERS_IN_A_ROW.saturating_mul(dimension);
+        Self(if storing == Storing::IfSmall && is_large {
             Storage::Products(Krylov::new(dimension))
         } else {
-            Storage::Matrix(RunTimeSquare::in_order(dimension, order))
+            Storage::Matrix(RunTimeSquare::in_layout(dimension, layout))
         })
     }
 }

@@ -1,16 +1,26 @@
 //! Square matrices that a sink fills and that are then solved with, in the storage that their pattern needs.
 //!
 //! With a dimension fixed at compile time they are dense and on the stack. With one that is known at run time only, they
-//! are banded where the entries, in the best order that is found, lie close enough to the diagonal: chains, lattices and
-//! rings, whose coordinates may stand in several blocks. With n coordinates and b diagonals on each side, storage grows
-//! as n b and the time of a solution as n b²: linearly in the length of a chain, faster for a lattice, whose b grows too.
+//! are stored in the way in which their elimination takes the least work. They are banded where the entries, in the best order
+//! that is found, lie close enough to the diagonal: chains and rings, whose coordinates may stand in several blocks. With n
+//! coordinates and b diagonals on each side, storage grows as n b and the time of a solution as n b². They are sparse where
+//! there are few entries and no narrow band: trees, networks, wide lattices. All others are full. Rows are exchanged in each of
+//! them, for the largest pivot in a column.
 
 #[cfg(feature = "alloc")]
 mod banded;
 #[cfg(feature = "alloc")]
+mod exchanges;
+#[cfg(feature = "alloc")]
+mod fronts;
+#[cfg(feature = "alloc")]
+mod layout;
+#[cfg(feature = "alloc")]
 mod ordering;
 #[cfg(feature = "alloc")]
 mod run_time;
+#[cfg(feature = "alloc")]
+mod sparse;
 
 use core::fmt::Debug;
 
@@ -20,6 +30,8 @@ use crate::space::sink::Sink;
 use crate::space::{FixedMatrix, FixedVector};
 use crate::{Real, Scalar, Space};
 
+#[cfg(feature = "alloc")]
+pub(crate) use layout::Layout;
 #[cfg(feature = "alloc")]
 pub(crate) use ordering::Pattern;
 #[cfg(feature = "alloc")]

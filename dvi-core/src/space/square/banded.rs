@@ -8,6 +8,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::exchanges::Exchanges;
 use super::ordering::Order;
 use crate::error::StepFailure;
 use crate::scalar::norm::{larger, singular};
@@ -20,8 +21,8 @@ pub(super) struct Banded<T> {
     /// The place of each coordinate, and the coordinate of each place.
     place: Vec<u32>,
     coordinate: Vec<u32>,
-    /// With which later entry each is exchanged, one after the other, to bring a vector into this order.
-    exchanges: Vec<u32>,
+    /// Brings a vector into this order.
+    exchanges: Exchanges,
     bandwidth: usize,
     /// Row by row.
     entries: Vec<T>,
@@ -38,15 +39,8 @@ impl<T: Scalar> Banded<T> {
         for (i, &at) in place.iter().enumerate() {
             coordinate[at as usize] = i as u32;
         }
-        // What stands where while the exchanges are made.
-        let (mut holds, mut at): (Vec<u32>, Vec<u32>) = ((0..n as u32).collect(), (0..n as u32).collect());
-        let exchange = |(k, &i): (usize, &u32)| {
-            let from = at[i as usize];
-            at[holds[k] as usize] = from;
-            holds.swap(k, from as usize);
-            from
-        };
-        let exchanges = coordinate.iter().enumerate().map(exchange).collect();
+        let mut exchanges = Exchanges::new(n);
+        exchanges.set(&coordinate);
         let entries = vec![T::lift(0.0); n * (3 * bandwidth + 1)];
         Self { place, coordinate, exchanges, bandwidth, entries, pivots: vec![0; n], outside: None }
     }
@@ -145,9 +139,7 @@ impl<T: Real> Banded<T> {
 
     pub(super) fn solve(&self, x: &mut [T]) {
         let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
-        for (k, &from) in self.exchanges.iter().enumerate() {
-            x.swap(k, from as usize);
-        }
+        self.exchanges.apply(x);
         for k in 0..n {
             x.swap(k, self.pivots[k] as usize);
             let value = x[k];
@@ -161,9 +153,7 @@ impl<T: Real> Banded<T> {
             let sum = line[1..].iter().zip(&x[k + 1..]).fold(x[k], |sum, (&u, &x)| sum - u * x);
             x[k] = sum / line[0];
         }
-        for (k, &from) in self.exchanges.iter().enumerate().rev() {
-            x.swap(k, from as usize);
-        }
+        self.exchanges.revert(x);
     }
 }
 

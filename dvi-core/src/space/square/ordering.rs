@@ -24,6 +24,13 @@ pub(crate) struct Order {
     pub(super) bandwidth: usize,
 }
 
+impl Order {
+    /// How many numbers are stored of a row: those of the band, and as many again as its half to the right.
+    pub(super) fn width(&self) -> usize {
+        3 * self.bandwidth + 1
+    }
+}
+
 impl Pattern {
     pub(crate) fn new(dimension: usize) -> Self {
         let is_full = u32::try_from(dimension).is_err();
@@ -48,8 +55,21 @@ impl Pattern {
         self.is_full |= self.places.len() > FULL * self.dimension;
     }
 
+    pub(super) fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// The columns in which each row has entries, ascending, the diagonal among them, unless the matrix counts as full.
+    pub(super) fn rows(&mut self) -> Option<Vec<Vec<u32>>> {
+        self.tidy();
+        let mut rows: Vec<Vec<u32>> = (0..self.dimension as u32).map(|i| vec![i]).collect();
+        self.places.iter().for_each(|&(i, j)| rows[i as usize].push(j));
+        rows.iter_mut().for_each(|row| row.sort_unstable());
+        (!self.is_full).then_some(rows)
+    }
+
     /// The order in which the matrix is banded, if that takes at most half of the storage of a full one.
-    pub(crate) fn banded(mut self) -> Option<Order> {
+    pub(super) fn banded(&mut self) -> Option<Order> {
         self.tidy();
         if self.is_full {
             return None;
@@ -61,8 +81,7 @@ impl Pattern {
             Order { place, bandwidth }
         });
         let best = if found.bandwidth < declared.bandwidth { found } else { declared };
-        // Rows of 3 b + 1 numbers.
-        (2 * (3 * best.bandwidth + 1) <= self.dimension).then_some(best)
+        (2 * best.width() <= self.dimension).then_some(best)
     }
 
     /// The reversed order of Cuthill & McKee: breadth first from an end of each connected part, neighbours of few

@@ -1,10 +1,13 @@
-//! The square matrix of a space whose dimension is known at run time only: banded where that is worth it.
+//! The square matrix of a space whose dimension is known at run time only: full, banded or sparse.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use super::SquareMatrix;
 use super::banded::Banded;
-use super::ordering::{Order, Pattern};
+use super::layout::Layout;
+use super::ordering::Pattern;
+use super::sparse::Sparse;
 use crate::error::StepFailure;
 use crate::space::RunTimeMatrix;
 use crate::space::elimination;
@@ -21,6 +24,8 @@ enum Storage<T> {
     Dense(RunTimeMatrix<T>, Vec<usize>),
     /// Those near the diagonal.
     Banded(Banded<T>),
+    /// Those of the pattern.
+    Sparse(Box<Sparse<T>>),
 }
 
 impl<T: Scalar> RunTimeSquare<T> {
@@ -28,15 +33,16 @@ impl<T: Scalar> RunTimeSquare<T> {
     pub(crate) fn new(space: RunTime, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
         let mut pattern = Pattern::new(space.dimension);
         entries(&mut |row, column| pattern.add(row, column));
-        Self::in_order(space.dimension, pattern.banded())
+        Self::in_layout(space.dimension, Layout::of(pattern))
     }
 
-    /// Banded in this order, and full without one.
-    pub(crate) fn in_order(dimension: usize, order: Option<Order>) -> Self {
+    /// Stored in this way.
+    pub(crate) fn in_layout(dimension: usize, layout: Layout) -> Self {
         let space = RunTime { dimension };
-        Self(match order {
-            Some(order) => Storage::Banded(Banded::new(order)),
-            None => Storage::Dense(space.matrix(), space.permutation()),
+        Self(match layout {
+            Layout::Full => Storage::Dense(space.matrix(), space.permutation()),
+            Layout::Banded(order) => Storage::Banded(Banded::new(order)),
+            Layout::Sparse(rows, fronts) => Storage::Sparse(Box::new(Sparse::new(&rows, fronts))),
         })
     }
 
@@ -52,6 +58,7 @@ impl<T: Scalar> Sink<T> for RunTimeSquare<T> {
         match &mut self.0 {
             Storage::Dense(matrix, _) => matrix.add(row, column, entry),
             Storage::Banded(banded) => banded.add(row, column, entry),
+            Storage::Sparse(sparse) => sparse.add(row, column, entry),
         }
     }
 }
@@ -63,6 +70,7 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
         match &mut self.0 {
             Storage::Dense(matrix, _) => matrix.fill(T::lift(0.0)),
             Storage::Banded(banded) => banded.clear(),
+            Storage::Sparse(sparse) => sparse.clear(),
         }
         self
     }
@@ -74,30 +82,39 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
                 banded.solve(x);
                 Ok(())
             }
+            Storage::Sparse(sparse) => {
+                sparse.factor()?;
+                sparse.solve(x);
+                Ok(())
+            }
         }
     }
     fn factor(&mut self) -> Result<(), StepFailure> {
         match &mut self.0 {
             Storage::Dense(matrix, permutation) => elimination::factor(matrix, permutation),
             Storage::Banded(banded) => banded.factor(),
+            Storage::Sparse(sparse) => sparse.factor(),
         }
     }
     fn solve(&self, x: &mut [T]) {
         match &self.0 {
             Storage::Dense(matrix, permutation) => elimination::solve(matrix, permutation, x),
             Storage::Banded(banded) => banded.solve(x),
+            Storage::Sparse(sparse) => sparse.solve(x),
         }
     }
     fn is_positive(&self) -> bool {
         match &self.0 {
             Storage::Dense(matrix, permutation) => elimination::is_positive(matrix, permutation),
             Storage::Banded(banded) => banded.is_positive(),
+            Storage::Sparse(sparse) => sparse.is_positive(),
         }
     }
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
         match &self.0 {
             Storage::Dense(matrix, _) => super::multiply_add(matrix, factor, x, sum),
             Storage::Banded(banded) => banded.multiply_add(factor, x, sum),
+            Storage::Sparse(sparse) => sparse.multiply_add(factor, x, sum),
         }
     }
 }

@@ -1,0 +1,292 @@
+//! Which columns of a sparse matrix are eliminated together, and with which rows.
+//!
+//! A column is eliminated from all rows that have an entry there. Whichever of them becomes the pivot, the others then have
+//! entries in the columns of all: the rows of one *front*. A front ends with as many rows fewer as it has eliminated columns,
+//! and the rows that are left go together to the front that eliminates the next of their columns. As a front holds every row
+//! with an entry in its columns, pivots may be chosen freely while the numbers are computed, and room for all of them is
+//! there from the beginning (George & Ng 1985). The order is that of minimum degree: next comes a column whose rows reach the
+//! fewest columns.
+
+use alloc::collections::BTreeSet;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::mem;
+use core::ops::Range;
+
+/// The fronts of a matrix, each after those whose rows it takes over.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Fronts {
+    pub(super) fronts: Vec<Front>,
+    /// The columns of all fronts, one front after the other: first those that it eliminates.
+    columns: Vec<u32>,
+    /// The rows of A that each front begins with, one front after the other.
+    own: Vec<u32>,
+    /// Whose rows each front takes over, one front after the other.
+    children: Vec<u32>,
+}
+
+/// What is eliminated together, and where what belongs to it stands in lists that all fronts share.
+#[derive(Clone, Debug)]
+pub(super) struct Front {
+    columns: Range<usize>,
+    /// How many of its columns it eliminates.
+    pub(super) pivots: usize,
+    own: Range<usize>,
+    children: Range<usize>,
+    /// Its rows, those that it takes over among them.
+    pub(super) rows: Range<usize>,
+    /// The numbers that solve with it.
+    pub(super) factors: Range<usize>,
+    /// The numbers of the rows that it hands on, which wait for the next front.
+    pub(super) waiting: Range<usize>,
+}
+
+impl Front {
+    pub(super) fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The columns of the rows that it hands on.
+    pub(super) fn width_left(&self) -> usize {
+        self.columns.len() - self.pivots
+    }
+
+    /// Which rows of A it hands on, in the list of all rows.
+    pub(super) fn rows_left(&self) -> Range<usize> {
+        self.rows.start + self.pivots..self.rows.end
+    }
+
+    /// How many multiplications its elimination takes at most.
+    fn work(&self) -> f64 {
+        let [rows, columns] = [self.rows.len(), self.width()].map(|size| size as f64);
+        (0..self.pivots).map(|k| k as f64).map(|k| (rows - k) * (columns - k)).sum()
+    }
+}
+
+impl Fronts {
+    /// The fronts of the matrix whose rows have entries in these columns, if their factors have no more numbers than `most`. Each
+    /// row needs an entry on the diagonal.
+    pub(super) fn new(rows: Vec<Vec<u32>>, most: usize) -> Option<Self> {
+        let mut elimination = Elimination::new(rows);
+        let mut numbers = 0;
+        while let Some((_, column)) = elimination.next.pop_first() {
+            numbers += elimination.eliminate(column);
+            if numbers > most {
+                return None;
+            }
+        }
+        Some(elimination.in_order())
+    }
+
+    /// The columns of a front: first those that it eliminates.
+    pub(super) fn columns(&self, front: &Front) -> &[u32] {
+        &self.columns[front.columns.clone()]
+    }
+
+    /// The rows of A that a front begins with.
+    pub(super) fn own(&self, front: &Front) -> &[u32] {
+        &self.own[front.own.clone()]
+    }
+
+    /// The fronts whose rows a front takes over.
+    pub(super) fn children(&self, front: &Front) -> impl Iterator<Item = &Front> {
+        self.children[front.children.clone()].iter().map(|&child| &self.fronts[child as usize])
+    }
+
+    /// How many rows all fronts have together.
+    pub(super) fn rows(&self) -> usize {
+        self.fronts.last().map_or(0, |front| front.rows.end)
+    }
+
+    /// How many numbers all fronts solve with.
+    pub(super) fn factors(&self) -> usize {
+        self.fronts.last().map_or(0, |front| front.factors.end)
+    }
+
+    /// How many numbers wait at most.
+    pub(super) fn waiting(&self) -> usize {
+        self.fronts.iter().map(|front| front.waiting.end).max().unwrap_or(0)
+    }
+
+    /// How many numbers the largest front has.
+    pub(super) fn largest(&self) -> usize {
+        self.fronts.iter().map(|front| front.rows.len() * front.width()).max().unwrap_or(0)
+    }
+
+    /// How many numbers are stored.
+    pub(super) fn storage(&self) -> usize {
+        self.factors() + self.waiting() + self.largest()
+    }
+
+    /// How many multiplications an elimination takes at most.
+    pub(super) fn work(&self) -> f64 {
+        self.fronts.iter().map(Front::work).sum()
+    }
+
+    /// Appends a front after those whose rows it takes over. `place` tells where each has got to.
+    fn push(&mut self, found: Found, place: &[u32]) {
+        let Found { columns, pivots, rows, own, children } = found;
+        let mut children = children.into_iter().map(|child| place[child as usize]).peekable();
+        let [rows_before, factors_before] = [self.rows(), self.factors()];
+        let lists = [self.columns.len(), self.own.len(), self.children.len()];
+        // Rows that wait are on top of those of fronts that this one does not take over.
+        let top = self.fronts.last().map_or(0, |front| front.waiting.end);
+        let waiting = children.peek().map_or(top, |&child| self.fronts[child as usize].waiting.start);
+        let (left, width) = (rows - pivots, columns.len());
+        self.columns.extend(columns);
+        self.own.extend(own);
+        self.children.extend(children);
+        self.fronts.push(Front {
+            columns: lists[0]..self.columns.len(),
+            pivots,
+            own: lists[1]..self.own.len(),
+            children: lists[2]..self.children.len(),
+            rows: rows_before..rows_before + rows,
+            factors: factors_before..factors_before + pivots * (width + left),
+            waiting: waiting..waiting + left * (width - pivots),
+        });
+    }
+}
+
+/// A matrix whose columns are being eliminated.
+struct Elimination {
+    /// Sets of rows that have entries in the same columns.
+    sets: Vec<Rows>,
+    /// The sets that have entries in each column.
+    sets_of: Vec<Vec<u32>>,
+    /// Columns that are not yet eliminated, by their degree.
+    next: BTreeSet<(u32, u32)>,
+    degree: Vec<u32>,
+    /// The last search that has seen a column.
+    seen: Vec<u64>,
+    searches: u64,
+    fronts: Vec<Found>,
+}
+
+/// Rows that have entries in the same columns.
+struct Rows {
+    /// Empty when they have gone to a front.
+    columns: Vec<u32>,
+    /// How many rows.
+    count: usize,
+    from: Source,
+}
+
+#[derive(Clone, Copy)]
+enum Source {
+    Row(u32),
+    Front(u32),
+}
+
+/// A front, in the order in which it was found.
+#[derive(Default)]
+struct Found {
+    columns: Vec<u32>,
+    pivots: usize,
+    rows: usize,
+    own: Vec<u32>,
+    children: Vec<u32>,
+}
+
+impl Elimination {
+    fn new(rows: Vec<Vec<u32>>) -> Self {
+        let n = rows.len();
+        let mut sets_of = vec![Vec::new(); n];
+        let set = |(row, columns): (usize, Vec<u32>)| {
+            columns.iter().for_each(|&column| sets_of[column as usize].push(row as u32));
+            Rows { columns, count: 1, from: Source::Row(row as u32) }
+        };
+        let sets = rows.into_iter().enumerate().map(set).collect();
+        let mut elimination = Self {
+            sets,
+            sets_of,
+            next: BTreeSet::new(),
+            degree: vec![0; n],
+            seen: vec![0; n],
+            searches: 0,
+            fronts: Vec::new(),
+        };
+        (0..n as u32).for_each(|column| elimination.place(column));
+        elimination
+    }
+
+    /// The columns in which rows with an entry in `column` have entries.
+    fn reach(&mut self, column: u32) -> Vec<u32> {
+        self.searches += 1;
+        let mut reach = Vec::new();
+        for &set in &self.sets_of[column as usize] {
+            for &other in &self.sets[set as usize].columns {
+                if mem::replace(&mut self.seen[other as usize], self.searches) != self.searches {
+                    reach.push(other);
+                }
+            }
+        }
+        reach
+    }
+
+    /// Finds the degree of a column, and its place among the next.
+    fn place(&mut self, column: u32) {
+        let degree = self.reach(column).len() as u32;
+        self.degree[column as usize] = degree;
+        self.next.insert((degree, column));
+    }
+
+    /// Eliminates a column that has been taken from the next, and with it those that no other rows have entries in. Returns how
+    /// many numbers it takes to solve with them.
+    fn eliminate(&mut self, column: u32) -> usize {
+        let mut columns = self.reach(column);
+        columns.sort_unstable();
+        let (front, set) = (self.fronts.len() as u32, self.sets.len() as u32);
+        let (mut rows, mut own, mut children) = (0, Vec::new(), Vec::new());
+        for set in mem::take(&mut self.sets_of[column as usize]) {
+            let Rows { columns, count, from } = &mut self.sets[set as usize];
+            *columns = Vec::new();
+            rows += *count;
+            match *from {
+                Source::Row(row) => own.push(row),
+                Source::Front(child) => children.push(child),
+            }
+        }
+        let sets = &self.sets;
+        for &other in &columns {
+            self.next.remove(&(self.degree[other as usize], other));
+            self.sets_of[other as usize].retain(|&set| !sets[set as usize].columns.is_empty());
+        }
+        let is_pivot = |other: &u32| self.sets_of[*other as usize].is_empty();
+        let (mut columns, left): (Vec<u32>, Vec<u32>) = columns.into_iter().partition(is_pivot);
+        let pivots = columns.len();
+        columns.extend(&left);
+        let numbers = pivots * (columns.len() + rows - pivots);
+        self.fronts.push(Found { columns, pivots, rows, own, children });
+        if !left.is_empty() {
+            left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
+            self.sets.push(Rows { columns: left.clone(), count: rows - pivots, from: Source::Front(front) });
+            left.into_iter().for_each(|other| self.place(other));
+        }
+        numbers
+    }
+
+    /// The fronts, each after those whose rows it takes over, with nothing that waits between for another.
+    fn in_order(mut self) -> Fronts {
+        let found = &mut self.fronts;
+        let mut is_child = vec![false; found.len()];
+        for &child in found.iter().flat_map(|front| &front.children) {
+            is_child[child as usize] = true;
+        }
+        let roots = (0..found.len()).rev().filter(|&front| !is_child[front]);
+        // A front comes up before its children and after them.
+        let mut to_do: Vec<(usize, bool)> = roots.map(|root| (root, false)).collect();
+        let mut place = vec![0_u32; found.len()];
+        let mut ordered = Fronts::default();
+        while let Some((at, is_after)) = to_do.pop() {
+            if is_after {
+                place[at] = ordered.fronts.len() as u32;
+                ordered.push(mem::take(&mut found[at]), &place);
+            } else {
+                to_do.push((at, true));
+                to_do.extend(found[at].children.iter().rev().map(|&child| (child as usize, false)));
+            }
+        }
+        ordered
+    }
+}
