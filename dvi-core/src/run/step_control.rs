@@ -68,3 +68,22 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Debug {
         t: T,
     ) -> Result<T, StepFailure>;
 }
+
+/// Whether the options of a control that steps to a tolerance are in range.
+///
+/// # Errors
+/// [`StartError::Parameter`] and [`StartError::Step`].
+fn validate(tolerance: f64, first_step: f64) -> Result<(), StartError> {
+    let is_tolerance = tolerance > 0.0 && tolerance.is_finite();
+    if !is_tolerance {
+        return Err(StartError::Parameter {
+            name: "tolerance",
+            value: tolerance,
+            range: "positive and finite",
+        });
+    }
+    if !first_step.is_finite() || first_step == 0.0 {
+        return Err(StartError::Step { h: first_step });
+    }
+    Ok(())
+}

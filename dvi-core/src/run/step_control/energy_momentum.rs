@@ -297,14 +297,7 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
     type Memory = EnergyMomentumMemory<S, T>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
-        let is_tolerance = self.tolerance > 0.0 && self.tolerance.is_finite();
-        if !is_tolerance {
-            let (value, range) = (self.tolerance, "positive and finite");
-            return Err(StartError::Parameter { name: "tolerance", value, range });
-        }
-        if !self.first_step.is_finite() || self.first_step == 0.0 {
-            return Err(StartError::Step { h: self.first_step });
-        }
+        super::validate(self.tolerance, self.first_step)?;
         if S::FORCED || !S::AUTONOMOUS {
             let reason = "energy is not conserved: forces act on the system, or L depends on the time";
             return Err(StartError::Unsupported { option: "EnergyMomentum", reason });

@@ -155,14 +155,7 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
     type Memory = OsculatingMemory<S, T>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
-        let tolerable = self.tolerance > 0.0 && self.tolerance.is_finite();
-        if !tolerable {
-            let (value, range) = (self.tolerance, "positive and finite");
-            return Err(StartError::Parameter { name: "tolerance", value, range });
-        }
-        if !self.first_step.is_finite() || self.first_step == 0.0 {
-            return Err(StartError::Step { h: self.first_step });
-        }
+        super::validate(self.tolerance, self.first_step)?;
         if !S::SEPARABLE {
             let reason =
                 "it needs L = ½ v·M v − V(q) with a constant matrix M, and forces without velocities";
