@@ -208,8 +208,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Takes `W` members at a time in lanes, as [`Together`] does: members of equal systems, which are neighbours in their shard. It is
-    /// faster, and the results are the same, as long as systems that are equal by `==` do the same: 0.0 and −0.0 are equal.
+    /// Takes `W` members at a time in lanes, as [`Together`] does: members of systems that are equal, or [differ in parameters of a generic
+    /// type](crate::system::Packable) only, which are neighbours in their shard. It is faster, and the results are the same, as long
+    /// as systems that are equal by `==` do the same: 0.0 and −0.0 are equal.
     pub fn in_lanes<const W: usize>(mut self) -> Self
     where
         S: PartialEq,

@@ -19,6 +19,7 @@ mod manifold;
 pub(crate) mod names;
 mod nondegenerate;
 mod nonholonomic;
+pub(crate) mod packable;
 mod pair_sum;
 mod report;
 pub(crate) mod stand_in;
@@ -40,6 +41,7 @@ pub use kind::{
 pub use manifold::{Factor, ManifoldLagrangian, ManifoldSystem};
 pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
+pub use packable::Packable;
 pub use pair_sum::PairSum;
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use unilateral::UnilateralLagrangian;

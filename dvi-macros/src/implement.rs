@@ -27,6 +27,7 @@ mod constraints;
 mod degenerate;
 mod document;
 mod manifold;
+mod packable;
 mod pairs;
 mod regular;
 mod state;
@@ -136,6 +137,7 @@ fn system(
     let mut item = emitter.model.item.clone();
     item.attrs.push(parse_quote!(#[doc = #documentation]));
     let (state, functions) = (&state.item, functions(emitter));
+    let packable = packable::packable(&emitter.model.crate_path, &emitter.model.item);
     quote! {
         #item
         #state
@@ -144,6 +146,7 @@ fn system(
             #lagrangian
             #special
             #functions
+            #packable
         };
     }
 }

@@ -1,12 +1,14 @@
 //! Runs taken together, one in each lane of a pack.
 //!
-//! Several runs of one method on one system, with the same step and at the same time, are loaded into packs, moved on by
+//! Several runs of one method, on systems that share packs, with the same step and at the same time, are loaded into packs, moved on by
 //! the steps of the method, and stored again. Where one of them has to be looked at or decides otherwise than the others do, it
 //! goes on alone from the last point that all have reached: so each run is, bit by bit, what it would have been alone.
 
 use crate::methods::{Carries, Clock, Method};
 use crate::scalar::Lanes;
 use crate::state::Statistics;
+#[cfg(doc)]
+use crate::system::Packable;
 use crate::{Lagrangian, System, Vector};
 
 /// One of several runs that are taken together.
@@ -40,11 +42,14 @@ pub trait InStep<const W: usize, S: Lagrangian>: Method<S, f64> {
     /// Room for the runs.
     fn packs(&self, system: &S) -> Self::Packs;
 
+    /// Whether two systems differ in nothing but what may differ from lane to lane: [`Packable::fits`].
+    fn fit(a: &S, b: &S) -> bool;
+
     /// Takes up to `count` steps of all `runs`, of which there are 1 to `W`, from the present time of `clock`, bit for bit as each
-    /// would alone. Returns how many: fewer, or none, where one of the runs has to go on alone.
+    /// would alone. Their `systems` share packs. Returns how many: fewer, or none, where one of the runs has to go on alone.
     fn steps_together(
         &self,
-        system: &S,
+        systems: &[&S],
         packs: &mut Self::Packs,
         runs: &mut [Companion<'_, S, Self>],
         clock: Clock<f64>,
@@ -61,9 +66,34 @@ pub(crate) fn load<'a, const W: usize>(
     runs: usize,
 ) {
     for lane in 0..W {
-        let vector = vector(if lane < runs { lane } else { 0 });
-        crate::scalar::lanes::write_lane(lane, vector, packs);
+        crate::scalar::lanes::write_lane(lane, vector(run_in(lane, runs)), packs);
     }
+}
+
+/// The same of a vector that runs may not have. Returns whether all have it.
+#[must_use]
+pub(crate) fn load_if_all_have<'a, const W: usize>(
+    packs: &mut [Lanes<W>],
+    vector: impl Fn(usize) -> Option<&'a [f64]>,
+    runs: usize,
+) -> bool {
+    (0..W).all(|lane| {
+        let vector = vector(run_in(lane, runs));
+        vector.is_some_and(|vector| {
+            crate::scalar::lanes::write_lane(lane, vector, packs);
+            true
+        })
+    })
+}
+
+/// The run in a lane.
+fn run_in(lane: usize, runs: usize) -> usize {
+    if lane < runs { lane } else { 0 }
+}
+
+/// The system in each lane; lanes without a run repeat the first.
+pub(crate) fn of_lanes<'a, const W: usize, S>(systems: &[&'a S]) -> [&'a S; W] {
+    core::array::from_fn(|lane| systems[run_in(lane, systems.len())])
 }
 
 /// Whether all lanes of `packs` are finite.

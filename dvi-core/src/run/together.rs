@@ -6,6 +6,8 @@ use core::fmt;
 use super::{Integrator, Run, Stepper};
 use crate::error::StepError;
 use crate::methods::{Companion, InStep};
+#[cfg(doc)]
+use crate::system::Packable;
 use crate::{Lagrangian, Space};
 
 /// Where not all can go on together, each run takes this many steps alone.
@@ -13,7 +15,8 @@ const ALONE: u64 = 16;
 
 /// Takes steps of several runs in lanes, `W` at a time.
 ///
-/// Those of equal systems, with equal methods, the same step and at the same time go together. Each run ends, bit for bit, where it
+/// Those of equal systems, with equal methods, the same step and at the same time go together, and so do those of systems that differ in
+/// parameters of a generic type only ([`Packable`]). Each run ends, bit for bit, where it
 /// would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same error, also where others
 /// fail. Systems and methods are equal that `==` says are; it must not say so of two that do different things, as of parameters
 /// 0.0 and −0.0 in `atan2`. Runs for which the method has no lanes are taken one by one.
@@ -110,14 +113,16 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
     fn take_in_lanes(&mut self, runs: &mut [&mut Integrator<'_, S, M>], group: &[usize], count: u64) -> u64 {
         let mut of_all = None;
         let mut companions = Vec::with_capacity(group.len());
+        let mut systems = Vec::with_capacity(group.len());
         for (_, run) in runs.iter_mut().enumerate().filter(|(index, _)| group.contains(index)) {
             let clock = run.present();
             let Stepper { system, method, memory, q, statistics, .. } = &mut run.stepper;
-            of_all = Some((*system, &*method, clock));
+            of_all = Some((&*method, clock));
+            systems.push(*system);
             companions.push(Companion { memory, q, statistics });
         }
-        let Some((system, method, clock)) = of_all else { return 0 };
-        method.steps_together(system, &mut self.packs, &mut companions, clock, count)
+        let Some((method, clock)) = of_all else { return 0 };
+        method.steps_together(&systems, &mut self.packs, &mut companions, clock, count)
     }
 }
 
@@ -126,6 +131,7 @@ fn go_together<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + Part
     a: &Integrator<'_, S, M>,
     b: &Integrator<'_, S, M>,
 ) -> bool {
-    let same_system = core::ptr::eq(a.system(), b.system()) || a.system() == b.system();
-    same_system && a.method() == b.method() && a.present() == b.present()
+    let [of_a, of_b] = [a.system(), b.system()];
+    let share_packs = core::ptr::eq(of_a, of_b) || M::fit(of_a, of_b) || of_a == of_b;
+    share_packs && a.method() == b.method() && a.present() == b.present()
 }

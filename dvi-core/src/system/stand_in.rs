@@ -4,8 +4,8 @@
 use super::{
     AffineOneForm, ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian,
     Lagrangian, Manifold, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, Nonholonomic,
-    NonholonomicLagrangian, ProperlyDegenerate, QuadraticInVelocity, Regular, RegularLagrangian, Separable,
-    System, Unilateral, UnilateralLagrangian, Weights,
+    NonholonomicLagrangian, Packable, ProperlyDegenerate, QuadraticInVelocity, Regular, RegularLagrangian,
+    Separable, System, Unilateral, UnilateralLagrangian, Weights,
 };
 use crate::{Scalar, Sink};
 
@@ -118,3 +118,10 @@ impl<S: StandIn + ManifoldSystem + System<Kind = Manifold>, T: Scalar> ManifoldL
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> AffineOneForm<T> for S {}
+
+impl<const W: usize, S: StandIn> Packable<W> for S {
+    type Packed = Self;
+    fn packed<R>(_systems: &[&Self; W], _f: impl FnOnce(&Self) -> R) -> R {
+        unreachable!()
+    }
+}

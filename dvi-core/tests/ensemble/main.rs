@@ -31,8 +31,8 @@ struct HenonHeiles;
     momenta(angular = x * dot(y) - y * dot(x)),
 )]
 #[derive(Clone, Debug, PartialEq)]
-struct Kepler {
-    mu: f64,
+struct Kepler<P = f64> {
+    mu: P,
 }
 
 /// Point vortices: a degenerate system, with arrays.

@@ -11,11 +11,12 @@ use super::Sigma;
 use super::monitor::Monitor;
 use crate::error::StepFailure;
 use crate::methods::Clock;
-use crate::methods::together::{Companion, InStep};
+use crate::methods::together::{Companion, InStep, load_if_all_have};
 use crate::scalar::Lanes;
 use crate::scalar::lanes::read_lane;
 use crate::state::history::DEPTH;
 use crate::state::summation::Summation;
+use crate::system::Packable;
 use crate::{DegenerateLagrangian, Space, System, Vector};
 
 type Packed<const W: usize, S> = Vector<S, Lanes<W>>;
@@ -34,9 +35,8 @@ pub struct Packs<const W: usize, S: System> {
     /// K⁻¹c0, if σ = ½.
     shift: Packed<W, S>,
     history: [Packed<W, S>; DEPTH],
-    /// Of all runs.
-    reciprocals: Vector<S, f64>,
-    factors: Vector<S, f64>,
+    reciprocals: Packed<W, S>,
+    factors: Packed<W, S>,
     /// Of one run.
     one: Vector<S, f64>,
     increment: Vector<S, f64>,
@@ -44,7 +44,7 @@ pub struct Packs<const W: usize, S: System> {
 
 impl<const W: usize, S> InStep<W, S> for Sigma
 where
-    S: DegenerateLagrangian + DegenerateLagrangian<Lanes<W>>,
+    S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
 {
     type Packs = Packs<W, S>;
 
@@ -66,9 +66,13 @@ where
         }
     }
 
+    fn fit(a: &S, b: &S) -> bool {
+        a.fits(b)
+    }
+
     fn steps_together(
         &self,
-        system: &S,
+        systems: &[&S],
         packs: &mut Packs<W, S>,
         runs: &mut [Companion<'_, S, Self>],
         clock: Clock<f64>,
@@ -79,14 +83,14 @@ where
         if !(is_affine && are_free && self.summation == Summation::Plain) {
             return 0;
         }
-        let Some(reciprocals) = runs.first().and_then(|run| run.memory.run.inverse.reciprocals()) else {
+        let of_run = |run: usize| runs[run].memory.run.inverse.reciprocals();
+        if !load_if_all_have(&mut packs.reciprocals, of_run, runs.len()) {
             return 0;
-        };
-        packs.reciprocals.copy_from_slice(reciprocals);
+        }
         if self.sigma == 0.0 {
-            leaps(system, packs, runs, clock, count)
+            leaps(systems, packs, runs, clock, count)
         } else if self.is_midpoint() {
-            midpoints(self, system, packs, runs, clock, count)
+            midpoints(self, systems, packs, runs, clock, count)
         } else {
             0
         }

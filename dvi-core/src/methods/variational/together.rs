@@ -3,14 +3,16 @@
 use super::Variational;
 use crate::discrete::frequency::FrequencyIn;
 use crate::discrete::quadrature::Rule;
-use crate::mechanics::phase::{Arrival, Inertial};
+use crate::mechanics::mass::Mass;
+use crate::mechanics::phase::Arrival;
 use crate::methods::Clock;
-use crate::methods::together::{Companion, InStep, all_finite, load};
+use crate::methods::together::{Companion, InStep, all_finite, load, load_if_all_have, of_lanes};
 use crate::methods::walk::BLOCK;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::read_lane;
 use crate::scalar::simd::{Task, widest};
 use crate::state::summation::Summation;
+use crate::system::Packable;
 use crate::{NondegenerateLagrangian, RegularLagrangian, Space, System, Vector};
 
 /// q, p and the force, and where the last good ones are kept.
@@ -18,24 +20,32 @@ use crate::{NondegenerateLagrangian, RegularLagrangian, Space, System, Vector};
 pub struct Packs<const W: usize, S: System> {
     now: [Vector<S, Lanes<W>>; 3],
     kept: [Vector<S, Lanes<W>>; 3],
+    /// 1/m.
+    reciprocals: Vector<S, Lanes<W>>,
     one: [Vector<S, f64>; 3],
 }
 
 impl<const W: usize, S, F, R: Rule> InStep<W, S> for Variational<F, R>
 where
-    S: RegularLagrangian + RegularLagrangian<Lanes<W>>,
+    S: RegularLagrangian + Packable<W, Packed: RegularLagrangian<Lanes<W>>>,
     F: FrequencyIn<f64>,
 {
     type Packs = Packs<W, S>;
 
     fn packs(&self, system: &S) -> Packs<W, S> {
-        let vectors = || core::array::from_fn(|_| system.space().vector());
-        Packs { now: vectors(), kept: vectors(), one: core::array::from_fn(|_| system.space().vector()) }
+        let space = system.space();
+        let vectors = || core::array::from_fn(|_| space.vector());
+        let one = core::array::from_fn(|_| space.vector());
+        Packs { now: vectors(), kept: vectors(), reciprocals: space.vector(), one }
+    }
+
+    fn fit(a: &S, b: &S) -> bool {
+        a.fits(b)
     }
 
     fn steps_together(
         &self,
-        system: &S,
+        systems: &[&S],
         packs: &mut Packs<W, S>,
         runs: &mut [Companion<'_, S, Self>],
         clock: Clock<f64>,
@@ -45,30 +55,36 @@ where
         if !(self.is_verlet() && is_separable && self.summation == Summation::Plain) {
             return 0;
         }
-        let Packs { now, kept, one } = packs;
+        let Packs { now, kept, reciprocals, one } = packs;
         let [q, p, force] = &mut *now;
         load(q, |run| &*runs[run].q, runs.len());
         load(p, |run| &runs[run].memory.phase.p, runs.len());
         load(force, |run| &runs[run].memory.phase.force, runs.len());
-        let Some(Inertial::Constant(mass)) = runs.first().map(|run| &run.memory.inertial) else { return 0 };
-        let Some(reciprocals) = mass.reciprocals() else { return 0 };
-        let mut taken = 0;
-        while taken < count {
-            let steps = BLOCK.min(count - taken);
-            for (kept, now) in kept.iter_mut().zip(now.iter()) {
-                kept.copy_from_slice(now);
-            }
-            widest(Kicks { system, reciprocals, clock: clock.after(taken), steps, packs: now });
-            let [q, p, _] = &*now;
-            // A collision shows in the force, which is in the momentum.
-            if !(all_finite(q) && all_finite(p)) {
-                for (now, kept) in now.iter_mut().zip(kept.iter()) {
-                    now.copy_from_slice(kept);
-                }
-                break;
-            }
-            taken += steps;
+        let of_run = |run: usize| runs[run].memory.inertial.constant().and_then(Mass::reciprocals);
+        if !load_if_all_have(reciprocals, of_run, runs.len()) {
+            return 0;
         }
+        let taken = S::packed(&of_lanes(systems), |system| {
+            let mut taken = 0;
+            while taken < count {
+                let steps = BLOCK.min(count - taken);
+                for (kept, now) in kept.iter_mut().zip(now.iter()) {
+                    kept.copy_from_slice(now);
+                }
+                let clock = clock.after(taken);
+                widest(Kicks { system, reciprocals, clock, steps, packs: now });
+                let [q, p, _] = &*now;
+                // A collision shows in the force, which is in the momentum.
+                if !(all_finite(q) && all_finite(p)) {
+                    for (now, kept) in now.iter_mut().zip(kept.iter()) {
+                        now.copy_from_slice(kept);
+                    }
+                    break;
+                }
+                taken += steps;
+            }
+            taken
+        });
         for (lane, run) in runs.iter_mut().enumerate() {
             for (one, packs) in one.iter_mut().zip(now.iter()) {
                 read_lane(lane, packs, one);
@@ -85,7 +101,7 @@ where
 /// Some steps.
 struct Kicks<'a, const W: usize, S: System> {
     system: &'a S,
-    reciprocals: &'a [f64],
+    reciprocals: &'a [Lanes<W>],
     clock: Clock<f64>,
     steps: u64,
     packs: &'a mut [Vector<S, Lanes<W>>; 3],
@@ -103,7 +119,7 @@ impl<const W: usize, S: NondegenerateLagrangian<Lanes<W>>> Task for Kicks<'_, W,
                 q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals)
             {
                 *p += half * force;
-                *q += h * (*p * Lanes::all(reciprocal));
+                *q += h * (*p * reciprocal);
             }
             system.force(q, &[], Lanes::all(clock.after(step + 1).time()), force);
             for (p, &force) in p.iter_mut().zip(force.iter()) {

@@ -34,8 +34,9 @@ impl Layout {
             return banded.map_or(Self::Full, Self::Banded);
         }
         let size = n as f64;
-        let work =
-            banded.as_ref().map_or(size.powi(3) / 3.0, |order| 2.0 * size * (order.bandwidth as f64).powi(2));
+        let of_band = |width: f64| 2.0 * size * width * width;
+        let of_all = size * size * size / 3.0;
+        let work = banded.as_ref().map_or(of_all, |order| of_band(order.bandwidth as f64));
         // No more than half of a full matrix.
         let fronts = pattern.rows().and_then(|rows| Some((Fronts::new(rows.clone(), n * n / 2)?, rows)));
         match (fronts, banded) {

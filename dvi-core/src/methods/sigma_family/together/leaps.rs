@@ -5,58 +5,69 @@ use crate::methods::Clock;
 use crate::methods::sigma_family::Sigma;
 use crate::methods::sigma_family::memory::{Ahead, TwoStep};
 use crate::methods::sigma_family::monitor::Monitor;
-use crate::methods::together::{Companion, all_finite, load};
+use crate::methods::together::{Companion, all_finite, load, load_if_all_have, of_lanes};
 use crate::methods::walk::BLOCK;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::read_lane;
 use crate::scalar::simd::{Task, widest};
+use crate::system::Packable;
 use crate::{DegenerateLagrangian, System};
 
 /// Up to `count` steps; returns how many.
-pub(super) fn leaps<const W: usize, S: DegenerateLagrangian + DegenerateLagrangian<Lanes<W>>>(
-    system: &S,
+pub(super) fn leaps<const W: usize, S>(
+    systems: &[&S],
     packs: &mut Packs<W, S>,
     runs: &mut [Companion<'_, S, Sigma>],
     clock: Clock<f64>,
     count: u64,
-) -> u64 {
+) -> u64
+where
+    S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
+{
     let Packs { q, ahead, other: before, kept, gradient, reciprocals, factors, one, increment, .. } = packs;
-    let factors = match runs.first().and_then(|run| run.memory.run.ahead.as_ref()) {
-        Some(Ahead::Reversal) => None,
-        Some(Ahead::Diagonal(of_all)) => {
-            factors.copy_from_slice(of_all);
-            Some(&**factors)
-        }
-        Some(Ahead::General(_)) | None => return 0,
+    let is_reversal = |run: &Companion<'_, S, Sigma>| matches!(run.memory.run.ahead, Some(Ahead::Reversal));
+    let of_run = |run: usize| match &runs[run].memory.run.ahead {
+        Some(Ahead::Diagonal(factors)) => Some(&**factors),
+        Some(Ahead::Reversal | Ahead::General(_)) | None => None,
+    };
+    let factors = if runs.iter().all(is_reversal) {
+        None
+    } else if load_if_all_have(factors, of_run, runs.len()) {
+        Some(&**factors)
+    } else {
+        return 0;
     };
     load(q, |run| &*runs[run].q, runs.len());
     load(ahead, |run| &*runs[run].memory.run.work.ahead, runs.len());
-    let mut taken = 0;
-    while taken < count {
-        let steps = look(runs, q, one, BLOCK.min(count - taken), Monitor::look_before_leaps);
-        if steps == 0 {
-            break;
-        }
-        for (kept, now) in kept.iter_mut().zip([&*q, &*ahead, &*before]) {
-            kept.copy_from_slice(now);
-        }
-        let clock = clock.after(taken);
-        widest(Leaps { system, reciprocals, factors, clock, steps, q, ahead, before, gradient });
-        if !(all_finite(q) && all_finite(before)) {
-            for (now, kept) in [&mut *q, ahead, before].into_iter().zip(kept.iter()) {
-                now.copy_from_slice(kept);
+    let taken = S::packed(&of_lanes(systems), |system| {
+        let mut taken = 0;
+        while taken < count {
+            let steps = look(runs, q, one, BLOCK.min(count - taken), Monitor::look_before_leaps);
+            if steps == 0 {
+                break;
             }
-            break;
+            for (kept, now) in kept.iter_mut().zip([&*q, &*ahead, &*before]) {
+                kept.copy_from_slice(now);
+            }
+            let clock = clock.after(taken);
+            widest(Leaps { system, reciprocals, factors, clock, steps, q, ahead, before, gradient });
+            if !(all_finite(q) && all_finite(before)) {
+                for (now, kept) in [&mut *q, ahead, before].into_iter().zip(kept.iter()) {
+                    now.copy_from_slice(kept);
+                }
+                break;
+            }
+            taken += steps;
+            for run in runs.iter_mut() {
+                run.memory.run.monitor.steps += steps;
+            }
         }
-        taken += steps;
-        for run in runs.iter_mut() {
-            run.memory.run.monitor.steps += steps;
-        }
-    }
+        taken
+    });
     if taken == 0 {
         return 0;
     }
-    for (lane, run) in runs.iter_mut().enumerate() {
+    for (lane, (run, &system)) in runs.iter_mut().zip(systems).enumerate() {
         let TwoStep { defect, product, work, .. } = &mut run.memory.run;
         read_lane(lane, q, run.q);
         read_lane(lane, ahead, &mut work.ahead);
@@ -76,9 +87,9 @@ pub(super) fn leaps<const W: usize, S: DegenerateLagrangian + DegenerateLagrangi
 /// Some steps with σ = 0.
 struct Leaps<'a, const W: usize, S: System> {
     system: &'a S,
-    reciprocals: &'a [f64],
+    reciprocals: &'a [Lanes<W>],
     /// What K⁻¹c1 is of Δ in each coordinate, if that is not −1.
-    factors: Option<&'a [f64]>,
+    factors: Option<&'a [Lanes<W>]>,
     clock: Clock<f64>,
     steps: u64,
     q: &'a mut Packed<W, S>,
@@ -98,13 +109,13 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Leaps<'_, W, S>
             let points = q.iter_mut().zip(ahead.iter_mut()).zip(before.iter_mut());
             for (j, (((q, ahead), before), &reciprocal)) in points.zip(reciprocals).enumerate() {
                 *before = *q;
-                *q = *ahead + gradient[system.conjugate(j)] * Lanes::all(reciprocal);
+                *q = *ahead + gradient[system.conjugate(j)] * reciprocal;
                 *ahead = *before;
             }
             for (((ahead, &before), &q), &factor) in
                 ahead.iter_mut().zip(before.iter()).zip(q.iter()).zip(factors.unwrap_or_default())
             {
-                *ahead = q + Lanes::all(factor) * (q - before);
+                *ahead = q + factor * (q - before);
             }
         }
     }

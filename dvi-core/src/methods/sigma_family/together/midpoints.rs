@@ -3,23 +3,27 @@
 use super::{Packed, Packs, look};
 use crate::methods::Clock;
 use crate::methods::sigma_family::Sigma;
-use crate::methods::together::{Companion, all_finite, load};
+use crate::methods::together::{Companion, all_finite, load, of_lanes};
 use crate::scalar::lanes::read_lane;
 use crate::scalar::simd::{Task, widest};
 use crate::scalar::{Comparison, Lanes};
 use crate::solve::{Convergence, Stopping, Verdict};
 use crate::state::history::{DEPTH, extrapolate};
+use crate::system::Packable;
 use crate::{DegenerateLagrangian, Scalar, System};
 
 /// Up to `count` steps; returns how many.
-pub(super) fn midpoints<const W: usize, S: DegenerateLagrangian + DegenerateLagrangian<Lanes<W>>>(
+pub(super) fn midpoints<const W: usize, S>(
     method: &Sigma,
-    system: &S,
+    systems: &[&S],
     packs: &mut Packs<W, S>,
     runs: &mut [Companion<'_, S, Sigma>],
     clock: Clock<f64>,
     count: u64,
-) -> u64 {
+) -> u64
+where
+    S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
+{
     let Packs { q, ahead, other, gradient, point, shift, history, reciprocals, one, .. } = packs;
     let Some(first) = runs.first().map(|run| &run.memory.run) else { return 0 };
     let (Some(mut place), vanishes) = (first.history.place_if_full(), first.defect_vanishes) else {
@@ -38,43 +42,46 @@ pub(super) fn midpoints<const W: usize, S: DegenerateLagrangian + DegenerateLagr
     for (entry, packs) in history.iter_mut().enumerate() {
         load(packs, |run| &*runs[run].memory.run.history.ring()[entry], runs.len());
     }
-    for run in runs.iter_mut().filter(|_| !vanishes) {
+    for (run, &system) in runs.iter_mut().zip(systems).filter(|_| !vanishes) {
         run.memory.run.shift_by_defect(system);
     }
     load(shift, |run| &*runs[run].memory.run.work.shift, runs.len());
-    let mut taken = 0;
-    while taken < count {
-        let steps = look(runs, q, one, count - taken, |monitor, q| {
-            monitor.look(q)?;
-            Ok(monitor.steps_unseen().max(1))
-        });
-        let (done, iterations) = widest(Midpoints {
-            system,
-            stopping: method.stopping,
-            budget,
-            reciprocals,
-            clock: clock.after(taken),
-            steps,
-            has_shift: !vanishes,
-            q,
-            origin: ahead,
-            increment: other,
-            point,
-            gradient,
-            shift,
-            history,
-            place: &mut place,
-        });
-        taken += done;
-        for (run, iterations) in runs.iter_mut().zip(iterations) {
-            run.memory.run.monitor.steps += done;
-            run.statistics.iterations += iterations;
-            run.statistics.gradients += iterations;
+    let taken = S::packed(&of_lanes(systems), |system| {
+        let mut taken = 0;
+        while taken < count {
+            let steps = look(runs, q, one, count - taken, |monitor, q| {
+                monitor.look(q)?;
+                Ok(monitor.steps_unseen().max(1))
+            });
+            let (done, iterations) = widest(Midpoints {
+                system,
+                stopping: method.stopping,
+                budget,
+                reciprocals,
+                clock: clock.after(taken),
+                steps,
+                has_shift: !vanishes,
+                q,
+                origin: ahead,
+                increment: other,
+                point,
+                gradient,
+                shift,
+                history,
+                place: &mut place,
+            });
+            taken += done;
+            for (run, iterations) in runs.iter_mut().zip(iterations) {
+                run.memory.run.monitor.steps += done;
+                run.statistics.iterations += iterations;
+                run.statistics.gradients += iterations;
+            }
+            if done < steps || steps == 0 {
+                break;
+            }
         }
-        if done < steps || steps == 0 {
-            break;
-        }
-    }
+        taken
+    });
     for (lane, run) in runs.iter_mut().enumerate() {
         read_lane(lane, q, run.q);
         for (entry, packs) in history.iter().enumerate() {
@@ -94,7 +101,7 @@ struct Midpoints<'a, const W: usize, S: System> {
     system: &'a S,
     stopping: Stopping,
     budget: usize,
-    reciprocals: &'a [f64],
+    reciprocals: &'a [Lanes<W>],
     clock: Clock<f64>,
     steps: u64,
     has_shift: bool,
@@ -187,7 +194,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         let mut correction = Lanes::all(0.0);
         let all_active = *active == [true; W];
         for ((j, &reciprocal), s) in self.reciprocals.iter().enumerate().zip(self.increment.iter_mut()) {
-            let trial = self.gradient[self.system.conjugate(j)] * Lanes::all(reciprocal);
+            let trial = self.gradient[self.system.conjugate(j)] * reciprocal;
             correction = larger(correction, Scalar::abs(trial - *s));
             // Stores with a mask are slow, and needed in the last iterations only.
             if all_active {

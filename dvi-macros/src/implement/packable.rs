@@ -1,0 +1,122 @@
+//! The implementation of `Packable`. Of a struct that is generic over the type of its parameters:
+//! ```text
+//! impl<const __W: usize> Packable<__W> for Kepler<f64>
+//! where
+//!     f64: Packing<__W, Packed = Varied<Lanes<__W>>>,
+//!     usize: Shared<__W>,
+//! {
+//!     type Packed = Kepler<Varied<Lanes<__W>>>;
+//!     fn fits(&self, __other: &Self) -> bool {
+//!         Packing::<__W>::fits(&self.mu, &__other.mu) && self.n == __other.n
+//!     }
+//!     fn packed<__R>(__systems: &[&Self; __W], __f: impl FnOnce(&Self::Packed) -> __R) -> __R {
+//!         __f(&Kepler { mu: Packing::pack(__systems.map(|__system| &__system.mu)), n: __systems[0].n.clone() })
+//!     }
+//! }
+//! ```
+//! The bounds are on types with `__W`, so that a struct whose fields have them not has no implementation, and compiles.
+
+use proc_macro2::{TokenStream, TokenTree};
+use quote::{ToTokens as _, quote};
+use syn::{Field, GenericParam, Ident, ItemStruct, Path, TypeParam, TypeParamBound};
+
+use super::allow;
+
+pub(super) fn packable(krate: &Path, item: &ItemStruct) -> TokenStream {
+    match generic(item) {
+        Some(generic) => in_lanes(krate, item, generic),
+        None => as_one(krate, item),
+    }
+}
+
+/// The type of the parameters that may differ from lane to lane, if there is one that may be any number.
+fn generic(item: &ItemStruct) -> Option<&TypeParam> {
+    let mut others = item.generics.params.iter().filter(|generic| !matches!(generic, GenericParam::Const(_)));
+    let (Some(GenericParam::Type(generic)), None) = (others.next(), others.next()) else { return None };
+    // What a pack has.
+    let is_had = |bound: &TypeParamBound| match bound {
+        TypeParamBound::Trait(bound) => {
+            ["Clone", "Copy", "Debug", "PartialEq"].iter().any(|had| bound.path.is_ident(had))
+        }
+        _ => false,
+    };
+    (generic.bounds.iter().all(is_had) && item.generics.where_clause.is_none()).then_some(generic)
+}
+
+/// Systems that share packs if they are equal.
+fn as_one(krate: &Path, item: &ItemStruct) -> TokenStream {
+    let (name, allow) = (&item.ident, allow());
+    let mut generics = item.generics.clone();
+    generics.params.push(syn::parse_quote!(const __W: usize));
+    let (impl_generics, _, where_clause) = generics.split_for_impl();
+    let (_, type_generics, _) = item.generics.split_for_impl();
+    quote! {
+        #[automatically_derived]
+        #allow
+        impl #impl_generics #krate::system::Packable<__W> for #name #type_generics #where_clause {
+            type Packed = Self;
+            fn packed<__R>(__systems: &[&Self; __W], __f: impl ::core::ops::FnOnce(&Self) -> __R) -> __R {
+                __f(__systems[0])
+            }
+        }
+    }
+}
+
+/// Systems whose parameters of type `generic` are packed.
+fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream {
+    let (name, allow) = (&item.ident, allow());
+    let (private, number) = (quote!(#krate::__private), quote!(f64));
+    let pack = quote!(#krate::Varied<#krate::scalar::Lanes<__W>>);
+    let constants = item.generics.const_params();
+    let arguments = |of: &TokenStream| {
+        let arguments = item.generics.params.iter().map(|parameter| match parameter {
+            GenericParam::Const(constant) => constant.ident.to_token_stream(),
+            _ => of.clone(),
+        });
+        quote!(<#(#arguments),*>)
+    };
+    let [of_numbers, of_packs] = [&number, &pack].map(arguments);
+    let (mut bounds, mut fits, mut values) = (Vec::new(), Vec::new(), Vec::new());
+    for Field { ident: field, ty, .. } in &item.fields {
+        let [of_numbers, of_packs] =
+            [&number, &pack].map(|of| replaced(ty.to_token_stream(), &generic.ident, of));
+        if of_numbers.to_string() == ty.to_token_stream().to_string() {
+            bounds.push(quote!(#ty: #private::Shared<__W>));
+            fits.push(quote!(self.#field == __other.#field));
+            values.push(quote!(#field: ::core::clone::Clone::clone(&__systems[0].#field)));
+        } else {
+            bounds.push(quote!(#of_numbers: #private::Packing<__W, Packed = #of_packs>));
+            fits.push(quote!(#private::Packing::<__W>::fits(&self.#field, &__other.#field)));
+            values.push(quote!(#field: #private::Packing::pack(__systems.map(|__system| &__system.#field))));
+        }
+    }
+    quote! {
+        #[automatically_derived]
+        #allow
+        impl<#(#constants,)* const __W: usize> #krate::system::Packable<__W> for #name #of_numbers
+        where #(#bounds),*
+        {
+            type Packed = #name #of_packs;
+            fn fits(&self, __other: &Self) -> bool { #(#fits)&&* }
+            fn packed<__R>(
+                __systems: &[&Self; __W], __f: impl ::core::ops::FnOnce(&Self::Packed) -> __R,
+            ) -> __R {
+                __f(&#name { #(#values),* })
+            }
+        }
+    }
+}
+
+/// A type with `by` in place of `generic`.
+fn replaced(ty: TokenStream, generic: &Ident, by: &TokenStream) -> TokenStream {
+    ty.into_iter()
+        .flat_map(|token| match token {
+            TokenTree::Ident(name) if name == *generic => by.clone(),
+            TokenTree::Group(group) => {
+                let inner = replaced(group.stream(), generic, by);
+                TokenTree::Group(proc_macro2::Group::new(group.delimiter(), inner)).into()
+            }
+            other => other.into(),
+        })
+        .collect()
+}
