@@ -4,8 +4,9 @@
 //! are stored in the way in which their elimination takes the least work. They are banded where the entries, in the best order
 //! that is found, lie close enough to the diagonal: chains and rings, whose coordinates may stand in several blocks. With n
 //! coordinates and b diagonals on each side, storage grows as n b and the time of a solution as n b². They are sparse where
-//! there are few entries and no narrow band: trees, networks, wide lattices. All others are full. Rows are exchanged in each of
-//! them, for the largest pivot in a column.
+//! there are few entries and no narrow band: trees, networks, wide lattices. All others are full, also where one coordinate
+//! couples to all: its row may be the pivot of any column, and then all columns fill. Rows are exchanged in each of them, for the
+//! largest pivot in a column.
 
 #[cfg(feature = "alloc")]
 mod banded;
