@@ -12,7 +12,8 @@ use crate::{Real, Scalar};
 ///
 /// Generated code takes it as it takes a number. Elementary functions other than roots are computed lane by lane. There is no
 /// order of packs: what has to decide does so for each lane. Parameters that differ from lane to lane are of type
-/// [`Varied<Lanes<W>>`](crate::Varied).
+/// [`Varied<Lanes<W>>`](crate::Varied). Packs lie at multiples of 64 bytes, so that none of eight numbers is loaded in two parts;
+/// those of fewer take as much room.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -28,7 +29,7 @@ use crate::{Real, Scalar};
 /// assert_eq!(energy, Lanes([0.625, 2.0]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(transparent)]
+#[repr(align(64))]
 pub struct Lanes<const W: usize, T = f64>(
     /// The numbers.
     pub [T; W],
@@ -158,5 +159,16 @@ pub(crate) fn read_lane<const W: usize, T: Real>(lane: usize, packs: &[Lanes<W, 
 pub(crate) fn write_lane<const W: usize, T: Real>(lane: usize, vector: &[T], packs: &mut [Lanes<W, T>]) {
     for (pack, &number) in packs.iter_mut().zip(vector) {
         pack.0[lane] = number;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lanes;
+
+    #[test]
+    fn packs_lie_at_multiples_of_64_bytes() {
+        assert_eq!((align_of::<Lanes<8>>(), size_of::<Lanes<8>>()), (64, 64));
+        assert_eq!((align_of::<Lanes<3>>(), size_of::<Lanes<3>>()), (64, 64));
     }
 }
