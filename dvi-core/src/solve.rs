@@ -12,7 +12,7 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 
 pub use stopping::Stopping;
-pub(crate) use stopping::{Convergence, Verdict};
+pub(crate) use stopping::{Convergence, Convergences, Verdict};
 
 /// The iteration that solves an implicit step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

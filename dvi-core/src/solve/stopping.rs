@@ -11,10 +11,14 @@
 //! Newton's method squares its error in the iteration that is
 //! accepted, and leaves nothing over.
 
+mod together;
+
 use crate::Real;
 use crate::error::{StartError, StepFailure};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported, smallest};
+
+pub(crate) use together::Convergences;
 
 /// The criterion by which an iteration is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +64,9 @@ impl Stopping {
         if is_below_rounding::<f64>(self) { Self { tolerance: 0.0, ..self } } else { self }
     }
 }
+
+/// How many times corrections may grow.
+const MOST_GROWTHS: usize = 2;
 
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
 const FLOOR: f64 = 32.0;
@@ -189,7 +196,8 @@ impl<T: Real> Convergence<T> {
         if !first && self.correction >= previous {
             self.growths += 1;
         }
-        if self.growths > 2 || self.iterations >= self.budget { Verdict::GiveUp } else { Verdict::Continue }
+        let is_hopeless = self.growths > MOST_GROWTHS || self.iterations >= self.budget;
+        if is_hopeless { Verdict::GiveUp } else { Verdict::Continue }
     }
 
     /// The failure to report after [`Verdict::GiveUp`].

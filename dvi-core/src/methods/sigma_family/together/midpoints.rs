@@ -7,7 +7,7 @@ use crate::methods::together::{Companion, all_finite, load, of_lanes};
 use crate::scalar::lanes::read_lane;
 use crate::scalar::simd::{Task, widest};
 use crate::scalar::{Comparison, Lanes};
-use crate::solve::{Convergence, Stopping, Verdict};
+use crate::solve::{Convergences, Stopping, Verdict};
 use crate::state::history::{DEPTH, extrapolate};
 use crate::system::Packable;
 use crate::{DegenerateLagrangian, Scalar, System};
@@ -24,7 +24,7 @@ pub(super) fn midpoints<const W: usize, S>(
 where
     S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
 {
-    let Packs { q, ahead, other, gradient, point, shift, history, reciprocals, one, .. } = packs;
+    let Packs { q, ahead, other, kept, gradient, point, shift, history, reciprocals, one, .. } = packs;
     let Some(first) = runs.first().map(|run| &run.memory.run) else { return 0 };
     let (Some(mut place), vanishes) = (first.history.place_if_full(), first.defect_vanishes) else {
         return 0;
@@ -64,6 +64,7 @@ where
                 q,
                 origin: ahead,
                 increment: other,
+                corrected: &mut kept[0],
                 point,
                 gradient,
                 shift,
@@ -108,6 +109,8 @@ struct Midpoints<'a, const W: usize, S: System> {
     q: &'a mut Packed<W, S>,
     origin: &'a mut Packed<W, S>,
     increment: &'a mut Packed<W, S>,
+    /// The increment that is to take its place.
+    corrected: &'a mut Packed<W, S>,
     point: &'a mut Packed<W, S>,
     gradient: &'a mut Packed<W, S>,
     shift: &'a mut Packed<W, S>,
@@ -149,22 +152,15 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
             self.origin.copy_from_slice(self.q);
         }
         let smallest = smallest(self.q, scale);
-        let mut convergence: [Convergence<f64>; W] = core::array::from_fn(|lane| {
-            Convergence::of_fixed_point(self.stopping, scale.0[lane], smallest.0[lane], self.budget)
-        });
+        let mut convergence = Convergences::of_fixed_point(self.stopping, scale, smallest, self.budget);
         let time = self.clock.after(number);
         let time = Lanes::all(time.time() + 0.5 * time.step_size());
-        let mut active = [true; W];
-        while active != [false; W] {
-            let correction = self.iterate(time, &active);
-            for lane in 0..W {
-                if active[lane] {
-                    match convergence[lane].judge(correction.0[lane]) {
-                        Verdict::Continue => {}
-                        Verdict::Accept => active[lane] = false,
-                        Verdict::GiveUp => return None,
-                    }
-                }
+        loop {
+            let correction = self.iterate(time, convergence.active());
+            match convergence.judge(correction) {
+                Verdict::Continue => {}
+                Verdict::Accept => break,
+                Verdict::GiveUp => return None,
             }
         }
         for ((next, &q), (&shift, &s)) in
@@ -179,12 +175,12 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         self.shift.iter_mut().for_each(|shift| *shift = -*shift);
         self.history[*self.place].copy_from_slice(self.increment);
         *self.place = (*self.place + 1) % DEPTH;
-        Some(convergence.map(|convergence| convergence.iterations as u64))
+        Some(convergence.iterations())
     }
 
-    /// Applies a correction in the active lanes, and returns its size.
+    /// Applies a correction in the lanes that are `active`, and returns its size.
     #[inline(always)]
-    fn iterate(&mut self, time: Lanes<W>, active: &[bool; W]) -> Lanes<W> {
+    fn iterate(&mut self, time: Lanes<W>, active: Lanes<W>) -> Lanes<W> {
         let half = Lanes::all(0.5);
         for ((point, &origin), &s) in self.point.iter_mut().zip(self.origin.iter()).zip(self.increment.iter())
         {
@@ -192,19 +188,14 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         }
         self.system.hamiltonian_gradient(self.point, time, self.gradient);
         let mut correction = Lanes::all(0.0);
-        let all_active = *active == [true; W];
-        for ((j, &reciprocal), s) in self.reciprocals.iter().enumerate().zip(self.increment.iter_mut()) {
+        let increments = self.increment.iter().zip(self.corrected.iter_mut());
+        for ((j, &reciprocal), (&s, corrected)) in self.reciprocals.iter().enumerate().zip(increments) {
             let trial = self.gradient[self.system.conjugate(j)] * reciprocal;
-            correction = larger(correction, Scalar::abs(trial - *s));
-            // Stores with a mask are slow, and needed in the last iterations only.
-            if all_active {
-                *s = trial;
-            } else {
-                for lane in 0..W {
-                    s.0[lane] = if active[lane] { trial.0[lane] } else { s.0[lane] };
-                }
-            }
+            correction = larger(correction, Scalar::abs(trial - s));
+            *corrected = Lanes::choose(active, Comparison::Greater, Lanes::all(0.0), trial, s);
         }
+        // In another place, as what is stored with a mask is slow to load.
+        core::mem::swap(&mut self.increment, &mut self.corrected);
         correction
     }
 }
