@@ -115,7 +115,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         }
     }
 
-    /// [`solve`](Self::solve) with another matrix in each lane: entry i of `entries` is the only one of row i.
+    /// Gives the entries of the solution, as of [`solve`](Self::solve), to `set`; with another matrix in each lane: entry i of `entries`
+    /// is the only one of row i.
     ///
     /// # Errors
     /// As [`prepare`](Self::prepare), of the first lane that fails.
@@ -124,15 +125,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         system: &S,
         entries: &[Lanes<W, T>],
         rhs: &[Lanes<W, T>],
-        x: &mut [Lanes<W, T>],
+        mut set: impl FnMut(usize, Lanes<W, T>),
     ) -> Result<(), StepFailure> {
         let (zero, one) = (Lanes::all(T::lift(0.0)), Lanes::all(T::lift(1.0)));
         let mut finite = zero;
-        for (j, x) in x.iter_mut().enumerate() {
+        for j in 0..rhs.len() {
             let conjugate = system.conjugate(j);
             let reciprocal = one / entries[conjugate];
             finite += reciprocal * zero;
-            *x = rhs[conjugate] * reciprocal;
+            set(j, rhs[conjugate] * reciprocal);
         }
         if finite == zero { Ok(()) } else { Self::first_singular(system, entries) }
     }

@@ -80,8 +80,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, velocity, statistics)
     }
 
-    /// Sets `velocity` to X at the points in the lanes of `q`, at the times in those of `t`, bit for bit as
-    /// [`evaluate`](Self::evaluate) does one by one.
+    /// Gives the entries of X, each with its place, to `set`: at the points in the lanes of `q`, at the times in those of `t`, bit for
+    /// bit as [`evaluate`](Self::evaluate) finds them one by one.
     ///
     /// # Errors
     /// As there, of the first lane that fails.
@@ -92,7 +92,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         q: &[Lanes<W, T>],
         t: Lanes<W, T>,
         work: LaneWork<'_, W, T>,
-        velocity: &mut [Lanes<W, T>],
+        mut set: impl FnMut(usize, Lanes<W, T>),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
@@ -104,14 +104,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         if !<S as DegenerateLagrangian<T>>::AFFINE && <S as DegenerateLagrangian<T>>::CANONICAL {
             let Combination { a, b } = Self::omega();
             system.conjugate_entries(q, t, Lanes::all(a), Lanes::all(b), entries);
-            return Inverse::<S, T>::of_entries_in_lanes(system, entries, gradient, velocity);
+            return Inverse::<S, T>::of_entries_in_lanes(system, entries, gradient, set);
         }
         if <S as DegenerateLagrangian<T>>::AFFINE
             && let Some(reciprocals) = self.inverse.reciprocals()
         {
-            for (j, (velocity, &reciprocal)) in velocity.iter_mut().zip(reciprocals).enumerate() {
-                *velocity =
-                    gradient[DegenerateLagrangian::<T>::conjugate(system, j)] * Lanes::all(reciprocal);
+            for (j, &reciprocal) in reciprocals.iter().enumerate() {
+                let conjugate = DegenerateLagrangian::<T>::conjugate(system, j);
+                set(j, gradient[conjugate] * Lanes::all(reciprocal));
             }
             return Ok(());
         }
@@ -129,7 +129,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
             }
             read_lane(lane, gradient, &mut self.gradient);
             self.inverse.solve(system, &self.gradient, vector);
-            write_lane(lane, vector, velocity);
+            write_lane(lane, vector, gradient);
+        }
+        for (j, &velocity) in gradient.iter().enumerate() {
+            set(j, velocity);
         }
         Ok(())
     }

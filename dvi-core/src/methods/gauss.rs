@@ -9,15 +9,17 @@
 //! Each number of a point stands once for each stage, in the lanes of a pack; the equations of motion are evaluated stage by
 //! stage, or for all stages at once.
 
+mod coefficients;
+
 use core::fmt;
 use core::marker::PhantomData;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
-    AtStages, EquationsOf, FirstOrder, InLanes, Motion, OneByOne, PackedOf, PointOf, StageEvaluation,
+    AtStages, EquationsOf, FirstOrder, InLanes, Motion, OneByOne, PackedOf, PointOf, Slopes, StageEvaluation,
     StageWork,
 };
-use crate::methods::collocation::{Collocation, MOST};
+use crate::methods::collocation::MOST;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::simd::Task;
 use crate::scalar::{Lanes, norm};
@@ -26,6 +28,8 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::{Summation, carry};
 use crate::{Lagrangian, Real, Scalar, System, Vector};
+
+use coefficients::{Coefficients, combine};
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 8, of order 2`S`, on the equations of motion y' = X(y, t).
 ///
@@ -86,7 +90,8 @@ pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
     /// What rounding has left out of y, if sums are compensated.
     rest: PointOf<S, T>,
     slopes: StagesOf<STAGES, S, T>,
-    updated: StagesOf<STAGES, S, T>,
+    /// L, of these slopes.
+    terms: StagesOf<STAGES, S, T>,
     stages: StagesOf<STAGES, S, T>,
     /// Where the step begins, its increment, and where it ends.
     y: PointOf<S, T>,
@@ -97,39 +102,6 @@ pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
 
 type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
 
-/// Coefficients in packs over the stages that they lead to.
-#[derive(Clone, Copy, Debug)]
-struct Coefficients<const STAGES: usize, T> {
-    /// Column j of μ.
-    mu: [Lanes<STAGES, T>; STAGES],
-    /// Column j of the continuation.
-    continuation: [Lanes<STAGES, T>; STAGES],
-    b: Lanes<STAGES, T>,
-    c: Lanes<STAGES, T>,
-}
-
-impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
-    fn new() -> Self {
-        let tableau = Collocation::<STAGES>::gauss();
-        let columns = |rows: [[f64; STAGES]; STAGES]| {
-            core::array::from_fn(|j| Lanes(core::array::from_fn(|i| T::lift(rows[i][j]))))
-        };
-        let [b, c] = [tableau.b, tableau.c].map(|numbers| Lanes(numbers.map(T::lift)));
-        Self { mu: columns(tableau.mu), continuation: columns(tableau.continuation()), b, c }
-    }
-}
-
-/// Σⱼ `columns`ⱼ xⱼ, for the numbers x in the lanes of `pack`.
-#[inline(always)]
-fn combine<const STAGES: usize, T: Real>(
-    columns: &[Lanes<STAGES, T>; STAGES],
-    pack: Lanes<STAGES, T>,
-    from: T,
-) -> Lanes<STAGES, T> {
-    let terms = columns.iter().zip(pack.0).map(|(&column, x)| column * Lanes::all(x));
-    terms.fold(Lanes::all(from), |sum, term| sum + term)
-}
-
 impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
     lasting!(T; part equations, packs completed, part rest);
 }
@@ -138,6 +110,18 @@ impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("GaussMemory").field("completed", &self.completed).finish_non_exhaustive()
     }
+}
+
+/// The largest of all numbers in `packs`.
+#[inline(always)]
+fn largest<const STAGES: usize, T: Real>(packs: &[Lanes<STAGES, T>]) -> T {
+    let mut largest = [T::lift(0.0); STAGES];
+    for pack in packs {
+        for stage in 0..STAGES {
+            largest[stage] = norm::larger(largest[stage], Scalar::abs(pack.0[stage]));
+        }
+    }
+    norm::largest(&largest)
 }
 
 impl<const S: usize, E> Scheme for Gauss<S, E> {
@@ -166,7 +150,7 @@ where
         let mut equations = S::Kind::begin(system, q, v, t)?;
         let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] =
             core::array::from_fn(|_| S::Kind::point(system));
-        let [mut completed, slopes, updated, stages]: [StagesOf<STAGES, S, T>; 4] =
+        let [mut completed, slopes, terms, stages]: [StagesOf<STAGES, S, T>; 4] =
             core::array::from_fn(|_| S::Kind::point(system));
         S::Kind::gather(&mut equations, q, &mut y);
         S::Kind::evaluate(&mut equations, system, &y, t, &mut slope, &mut Statistics::default())
@@ -182,7 +166,7 @@ where
             completed,
             rest,
             slopes,
-            updated,
+            terms,
             stages,
             y,
             increment,
@@ -245,9 +229,8 @@ where
     fn run(self) -> Result<(), StepFailure> {
         let Self { method: &Gauss { stopping, summation, .. }, system, memory, q, t, h, statistics } = self;
         S::Kind::gather(&mut memory.equations, q, &mut memory.y);
-        memory.guess();
-        let slopes = memory.slopes[0].iter();
-        let speed = slopes.fold(T::lift(0.0), |m, slope| norm::larger(m, norm::largest(&slope.0)));
+        memory.guess(h);
+        let speed = largest(&memory.slopes[0]);
         let speed = norm::larger(speed, S::Kind::cancelling(&mut memory.equations, system, &memory.y, t)?);
         let scale = norm::largest(q) + Scalar::abs(h) * speed;
         let stopping = match summation {
@@ -295,10 +278,14 @@ where
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
     /// Continues the polynomial through the completed stages into the next step.
     #[inline(always)]
-    fn guess(&mut self) {
-        for (slopes, completed) in self.slopes.iter_mut().zip(self.completed.iter()) {
-            for (slope, &completed) in slopes.iter_mut().zip(completed.iter()) {
-                *slope = combine(&self.coefficients.continuation, completed, T::lift(0.0));
+    fn guess(&mut self, h: T) {
+        let Self { coefficients, completed, slopes, terms, y, .. } = self;
+        let weights = Lanes::all(h) * coefficients.b;
+        for part in 0..y.len() {
+            let nothing = |_| [T::lift(0.0); 2];
+            combine(&coefficients.continuation, &completed[part], nothing, &mut slopes[part]);
+            for (term, &slope) in terms[part].iter_mut().zip(slopes[part].iter()) {
+                *term = weights * slope;
             }
         }
     }
@@ -313,27 +300,18 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         h: T,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
-        let Self { equations, coefficients, slopes, updated, stages, y, rest, work, .. } = self;
-        let weights = Lanes::all(h) * coefficients.b;
+        let Self { equations, coefficients, slopes, terms, stages, y, rest, work, .. } = self;
         // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
         let moved = (part + 1) % y.len();
-        let numbers = y[moved].iter().zip(rest[moved].iter()).zip(slopes[moved].iter());
-        for (stage, ((&y, &rest), &slope)) in stages[moved].iter_mut().zip(numbers) {
-            *stage = Lanes::all(y) + combine(&coefficients.mu, weights * slope, rest);
-        }
+        let from = |k: usize| [y[moved][k], rest[moved][k]];
+        combine(&coefficients.mu, &terms[moved], from, &mut stages[moved]);
         let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
-        let at = AtStages { system, y: &*stages, t: times, slopes: &*slopes };
-        E::evaluate_part(equations, part, &at, work, &mut updated[part], statistics)?;
-        // Of each stage first, as the stages are beside one another.
-        let mut largest = [T::lift(0.0); STAGES];
-        for (slope, &updated) in slopes[part].iter_mut().zip(updated[part].iter()) {
-            for stage in 0..STAGES {
-                let change = Scalar::abs(updated.0[stage] - slope.0[stage]);
-                largest[stage] = norm::larger(largest[stage], change);
-            }
-            *slope = updated;
-        }
-        Ok(norm::largest(&largest))
+        let at = AtStages { system, y: &*stages, t: times };
+        let weights = Lanes::all(h) * coefficients.b;
+        let changes = [T::lift(0.0); STAGES];
+        let mut renewed = Slopes { slopes, terms: &mut terms[part], part, weights, changes };
+        E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
+        Ok(norm::largest(&renewed.changes))
     }
 
     /// Moves to the end of the step.
@@ -346,13 +324,12 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         t: T,
         h: T,
     ) -> Result<(), StepFailure> {
-        let Self { equations, coefficients, completed, slopes, y, rest, increment, next, .. } = self;
-        let weights = Lanes::all(h) * coefficients.b;
+        let Self { equations, completed, slopes, terms, y, rest, increment, next, .. } = self;
         for part in 0..y.len() {
-            let numbers = y[part].iter().zip(rest[part].iter()).zip(slopes[part].iter());
+            let numbers = y[part].iter().zip(rest[part].iter()).zip(terms[part].iter());
             let moved = increment[part].iter_mut().zip(next[part].iter_mut());
-            for ((increment, next), ((&y, &rest), &slope)) in moved.zip(numbers) {
-                *increment = (weights * slope).0.iter().fold(T::lift(0.0), |sum, &term| sum + term);
+            for ((increment, next), ((&y, &rest), terms)) in moved.zip(numbers) {
+                *increment = terms.0.iter().fold(T::lift(0.0), |sum, &term| sum + term);
                 *next = y + (*increment + rest);
             }
         }

@@ -1,6 +1,6 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, Slopes, StageWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -115,13 +115,13 @@ where
     #[inline(always)]
     fn evaluate_in_lanes(
         equations: &mut FlowOnQ<S, T>,
-        _part: usize,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
+        slopes: &mut Slopes<'_, W, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work.of_field(), out, statistics)
+        let renew = |j, renewed| slopes.renew(j, renewed);
+        equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work.of_field(), renew, statistics)
     }
 }
 

@@ -1,7 +1,7 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
 use super::stages::one_by_one;
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, Slopes, StageWork};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
@@ -244,26 +244,27 @@ where
     #[inline(always)]
     fn evaluate_in_lanes(
         equations: &mut HamiltonsEquations<S, T>,
-        part: usize,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
+        slopes: &mut Slopes<'_, W, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let [q, p] = &at.y.0;
-        if part == 1 {
-            at.system.force(q, &at.slopes.0[0], at.t, out);
+        if slopes.part == 1 {
+            let force = work.of_forces();
+            at.system.force(q, &slopes.slopes.0[0], at.t, force);
+            slopes.renew_all(force);
             statistics.gradients += W as u64;
             return Ok(());
         }
         let Velocities::Constant(mass) = &equations.inverse else {
-            return one_by_one(equations, part, at, work, out, statistics);
+            return one_by_one(equations, at, work, slopes, statistics);
         };
         let Some(reciprocals) = mass.reciprocals() else {
-            return one_by_one(equations, part, at, work, out, statistics);
+            return one_by_one(equations, at, work, slopes, statistics);
         };
-        for ((v, &p), &reciprocal) in out.iter_mut().zip(p.iter()).zip(reciprocals) {
-            *v = p * Lanes::all(reciprocal);
+        for (j, (&p, &reciprocal)) in p.iter().zip(reciprocals).enumerate() {
+            slopes.renew(j, p * Lanes::all(reciprocal));
         }
         Ok(())
     }

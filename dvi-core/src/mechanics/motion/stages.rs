@@ -5,11 +5,11 @@ use core::fmt;
 use super::{EquationsOf, FirstOrder, Motion, PackedOf, PointOf};
 use crate::error::StepFailure;
 use crate::mechanics::vector_field::LaneWork;
-use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::simd::{Task, widest};
+use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
-use crate::{Real, Space, System, Vector};
+use crate::{Real, Scalar, Space, System, Vector};
 
 /// Stages are evaluated one by one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     point: PointOf<S, T>,
     slope: PointOf<S, T>,
     vector: Vector<S, T>,
-    /// All stages.
+    /// All stages: forces or ∇H, or X itself.
     gradient: Vector<S, Lanes<W, T>>,
     entries: Vector<S, Lanes<W, T>>,
 }
@@ -35,6 +35,12 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> 
         let space = system.space();
         let [point, slope] = [0, 1].map(|_| S::Kind::point(system));
         Self { point, slope, vector: space.vector(), gradient: space.vector(), entries: space.vector() }
+    }
+
+    /// For the forces of a regular system.
+    #[inline(always)]
+    pub(super) fn of_forces(&mut self) -> &mut Vector<S, Lanes<W, T>> {
+        &mut self.gradient
     }
 
     /// For the vector field of a degenerate system.
@@ -56,8 +62,46 @@ pub struct AtStages<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> 
     pub(crate) system: &'a S,
     pub(crate) y: &'a PackedOf<S, T, Lanes<W, T>>,
     pub(crate) t: Lanes<W, T>,
-    /// A guess of X.
-    pub(crate) slopes: &'a PackedOf<S, T, Lanes<W, T>>,
+}
+
+/// The slopes of the stages, a guess of X, of which an evaluation renews entry `part`.
+pub struct Slopes<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    /// K.
+    pub(crate) slopes: &'a mut PackedOf<S, T, Lanes<W, T>>,
+    /// L = h b K of this entry.
+    pub(crate) terms: &'a mut Vector<S, Lanes<W, T>>,
+    pub(crate) part: usize,
+    /// h b.
+    pub(crate) weights: Lanes<W, T>,
+    /// The largest changes of a slope so far, of each stage first, as the stages are beside one another.
+    pub(crate) changes: [T; W],
+}
+
+impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T> {
+    /// Renews number `j`.
+    #[inline(always)]
+    pub(super) fn renew(&mut self, j: usize, renewed: Lanes<W, T>) {
+        let slope = &mut self.slopes[self.part][j];
+        for stage in 0..W {
+            let change = Scalar::abs(renewed.0[stage] - slope.0[stage]);
+            self.changes[stage] = norm::larger(self.changes[stage], change);
+        }
+        *slope = renewed;
+        self.terms[j] = self.weights * renewed;
+    }
+
+    #[inline(always)]
+    pub(super) fn renew_all(&mut self, renewed: &[Lanes<W, T>]) {
+        for (j, &renewed) in renewed.iter().enumerate() {
+            self.renew(j, renewed);
+        }
+    }
+}
+
+impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for Slopes<'_, W, S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Slopes").field("part", &self.part).finish_non_exhaustive()
+    }
 }
 
 impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for AtStages<'_, W, S, T> {
@@ -68,16 +112,15 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for AtSt
 
 /// How the equations of motion are evaluated at the `W` stages of a step.
 pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
-    /// Sets `out` to entry `part` of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
+    /// Renews an entry of the slopes by that of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
     ///
     /// # Errors
     /// As there, of the first stage that fails.
     fn evaluate_part(
         equations: &mut EquationsOf<S, T>,
-        part: usize,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
+        slopes: &mut Slopes<'_, W, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
 
@@ -89,13 +132,12 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation
     #[inline(always)]
     fn evaluate_part(
         equations: &mut EquationsOf<S, T>,
-        part: usize,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
+        slopes: &mut Slopes<'_, W, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        one_by_one(equations, part, at, work, out, statistics)
+        one_by_one(equations, at, work, slopes, statistics)
     }
 
     #[inline(always)]
@@ -110,13 +152,12 @@ impl<const W: usize, S: System<Kind: FirstOrderInLanes<W, S, T>>, T: Real> Stage
     #[inline(always)]
     fn evaluate_part(
         equations: &mut EquationsOf<S, T>,
-        part: usize,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
+        slopes: &mut Slopes<'_, W, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        S::Kind::evaluate_in_lanes(equations, part, at, work, out, statistics)
+        S::Kind::evaluate_in_lanes(equations, at, work, slopes, statistics)
     }
 
     #[inline(always)]
@@ -138,10 +179,9 @@ pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T
     /// As there.
     fn evaluate_in_lanes(
         equations: &mut EquationsOf<S, T>,
-        part: usize,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
+        slopes: &mut Slopes<'_, W, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
@@ -152,22 +192,22 @@ pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T
 #[inline(always)]
 pub(super) fn one_by_one<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>(
     equations: &mut EquationsOf<S, T>,
-    part: usize,
     at: &AtStages<'_, W, S, T>,
     work: &mut StageWork<W, S, T>,
-    out: &mut Vector<S, Lanes<W, T>>,
+    slopes: &mut Slopes<'_, W, S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let StageWork { point, slope, vector, .. } = work;
+    let StageWork { point, slope, vector, gradient, .. } = work;
     for stage in 0..W {
-        for (to, from) in [(&mut *point, at.y), (&mut *slope, at.slopes)] {
+        for (to, from) in [(&mut *point, at.y), (&mut *slope, &*slopes.slopes)] {
             for (to, from) in to.iter_mut().zip(from.iter()) {
                 read_lane(stage, from, to);
             }
         }
         let t = at.t.0[stage];
-        S::Kind::evaluate_part(equations, at.system, part, point, t, slope, vector, statistics)?;
-        write_lane(stage, vector, out);
+        S::Kind::evaluate_part(equations, at.system, slopes.part, point, t, slope, vector, statistics)?;
+        write_lane(stage, vector, gradient);
     }
+    slopes.renew_all(gradient);
     Ok(())
 }
