@@ -101,13 +101,16 @@ pub(crate) enum Verdict {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Convergence<T> {
     tolerance: T,
-    floor: T,
+    /// Rounding errors are relative to the size of the numbers, or to the first correction if that is larger: from zero, or from close
+    /// to it, that is the increment.
+    scale: T,
+    first: T,
     correction: T,
     growths: usize,
     pub(crate) iterations: usize,
     budget: usize,
-    /// The smallest ratio of two corrections that no longer counts as shrinking, where they are rounding errors.
-    shrinking: T,
+    /// A correction that has shrunk by no more than so many times itself no longer counts as shrinking, where it is a rounding error.
+    stalling: T,
     /// How many more iterations derivatives take that come with the numbers.
     pub(crate) more: usize,
 }
@@ -137,12 +140,13 @@ impl<T: Real> Convergence<T> {
         Self {
             tolerance: T::lift(stopping.tolerance) * judged,
             more: if carries_derivatives::<T>() { MORE_BY_NEWTON } else { 0 },
-            floor: T::lift(FLOOR) * T::default_epsilon() * scale,
+            scale,
+            first: T::lift(0.0),
             correction: T::lift(0.0),
             growths: 0,
             iterations: 0,
             budget,
-            shrinking: T::lift(0.5),
+            stalling: T::lift(1.0),
         }
     }
 
@@ -165,39 +169,43 @@ impl<T: Real> Convergence<T> {
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
         }
-        if is_below_rounding::<T>(stopping) { Self { shrinking: T::lift(1.0), ..new } } else { new }
+        if is_below_rounding::<T>(stopping) { Self { stalling: T::lift(0.0), ..new } } else { new }
     }
 
     /// Takes note of the size of the latest correction and decides.
     #[inline(always)]
     pub(crate) fn judge(&mut self, correction: T) -> Verdict {
-        let previous = self.correction;
+        let shrunk = self.correction - correction;
         self.correction = correction;
         self.iterations += 1;
-        // θ d/(1 − θ) = d²/(d' − d), written without a division.
-        let predicted = correction * correction <= self.tolerance * (previous - correction);
-        if correction <= self.tolerance || (correction < previous && predicted) {
-            Verdict::Accept
-        } else {
-            self.hesitate(previous)
-        }
-    }
-
-    #[inline]
-    fn hesitate(&mut self, previous: T) -> Verdict {
-        let first = self.iterations == 1;
-        if first {
-            // From zero, or from close to it, the first correction is the increment.
-            self.floor = larger(self.floor, T::lift(FLOOR) * T::default_epsilon() * self.correction);
-        }
-        if !first && self.correction >= self.shrinking * previous && self.correction <= self.floor {
+        if correction <= self.tolerance {
             return Verdict::Accept;
         }
-        if !first && self.correction >= previous {
+        if self.iterations == 1 {
+            self.first = correction;
+        } else if correction * correction <= self.tolerance * shrunk {
+            // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow.
+            return Verdict::Accept;
+        } else {
+            let is_shrinking = shrunk > self.stalling * correction;
+            if !is_shrinking && let Some(verdict) = self.hesitate(shrunk) {
+                return verdict;
+            }
+        }
+        if self.iterations >= self.budget { Verdict::GiveUp } else { Verdict::Continue }
+    }
+
+    /// Decides where corrections no longer shrink as they should.
+    #[inline]
+    fn hesitate(&mut self, shrunk: T) -> Option<Verdict> {
+        let size = self.correction / (T::lift(FLOOR) * T::default_epsilon());
+        if size <= larger(self.scale, self.first) {
+            return Some(Verdict::Accept);
+        }
+        if shrunk <= T::lift(0.0) {
             self.growths += 1;
         }
-        let is_hopeless = self.growths > MOST_GROWTHS || self.iterations >= self.budget;
-        if is_hopeless { Verdict::GiveUp } else { Verdict::Continue }
+        (self.growths > MOST_GROWTHS).then_some(Verdict::GiveUp)
     }
 
     /// The failure to report after [`Verdict::GiveUp`].

@@ -10,7 +10,8 @@ use crate::scalar::{Comparison, Lanes};
 #[derive(Debug)]
 pub(crate) struct Convergences<const W: usize> {
     tolerance: Lanes<W>,
-    floor: Lanes<W>,
+    scale: Lanes<W>,
+    first: Lanes<W>,
     correction: Lanes<W>,
     growths: Lanes<W>,
     /// 1 where the iteration goes on, and 0 where it is done.
@@ -19,7 +20,7 @@ pub(crate) struct Convergences<const W: usize> {
     iterations: Lanes<W>,
     latest: usize,
     budget: usize,
-    shrinking: Lanes<W>,
+    stalling: Lanes<W>,
 }
 
 impl<const W: usize> Convergences<W> {
@@ -34,20 +35,20 @@ impl<const W: usize> Convergences<W> {
         let zero = Lanes::all(0.0);
         let mut new = Self {
             tolerance: zero,
-            floor: zero,
+            scale,
+            first: zero,
             correction: zero,
             growths: zero,
             active: Lanes::all(1.0),
             iterations: zero,
             latest: 0,
             budget,
-            shrinking: zero,
+            stalling: zero,
         };
         for lane in 0..W {
             let alone = Convergence::of_fixed_point(stopping, scale.0[lane], smallest.0[lane], budget);
             new.tolerance.0[lane] = alone.tolerance;
-            new.floor.0[lane] = alone.floor;
-            new.shrinking.0[lane] = alone.shrinking;
+            new.stalling.0[lane] = alone.stalling;
         }
         new
     }
@@ -75,15 +76,16 @@ impl<const W: usize> Convergences<W> {
         self.latest += 1;
         self.iterations += self.active;
         let (no, yes) = (Lanes::all(0.0), Lanes::all(1.0));
-        let previous = core::mem::replace(&mut self.correction, corrections);
-        let mut is_last = self.is_small(previous);
+        let shrunk = self.correction - corrections;
+        self.correction = corrections;
+        let mut is_last = Lanes::choose(corrections, Comparison::LessOrEqual, self.tolerance, yes, no);
         if first {
-            let of_increment = Lanes::all(FLOOR * f64::EPSILON) * corrections;
-            self.floor =
-                Lanes::choose(of_increment, Comparison::Greater, self.floor, of_increment, self.floor);
+            self.first = corrections;
         } else {
-            is_last = Lanes::choose(is_last, Comparison::Greater, no, yes, self.is_noise(previous));
-            self.growths += Lanes::choose(corrections, Comparison::GreaterOrEqual, previous, yes, no);
+            let are_later = self.are_small_later(shrunk);
+            let are_noise = self.are_noise(shrunk);
+            is_last = Lanes::choose(is_last + are_later + are_noise, Comparison::Greater, no, yes, no);
+            self.growths += Lanes::choose(shrunk, Comparison::LessOrEqual, no, yes, no);
         }
         self.active = Lanes::choose(is_last, Comparison::Greater, no, no, self.active);
         if self.active == no {
@@ -94,24 +96,21 @@ impl<const W: usize> Convergences<W> {
         if given_up == no && self.latest < self.budget { Verdict::Continue } else { Verdict::GiveUp }
     }
 
-    /// Whether the latest corrections, or all that follow them, are within the tolerances.
+    /// Whether all corrections that follow are within the tolerances.
     #[inline(always)]
-    fn is_small(&self, previous: Lanes<W>) -> Lanes<W> {
-        let (no, yes) = (Lanes::all(0.0), Lanes::all(1.0));
-        let (square, most) =
-            (self.correction * self.correction, self.tolerance * (previous - self.correction));
-        let predicted = Lanes::choose(square, Comparison::LessOrEqual, most, yes, no);
-        let later = Lanes::choose(self.correction, Comparison::Less, previous, predicted, no);
-        Lanes::choose(self.correction, Comparison::LessOrEqual, self.tolerance, yes, later)
+    fn are_small_later(&self, shrunk: Lanes<W>) -> Lanes<W> {
+        let (square, most) = (self.correction * self.correction, self.tolerance * shrunk);
+        Lanes::choose(square, Comparison::LessOrEqual, most, Lanes::all(1.0), Lanes::all(0.0))
     }
 
     /// Whether the latest corrections no longer shrink, and are nothing but rounding errors.
     #[inline(always)]
-    fn is_noise(&self, previous: Lanes<W>) -> Lanes<W> {
+    fn are_noise(&self, shrunk: Lanes<W>) -> Lanes<W> {
         let (no, yes) = (Lanes::all(0.0), Lanes::all(1.0));
-        let below = Lanes::choose(self.correction, Comparison::LessOrEqual, self.floor, yes, no);
-        let shrunk = self.shrinking * previous;
-        Lanes::choose(self.correction, Comparison::GreaterOrEqual, shrunk, below, no)
+        let largest = Lanes::choose(self.first, Comparison::Greater, self.scale, self.first, self.scale);
+        let size = self.correction * Lanes::all(1.0 / (FLOOR * f64::EPSILON));
+        let below = Lanes::choose(size, Comparison::LessOrEqual, largest, yes, no);
+        Lanes::choose(shrunk, Comparison::Greater, self.stalling * self.correction, no, below)
     }
 }
 
