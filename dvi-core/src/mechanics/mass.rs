@@ -90,6 +90,22 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         }
     }
 
+    /// Sets `delta` to h M⁻¹`p`.
+    #[inline(always)]
+    pub(crate) fn displace(&self, h: T, p: &[T], delta: &mut [T]) {
+        match &self.coupled {
+            Some(_) if !S::DIAGONAL_MASS => {
+                self.solve(p, delta);
+                delta.iter_mut().for_each(|delta| *delta *= h);
+            }
+            _ => {
+                for ((delta, &p), &reciprocal) in delta.iter_mut().zip(p).zip(self.reciprocals.iter()) {
+                    *delta = p * (h * reciprocal);
+                }
+            }
+        }
+    }
+
     /// Adds `factor` M`x` to `p`.
     #[inline(always)]
     pub(crate) fn multiply_add(&self, factor: T, x: &[T], p: &mut [T]) {

@@ -3,23 +3,26 @@
 //! p½ = p0 + (h/2)F(q0) + G(q0)ᵀι0      q1 = q0 + h M⁻¹p½, with g(q1) = 0
 //! p1 = p½ + (h/2)F(q1) + G(q1)ᵀι1, with G(q1) M⁻¹p1 + ∂g/∂t = 0
 //!
-//! ι0 is found by Newton's method, whose matrix is h G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with G(q1) M⁻¹ G(q1)ᵀ.
+//! h ι0 is found by Newton's method, whose matrix is G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with G(q1) M⁻¹ G(q1)ᵀ.
 
 mod refinement;
+mod rows;
+mod stride;
 mod work;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::mass::Mass;
-use crate::methods::constrained::Impulses;
-use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep};
 use crate::solve::Stopping;
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
+use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Vector};
 use refinement::Refinement;
-use work::{Place, Step, Work, constrain, fill, named};
+use rows::{fill, named};
+use stride::Point;
+use work::{Look, Work, constrain};
 
 /// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of [`Constrained`](crate::methods::Constrained) around
 /// [`Variational::trapezoid`](crate::methods::Variational::trapezoid), without second derivatives of L.
@@ -64,9 +67,7 @@ pub struct Rattle {
 /// Where a run of [`Rattle`] is, and work space.
 #[derive(Debug)]
 pub struct RattleMemory<S: ConstrainedSystem, T: Real> {
-    here: Place<S, T>,
-    last_step: T,
-    impulses: Impulses<S, T>,
+    point: Point<S, T>,
     mass: Mass<S, T>,
     /// Whether M is diagonal and positive.
     is_metric: bool,
@@ -76,34 +77,24 @@ pub struct RattleMemory<S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for RattleMemory<S, T> {
-    lasting!(T; part here, number last_step, part impulses);
+    lasting!(T; part point);
 }
 
 impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
     /// p = M v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        &self.here.p
+        &self.point.here.p
     }
 
     /// The Lagrange multipliers λ of the last step: see [`ConstrainedMemory::multipliers`](crate::methods::ConstrainedMemory::multipliers).
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
-        self.impulses.over(self.last_step)
+        self.point.impulses.over(self.point.last_step)
     }
 
     /// The impulses of the last step: see [`ConstrainedMemory::impulses`](crate::methods::ConstrainedMemory::impulses).
     pub fn impulses(&self) -> [&[T]; 2] {
-        [&self.impulses.first, &self.impulses.last]
+        [&self.point.impulses.first, &self.point.impulses.last]
     }
-}
-
-/// With more entries of G a step has its work space in the run, and else on the stack, where it can stay in registers.
-const SHORT: usize = 64;
-
-/// Whether the work space of a step is in the run: a question that is answered when compiled.
-#[inline(always)]
-fn is_long<S: ConstrainedSystem>(system: &S) -> bool {
-    let entries = system.space().dimension() * system.multipliers().dimension();
-    !<S::Space as Space>::ON_STACK || !<S::Multipliers as Space>::ON_STACK || entries > SHORT
 }
 
 impl Scheme for Rattle {
@@ -122,55 +113,6 @@ impl<S: ConstrainedSystem, T: Real> Carries<S, T> for Rattle {
     type Memory = RattleMemory<S, T>;
 }
 
-impl Rattle {
-    /// A step, in the given work space or in that of the run. Only the latter refines velocities.
-    #[inline(always)]
-    fn take<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
-        &self,
-        system: &S,
-        memory: &mut RattleMemory<S, T>,
-        q: &mut Vector<S, T>,
-        ([t, h], given): ([T; 2], Option<&mut Work<S, T>>),
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let RattleMemory { here, last_step, impulses, mass, is_metric, refinement, work } = memory;
-        let (work, refinement) = given.map_or((work, refinement.as_mut()), |given| (given, None));
-        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping: self.stopping };
-        let zero = T::lift(0.0);
-        let mut ratio = if *last_step == zero { zero } else { h / *last_step };
-        // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
-        while let Err(failure) = work.shake(&step, (ratio, &impulses.first), statistics) {
-            if ratio == zero {
-                return Err(failure);
-            }
-            ratio = zero;
-        }
-        work.rattle(&step)?;
-        statistics.gradients += 1;
-        if let Some(refinement) = refinement {
-            work.refine(system, mass, t + h, refinement)?;
-        }
-        q.copy_from_slice(&work.q);
-        here.restore(&work.place);
-        impulses.restore(&work.impulses);
-        *last_step = h;
-        Ok(())
-    }
-
-    /// A step in the work space of the run. It is apart from the others, whose work space stays in registers.
-    #[inline(never)]
-    fn take_in_place<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
-        &self,
-        system: &S,
-        memory: &mut RattleMemory<S, T>,
-        q: &mut Vector<S, T>,
-        times: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.take(system, memory, q, (times, None), statistics)
-    }
-}
-
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
@@ -182,20 +124,20 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         constrain(system, q, t, values, &mut place.rows);
         system.force(q, &[], t, &mut place.force);
         mass.multiply_add(T::lift(1.0), v, &mut place.p);
-        work.align(system, &mass, t).map_err(StartError::Starter)?;
+        work.place.measure(&mass);
+        work.align((system, &mass), t, Look::Close).map_err(StartError::Starter)?;
         let Work { place, gram, .. } = &mut work;
-        fill(gram, [&place.rows, &place.solved], T::lift(1.0));
+        fill(gram, [&place.rows, &place.solved]);
         gram.factor().map_err(named).map_err(StartError::Starter)?;
         place.is_positive = gram.is_positive();
         let mut refinement = Refinement::for_light_coordinates(system, [q, v], t);
         if let Some(refinement) = &mut refinement {
             work.refine(system, &mass, t, refinement).map_err(StartError::Starter)?;
         }
-        let mut here = Place::new(system);
-        here.restore(&work.place);
-        let (last_step, impulses) = (T::lift(0.0), Impulses::new(system));
+        let mut point = Point::new(system);
+        point.here.restore(&work.place);
         let is_metric = mass.reciprocals().is_some_and(|all| all.iter().all(|&one| one > T::lift(0.0)));
-        Ok(RattleMemory { here, last_step, impulses, mass, is_metric, refinement, work })
+        Ok(RattleMemory { point, mass, is_metric, refinement, work })
     }
 
     #[inline]
@@ -208,10 +150,11 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if is_long(system) || memory.refinement.is_some() {
-            return self.take_in_place(system, memory, q, [t, h], statistics);
+        let one = (Clock::new(t, h), 1);
+        if memory.strides(system) && self.stride(system, memory, q, one, statistics) == Some(1) {
+            return Ok(());
         }
-        self.take(system, memory, q, ([t, h], Some(&mut Work::new(system))), statistics)
+        self.take(system, memory, q, [t, h], statistics)
     }
 
     #[inline]
@@ -224,14 +167,21 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if is_long(system) || memory.refinement.is_some() {
-            return one_by_one(self, system, memory, q, clock, count, statistics);
-        }
-        let mut work = Work::new(system);
-        for taken in 0..count {
-            let times = [clock.after(taken).time(), clock.step_size()];
-            self.take(system, memory, q, (times, Some(&mut work)), statistics)?;
-            statistics.steps += 1;
+        let (mut taken, mut strides) = (0, memory.strides(system));
+        while taken < count {
+            if strides {
+                let more = self.stride(system, memory, q, (clock.after(taken), count - taken), statistics);
+                // What leads to no number is taken again step by step, to see where it arises.
+                strides = more.is_some();
+                taken += more.unwrap_or(0);
+                statistics.steps += more.unwrap_or(0);
+            }
+            if taken < count {
+                let now = clock.after(taken);
+                self.take(system, memory, q, [now.time(), now.step_size()], statistics)?;
+                taken += 1;
+                statistics.steps += 1;
+            }
         }
         Ok(())
     }
@@ -244,7 +194,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         _t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.mass.solve(&memory.here.p, v);
+        memory.mass.solve(&memory.point.here.p, v);
         Ok(())
     }
 }

@@ -29,6 +29,14 @@ pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     of(&partial)
 }
 
+/// The same of a few entries that are numbers; if one is not, some number or none.
+#[inline(always)]
+pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
+    let mut sizes = x.iter().map(|&x| Scalar::abs(x));
+    let first = sizes.next().unwrap_or(T::lift(0.0));
+    sizes.fold(first, larger)
+}
+
 /// Sets `mean` to (a + b)/2.
 #[inline(always)]
 pub(crate) fn mean<T: Real>(a: &[T], b: &[T], mean: &mut [T]) {
@@ -78,11 +86,17 @@ pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
 /// usual case and only the unusual one looks at each entry.
 #[inline(always)]
 pub(crate) fn finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
-    // Four partial sums do not wait for one another.
+    if nothing(x) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
+}
+
+/// Zero if all entries are finite, and else, or if their sum overflows, not a number.
+#[inline(always)]
+pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
+    // Four partial sums do not wait for one another. They begin at −0, which the compiler knows to add nothing.
     let (chunks, rest) = x.as_chunks::<4>();
-    let partial = chunks.iter().fold([T::lift(0.0); 4], |sum, x| [0, 1, 2, 3].map(|i| sum[i] + x[i]));
+    let partial = chunks.iter().fold([T::lift(-0.0); 4], |sum, x| [0, 1, 2, 3].map(|i| sum[i] + x[i]));
     let sum = rest.iter().fold((partial[0] + partial[2]) + (partial[1] + partial[3]), |sum, &x| sum + x);
-    if sum * T::lift(0.0) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
+    sum * T::lift(0.0)
 }
 
 #[cold]

@@ -97,7 +97,7 @@ const ROUNDING: f64 = 1e-12;
 /// half that angle.
 #[inline(always)]
 pub(crate) fn is_along<T: Real>(product: T, square: T, length: T, size: impl FnOnce() -> T) -> bool {
-    let most = T::lift(0.5) * length;
-    let squared = product * product;
-    squared <= square * most || squared <= square * (most + T::lift(ROUNDING * ROUNDING) * size())
+    // Twice the square of the part of Δ that is across the constraint.
+    let across = product * product / (T::lift(0.5) * square);
+    across <= length || across <= length + T::lift(2.0 * ROUNDING * ROUNDING) * size()
 }

@@ -4,7 +4,7 @@
 //! keeps a small one: rounding errors of the large ones make its velocity one across the constraints. What is left of the constraints is
 //! taken away once more then, from a momentum that is small already.
 
-use super::work::Work;
+use super::work::{Look, Work};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::residuals::Residuals;
 use crate::mechanics::constraints::scales::{balance, scale_coordinates};
@@ -56,7 +56,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
                 return residuals.admit(system, At { q, t }, v);
             }
             impulse.copy_from_slice(&impulses.last);
-            self.align(system, mass, t)?;
+            self.align((system, mass), t, Look::Close)?;
             for (sum, &before) in self.impulses.last.iter_mut().zip(impulse.iter()) {
                 *sum += before;
             }

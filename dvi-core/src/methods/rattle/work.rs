@@ -1,19 +1,18 @@
 //! One step of RATTLE, and the storage that it needs.
 
+use super::rows::{NEUTRAL, admit, combine, dot, fill, least, named, reduce, solve};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::Multipliers;
 use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::mass::Mass;
 use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Iteration, Stopping, repeat};
+use crate::space::SquareMatrix;
 use crate::space::sink::Places;
-use crate::space::{Sink, SquareMatrix};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
-/// Sums begin here: added to any number it leaves that number, so that the compiler may drop the first addition.
-const NEUTRAL: f64 = -0.0;
+use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Scalar, Separable, Space, Vector};
 
 /// A vector of coordinates for each constraint.
 type Rows<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Array<Vector<S, T>>;
@@ -42,8 +41,7 @@ pub(super) struct Work<S: ConstrainedSystem, T: Real> {
     pub(super) q: Vector<S, T>,
     pub(super) place: Place<S, T>,
     pub(super) impulses: Impulses<S, T>,
-    pub(super) increment: Vector<S, T>,
-    /// A correction of the increment, or the velocity at the end.
+    /// A displacement, or a velocity.
     pub(super) vector: Vector<S, T>,
     pub(super) values: Multipliers<S, T>,
     pub(super) gram: Gram<S, T>,
@@ -75,114 +73,32 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
             q: vector(),
             place: Place::new(system),
             impulses: Impulses::new(system),
-            increment: vector(),
             vector: vector(),
             values: system.multipliers().vector(),
             gram: system.multipliers().square(all),
         }
     }
-}
 
-/// Adds Σ `factors`ₖ `rows`ₖ to `sum`.
-#[inline(always)]
-fn combine<T: Real, V: core::ops::Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
-    for (row, &factor) in rows.iter().zip(factors) {
-        for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
-            *sum += factor * entry;
+    /// Sets the guess of ι0 to `ratio` times `last`.
+    #[inline(always)]
+    pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
+        for (impulse, &last) in self.impulses.first.iter_mut().zip(last) {
+            *impulse = ratio * last;
         }
     }
 }
 
-#[inline(always)]
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
+/// How closely a step is looked at. What it computes is the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    /// All that may fail is looked at where it arises, and has a name.
+    Close,
+    /// What passes would pass a close look too, except that numbers may not be finite: no later step makes finite ones of these. What
+    /// does not pass may, and has no name.
+    Quick,
 }
 
-/// Sets a matrix to `factor` A Bᵀ, where A and B have these rows.
-#[inline(always)]
-pub(super) fn fill<T: Real, V: core::ops::Deref<Target = [T]>, Q: SquareMatrix<T>>(
-    gram: &mut Q,
-    [a, b]: [&[V]; 2],
-    factor: T,
-) {
-    let entries = gram.cleared();
-    for (k, a) in a.iter().enumerate() {
-        for (l, b) in b.iter().enumerate() {
-            entries.add(k, l, factor * dot(a, b));
-        }
-    }
-}
-
-/// Overwrites `x` with the solution of (`factor` A Bᵀ) y = x, where A and B have these rows.
-///
-/// # Errors
-/// [`StepFailure::RedundantConstraint`].
-#[inline(always)]
-fn solve<T: Real, V: core::ops::Deref<Target = [T]>, Q: SquareMatrix<T>>(
-    gram: &mut Q,
-    rows: [&[V]; 2],
-    factor: T,
-    x: &mut [T],
-) -> Result<(), StepFailure> {
-    fill(gram, rows, factor);
-    gram.eliminate(x).map_err(named)
-}
-
-/// The failure of a matrix over the constraints, with the name of one.
-#[cold]
-pub(super) fn named(failure: StepFailure) -> StepFailure {
-    match failure {
-        StepFailure::Singular { column, pivot } if pivot.is_nan() => {
-            StepFailure::UndefinedConstraint { constraint: column, value: pivot }
-        }
-        StepFailure::Singular { column, pivot } => {
-            StepFailure::RedundantConstraint { constraint: column, pivot }
-        }
-        other => other,
-    }
-}
-
-/// Whether the solution of a step, with G(q1) = `rows`, lies on the branch of the motion: where no gradient has turned by a right
-/// angle in the metric of M, the determinant of G(q1) M⁻¹ G(q0)ᵀ has the sign of that of G(q0) M⁻¹ G(q0)ᵀ, and the displacement makes no
-/// larger angle than 45° with the constraints, if M is a metric and the constraints do not move.
-///
-/// # Errors
-/// [`StepFailure::Turned`] and [`StepFailure::Branch`].
-#[inline(always)]
-fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
-    step: &Step<'_, S, T>,
-    gram: &mut Gram<S, T>,
-    rows: &Rows<S, T>,
-    [q1, increment]: [&[T]; 2],
-) -> Result<(), StepFailure> {
-    let Step { mass, is_metric, here, .. } = *step;
-    let length = (is_metric && S::AUTONOMOUS).then(|| mass.squared(increment));
-    for (constraint, (row, solved)) in rows.iter().zip(here.solved.iter()).enumerate() {
-        let square = here.squares[constraint];
-        // What is no number is no turn by less than a right angle either.
-        let is_small = dot(row, solved) * square > T::lift(0.0);
-        let along = |length| {
-            let product = dot(&here.rows[constraint], increment);
-            // Where a displacement may be rounding, both ends of it have one size; that of the first would be evaluated in every step,
-            // as nothing in the loop around this changes it.
-            is_along(product, square, length, || mass.squared(q1))
-        };
-        if !(is_small && length.is_none_or(along)) {
-            return Err(StepFailure::Turned { constraint });
-        }
-    }
-    // Of one constraint that is the determinant.
-    if rows.len() > 1 {
-        fill(gram, [rows, &here.solved], T::lift(1.0));
-        gram.factor().map_err(named)?;
-        if gram.is_positive() != here.is_positive {
-            return Err(StepFailure::Branch);
-        }
-    }
-    Ok(())
-}
-
-/// One step: where it begins, and how long it is.
+/// One step: where it begins, how long it is, and how closely it is looked at.
 pub(super) struct Step<'a, S: ConstrainedSystem, T: Real> {
     pub(super) system: &'a S,
     pub(super) mass: &'a Mass<S, T>,
@@ -193,50 +109,98 @@ pub(super) struct Step<'a, S: ConstrainedSystem, T: Real> {
     pub(super) t: T,
     pub(super) h: T,
     pub(super) stopping: Stopping,
+    pub(super) look: Look,
+}
+
+impl<S: ConstrainedSystem, T: Real> Step<'_, S, T> {
+    /// Whether the pivots of Newton's method say enough of how far the gradient has turned. Such a pivot is the product of the gradients
+    /// before and after the step, in the metric of M. It is held against half the square of the first, so that what the last
+    /// correction changes of it does not matter.
+    #[inline(always)]
+    fn trusts_pivot(&self) -> bool {
+        self.look == Look::Quick && self.is_metric && self.system.multipliers().dimension() == 1
+    }
+}
+
+impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Place<S, T> {
+    /// Sets M⁻¹Gᵀ and the diagonal of G M⁻¹ Gᵀ.
+    #[inline(always)]
+    pub(super) fn measure(&mut self, mass: &Mass<S, T>) {
+        let Self { rows, solved, squares, .. } = self;
+        for ((row, solved), square) in rows.iter().zip(solved.iter_mut()).zip(squares.iter_mut()) {
+            mass.solve(row, solved);
+            *square = dot(row, solved);
+        }
+    }
+}
+
+/// Whether the solution of a step, with G(q1) = `rows`, lies on the branch of the motion: where no gradient has turned by a right
+/// angle in the metric of M, the determinant of G(q1) M⁻¹ G(q0)ᵀ has the sign of that of G(q0) M⁻¹ G(q0)ᵀ, and the displacement, h times
+/// the velocity v = M⁻¹p, makes no larger angle than 45° with the constraints, if M is a metric and the constraints do not move.
+///
+/// # Errors
+/// [`StepFailure::Turned`] and [`StepFailure::Branch`].
+#[inline(always)]
+fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+    step: &Step<'_, S, T>,
+    gram: &mut Gram<S, T>,
+    rows: &Rows<S, T>,
+    [q1, p, v]: [&[T]; 3],
+) -> Result<(), StepFailure> {
+    let Step { mass, is_metric, here, h, .. } = *step;
+    let length = (is_metric && S::AUTONOMOUS).then(|| dot(p, v));
+    for (constraint, (row, solved)) in rows.iter().zip(here.solved.iter()).enumerate() {
+        let square = here.squares[constraint];
+        // What is no number is no turn by less than a right angle either.
+        let is_small = step.trusts_pivot() || dot(row, solved) * square > T::lift(0.0);
+        // Where a displacement may be rounding, both ends of it have one size; that of the first would be evaluated in every step, as
+        // nothing in the loop around this changes it.
+        let along = |length| is_along(dot(solved, p), square, length, || mass.squared(q1) / (h * h));
+        if !(is_small && length.is_none_or(along)) {
+            return Err(StepFailure::Turned { constraint });
+        }
+    }
+    // Of one constraint that is the determinant.
+    if rows.len() > 1 {
+        fill(gram, [rows, &here.solved]);
+        gram.factor().map_err(named)?;
+        if gram.is_positive() != here.is_positive {
+            return Err(StepFailure::Branch);
+        }
+    }
+    Ok(())
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
-    /// Sets ι0, Δ and q1, with q1 on the constraints, from a guess of ι0: `ratio` times `last`.
+    /// Sets q1, which is on the constraints, ι0 and the momentum between both ends, from the guess of ι0.
     #[inline(always)]
     pub(super) fn shake(
         &mut self,
         step: &Step<'_, S, T>,
-        (ratio, last): (T, &[T]),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Step { system, mass, q, here, t, h, stopping, .. } = *step;
-        let Self { q: q1, place, impulses, increment, vector, values, gram } = self;
-        let half = T::lift(0.5) * h;
+        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, .. } = self;
+        let (t1, half) = (t + h, T::lift(0.5) * h);
         for ((p, &p0), &f) in place.p.iter_mut().zip(here.p.iter()).zip(here.force.iter()) {
             *p = p0 + half * f;
         }
-        mass.solve(&place.p, increment);
-        for ((impulse, value), &last) in impulses.first.iter_mut().zip(values.iter_mut()).zip(last) {
-            *impulse = ratio * last;
-            *value = *impulse;
-        }
-        combine(&here.solved, values, increment);
-        increment.iter_mut().for_each(|delta| *delta *= h);
-        let scale = norm::largest(q) + norm::largest(increment);
+        first.iter_mut().for_each(|impulse| *impulse *= h);
+        mass.displace(h, &place.p, vector);
+        combine(&here.solved, first, vector);
+        add(q, vector, q1);
+        let largest = if step.look == Look::Quick { norm::largest_number } else { norm::largest };
+        let scale = largest(q) + largest(vector);
         let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
-        iterate(convergence, statistics, |_| {
-            add(q, increment, q1);
-            constrain(system, q1, t + h, values, &mut place.rows);
-            solve(gram, [&place.rows, &here.solved], h, values)?;
-            for (impulse, value) in impulses.first.iter_mut().zip(values.iter_mut()) {
-                *impulse -= *value;
-                *value *= h;
-            }
-            vector.fill(T::lift(NEUTRAL));
-            combine(&here.solved, values, vector);
-            for (delta, &change) in increment.iter_mut().zip(vector.iter()) {
-                *delta -= change;
-            }
-            Ok(norm::largest(vector))
-        })?;
-        add(q, increment, q1);
-        constrain(system, q1, t + h, values, &mut place.rows);
-        let is_here = is_on_branch(step, gram, &place.rows, [q1, increment]);
+        repeat(convergence, statistics, Newton { step, work: self })?;
+        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, values, gram } = self;
+        constrain(system, q1, t1, values, &mut place.rows);
+        place.measure(mass);
+        let reciprocal = T::lift(1.0) / h;
+        first.iter_mut().for_each(|impulse| *impulse *= reciprocal);
+        combine(&here.rows, first, &mut place.p);
+        mass.solve(&place.p, vector);
+        let is_here = is_on_branch(step, gram, &place.rows, [q1, &place.p, vector]);
         is_here.map_err(|failure| norm::finite(q1).err().unwrap_or(failure))
     }
 
@@ -244,44 +208,86 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
     #[inline(always)]
     pub(super) fn rattle(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
         let Step { system, mass, here, t, h, .. } = *step;
-        let Self { q, place, impulses, .. } = self;
         let (t1, half) = (t + h, T::lift(0.5) * h);
-        combine(&here.rows, &impulses.first, &mut place.p);
+        let Self { q, place, .. } = self;
         place.is_positive = here.is_positive;
         system.force(q, &[], t1, &mut place.force);
         for (p, &f) in place.p.iter_mut().zip(place.force.iter()) {
             *p += half * f;
         }
-        self.align(system, mass, t1)
+        self.align((system, mass), t1, step.look)
     }
 
-    /// Makes the velocity of p at q one along the constraints, of which the gradients are here.
+    /// Makes the velocity of p at q one along the constraints, which have been measured.
     #[inline(always)]
-    pub(super) fn align(&mut self, system: &S, mass: &Mass<S, T>, t: T) -> Result<(), StepFailure> {
-        let Self {
-            q, place: Place { p, rows, solved, squares, .. }, impulses, vector: v, values, gram, ..
-        } = self;
-        for (row, solved) in rows.iter().zip(solved.iter_mut()) {
-            mass.solve(row, solved);
-        }
-        for (square, (row, solved)) in squares.iter_mut().zip(rows.iter().zip(solved.iter())) {
-            *square = dot(row, solved);
-        }
-        mass.solve(p, v);
+    pub(super) fn align(
+        &mut self,
+        (system, mass): (&S, &Mass<S, T>),
+        t: T,
+        look: Look,
+    ) -> Result<(), StepFailure> {
+        let Self { q, place, impulses, vector: v, values, gram } = self;
+        let Place { p, rows, solved, squares, .. } = place;
         if S::AUTONOMOUS {
-            for (value, row) in values.iter_mut().zip(rows.iter()) {
-                *value = dot(row, v);
+            // G M⁻¹p, with the rows of G M⁻¹, which are here.
+            for (value, solved) in values.iter_mut().zip(solved.iter()) {
+                *value = dot(solved, p);
             }
         } else {
+            mass.solve(p, v);
             system.constraint_rate(q, v, t, values);
         }
-        solve(gram, [rows, solved], T::lift(1.0), values)?;
-        for (impulse, value) in impulses.last.iter_mut().zip(values.iter_mut()) {
-            *value = -*value;
-            *impulse = *value;
+        // Of one constraint the matrix is its square. A quotient by what is no pivot goes no further than to the end of this.
+        if let ([value], [square]) = (&mut values[..], &squares[..]) {
+            *value /= *square;
+        } else {
+            solve(gram, [rows, solved], values)?;
         }
-        combine(rows, values, p);
+        reduce(rows, values, p);
+        for (impulse, &value) in impulses.last.iter_mut().zip(values.iter()) {
+            *impulse = -value;
+        }
+        if let [square] = squares[..] {
+            if look == Look::Quick && square > least() {
+                return Ok(());
+            }
+            admit(square)?;
+        }
         norm::finite(p)
+    }
+}
+
+/// Newton's method for q1 and h ι0: M⁻¹Gᵀ times that is a displacement.
+struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
+    step: &'a Step<'s, S, T>,
+    work: &'a mut Work<S, T>,
+}
+
+impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
+    #[inline(always)]
+    fn improve(&mut self, _statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Step { system, here, t, h, .. } = *self.step;
+        let Work { q, place: Place { rows, .. }, impulses, vector, values, gram } = &mut *self.work;
+        constrain(system, q, t + h, values, rows);
+        if self.step.trusts_pivot() {
+            let pivot = dot(&rows[0], &here.solved[0]);
+            let is_small = pivot > T::lift(0.5) * here.squares[0];
+            if !is_small {
+                return Err(StepFailure::Turned { constraint: 0 });
+            }
+            values[0] /= pivot;
+        } else {
+            solve(gram, [rows, &here.solved], values)?;
+        }
+        reduce_all(&mut impulses.first, values);
+        vector.fill(T::lift(NEUTRAL));
+        combine(&here.solved, values, vector);
+        reduce_all(q, vector);
+        Ok(match (&here.solved[..], &values[..], self.step.look) {
+            // The largest product is the product with the largest.
+            ([solved], [value], Look::Quick) => Scalar::abs(*value) * norm::largest_number(solved),
+            _ => norm::largest(vector),
+        })
     }
 }
 
@@ -300,8 +306,16 @@ pub(super) fn constrain<S: HolonomicLagrangian<T>, T: Real>(
 
 /// Sets `sum` to q + Δ.
 #[inline(always)]
-fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
-    for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(increment) {
+fn add<T: Real>(q: &[T], displacement: &[T], sum: &mut [T]) {
+    for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(displacement) {
         *sum = q + delta;
+    }
+}
+
+/// Takes `change` from `x`.
+#[inline(always)]
+fn reduce_all<T: Real>(x: &mut [T], change: &[T]) {
+    for (x, &change) in x.iter_mut().zip(change) {
+        *x -= change;
     }
 }

@@ -1,0 +1,98 @@
+//! Linear algebra with a few rows: the gradients of the constraints.
+
+use core::ops::Deref;
+
+use crate::error::StepFailure;
+use crate::scalar::norm;
+use crate::space::elimination::LEAST;
+use crate::space::{Sink, SquareMatrix};
+use crate::{Real, Scalar};
+
+/// Sums begin here: added to any number it leaves that number, so that the compiler may drop the first addition.
+pub(super) const NEUTRAL: f64 = -0.0;
+
+/// Adds Σ `factors`ₖ `rows`ₖ to `sum`.
+#[inline(always)]
+pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
+    for (row, &factor) in rows.iter().zip(factors) {
+        for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
+            *sum += factor * entry;
+        }
+    }
+}
+
+/// Takes Σ `factors`ₖ `rows`ₖ from `sum`.
+#[inline(always)]
+pub(super) fn reduce<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
+    for (row, &factor) in rows.iter().zip(factors) {
+        for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
+            *sum -= factor * entry;
+        }
+    }
+}
+
+/// a·b, from the last entry to the first: of three entries the compiler then packs the first two, as it does elsewhere.
+#[inline(always)]
+pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).rev().fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
+}
+
+/// Sets a matrix to A Bᵀ, where A and B have these rows.
+#[inline(always)]
+pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(gram: &mut Q, [a, b]: [&[V]; 2]) {
+    let entries = gram.cleared();
+    for (k, a) in a.iter().enumerate() {
+        for (l, b) in b.iter().enumerate() {
+            entries.add(k, l, dot(a, b));
+        }
+    }
+}
+
+/// Overwrites `x` with the solution of A Bᵀ y = x, where A and B have these rows.
+///
+/// # Errors
+/// [`StepFailure::RedundantConstraint`] and [`StepFailure::UndefinedConstraint`].
+#[inline(always)]
+pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
+    gram: &mut Q,
+    rows: [&[V]; 2],
+    x: &mut [T],
+) -> Result<(), StepFailure> {
+    if let ([a], [b], [x]) = (rows[0], rows[1], &mut *x) {
+        let pivot = dot(a, b);
+        admit(pivot)?;
+        *x /= pivot;
+        return Ok(());
+    }
+    fill(gram, rows);
+    gram.eliminate(x).map_err(named)
+}
+
+/// A pivot is larger.
+#[inline(always)]
+pub(super) fn least<T: Real>() -> T {
+    T::default_epsilon() * T::lift(LEAST)
+}
+
+/// Whether the matrix of one equation can be divided by.
+///
+/// # Errors
+/// As [`solve`].
+#[inline(always)]
+pub(super) fn admit<T: Real>(pivot: T) -> Result<(), StepFailure> {
+    if Scalar::abs(pivot) > least() { Ok(()) } else { Err(named(norm::singular(pivot, 0))) }
+}
+
+/// The failure of a matrix over the constraints, with the name of one.
+#[cold]
+pub(super) fn named(failure: StepFailure) -> StepFailure {
+    match failure {
+        StepFailure::Singular { column, pivot } if pivot.is_nan() => {
+            StepFailure::UndefinedConstraint { constraint: column, value: pivot }
+        }
+        StepFailure::Singular { column, pivot } => {
+            StepFailure::RedundantConstraint { constraint: column, pivot }
+        }
+        other => other,
+    }
+}

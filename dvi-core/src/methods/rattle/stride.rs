@@ -1,0 +1,140 @@
+//! Where a run is, and how it takes a step: many with a quick look at each, in registers, or one with a close look.
+
+use super::work::{Look, Place, Step, Work};
+use super::{Rattle, RattleMemory};
+use crate::error::StepFailure;
+use crate::methods::Clock;
+use crate::methods::constrained::Impulses;
+use crate::scalar::norm;
+use crate::state::Statistics;
+use crate::state::memory::{Memory, lasting};
+use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
+
+/// What is kept of a point of the run, and what the next step is guessed from.
+#[derive(Debug)]
+pub(super) struct Point<S: ConstrainedSystem, T: Real> {
+    pub(super) here: Place<S, T>,
+    pub(super) last_step: T,
+    pub(super) impulses: Impulses<S, T>,
+}
+
+impl<S: ConstrainedSystem, T: Real> Memory<T> for Point<S, T> {
+    lasting!(T; part here, number last_step, part impulses);
+}
+
+impl<S: ConstrainedSystem, T: Real> Point<S, T> {
+    #[inline(always)]
+    pub(super) fn new(system: &S) -> Self {
+        Self { here: Place::new(system), last_step: T::lift(0.0), impulses: Impulses::new(system) }
+    }
+
+    /// The impulse of a step of length `h` is guessed to be so many times that of the last one.
+    #[inline(always)]
+    fn ratio(&self, h: T) -> T {
+        let zero = T::lift(0.0);
+        if self.last_step == zero { zero } else { h / self.last_step }
+    }
+
+    /// Moves to the end of a step.
+    #[inline(always)]
+    fn follow(&mut self, q: &mut Vector<S, T>, work: &Work<S, T>) {
+        q.copy_from_slice(&work.q);
+        self.here.restore(&work.place);
+        self.impulses.restore(&work.impulses);
+    }
+}
+
+/// With more entries of G a step has its work space in the run, and else on the stack, where it can stay in registers.
+const SHORT: usize = 64;
+
+impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
+    /// Whether steps may be taken on the stack. All but the last two questions are answered when compiled.
+    #[inline(always)]
+    pub(super) fn strides(&self, system: &S) -> bool
+    where
+        S: HolonomicLagrangian<T>,
+    {
+        let entries = system.space().dimension() * system.multipliers().dimension();
+        let is_short =
+            <S::Space as Space>::ON_STACK && <S::Multipliers as Space>::ON_STACK && entries <= SHORT;
+        is_short && self.refinement.is_none() && self.is_metric == S::DIAGONAL_MASS
+    }
+}
+
+impl Rattle {
+    /// Takes steps with a quick look at each as long as they succeed from the guess that the last one gives, at most `count`, and
+    /// returns how many; none at all, if they lead to what is no number. What no other function sees may stay in registers.
+    #[inline(always)]
+    pub(super) fn stride<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut RattleMemory<S, T>,
+        q: &mut Vector<S, T>,
+        (clock, count): (Clock<T>, u64),
+        statistics: &mut Statistics,
+    ) -> Option<u64> {
+        let RattleMemory { point, mass, .. } = memory;
+        let (h, stopping, look) = (clock.step_size(), self.stopping, Look::Quick);
+        let (mut at, mut from, mut work) = (q.clone(), Point::new(system), Work::new(system));
+        from.restore(point);
+        // The last impulse is the guess: of the first step, as if that one had been as long.
+        let ratio = from.ratio(h);
+        from.impulses.first.iter_mut().for_each(|impulse| *impulse *= ratio);
+        let mut counted = Statistics::default();
+        let mut taken = 0;
+        while taken < count {
+            let (t, q, here) = (clock.after(taken).time(), &at, &from.here);
+            let step = Step { system, mass, is_metric: S::DIAGONAL_MASS, q, here, t, h, stopping, look };
+            work.guess(T::lift(1.0), &from.impulses.first);
+            let mut after = counted;
+            if work.shake(&step, &mut after).is_err() || work.rattle(&step).is_err() {
+                break;
+            }
+            from.follow(&mut at, &work);
+            counted = after;
+            taken += 1;
+        }
+        if taken > 0 {
+            norm::finite(&from.here.p).and(norm::finite(&at)).ok()?;
+            from.last_step = h;
+            q.copy_from_slice(&at);
+            point.restore(&from);
+            statistics.gradients += taken;
+            statistics.iterations += counted.iterations;
+        }
+        Some(taken)
+    }
+
+    /// Takes a step with a close look, in the work space of the run.
+    #[inline(never)]
+    pub(super) fn take<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut RattleMemory<S, T>,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let RattleMemory { point, mass, is_metric, refinement, work } = memory;
+        let (here, stopping, look) = (&point.here, self.stopping, Look::Close);
+        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping, look };
+        let (zero, mut ratio) = (T::lift(0.0), point.ratio(h));
+        // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
+        work.guess(ratio, &point.impulses.first);
+        while let Err(failure) = work.shake(&step, statistics) {
+            if ratio == zero {
+                return Err(failure);
+            }
+            ratio = zero;
+            work.guess(ratio, &point.impulses.first);
+        }
+        work.rattle(&step)?;
+        statistics.gradients += 1;
+        if let Some(refinement) = refinement {
+            work.refine(system, mass, t + h, refinement)?;
+        }
+        point.follow(q, work);
+        point.last_step = h;
+        Ok(())
+    }
+}
