@@ -29,7 +29,9 @@
 //! let fast = FastSum::new(&blobs, 1e-8)?;
 //! assert!(fast.measured_error(&start, 100)? < 1e-8);
 //!
-//! let mut run = Integrator::new(&fast, Gauss::<1>::new(), 0.01, start)?;
+//! // Stages are solved no further than forces are known.
+//! let method = Gauss::<1> { stopping: Stopping { tolerance: 1e-9, ..Stopping::default() }, ..Gauss::new() };
+//! let mut run = Integrator::new(&fast, method, 0.01, start)?;
 //! let energy = run.energy();
 //! run.take_steps(10)?;
 //! assert!((run.energy() - energy).abs() < 1e-8 * energy.abs());
@@ -44,17 +46,31 @@
 //! H̃ as far as the method does, and forces of bodies on each other have the symmetries that H̃ has. H̃ depends on differences of places
 //! only approximately, so momenta are conserved as far as the tolerance goes.
 //!
-//! A body that crosses from one cube to the next changes the division. There H̃ jumps by some part of the tolerance.
+//! A body that crosses from one cube to the next changes the division. There H̃ and the forces jump by some part of the tolerance. An
+//! iteration that is to solve an implicit step further than that may go on between two sides of a jump: give such methods a
+//! [`Stopping`](crate::solve::Stopping) whose tolerance is not far below that of the sum. With the default, to rounding errors, steps take
+//! more iterations, or fail.
+//!
+//! # Threads
+//!
+//! With the feature `threads` an evaluation is shared by the threads of `rayon`, those of the pool in which it is called. Results are
+//! bitwise the same for every number of threads.
 
 mod basis;
 mod expansion;
 mod lists;
+mod locals;
+mod moments;
+mod neighbours;
 mod packs;
-mod passes;
+mod polynomials;
 mod quantity;
+mod refinement;
 mod system;
+mod threads;
 mod transfer;
 mod tree;
+mod work;
 
 use alloc::vec::Vec;
 use core::cell::RefCell;
@@ -64,10 +80,12 @@ use thiserror::Error;
 
 use self::expansion::Expansion;
 use self::packs::Pack;
-use self::passes::Work;
 use self::quantity::{Gradient, Potential};
+use self::work::Work;
 use crate::error::LengthError;
-use crate::{PairSum, State};
+use crate::{PairSum, Space, State, System};
+
+type VectorOf<S> = <<S as System>::Space as Space>::Vector<f64>;
 
 /// The sum over pairs cannot be had to such a tolerance.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -81,10 +99,21 @@ pub struct ToleranceError {
 const LEAST: f64 = 1e-10;
 const LARGEST: f64 = 1e-2;
 
+/// What an evaluation of the forces takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Operations {
+    /// Ordered pairs of bodies that are summed one by one. A sum over all pairs has n(n − 1).
+    pub pairs: u64,
+    /// Multiplications in the matrices between groups of bodies.
+    pub products: u64,
+}
+
 /// A system like `S`, in which a sum over all pairs of bodies is computed by the fast multipole method.
 ///
-/// It takes the methods that `S` takes and evaluates forces and energies fast. The second derivatives of its Lagrangian are those of `S`,
-/// at the cost of the sum over pairs: take methods whose steps are explicit or solved by the fixed point.
+/// `S` is a degenerate or a regular system. It takes the methods that `S` takes and evaluates forces and energies fast. Second derivatives
+/// of its Lagrangian by places are those of `S`, at the cost of the sum over pairs: take methods whose steps are explicit or solved by the
+/// fixed point.
 ///
 /// An evaluation takes memory for its cubes, which is kept for the next one; it allocates when there are more cubes than ever before.
 pub struct FastSum<'s, S, const D: usize> {
@@ -105,7 +134,7 @@ impl<S: fmt::Debug, const D: usize> fmt::Debug for FastSum<'_, S, D> {
 
 impl<'s, S, const D: usize> FastSum<'s, S, D>
 where
-    S: PairSum<f64, D> + PairSum<Pack, D>,
+    S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
 {
     /// Sums the pairs of `system` with forces of a relative error of about `tolerance`, ‖∇H̃ − ∇H‖/‖∇H‖ over all bodies. Tests find it
     /// below the tolerance for ln(r² + c²) with several c, for 1/√(r² + c²) in space, and for two kernels more, with bodies in a square,
@@ -140,9 +169,7 @@ where
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
     pub fn measured_error(&self, state: &S::State<f64>, bodies: usize) -> Result<f64, LengthError> {
-        let space = self.system.space();
-        let (mut q, mut v) = (crate::Space::vector(space), crate::Space::vector(space));
-        state.write(|block| self.system.block_len(block), &mut q, &mut v)?;
+        let q = self.point(state)?;
         let all = PairSum::<f64, D>::bodies(self.system);
         let mut fast: Vec<[f64; D]> = alloc::vec![[f64::NAN; D]; all];
         self.pair_gradient(&q, |body, gradient| fast[body] = gradient);
@@ -156,6 +183,25 @@ where
             }
         }
         Ok(if error == 0.0 { 0.0 } else { (error / size).sqrt() })
+    }
+
+    /// What an evaluation of the forces takes at a state; nothing where a coordinate is no number.
+    ///
+    /// # Errors
+    /// [`LengthError`] if an array of the state does not have the length that the system declares.
+    pub fn operations(&self, state: &S::State<f64>) -> Result<Operations, LengthError> {
+        let q = self.point(state)?;
+        let mut inner = self.inner.borrow_mut();
+        let (expansion, work) = &mut *inner;
+        Ok(work.operations(expansion, self.system, self.places(&q)).unwrap_or_default())
+    }
+
+    /// The coordinates of a state.
+    fn point(&self, state: &S::State<f64>) -> Result<VectorOf<S>, LengthError> {
+        let space = self.system.space();
+        let (mut q, mut v) = (Space::vector(space), Space::vector(space));
+        state.write(|block| self.system.block_len(block), &mut q, &mut v)?;
+        Ok(q)
     }
 
     fn direct_gradient(&self, places: [&[f64]; D], body: usize) -> [f64; D] {

@@ -92,8 +92,9 @@
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
-//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `std`, `random` and `serde`.
+//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random` and `serde`.
 //! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`; implies `std`.
+//! - `threads`: what is computed for many bodies is shared by threads; implies `std`.
 //! - `mpi`: ensembles over the processes of an MPI program; needs MPI on the system, and libclang to build. Implies `ensembles`.
 //! - `random` (default): methods with noise.
 //! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when
@@ -140,9 +141,9 @@ pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
 #[cfg(feature = "alloc")]
 pub use space::{RunTime, RunTimeMatrix};
 pub use system::{
-    AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, Entry, Formula,
-    HolonomicLagrangian, Lagrangian, Linear, ManifoldLagrangian, ManifoldSystem, Matrix,
+    AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, DegeneratePairSum,
+    Entry, Formula, HolonomicLagrangian, Lagrangian, Linear, ManifoldLagrangian, ManifoldSystem, Matrix,
     NondegenerateLagrangian, NonholonomicLagrangian, OperationCount, PairSum, Permutation,
-    ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, Report, Separable, Square, State, System,
-    TimeTransformed, UnilateralLagrangian, Vector, Weights,
+    ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Separable, Square,
+    State, System, TimeTransformed, UnilateralLagrangian, Vector, Weights,
 };

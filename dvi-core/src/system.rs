@@ -42,7 +42,7 @@ pub use manifold::{Factor, ManifoldLagrangian, ManifoldSystem};
 pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
 pub use packable::Packable;
-pub use pair_sum::PairSum;
+pub use pair_sum::{DegeneratePairSum, PairSum, RegularPairSum};
 pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
 pub use unilateral::UnilateralLagrangian;
 

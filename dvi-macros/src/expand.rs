@@ -57,7 +57,10 @@ pub(crate) fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStre
         let structure = MassMatrix::new(&mut stages.graph, &stages.model, &formulas, &entries);
         structure.check(&stages.model, stages.attribute.lagrangian.as_ref(), &mut stages.errors);
         stages.barrier()?;
-        let programs = RegularPrograms::new(&mut stages.graph, &formulas, entries);
+        let is_free = formulas.constraints.is_none() && !stages.model.is_on_manifold();
+        let find = || PairSum::in_lagrangian(&mut stages.graph, &stages.model, formulas.lagrangian);
+        let pairs = is_free.then(find).flatten();
+        let programs = RegularPrograms::new(&mut stages.graph, &formulas, entries, pairs.as_ref());
         let Stages { graph, model, attribute, .. } = &*stages;
         let checked = validate::regular(graph, model, attribute, &programs, &structure);
         let checked = stages.agrees(checked)?;

@@ -16,7 +16,7 @@ mod regular;
 
 pub(crate) use constraints::{Constraint, Constraints, DeclaredConstraints, Row};
 pub(crate) use degenerate::{DegenerateFormulas, DegeneratePrograms, TimeTransform, dalpha};
-pub(crate) use pairs::PairPrograms;
+pub(crate) use pairs::{DegeneratePairs, PairPrograms, RegularPairs};
 pub(crate) use regular::{RegularFormulas, RegularPrograms};
 
 /// An array that a generated function writes to.
@@ -96,8 +96,7 @@ impl Programs {
     ) -> Self {
         let gradient = gradient(graph, lagrangian, force);
         entries.extend(force_derivatives(graph, force));
-        let mut linearize = gradient.clone();
-        linearize.extend(weighted_hessian(graph, &entries));
+        let linearize = linearize(graph, &gradient, &entries);
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
             forces: (!force.is_empty()).then(|| applied(graph, force)),
@@ -116,6 +115,12 @@ fn gradient(graph: &mut Graph, lagrangian: Expr, force: &Force) -> Vec<Statement
     let by_lagrangian = graph.gradient(lagrangian, &[]);
     let contributions = added(graph, by_lagrangian, force.iter().cloned());
     statements(graph, contributions, Output::Lq, Output::Lv)
+}
+
+/// The gradient, and the second derivatives times their weights.
+fn linearize(graph: &mut Graph, gradient: &[Statement], entries: &[SecondContribution]) -> Vec<Statement> {
+    let hessian = weighted_hessian(graph, entries);
+    gradient.iter().cloned().chain(hessian).collect()
 }
 
 fn applied(graph: &mut Graph, force: &Force) -> Routine {

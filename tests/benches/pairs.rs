@@ -10,6 +10,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use dvi_core::fast_sum::FastSum;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, System};
+use rayon::ThreadPoolBuilder;
 
 /// Vortices in the plane.
 #[degenerate_lagrangian(
@@ -103,7 +104,7 @@ fn gradients(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// ∇H by the fast multipole method beside the sum over all pairs; prints how far they are apart.
+/// ∇H by the fast multipole method, on one thread and on two, beside the sum over all pairs; prints how far they are apart.
 fn fast_sums(criterion: &mut Criterion) {
     const TOLERANCE: f64 = 1e-8;
     let mut group = criterion.benchmark_group("∇H of many vortices");
@@ -118,9 +119,15 @@ fn fast_sums(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("all pairs", n), |bencher| {
             bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
         });
-        group.bench_function(BenchmarkId::new("fast sum", n), |bencher| {
-            bencher.iter(|| fast.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
-        });
+        for threads in [1, 2] {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            group.bench_function(BenchmarkId::new(format!("fast sum, {threads} thread(s)"), n), |bencher| {
+                pool.install(|| {
+                    let fast = FastSum::<_, 2>::new(&system, TOLERANCE).expect("a tolerance in range");
+                    bencher.iter(|| fast.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
+                });
+            });
+        }
     }
     group.finish();
 }

@@ -21,14 +21,23 @@ impl<T: Scalar> Chebyshev<T> {
         let zero = T::lift(0.0);
         Self { value: [zero; MOST], slope: [zero; MOST] }
     }
+}
 
-    /// By the recurrences T_{m+1} = 2u T_m − T_{m−1} and its derivative, for m < `order`; derivatives only if asked for.
-    #[inline(always)]
-    pub(super) fn set<const SLOPES: bool>(&mut self, u: T, order: usize) {
-        let Self { value, slope } = self;
-        let (one, two) = (T::lift(1.0), T::lift(2.0));
-        (value[0], value[1], slope[1]) = (one, u, one);
-        for m in 2..order {
+/// Sets the polynomials at u along each axis by the recurrences T_{m+1} = 2u T_m − T_{m−1} and its derivative, for m < `order`;
+/// derivatives only if asked for.
+#[inline(always)]
+pub(super) fn set_polynomials<T: Scalar, const D: usize, const SLOPES: bool>(
+    at: &mut [Chebyshev<T>; D],
+    u: &[T; D],
+    order: usize,
+) {
+    let (one, two) = (T::lift(1.0), T::lift(2.0));
+    for (Chebyshev { value, slope }, u) in at.iter_mut().zip(u) {
+        (value[0], value[1], slope[1]) = (one, *u, one);
+    }
+    // One axis does not wait for the other.
+    for m in 2..order {
+        for (Chebyshev { value, slope }, &u) in at.iter_mut().zip(u) {
             value[m] = two * u * value[m - 1] - value[m - 2];
             if SLOPES {
                 slope[m] = two * (value[m - 1] + u * slope[m - 1]) - slope[m - 2];
@@ -66,24 +75,10 @@ impl<const D: usize> Basis<D> {
     pub(super) fn len(&self) -> usize {
         self.degrees.len()
     }
-
-    /// The matrix A, row by row, of B_m(u) = Σ_n A_{mn} B_n(c), where the cube of c is the half of that of u on these sides:
-    /// u = (c ± 1)/2. It is exact, because the degree of a term does not grow.
-    pub(super) fn refinement(&self, upper: [bool; D]) -> Vec<f64> {
-        let halves = [half(self.order, -1.0), half(self.order, 1.0)];
-        let mut matrix = Vec::with_capacity(self.len() * self.len());
-        for m in &self.degrees {
-            for n in &self.degrees {
-                let entries = (0..D).map(|axis| halves[usize::from(upper[axis])][m[axis]][n[axis]]);
-                matrix.push(entries.product());
-            }
-        }
-        matrix
-    }
 }
 
 /// T_m((c + side)/2) = Σ_n a_{mn} T_n(c), by the recurrence in m.
-fn half(order: usize, side: f64) -> Vec<[f64; MOST]> {
+pub(super) fn half(order: usize, side: f64) -> Vec<[f64; MOST]> {
     let mut rows: Vec<[f64; MOST]> = Vec::with_capacity(order);
     for m in 0..order {
         let mut row = [0.0; MOST];

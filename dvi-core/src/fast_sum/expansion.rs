@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::basis::Basis;
+use super::refinement::Refinement;
 use super::transfer::Transfer;
 
 /// The functions of the basis that differ in their last degree only.
@@ -19,9 +20,8 @@ pub(super) struct Row<const D: usize> {
 pub(super) struct Expansion<const D: usize> {
     pub(super) basis: Basis<D>,
     pub(super) rows: Vec<Row<D>>,
+    pub(super) refinement: Refinement,
     tolerance: f64,
-    /// For each side of a cube: the matrix that takes moments of the part to the whole, column by column, and its transpose.
-    refinements: Vec<[Vec<f64>; 2]>,
     transfers: Vec<Transfer>,
 }
 
@@ -34,23 +34,9 @@ impl<const D: usize> Expansion<D> {
             let len = order - degrees.iter().sum::<usize>();
             Row { degrees: *degrees, first, len }
         };
-        let rows = firsts.map(row).collect();
-        let refinements = (0..1_usize << D).map(|sides| {
-            let matrix = basis.refinement(core::array::from_fn(|axis| sides >> axis & 1 == 1));
-            let size = basis.len();
-            let transpose =
-                (0..size * size).map(|entry| matrix[entry % size * size + entry / size]).collect();
-            [transpose, matrix]
-        });
-        let refinements = refinements.collect();
-        Self { basis, rows, tolerance, refinements, transfers: Vec::new() }
-    }
-
-    /// The matrices for a part on this side of a cube.
-    #[inline(always)]
-    pub(super) fn refinement(&self, side: [bool; D]) -> &[Vec<f64>; 2] {
-        let sides = (0..D).fold(0, |sides, axis| sides | usize::from(side[axis]) << axis);
-        &self.refinements[sides]
+        let rows: Vec<Row<D>> = firsts.map(row).collect();
+        let refinement = Refinement::new(&basis, &rows);
+        Self { basis, rows, refinement, tolerance, transfers: Vec::new() }
     }
 
     /// Where the matrices between cubes with this edge are; they are computed where they are needed first.

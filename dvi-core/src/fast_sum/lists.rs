@@ -1,13 +1,15 @@
 //! Which cubes act on which as wholes, and which bodies one by one.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
+use super::packs::LANES;
 use super::transfer::{number, offsets, touch};
 use super::tree::{Cube, Tree};
 
 /// One cube acts on another of its level.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Far {
+pub(super) struct Pair {
     pub(super) target: u32,
     pub(super) source: u32,
 }
@@ -15,51 +17,88 @@ pub(super) struct Far {
 /// All pairs of bodies, each once in each order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lists {
-    /// For each level and offset: the cubes that act on others as wholes.
-    pub(super) far: Vec<Vec<Far>>,
-    /// Cubes whose bodies act one by one: target and source.
-    pub(super) near: Vec<(u32, u32)>,
-    stack: Vec<(u32, u32)>,
+    /// For each level and offset: the cubes that act on others as wholes, in the order of the targets.
+    pub(super) far: Vec<Vec<Pair>>,
+    /// Cubes whose bodies act one by one, in the order of the targets.
+    pub(super) near: Vec<Pair>,
+    /// For each of these pairs, the packs that the sources of the earlier ones fill, if they come after their targets; and at the end
+    /// those of all.
+    pub(super) packs: Vec<usize>,
+    /// Where the pair stands that has target and source exchanged.
+    pub(super) opposite: Vec<usize>,
+    queue: Vec<Pair>,
 }
 
 impl Lists {
     /// Fills the lists; pairs of cubes with no more than `few` pairs of bodies count as near.
     pub(super) fn fill<const D: usize>(&mut self, tree: &Tree<D>, few: usize) {
+        let Self { far, near, queue, .. } = self;
         let per_level = offsets::<D>();
-        let levels = tree.cubes.last().map_or(0, |last| last.level as usize + 1);
-        self.far.iter_mut().for_each(Vec::clear);
-        if self.far.len() < levels * per_level {
-            self.far.resize(levels * per_level, Vec::new());
+        far.iter_mut().for_each(Vec::clear);
+        if far.len() < tree.levels.len() * per_level {
+            far.resize(tree.levels.len() * per_level, Vec::new());
         }
-        self.near.clear();
-        self.stack.clear();
-        self.stack.extend((!tree.cubes.is_empty()).then_some((0, 0)));
-        while let Some((target, source)) = self.stack.pop() {
-            let [one, other] = [target, source].map(|cube| &tree.cubes[cube as usize]);
-            if !(one.is_divided() && other.is_divided()) {
-                self.near.push((target, source));
-                continue;
-            }
-            for target in one.parts() {
-                for source in other.parts() {
-                    let [one, other] = [target, source].map(|cube| &tree.cubes[cube]);
-                    let pair = (target as u32, source as u32);
-                    let offset = one.offset(other);
-                    if touch(offset) {
-                        self.stack.push(pair);
-                    } else if pairs(one, other) > few {
-                        let list = &mut self.far[one.level as usize * per_level + number(offset)];
-                        list.push(Far { target: pair.0, source: pair.1 });
-                    } else {
-                        self.near.push(pair);
+        near.clear();
+        queue.clear();
+        queue.extend((!tree.cubes.is_empty()).then_some(Pair { target: 0, source: 0 }));
+        let cubes = |pair: Pair| [pair.target, pair.source].map(|cube| &tree.cubes[cube as usize]);
+        let mut next = 0;
+        while next < queue.len() {
+            let target = queue[next].target;
+            let past = next + queue[next..].iter().take_while(|pair| pair.target == target).count();
+            let are_wholes = |pair: Pair| {
+                let [one, other] = cubes(pair);
+                one.is_divided() && other.is_divided() && touch(one.offset(other))
+            };
+            near.extend(queue[next..past].iter().filter(|pair| !are_wholes(**pair)));
+            for part in tree.cubes[target as usize].parts() {
+                for place in next..past {
+                    if !are_wholes(queue[place]) {
+                        continue;
+                    }
+                    for source in tree.cubes[queue[place].source as usize].parts() {
+                        let pair = Pair { target: part as u32, source: source as u32 };
+                        let [one, other] = cubes(pair);
+                        let offset = one.offset(other);
+                        if touch(offset) || pairs(one, other) <= few {
+                            queue.push(pair);
+                        } else {
+                            far[one.level as usize * per_level + number(offset)].push(pair);
+                        }
                     }
                 }
             }
+            next = past;
         }
-        self.near.sort_unstable();
+        self.oppose(tree);
+    }
+
+    /// Finds what depends on both orders of a pair.
+    fn oppose<const D: usize>(&mut self, tree: &Tree<D>) {
+        let Self { near, packs, opposite, .. } = self;
+        packs.clear();
+        opposite.clear();
+        let mut before = 0;
+        for Pair { target, source } in near.iter().copied() {
+            packs.push(before);
+            if source > target {
+                before += tree.cubes[source as usize].bodies().len().div_ceil(LANES);
+            }
+            // The list is in the order of targets, and of sources for each.
+            let place = near.partition_point(|pair| (pair.target, pair.source) < (source, target));
+            opposite.push(place);
+        }
+        packs.push(before);
     }
 }
 
-fn pairs<const D: usize>(one: &Cube<D>, other: &Cube<D>) -> usize {
+/// Those of a list whose targets are in a range.
+pub(super) fn on(list: &[Pair], targets: &Range<usize>) -> Range<usize> {
+    let place = |end: usize| list.partition_point(|pair| (pair.target as usize) < end);
+    place(targets.start)..place(targets.end)
+}
+
+/// How many ordered pairs of bodies there are between two cubes.
+pub(super) fn pairs<const D: usize>(one: &Cube<D>, other: &Cube<D>) -> usize {
     one.bodies().len() * other.bodies().len()
 }

@@ -1,7 +1,5 @@
 //! Several bodies, or several cubes, in lanes; and products with matrices.
 
-use alloc::vec::Vec;
-
 use crate::scalar::Lanes;
 
 /// Bodies, or cubes, that are computed at once.
@@ -32,7 +30,7 @@ pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
 #[inline(always)]
 pub(super) fn add_before<const D: usize>(
     past: usize,
-    sums: &mut [Vec<f64>; D],
+    sums: &mut [&mut [f64]; D],
     first: usize,
     found: &[Pack],
 ) {
@@ -67,23 +65,48 @@ pub(super) fn add_product(to: &mut [f64], columns: &[f64], vector: &[f64]) {
     }
 }
 
-/// The product of a square matrix, given row by row, with several vectors in lanes.
+/// Columns that are multiplied before others are fetched.
+const BLOCK: usize = 64;
+
+/// Where a vector begins that a matrix is multiplied with, and where its product is added.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ends {
+    pub(super) from: usize,
+    pub(super) to: usize,
+}
+
+/// Adds the products of a square matrix, given row by row, with several vectors, in lanes.
 #[inline(always)]
-pub(super) fn multiply(matrix: &[f64], vectors: &[Pack], out: &mut [Pack]) {
-    let size = vectors.len();
-    for (number, out) in out.chunks_mut(FOUR).enumerate() {
-        let row = |row: usize| {
-            // The last row again where there are fewer.
-            let start = (number * FOUR + row).min(size - 1) * size;
-            &matrix[start..start + size]
-        };
-        let rows: [&[f64]; FOUR] = [row(0), row(1), row(2), row(3)];
-        let mut products = [Pack::all(0.0); FOUR];
-        for (column, vector) in vectors.iter().enumerate() {
-            for row in 0..FOUR {
-                products[row] += Pack::all(rows[row][column]) * *vector;
+pub(super) fn add_products(matrix: &[f64], size: usize, ends: &[Ends], from: &[f64], to: &mut [f64]) {
+    let mut vectors = [Pack::all(0.0); BLOCK];
+    for first in (0..size).step_by(BLOCK) {
+        let columns = BLOCK.min(size - first);
+        for (lane, Ends { from: start, .. }) in ends.iter().enumerate() {
+            let entries = &from[start + first..start + first + columns];
+            for (vector, entry) in vectors.iter_mut().zip(entries) {
+                vector.0[lane] = *entry;
             }
         }
-        out.copy_from_slice(&products[..out.len()]);
+        for four in (0..size).step_by(FOUR) {
+            let row = |row: usize| {
+                // The last row again where there are fewer.
+                let start = (four + row).min(size - 1) * size + first;
+                &matrix[start..start + columns]
+            };
+            let rows: [&[f64]; FOUR] = [row(0), row(1), row(2), row(3)];
+            let mut products = [Pack::all(0.0); FOUR];
+            for (column, vector) in vectors[..columns].iter().enumerate() {
+                for row in 0..FOUR {
+                    products[row] += Pack::all(rows[row][column]) * *vector;
+                }
+            }
+            let count = FOUR.min(size - four);
+            for (lane, Ends { to: start, .. }) in ends.iter().enumerate() {
+                let sums = &mut to[start + four..start + four + count];
+                for (sum, product) in sums.iter_mut().zip(&products) {
+                    *sum += product.0[lane];
+                }
+            }
+        }
     }
 }

@@ -5,12 +5,22 @@ use super::packs::Pack;
 use crate::PairSum;
 
 /// What is summed for each body.
-pub(super) trait Quantity<const D: usize> {
+pub(super) trait Quantity<const D: usize>: Sync {
     /// Its components.
     type Sums: Copy + AsRef<[Pack]>;
     fn none() -> Self::Sums;
     /// Adds that of a body with `weight` at a squared distance `r2`, seen in the direction `difference`.
-    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: [Pack; D], r2: Pack);
+    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: &[Pack; D], r2: Pack);
+    /// Adds that of bodies with the first of the weights, and to the `reactions` on them that of the bodies in the lanes of `sums`, with
+    /// the other.
+    fn add_both(
+        &self,
+        sums: &mut Self::Sums,
+        reactions: &mut [Pack],
+        weights: [Pack; 2],
+        difference: &[Pack; D],
+        r2: Pack,
+    );
     /// Adds that of one row of a local expansion: the polynomials at the place and the degrees of the row in all coordinates but the
     /// last, the sums of coefficients times T and times T' over the degrees of the last, and du/dx.
     fn add_row(
@@ -27,15 +37,28 @@ pub(super) struct Potential<'s, S>(pub(super) &'s S);
 /// Half its gradient, Σ w K' (xᵢ − xⱼ).
 pub(super) struct Gradient<'s, S>(pub(super) &'s S);
 
-impl<const D: usize, S: PairSum<Pack, D>> Quantity<D> for Potential<'_, S> {
+impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Potential<'_, S> {
     type Sums = [Pack; 1];
     #[inline(always)]
     fn none() -> Self::Sums {
         [Pack::all(0.0)]
     }
     #[inline(always)]
-    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, _difference: [Pack; D], r2: Pack) {
+    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, _difference: &[Pack; D], r2: Pack) {
         sums[0] += weight * self.0.kernel(r2);
+    }
+    #[inline(always)]
+    fn add_both(
+        &self,
+        sums: &mut Self::Sums,
+        reactions: &mut [Pack],
+        weights: [Pack; 2],
+        _difference: &[Pack; D],
+        r2: Pack,
+    ) {
+        let kernel = self.0.kernel(r2);
+        sums[0] += weights[0] * kernel;
+        reactions[0] += weights[1] * kernel;
     }
     #[inline(always)]
     fn add_row(
@@ -53,17 +76,33 @@ impl<const D: usize, S: PairSum<Pack, D>> Quantity<D> for Potential<'_, S> {
     }
 }
 
-impl<const D: usize, S: PairSum<Pack, D>> Quantity<D> for Gradient<'_, S> {
+impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Gradient<'_, S> {
     type Sums = [Pack; D];
     #[inline(always)]
     fn none() -> Self::Sums {
         [Pack::all(0.0); D]
     }
     #[inline(always)]
-    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: [Pack; D], r2: Pack) {
+    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: &[Pack; D], r2: Pack) {
         let slope = weight * self.0.kernel_slope(r2);
         for axis in 0..D {
             sums[axis] += slope * difference[axis];
+        }
+    }
+    #[inline(always)]
+    fn add_both(
+        &self,
+        sums: &mut Self::Sums,
+        reactions: &mut [Pack],
+        weights: [Pack; 2],
+        difference: &[Pack; D],
+        r2: Pack,
+    ) {
+        let slope = self.0.kernel_slope(r2);
+        let slopes = [weights[0] * slope, weights[1] * slope];
+        for (axis, reaction) in reactions.iter_mut().enumerate() {
+            sums[axis] += slopes[0] * difference[axis];
+            *reaction -= slopes[1] * difference[axis];
         }
     }
     #[inline(always)]

@@ -6,8 +6,9 @@ use crate::error::{IndexError, OutsideError};
 use crate::space::sink::Sink;
 use crate::system::TimeTransform;
 use crate::{
-    AffineOneForm, DegenerateLagrangian, Lagrangian, PairSum, ProperlyDegenerate, Report, Scalar, System,
-    Weights,
+    AffineOneForm, DegenerateLagrangian, DegeneratePairSum, Lagrangian, NondegenerateLagrangian, PairSum,
+    ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Scalar, Separable,
+    System, Weights,
 };
 
 impl<S: System, const D: usize> System for FastSum<'_, S, D> {
@@ -33,7 +34,7 @@ impl<S: System, const D: usize> System for FastSum<'_, S, D> {
 
 impl<S, const D: usize> Lagrangian for FastSum<'_, S, D>
 where
-    S: PairSum<f64, D> + PairSum<Pack, D>,
+    S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
 {
     fn lagrangian(&self, q: &[f64], v: &[f64], t: f64) -> f64 {
         self.system.rest_lagrangian(q, v, t) - self.pair_energy(q)
@@ -52,8 +53,14 @@ where
         l_v: &mut [f64],
         sink: &mut K,
     ) {
-        self.system.linearize(q, v, t, w, l_q, l_v, sink);
-        self.gradient(q, v, t, l_q, l_v);
+        if w.qq == 0.0 {
+            // The sum has second derivatives by places only.
+            self.system.rest_linearize(q, v, t, w, l_q, l_v, sink);
+            self.add_pairs(q, -1.0, l_q);
+        } else {
+            self.system.linearize(q, v, t, w, l_q, l_v, sink);
+            self.gradient(q, v, t, l_q, l_v);
+        }
     }
     fn applied_force(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
         self.system.applied_force(q, v, t, out);
@@ -64,8 +71,8 @@ where
     fn time_transform(&self, q: &[f64]) -> Option<TimeTransform<f64>> {
         self.system.time_transform(q)
     }
-    fn energy(&self, q: &[f64], _v: &[f64], t: f64) -> f64 {
-        self.hamiltonian(q, t)
+    fn energy(&self, q: &[f64], v: &[f64], t: f64) -> f64 {
+        self.system.rest_energy(q, v, t) + self.pair_energy(q)
     }
     fn momentum(&self, index: usize, q: &[f64], v: &[f64], t: f64) -> f64 {
         self.system.momentum(index, q, v, t)
@@ -74,7 +81,7 @@ where
 
 impl<S, const D: usize> FastSum<'_, S, D>
 where
-    S: PairSum<f64, D> + PairSum<Pack, D>,
+    S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
 {
     /// Adds the gradient of the sum over pairs, times `factor`.
     fn add_pairs(&self, q: &[f64], factor: f64, out: &mut [f64]) {
@@ -89,14 +96,14 @@ where
 
 impl<S, const D: usize> DegenerateLagrangian for FastSum<'_, S, D>
 where
-    S: PairSum<f64, D> + PairSum<Pack, D>,
+    S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + Sync,
 {
     const AFFINE: bool = <S as DegenerateLagrangian<f64>>::AFFINE;
     const MATCHING: bool = <S as DegenerateLagrangian<f64>>::MATCHING;
     const CANONICAL: bool = <S as DegenerateLagrangian<f64>>::CANONICAL;
 
     fn hamiltonian(&self, q: &[f64], t: f64) -> f64 {
-        self.system.rest_hamiltonian(q, t) + self.pair_energy(q)
+        self.system.rest_energy(q, &[], t) + self.pair_energy(q)
     }
     fn hamiltonian_gradient(&self, q: &[f64], t: f64, out: &mut [f64]) {
         self.system.rest_hamiltonian_gradient(q, t, out);
@@ -124,15 +131,48 @@ where
 }
 
 impl<S, const D: usize> AffineOneForm for FastSum<'_, S, D> where
-    S: PairSum<f64, D> + PairSum<Pack, D> + AffineOneForm
+    S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + AffineOneForm + Sync
 {
 }
 
 impl<S, const D: usize> ProperlyDegenerate for FastSum<'_, S, D>
 where
-    S: PairSum<f64, D> + PairSum<Pack, D> + ProperlyDegenerate,
+    S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + ProperlyDegenerate + Sync,
 {
     fn place(&self, coordinate: usize) -> usize {
         ProperlyDegenerate::place(self.system, coordinate)
     }
+}
+
+impl<S, const D: usize> NondegenerateLagrangian for FastSum<'_, S, D>
+where
+    S: RegularPairSum<f64, D> + PairSum<Pack, D> + Sync,
+{
+    const CONSTANT_MASS: bool = <S as NondegenerateLagrangian<f64>>::CONSTANT_MASS;
+    const SEPARABLE: bool = <S as NondegenerateLagrangian<f64>>::SEPARABLE;
+    const DIAGONAL_MASS: bool = <S as NondegenerateLagrangian<f64>>::DIAGONAL_MASS;
+    const QUADRATIC: bool = <S as NondegenerateLagrangian<f64>>::QUADRATIC;
+
+    fn force(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
+        self.system.rest_force(q, v, t, out);
+        self.add_pairs(q, -1.0, out);
+    }
+    fn momentum_rate(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
+        self.system.momentum_rate(q, v, t, out);
+    }
+}
+
+impl<S, const D: usize> RegularLagrangian for FastSum<'_, S, D> where
+    S: RegularPairSum<f64, D> + PairSum<Pack, D> + RegularLagrangian + Sync
+{
+}
+
+impl<S, const D: usize> Separable for FastSum<'_, S, D> where
+    S: RegularPairSum<f64, D> + PairSum<Pack, D> + Separable + Sync
+{
+}
+
+impl<S, const D: usize> QuadraticInVelocity for FastSum<'_, S, D> where
+    S: RegularPairSum<f64, D> + PairSum<Pack, D> + QuadraticInVelocity + Sync
+{
 }

@@ -3,6 +3,8 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::threads;
+
 /// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
 const LEVELS: u32 = 20;
 /// A cube with no more bodies is not divided.
@@ -17,6 +19,8 @@ pub(super) struct Cube<const D: usize> {
     /// Its bodies, in the order of the tree.
     pub(super) first: usize,
     pub(super) past: usize,
+    /// The cube around it; the largest stands for its own.
+    pub(super) whole: usize,
     /// Its parts, in the order of the cubes; none if it is not divided.
     pub(super) first_part: usize,
     pub(super) past_part: usize,
@@ -52,6 +56,8 @@ pub(super) struct Tree<const D: usize> {
     /// The body at each place, with what it is sorted by.
     pub(super) order: Vec<(u64, u32)>,
     pub(super) cubes: Vec<Cube<D>>,
+    /// Which of them each level has, in the order of their bodies.
+    pub(super) levels: Vec<Range<usize>>,
     /// The binary logarithm of the edge of the largest cube.
     edge: i32,
     corner: [f64; D],
@@ -64,7 +70,7 @@ pub(super) struct NotFinite;
 impl<const D: usize> Tree<D> {
     pub(super) fn new(bodies: usize) -> Self {
         let order = (0..bodies).map(|body| (0, body as u32)).collect();
-        Self { order, cubes: Vec::new(), edge: 0, corner: [0.0; D] }
+        Self { order, cubes: Vec::new(), levels: Vec::new(), edge: 0, corner: [0.0; D] }
     }
 
     /// Sorts bodies at these places.
@@ -80,7 +86,7 @@ impl<const D: usize> Tree<D> {
                 cell.min((1 << LEVELS) - 1)
             }));
         }
-        self.order.sort_unstable();
+        threads::sort(&mut self.order);
         self.divide();
         Ok(())
     }
@@ -122,23 +128,36 @@ impl<const D: usize> Tree<D> {
     }
 
     fn divide(&mut self) {
-        let whole =
-            Cube { level: 0, cell: [0; D], first: 0, past: self.order.len(), first_part: 0, past_part: 0 };
+        let whole = Cube {
+            level: 0,
+            cell: [0; D],
+            first: 0,
+            past: self.order.len(),
+            whole: 0,
+            first_part: 0,
+            past_part: 0,
+        };
         self.cubes.clear();
         self.cubes.push(whole);
+        self.levels.clear();
         let mut next = 0;
         while next < self.cubes.len() {
             let cube = self.cubes[next];
+            if cube.level as usize == self.levels.len() {
+                // All cubes of the level stand here, and none of the next.
+                self.levels.push(next..self.cubes.len());
+            }
             if cube.past - cube.first > FEW && cube.level < LEVELS {
                 let first_part = self.cubes.len();
-                self.divide_cube(&cube);
+                self.divide_cube(next);
                 (self.cubes[next].first_part, self.cubes[next].past_part) = (first_part, self.cubes.len());
             }
             next += 1;
         }
     }
 
-    fn divide_cube(&mut self, cube: &Cube<D>) {
+    fn divide_cube(&mut self, whole: usize) {
+        let cube = self.cubes[whole];
         let shift = (LEVELS - cube.level - 1) * D as u32;
         let mut first = cube.first;
         for part in 0..1_u64 << D {
@@ -151,6 +170,7 @@ impl<const D: usize> Tree<D> {
                     cell,
                     first,
                     past,
+                    whole,
                     first_part: 0,
                     past_part: 0,
                 });

@@ -1,24 +1,27 @@
 //! What a system says of a sum over all pairs of its bodies.
 
-use crate::{DegenerateLagrangian, Scalar};
+use crate::space::sink::Sink;
+use crate::{DegenerateLagrangian, Lagrangian, NondegenerateLagrangian, Scalar, Weights};
 
-/// A system whose Hamiltonian has a sum over all pairs of `bodies` bodies, of a function of their distance:
+/// A system whose energy has a sum over all pairs of `bodies` bodies, of a function of their distance:
 ///
 /// ```math
-/// H(q, t) = H_\mathrm{rest}(q, t) + \sum_{j<k} w_j w_k\, K(r_{jk}^2),
+/// L(q, v, t) = L_\mathrm{rest}(q, v, t) - \sum_{j<k} w_j w_k\, K(r_{jk}^2),
 /// \qquad r_{jk}^2 = \sum_{a<D} (q_{a,j} - q_{a,k})^2
 /// ```
 ///
-/// The attribute implements it where it finds one such sum in H, as a term or a factor of a term, if the number of bodies is known at run
-/// time only: over all j < k from 0, each coordinate of a body in an array of its own, weights that are parameters with one index, and no
-/// other index or coordinate, nor the time, in K. `fast_sum::FastSum`, with the feature `fast-sums`, is for such systems.
+/// The attribute implements it where it finds one such sum in L or H, as a term or a factor of a term, if the number of bodies is known at
+/// run time only: over all j < k from 0, each coordinate of a body in an array of its own, weights that are parameters with one index, and
+/// no other index or coordinate, nor velocities or the time, in K. There are no constraints, impacts, rotations or unit vectors.
+/// `fast_sum::FastSum`, with the feature `fast-sums`, is for such systems.
 #[diagnostic::on_unimplemented(
-    message = "no sum over all pairs of bodies of a function of their distance is seen in the Hamiltonian of `{Self}`",
+    message = "no sum over all pairs of bodies of a function of their distance is seen in the energy of `{Self}`",
     label = "its pairs cannot be summed fast",
     note = "such a sum is written `sum_pairs(0..n, |j, k| w[j] * w[k] * f((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)))`, with arrays \
-            of coordinates and weights whose length n is known at run time only"
+            of coordinates and weights whose length n is known at run time only",
+    note = "it is a term of `lagrangian = …` or `hamiltonian = …`, of a system without constraints or impacts"
 )]
-pub trait PairSum<T: Scalar, const D: usize>: DegenerateLagrangian<T> {
+pub trait PairSum<T: Scalar, const D: usize>: Lagrangian<T> {
     /// The number of bodies.
     fn bodies(&self) -> usize;
     /// The place in q of coordinate `axis`, below `D`, of the first body; those of the others follow.
@@ -29,14 +32,36 @@ pub trait PairSum<T: Scalar, const D: usize>: DegenerateLagrangian<T> {
     fn kernel(&self, r2: T) -> T;
     /// dK/d(r²).
     fn kernel_slope(&self, r2: T) -> T;
-    /// L(q, v, t) without the sum, α·v − `rest_hamiltonian`.
+    /// L without the sum.
     fn rest_lagrangian(&self, q: &[T], v: &[T], t: T) -> T;
-    /// Sets what [`gradient`](crate::Lagrangian::gradient) does, without the sum.
+    /// Sets what [`gradient`](Lagrangian::gradient) does, without the sum.
     fn rest_gradient(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
-    /// H without the sum.
-    fn rest_hamiltonian(&self, q: &[T], t: T) -> T;
+    /// Does what [`linearize`](Lagrangian::linearize) does, without the sum.
+    #[expect(clippy::too_many_arguments, reason = "as many as `linearize` has")]
+    fn rest_linearize<K: Sink<T>>(
+        &self,
+        q: &[T],
+        v: &[T],
+        t: T,
+        w: Weights<T>,
+        l_q: &mut [T],
+        l_v: &mut [T],
+        sink: &mut K,
+    );
+    /// The [energy](Lagrangian::energy) without the sum. Of a degenerate system it is H without the sum; `v` is not read, and may be empty.
+    fn rest_energy(&self, q: &[T], v: &[T], t: T) -> T;
+}
+
+/// A degenerate system with a sum over all pairs of its bodies.
+pub trait DegeneratePairSum<T: Scalar, const D: usize>: PairSum<T, D> + DegenerateLagrangian<T> {
     /// Sets what [`hamiltonian_gradient`](DegenerateLagrangian::hamiltonian_gradient) does, without the sum.
     fn rest_hamiltonian_gradient(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets what [`flow_source`](DegenerateLagrangian::flow_source) does, without the sum.
     fn rest_flow_source(&self, q: &[T], t: T, out: &mut [T]);
+}
+
+/// A regular system with a sum over all pairs of its bodies.
+pub trait RegularPairSum<T: Scalar, const D: usize>: PairSum<T, D> + NondegenerateLagrangian<T> {
+    /// Sets what [`force`](NondegenerateLagrangian::force) does, without the sum.
+    fn rest_force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
 }

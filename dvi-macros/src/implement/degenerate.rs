@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::document::{Account, beside_force, quantity};
-use super::pairs::pair_sum;
+use super::pairs::degenerate_pairs;
 use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
 use crate::errors::listed;
@@ -177,7 +177,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian), &items);
     let proper = proper(emitter, &structure.class);
     let time_transformed = programs.time.as_ref().map(|time| time_transformed(emitter, time));
-    let pairs = programs.pairs.as_ref().map(|pairs| pair_sum(emitter, pairs));
+    let pairs = programs.pairs.as_ref().map(|pairs| degenerate_pairs(emitter, pairs));
     quote!(#lagrangian #affine #proper #time_transformed #pairs)
 }
 

@@ -1,14 +1,41 @@
-//! The implementation of `PairSum`.
+//! The implementations of `PairSum`, `DegeneratePairSum` and `RegularPairSum`.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::in_numbers_with;
 use crate::emit::{Emitter, local};
-use crate::program::{Output, PairPrograms};
+use crate::program::{DegeneratePairs, Output, PairPrograms, RegularPairs};
 use crate::symbolic::Index;
 
-pub(super) fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
+pub(super) fn degenerate_pairs(emitter: &Emitter<'_>, pairs: &DegeneratePairs) -> TokenStream {
+    let [gradient, source] =
+        [&pairs.hamiltonian_gradient, &pairs.flow_source].map(|routine| emitter.vector(routine));
+    let items = quote! {
+        fn rest_hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+            #gradient
+        }
+        fn rest_flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #source }
+    };
+    let axes = pairs.shared.sum.blocks.len();
+    let special = in_numbers_with(emitter, &quote!(system::DegeneratePairSum<__T, #axes>), &items);
+    let shared = pair_sum(emitter, &pairs.shared);
+    quote!(#shared #special)
+}
+
+pub(super) fn regular_pairs(emitter: &Emitter<'_>, pairs: &RegularPairs) -> TokenStream {
+    let force = emitter.vector(&pairs.force);
+    let items = quote! {
+        fn rest_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }
+    };
+    let axes = pairs.shared.sum.blocks.len();
+    let special = in_numbers_with(emitter, &quote!(system::RegularPairSum<__T, #axes>), &items);
+    let shared = pair_sum(emitter, &pairs.shared);
+    quote!(#shared #special)
+}
+
+fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
+    let krate = emitter.krate();
     let axes = pairs.sum.blocks.len();
     let bodies = emitter.index(&pairs.sum.bodies);
     let places = pairs.sum.blocks.iter().enumerate().map(|(axis, block)| {
@@ -18,12 +45,11 @@ pub(super) fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStre
     let weight = weight(emitter, pairs);
     let square = local(format_args!("q{}", pairs.sum.blocks[0]));
     let [kernel, kernel_slope] = [&pairs.kernel, &pairs.kernel_slope].map(|routine| emitter.body(routine));
-    let [lagrangian, hamiltonian] =
-        [&pairs.lagrangian, &pairs.hamiltonian].map(|routine| emitter.value(routine));
+    let [lagrangian, energy] = [&pairs.lagrangian, &pairs.energy].map(|routine| emitter.value(routine));
     let (read, body) = (emitter.read(&pairs.gradient), emitter.body(&pairs.gradient));
+    let (read_all, linearize) = (emitter.read(&pairs.linearize), emitter.body(&pairs.linearize));
     let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
-    let [gradient, source] =
-        [&pairs.hamiltonian_gradient, &pairs.flow_source].map(|routine| emitter.vector(routine));
+    let offsets = emitter.offsets();
     let items = quote! {
         fn bodies(&self) -> usize { #bodies }
         fn place(&self, __axis: usize) -> usize {
@@ -47,11 +73,13 @@ pub(super) fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStre
         ) {
             #read #l_q #l_v #body
         }
-        fn rest_hamiltonian(&self, __q: &[__T], __t: __T) -> __T { #hamiltonian }
-        fn rest_hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
-            #gradient
+        fn rest_linearize<__K: #krate::Sink<__T>>(
+            &self, __q: &[__T], __v: &[__T], __t: __T, __w: #krate::Weights<__T>,
+            __l_q: &mut [__T], __l_v: &mut [__T], __sink: &mut __K,
+        ) {
+            #read_all #l_q #l_v #offsets #linearize
         }
-        fn rest_flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #source }
+        fn rest_energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
     };
     in_numbers_with(emitter, &quote!(PairSum<__T, #axes>), &items)
 }

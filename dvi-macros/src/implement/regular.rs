@@ -7,6 +7,7 @@ use super::constraints::constraints;
 use super::document::{Account, beside_force, quantity};
 use super::in_numbers;
 use super::manifold::manifold;
+use super::pairs::regular_pairs;
 use crate::emit::Emitter;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
 use crate::structure::MassMatrix;
@@ -88,5 +89,6 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
         None if emitter.model.is_on_manifold() => manifold(emitter),
         None => in_numbers(emitter, &quote!(RegularLagrangian), &TokenStream::new()),
     };
-    quote!(#lagrangian #motion #(#traits)*)
+    let pairs = programs.pairs.as_ref().map(|pairs| regular_pairs(emitter, pairs));
+    quote!(#lagrangian #motion #(#traits)* #pairs)
 }

@@ -1,6 +1,6 @@
 //! What is special to L = α·v − H: the one-form, the Hamiltonian, the right side of the flow.
 
-use super::pairs::PairPrograms;
+use super::pairs::DegeneratePairs;
 use super::{
     Force, Output, Place, Programs, Statement, Variable, added, first_derivatives, mirrored_pair, rates,
     result, statements, variable,
@@ -48,7 +48,7 @@ pub(crate) struct DegeneratePrograms {
     pub(crate) conjugate_entries: Routine,
     pub(crate) momentum_gradients: Vec<Routine>,
     pub(crate) time: Option<TimeTransform<Routine>>,
-    pub(crate) pairs: Option<PairPrograms>,
+    pub(crate) pairs: Option<DegeneratePairs>,
 }
 
 impl DegeneratePrograms {
@@ -75,7 +75,7 @@ impl DegeneratePrograms {
             rate: Routine::new(graph, result(rate)),
             hamiltonian: Routine::new(graph, result(hamiltonian)),
         });
-        let pairs = pairs.map(|sum| PairPrograms::new(graph, formulas, sum, &one_form));
+        let pairs = pairs.map(|sum| DegeneratePairs::new(graph, formulas, sum, &one_form));
         Self {
             shared,
             time,

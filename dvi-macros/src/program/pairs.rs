@@ -1,32 +1,74 @@
-//! What is generated for a Hamiltonian with a sum over pairs: everything without the sum, and its kernel.
+//! What is generated for an energy with a sum over pairs: everything without the sum, and its kernel.
 
 use super::degenerate::{DegenerateFormulas, flow_source, hamiltonian_gradient};
-use super::{Output, Place, Statement, gradient, result};
+use super::regular::{RegularFormulas, as_vector};
+use super::{Force, Output, Place, Statement, force_derivatives, gradient, linearize, result};
 use crate::routine::Routine;
 use crate::structure::PairSum;
 use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Loop, Range};
 
-/// H = H_rest + Σ_{j<k} w_j w_k K(r²).
+/// L = L_rest − Σ_{j<k} w_j w_k K(r²).
 pub(crate) struct PairPrograms {
     pub(crate) sum: PairSum,
     /// K
     pub(crate) kernel: Routine,
     /// dK/d(r²)
     pub(crate) kernel_slope: Routine,
-    /// α·v − H_rest
+    /// L_rest
     pub(crate) lagrangian: Routine,
     pub(crate) gradient: Routine,
-    /// H_rest
-    pub(crate) hamiltonian: Routine,
+    pub(crate) linearize: Routine,
+    /// E_rest
+    pub(crate) energy: Routine,
+    /// The energy put together of these parts, for the self-check alone.
+    pub(crate) together: Routine,
+}
+
+/// H = H_rest + Σ_{j<k} w_j w_k K(r²).
+pub(crate) struct DegeneratePairs {
+    pub(crate) shared: PairPrograms,
     pub(crate) hamiltonian_gradient: Routine,
     pub(crate) flow_source: Routine,
-    /// H and ∇H − F put together of these parts, for the self-check alone.
-    pub(crate) together: Routine,
+    /// ∇H − F put together of these parts, for the self-check alone.
     pub(crate) together_gradient: Routine,
 }
 
+/// The same of a regular system.
+pub(crate) struct RegularPairs {
+    pub(crate) shared: PairPrograms,
+    pub(crate) force: Routine,
+    /// The force put together of these parts, for the self-check alone.
+    pub(crate) together_force: Routine,
+}
+
+/// L_rest and E_rest.
+struct Rest {
+    lagrangian: Expr,
+    energy: Expr,
+}
+
 impl PairPrograms {
-    /// From the formulas, the sum that was found in them, and the components of α.
+    fn new(graph: &mut Graph, sum: &PairSum, rest: &Rest, slope: Expr, force: &Force) -> Self {
+        let gradient = gradient(graph, rest.lagrangian, force);
+        let mut entries = graph.hessian(rest.lagrangian);
+        entries.extend(force_derivatives(graph, force));
+        let linearize = linearize(graph, &gradient, &entries);
+        let together = together(graph, sum, rest.energy);
+        Self {
+            kernel: Routine::new(graph, result(sum.kernel)),
+            kernel_slope: Routine::new(graph, result(slope)),
+            lagrangian: Routine::new(graph, result(rest.lagrangian)),
+            gradient: Routine::new(graph, gradient),
+            linearize: Routine::new(graph, linearize),
+            energy: Routine::new(graph, result(rest.energy)),
+            together: Routine::new(graph, result(together)),
+            sum: sum.clone(),
+        }
+    }
+}
+
+impl DegeneratePairs {
+    /// From the formulas, the sum that was found in H, and the components of α.
     pub(super) fn new(
         graph: &mut Graph,
         formulas: &DegenerateFormulas,
@@ -35,34 +77,46 @@ impl PairPrograms {
     ) -> Self {
         let slope = graph.derivative(sum.kernel, sum.square);
         let lagrangian = graph.subtract(formulas.one_form, sum.rest);
-        let of_lagrangian = gradient(graph, lagrangian, &formulas.force);
+        let rest = Rest { lagrangian, energy: sum.rest };
         let of_rest = hamiltonian_gradient(graph, sum.rest, &formulas.force);
         let flow_source = flow_source(graph, &of_rest, one_form);
-        let together = together(graph, sum);
-        let together_gradient = of_rest.iter().cloned().chain(pair_gradient(graph, sum, slope)).collect();
+        let of_pairs = pair_gradient(graph, sum, slope);
+        let together_gradient = of_rest.iter().cloned().chain(of_pairs).collect();
         Self {
-            kernel: Routine::new(graph, result(sum.kernel)),
-            kernel_slope: Routine::new(graph, result(slope)),
-            lagrangian: Routine::new(graph, result(lagrangian)),
-            gradient: Routine::new(graph, of_lagrangian),
-            hamiltonian: Routine::new(graph, result(sum.rest)),
+            shared: PairPrograms::new(graph, sum, &rest, slope, &formulas.force),
             hamiltonian_gradient: Routine::new(graph, of_rest),
             flow_source: Routine::new(graph, flow_source),
-            together: Routine::new(graph, result(together)),
             together_gradient: Routine::new(graph, together_gradient),
-            sum: sum.clone(),
         }
     }
 }
 
-fn together(graph: &mut Graph, sum: &PairSum) -> Expr {
+impl RegularPairs {
+    /// From the formulas and the sum that was found in L.
+    pub(super) fn new(graph: &mut Graph, formulas: &RegularFormulas, sum: &PairSum) -> Self {
+        let slope = graph.derivative(sum.kernel, sum.square);
+        let rest = Rest { lagrangian: sum.rest, energy: graph.energy(sum.rest) };
+        let gradient = gradient(graph, sum.rest, &formulas.force);
+        let force: Vec<Statement> =
+            gradient.iter().filter_map(|statement| as_vector(statement, Output::Lq)).collect();
+        let of_pairs = pair_gradient(graph, sum, slope.negated());
+        let together_force = force.iter().cloned().chain(of_pairs).collect();
+        Self {
+            shared: PairPrograms::new(graph, sum, &rest, slope, &formulas.force),
+            force: Routine::new(graph, force),
+            together_force: Routine::new(graph, together_force),
+        }
+    }
+}
+
+fn together(graph: &mut Graph, sum: &PairSum, rest: Expr) -> Expr {
     let [first, second] = [Atom::Open(0), Atom::Open(1)];
     let term = sum.weighted(graph, sum.kernel, [first.clone(), second.clone()]);
     let above = Index::atom(first.clone()).plus(&Index::literal(1), 1);
     let inner = Range { lower: above, ..Range::up_to(sum.bodies.clone()) };
     let over_second = graph.fold(Fold::Sum, second, inner, term);
     let pairs = graph.fold(Fold::Sum, first, Range::up_to(sum.bodies.clone()), over_second);
-    graph.add(sum.rest, pairs)
+    graph.add(rest, pairs)
 }
 
 /// w_j w_k 2 K' (x_j − x_k) on each coordinate of body j, for all k ≠ j.

@@ -1,7 +1,9 @@
 //! What is special to a regular L: the energy, the force, and the rate of the momentum.
 
+use super::pairs::RegularPairs;
 use super::{DeclaredConstraints, Force, Output, Place, Programs, Statement, rates, result};
 use crate::routine::Routine;
+use crate::structure::PairSum;
 use crate::symbolic::{Expr, Graph, SecondContribution};
 
 /// The formulas of a regular system.
@@ -24,14 +26,16 @@ pub(crate) struct RegularPrograms {
     pub(crate) force: Routine,
     /// ∂²L/∂t∂v
     pub(crate) momentum_rate: Routine,
+    pub(crate) pairs: Option<RegularPairs>,
 }
 
 impl RegularPrograms {
-    /// From the formulas and the second derivative of L.
+    /// From the formulas, the second derivative of L, and the sum over pairs that was found in it.
     pub(crate) fn new(
         graph: &mut Graph,
         formulas: &RegularFormulas,
         entries: Vec<SecondContribution>,
+        pairs: Option<&PairSum>,
     ) -> Self {
         let RegularFormulas { lagrangian, force, constraints, momenta, .. } = formulas;
         let shared = Programs::new(graph, *lagrangian, entries, force, constraints.as_ref(), momenta);
@@ -41,12 +45,13 @@ impl RegularPrograms {
             [Output::Lq, Output::Lv].map(|output| part(output).collect());
         let rate = rates(graph, &momentum);
         let [energy, force, momentum_rate] = [energy, force, rate].map(|s| Routine::new(graph, s));
-        Self { shared, energy, force, momentum_rate }
+        let pairs = pairs.map(|sum| RegularPairs::new(graph, formulas, sum));
+        Self { shared, energy, force, momentum_rate, pairs }
     }
 }
 
 /// The statement of an entry of `output`, with its value in the only vector.
-fn as_vector(statement: &Statement, output: Output) -> Option<Statement> {
+pub(super) fn as_vector(statement: &Statement, output: Output) -> Option<Statement> {
     match &statement.place {
         Place::Entry(found, coordinate) if *found == output => {
             Some(Statement { place: Place::Entry(Output::Vector, coordinate.clone()), ..statement.clone() })

@@ -1,5 +1,5 @@
-//! A sum over all pairs of bodies of a function of their distance, in a Hamiltonian:
-//! H = H_rest + Σ_{j<k} w_j w_k K(r²).
+//! A sum over all pairs of bodies of a function of their distance, in an energy: H = H_rest + Σ_{j<k} w_j w_k K(r²), or
+//! L = L_rest − Σ_{j<k} w_j w_k K(r²).
 
 use crate::model::Model;
 use crate::symbolic::{
@@ -21,7 +21,7 @@ pub(crate) struct PairSum {
     /// K(r²), with [`square`](Self::square) in the place of r².
     pub(crate) kernel: Expr,
     pub(crate) square: Id,
-    /// H_rest
+    /// H_rest or L_rest
     pub(crate) rest: Expr,
 }
 
@@ -33,11 +33,17 @@ struct Pairs {
 }
 
 impl PairSum {
+    /// The first one in a Lagrangian.
+    pub(crate) fn in_lagrangian(graph: &mut Graph, model: &Model, lagrangian: Expr) -> Option<Self> {
+        let sum = Self::find(graph, model, lagrangian)?;
+        Some(Self { kernel: sum.kernel.negated(), ..sum })
+    }
+
     /// The first one among the terms of a Hamiltonian.
-    pub(crate) fn find(graph: &mut Graph, model: &Model, hamiltonian: Expr) -> Option<Self> {
-        let terms = match graph.node(hamiltonian.node) {
-            Node::Sum(terms) => terms.iter().map(|term| term.scaled(hamiltonian.scale)).collect(),
-            _ => vec![hamiltonian],
+    pub(crate) fn find(graph: &mut Graph, model: &Model, energy: Expr) -> Option<Self> {
+        let terms = match graph.node(energy.node) {
+            Node::Sum(terms) => terms.iter().map(|term| term.scaled(energy.scale)).collect(),
+            _ => vec![energy],
         };
         (0..terms.len()).find_map(|number| {
             let mut sum = Self::of_term(graph, model, terms[number])?;

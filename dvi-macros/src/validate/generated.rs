@@ -105,7 +105,7 @@ impl Functions<'_> {
                     add("time_transform", Quantity::Untransformed, value(&time.hamiltonian));
                 }
                 if let Some(pairs) = &programs.pairs {
-                    add("rest_hamiltonian", Quantity::Hamiltonian, value(&pairs.together));
+                    add("rest_energy", Quantity::Hamiltonian, value(&pairs.shared.together));
                     let gradient = vector(&pairs.together_gradient);
                     add("rest_hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
                 }
@@ -120,6 +120,10 @@ impl Functions<'_> {
                 add("force", Quantity::Force, vector(&programs.force));
                 let rate = machine.run(&programs.momentum_rate).along_second(program::Output::Vector);
                 add("momentum_rate", Quantity::MomentumRate, rate);
+                if let Some(pairs) = &programs.pairs {
+                    add("rest_energy", Quantity::Energy, value(&pairs.shared.together));
+                    add("rest_force", Quantity::Force, vector(&pairs.together_force));
+                }
             }
         }
         found

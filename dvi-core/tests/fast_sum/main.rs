@@ -2,10 +2,12 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod regular;
+
 use dvi_core::fast_sum::{FastSum, ToleranceError};
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
-use dvi_core::{DegenerateLagrangian, Lagrangian, PairSum, System};
+use dvi_core::{DegenerateLagrangian, DegeneratePairSum, Lagrangian, PairSum, System};
 
 /// Vortices, with softened cores where `core` is not 0, in a flow of their own.
 #[degenerate_lagrangian(
@@ -97,7 +99,7 @@ fn apart(found: &[f64], expected: &[f64]) -> f64 {
 /// Energy and gradient of a fast sum beside those of its system.
 fn compare<S, const D: usize>(system: &S, q: &[f64], tolerance: f64) -> (f64, f64)
 where
-    S: PairSum<f64, D> + PairSum<Lanes<8>, D>,
+    S: DegeneratePairSum<f64, D> + PairSum<Lanes<8>, D> + Sync,
 {
     let fast = FastSum::new(system, tolerance).unwrap();
     let [mut found, mut expected] = [vec![0.0; q.len()], vec![0.0; q.len()]];
@@ -276,6 +278,49 @@ fn evaluations_do_not_depend_on_those_before() {
     assert_eq!(bits(&square, &[]), bits(&square, &[&line, &cluster, &square]));
 }
 
+/// The forces on many bodies and their energy, bit for bit.
+#[cfg(feature = "threads")]
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let n = 3000;
+    let blobs = blobs(n, 0.01);
+    for q in distributions(n) {
+        let bits = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let fast = FastSum::<_, 2>::new(&blobs, 1e-6).unwrap();
+                let mut gradient = vec![0.0; 2 * n];
+                fast.hamiltonian_gradient(&q, 0.0, &mut gradient);
+                gradient.push(fast.hamiltonian(&q, 0.0));
+                gradient.iter().map(|entry| entry.to_bits()).collect::<Vec<_>>()
+            })
+        };
+        let alone = bits(1);
+        for threads in [2, 3, 5, 16] {
+            assert!(bits(threads) == alone, "{threads} threads");
+        }
+    }
+}
+
+#[test]
+fn many_bodies_take_far_fewer_operations_than_all_pairs() {
+    let operations = |n: usize| {
+        let q = &distributions(n)[0];
+        let state = BlobsState { x: q[..n].to_vec(), y: q[n..].to_vec() };
+        FastSum::<_, 2>::new(&blobs(n, 0.1), 1e-6).unwrap().operations(&state).unwrap()
+    };
+    let few = operations(50);
+    assert_eq!((few.pairs, few.products), (50 * 49, 0));
+    // Four times as many bodies in the same square: the cubes are divided once more.
+    let [some, many] = [operations(8000), operations(32_000)].map(|all| (all.pairs + all.products) as f64);
+    assert!(many < 5.0 * some, "{some} {many}");
+    assert!(many < 0.1 * 32_000.0_f64.powi(2), "{many}");
+    let mut nowhere = BlobsState { x: vec![0.0; 3], y: vec![0.0; 3] };
+    nowhere.x[1] = f64::NAN;
+    let operations = FastSum::<_, 2>::new(&blobs(3, 0.1), 1e-6).unwrap().operations(&nowhere).unwrap();
+    assert_eq!((operations.pairs, operations.products), (0, 0));
+}
+
 #[test]
 fn runs_conserve_the_energy_and_go_on_from_checkpoints() {
     let n = 600;
@@ -301,6 +346,25 @@ fn runs_conserve_the_energy_and_go_on_from_checkpoints() {
     }
     let error = fast.measured_error(&start, 50).unwrap();
     assert!(error > 0.0 && error < 1e-8, "{error:e}");
+}
+
+#[test]
+fn steps_are_solved_as_far_as_forces_are_known() {
+    let n = 1000;
+    let blobs = Blobs { shear: 0.0, ..blobs(n, 0.02) };
+    let q = &distributions(n)[0];
+    let start = BlobsState { x: q[..n].to_vec(), y: q[n..].to_vec() };
+    let fast = FastSum::<_, 2>::new(&blobs, 1e-6).unwrap();
+    let evaluations = |stopping: Stopping| {
+        let method = Gauss::<2> { stopping, ..Gauss::new() };
+        let mut run = Integrator::new(&fast, method, 0.05, start.clone()).unwrap();
+        run.take_steps(30).map(|()| run.statistics().gradients)
+    };
+    let some = evaluations(Stopping { tolerance: 1e-7, ..Stopping::default() }).unwrap();
+    // To rounding errors: many more, or an iteration that does not end.
+    let most = evaluations(Stopping::default());
+    assert!(some < 30 * 20, "{some}");
+    assert!(most.is_err() || most.is_ok_and(|most| most > 2 * some), "{some} {most:?}");
 }
 
 #[test]

@@ -1,0 +1,208 @@
+//! What bodies nearby do to each other one by one.
+//!
+//! Each pair of cubes is computed once, where the first of the two is the target. What its bodies do to those of the other waits in a place
+//! of its own until the sums of the other are taken up: so no sum is written by two, and its terms have one order.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::lists::{Lists, Pair, on};
+use super::packs::{LANES, Pack, add_before, load, load_before};
+use super::quantity::Quantity;
+use super::threads::Part;
+use super::tree::{Cube, Tree};
+use crate::scalar::simd::widest_if;
+
+/// What acts nearby.
+#[derive(Debug)]
+pub(super) struct Nearby<'w, Q, const D: usize> {
+    pub(super) quantity: &'w Q,
+    pub(super) tree: &'w Tree<D>,
+    pub(super) lists: &'w Lists,
+    pub(super) places: &'w [Vec<f64>; D],
+    pub(super) weights: &'w [f64],
+}
+
+impl<Q, const D: usize> Clone for Nearby<'_, Q, D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<Q, const D: usize> Copy for Nearby<'_, Q, D> {}
+
+/// The sums of some cubes of one level over their own bodies and those of later cubes, and what they do to these.
+#[derive(Debug)]
+pub(super) struct Neighbours<'w, Q, const D: usize> {
+    pub(super) by: Nearby<'w, Q, D>,
+    pub(super) cubes: Range<usize>,
+    /// Those of the list that have these cubes as targets.
+    pub(super) near: Range<usize>,
+    /// For the bodies of these cubes, from the first one on.
+    pub(super) sums: [&'w mut [f64]; D],
+    /// For each pair of cubes and each axis, a row of packs.
+    pub(super) reactions: &'w mut [Pack],
+}
+
+impl<'w, Q, const D: usize> Neighbours<'w, Q, D> {
+    pub(super) fn new(
+        by: Nearby<'w, Q, D>,
+        cubes: Range<usize>,
+        sums: [&'w mut [f64]; D],
+        reactions: &'w mut [Pack],
+    ) -> Self {
+        let near = on(&by.lists.near, &cubes);
+        Self { by, cubes, near, sums, reactions }
+    }
+}
+
+impl<Q: Sync, const D: usize> Part for Neighbours<'_, Q, D> {
+    fn size(&self) -> usize {
+        self.sums[0].len()
+    }
+    fn halves(self) -> (Self, Option<Self>) {
+        let Self { by, cubes, near, mut sums, reactions } = self;
+        let count = cubes.len() / 2;
+        if count == 0 {
+            return (Self { by, cubes, near, sums, reactions }, None);
+        }
+        let middle = cubes.start + count;
+        let bodies = by.tree.cubes[middle].first - by.tree.cubes[cubes.start].first;
+        let other_sums = sums.each_mut().map(|sums| {
+            let (own, other) = core::mem::take(sums).split_at_mut(bodies);
+            *sums = own;
+            other
+        });
+        let between =
+            near.start + by.lists.near[near.clone()].partition_point(|pair| (pair.target as usize) < middle);
+        let packs = by.lists.packs[between] - by.lists.packs[near.start];
+        let (reactions, other_reactions) = reactions.split_at_mut(D * packs);
+        let other = Self {
+            by,
+            cubes: middle..cubes.end,
+            near: between..near.end,
+            sums: other_sums,
+            reactions: other_reactions,
+        };
+        (Self { by, cubes: cubes.start..middle, near: near.start..between, sums, reactions }, Some(other))
+    }
+}
+
+impl<Q: Quantity<D>, const D: usize> Neighbours<'_, Q, D> {
+    pub(super) fn act(self) {
+        let Self { by, cubes, near, mut sums, reactions } = self;
+        let (origin, first_pack) = (by.tree.cubes[cubes.start].first, by.lists.packs[near.start]);
+        widest_if(
+            true,
+            #[inline(always)]
+            || {
+                for number in near {
+                    let Pair { target, source } = by.lists.near[number];
+                    let [one, other] = [target, source].map(|cube| &by.tree.cubes[cube as usize]);
+                    if target == source {
+                        within(&by, one, origin, &mut sums);
+                    } else if target < source {
+                        let packs =
+                            [number, number + 1].map(|number| D * (by.lists.packs[number] - first_pack));
+                        between(&by, one, other, origin, &mut sums, &mut reactions[packs[0]..packs[1]]);
+                    }
+                }
+            },
+        );
+    }
+}
+
+/// Adds what the bodies of a cube do to each other.
+#[inline(always)]
+fn within<Q: Quantity<D>, const D: usize>(
+    by: &Nearby<'_, Q, D>,
+    cube: &Cube<D>,
+    origin: usize,
+    sums: &mut [&mut [f64]; D],
+) {
+    for first in cube.bodies().step_by(LANES) {
+        let mut found = Q::none();
+        let at: [Pack; D] = core::array::from_fn(|axis| load(&by.places[axis], first));
+        for body in cube.bodies() {
+            let mut difference = at;
+            let mut r2 = Pack::all(0.0);
+            for axis in 0..D {
+                difference[axis] = at[axis] - Pack::all(by.places[axis][body]);
+                r2 += difference[axis] * difference[axis];
+            }
+            let mut weight = Pack::all(by.weights[body]);
+            if (first..first + LANES).contains(&body) {
+                // Itself: a number stands in the place of the distance.
+                (weight.0[body - first], r2.0[body - first]) = (0.0, 1.0);
+            }
+            by.quantity.add_pair(&mut found, weight, &difference, r2);
+        }
+        add_before(cube.past - origin, sums, first - origin, found.as_ref());
+    }
+}
+
+/// Adds what the bodies of the cubes `one` and `other` do to each other: to the sums of `one`, and to the `reactions` on `other`.
+#[inline(always)]
+fn between<Q: Quantity<D>, const D: usize>(
+    by: &Nearby<'_, Q, D>,
+    one: &Cube<D>,
+    other: &Cube<D>,
+    origin: usize,
+    sums: &mut [&mut [f64]; D],
+    reactions: &mut [Pack],
+) {
+    reactions.fill(Pack::all(0.0));
+    let whole = other.bodies().len() / LANES;
+    let mut first_of_rest = [Pack::all(0.0); 2];
+    // In lanes without a body a number stands in the place of the distance.
+    for lane in 0..LANES {
+        let is_body = other.first + whole * LANES + lane < other.past;
+        first_of_rest[usize::from(!is_body)].0[lane] = 1.0;
+    }
+    let [bodies, nothing] = first_of_rest;
+    for body in one.bodies() {
+        let at: [Pack; D] = core::array::from_fn(|axis| Pack::all(by.places[axis][body]));
+        let weight = Pack::all(by.weights[body]);
+        let mut found = Q::none();
+        let packs = other.bodies().step_by(LANES).zip(reactions.chunks_exact_mut(D)).enumerate();
+        for (pack, (first, reactions)) in packs {
+            let mut difference = at;
+            let mut r2 = Pack::all(0.0);
+            for axis in 0..D {
+                difference[axis] = at[axis] - load(&by.places[axis], first);
+                r2 += difference[axis] * difference[axis];
+            }
+            let mut weights = load(by.weights, first);
+            if pack == whole {
+                r2 = r2 * bodies + nothing;
+                weights = load_before(other.past, by.weights, first);
+            }
+            by.quantity.add_both(&mut found, reactions, [weights, weight], &difference, r2);
+        }
+        for (sums, found) in sums.iter_mut().zip(found.as_ref()) {
+            sums[body - origin] += found.0.iter().sum::<f64>();
+        }
+    }
+}
+
+/// Adds what earlier cubes did to some of a level.
+pub(super) fn add_reactions<const D: usize>(
+    tree: &Tree<D>,
+    lists: &Lists,
+    cubes: &Range<usize>,
+    reactions: &[Pack],
+    sums: &mut [&mut [f64]; D],
+) {
+    let origin = tree.cubes[cubes.start].first;
+    for number in on(&lists.near, cubes) {
+        let Pair { target, source } = lists.near[number];
+        if source >= target {
+            continue;
+        }
+        let cube = &tree.cubes[target as usize];
+        let from = &reactions[D * lists.packs[lists.opposite[number]]..];
+        for (first, found) in cube.bodies().step_by(LANES).zip(from.chunks_exact(D)) {
+            add_before(cube.past - origin, sums, first - origin, found);
+        }
+    }
+}
