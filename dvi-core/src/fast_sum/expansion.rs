@@ -1,6 +1,7 @@
 //! What an evaluation needs that does not depend on the places of the bodies.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::basis::Basis;
 use super::refinement::Refinement;
@@ -22,7 +23,8 @@ pub(super) struct Expansion<const D: usize> {
     pub(super) rows: Vec<Row<D>>,
     pub(super) refinement: Refinement,
     tolerance: f64,
-    transfers: Vec<Transfer>,
+    /// By the binary logarithm of the edge; none where bodies are to be summed one by one.
+    transfers: Vec<(i32, Option<Transfer>)>,
 }
 
 impl<const D: usize> Expansion<D> {
@@ -39,15 +41,22 @@ impl<const D: usize> Expansion<D> {
         Self { basis, rows, refinement, tolerance, transfers: Vec::new() }
     }
 
-    /// Where the matrices between cubes with this edge are; they are computed where they are needed first.
-    pub(super) fn position(&mut self, edge: i32, kernel: impl Fn(f64) -> f64) -> usize {
-        self.transfers.iter().position(|known| known.edge == edge).unwrap_or_else(|| {
-            self.transfers.push(Transfer::new(&self.basis, self.tolerance, edge, kernel));
+    /// Where the matrices between cubes with this edge are, if there are any; they are computed where they are needed first.
+    pub(super) fn position(&mut self, edge: i32, kernel: impl Fn(f64) -> f64) -> Option<usize> {
+        let known = self.transfers.iter().position(|(known, _)| *known == edge);
+        let position = known.unwrap_or_else(|| {
+            self.transfers.push((edge, Transfer::new(&self.basis, self.tolerance, edge, kernel)));
             self.transfers.len() - 1
-        })
+        });
+        self.transfers[position].1.is_some().then_some(position)
     }
 
-    pub(super) fn transfer(&self, position: usize) -> &Transfer {
-        &self.transfers[position]
+    pub(super) fn transfer(&self, position: Option<usize>) -> Option<&Transfer> {
+        self.transfers[position?].1.as_ref()
+    }
+
+    /// Forgets the matrices of cubes that are far from these sizes.
+    pub(super) fn keep(&mut self, edges: Range<i32>) {
+        self.transfers.retain(|(edge, _)| (edges.start - 1..=edges.end).contains(edge));
     }
 }

@@ -8,7 +8,7 @@ use super::transfer::{number, offsets, touch};
 use super::tree::{Cube, Tree};
 
 /// One cube acts on another of its level.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Pair {
     pub(super) target: u32,
     pub(super) source: u32,
@@ -70,11 +70,19 @@ impl Lists {
             }
             next = past;
         }
-        self.oppose(tree);
+    }
+
+    /// Counts the pairs of cubes of one level as near.
+    pub(super) fn approach<const D: usize>(&mut self, level: usize) {
+        let lists = level * offsets::<D>()..(level + 1) * offsets::<D>();
+        for list in &mut self.far[lists] {
+            self.near.append(list);
+        }
+        self.near.sort_unstable();
     }
 
     /// Finds what depends on both orders of a pair.
-    fn oppose<const D: usize>(&mut self, tree: &Tree<D>) {
+    pub(super) fn oppose<const D: usize>(&mut self, tree: &Tree<D>) {
         let Self { near, packs, opposite, .. } = self;
         packs.clear();
         opposite.clear();
@@ -85,7 +93,7 @@ impl Lists {
                 before += tree.cubes[source as usize].bodies().len().div_ceil(LANES);
             }
             // The list is in the order of targets, and of sources for each.
-            let place = near.partition_point(|pair| (pair.target, pair.source) < (source, target));
+            let place = near.partition_point(|pair| *pair < Pair { target: source, source: target });
             opposite.push(place);
         }
         packs.push(before);

@@ -87,7 +87,8 @@ impl<const D: usize> Moments<'_, D> {
                         refinement.widen(rows, from.tree.cubes[part].side(), room);
                         moments.iter_mut().zip(&*room).for_each(|(moment, part)| *moment += part);
                     }
-                    if let Some(Transfer { rank, compression: [compress, _], .. }) = from.transfer {
+                    if let Some(Transfer { rank: rank @ 1.., compression: [compress, _], .. }) = from.transfer
+                    {
                         let sent = &mut sent[..*rank];
                         sent.fill(0.0);
                         add_product(sent, compress, moments);

@@ -11,6 +11,7 @@ use super::packs::{LANES, Pack, add_before, load, load_before};
 use super::quantity::Quantity;
 use super::threads::Part;
 use super::tree::{Cube, Tree};
+use crate::scalar::Lanes;
 use crate::scalar::simd::widest_if;
 
 /// What acts nearby.
@@ -130,12 +131,18 @@ fn within<Q: Quantity<D>, const D: usize>(
                 difference[axis] = at[axis] - Pack::all(by.places[axis][body]);
                 r2 += difference[axis] * difference[axis];
             }
-            let mut weight = Pack::all(by.weights[body]);
+            let weight = Pack::all(by.weights[body]);
             if (first..first + LANES).contains(&body) {
-                // Itself: a number stands in the place of the distance.
-                (weight.0[body - first], r2.0[body - first]) = (0.0, 1.0);
+                // Of itself it adds nothing, whatever K is there.
+                let mut some = Q::none();
+                by.quantity.add_pair(&mut some, weight, &difference, r2);
+                for (found, some) in found.as_mut().iter_mut().zip(some.as_mut()) {
+                    some.0[body - first] = 0.0;
+                    *found += *some;
+                }
+            } else {
+                by.quantity.add_pair(&mut found, weight, &difference, r2);
             }
-            by.quantity.add_pair(&mut found, weight, &difference, r2);
         }
         add_before(cube.past - origin, sums, first - origin, found.as_ref());
     }
@@ -153,36 +160,54 @@ fn between<Q: Quantity<D>, const D: usize>(
 ) {
     reactions.fill(Pack::all(0.0));
     let whole = other.bodies().len() / LANES;
-    let mut first_of_rest = [Pack::all(0.0); 2];
-    // In lanes without a body a number stands in the place of the distance.
-    for lane in 0..LANES {
-        let is_body = other.first + whole * LANES + lane < other.past;
-        first_of_rest[usize::from(!is_body)].0[lane] = 1.0;
-    }
-    let [bodies, nothing] = first_of_rest;
-    for body in one.bodies() {
-        let at: [Pack; D] = core::array::from_fn(|axis| Pack::all(by.places[axis][body]));
-        let weight = Pack::all(by.weights[body]);
-        let mut found = Q::none();
-        let packs = other.bodies().step_by(LANES).zip(reactions.chunks_exact_mut(D)).enumerate();
-        for (pack, (first, reactions)) in packs {
-            let mut difference = at;
-            let mut r2 = Pack::all(0.0);
-            for axis in 0..D {
-                difference[axis] = at[axis] - load(&by.places[axis], first);
-                r2 += difference[axis] * difference[axis];
+    let (reactions, last) = reactions.split_at_mut(whole * D);
+    // In lanes without a body the last one stands, with the weight 0.
+    let rest: [Pack; D] = core::array::from_fn(|axis| {
+        let places = &by.places[axis][other.bodies()];
+        Lanes(core::array::from_fn(|lane| places[(whole * LANES + lane).min(places.len() - 1)]))
+    });
+    let weights_of_rest = load_before(other.past, by.weights, other.first + whole * LANES);
+    for group in one.bodies().step_by(LANES) {
+        // The lanes of a body are added up when those of all are in memory: else the compiler takes them apart before.
+        let mut all = [Q::none(); LANES];
+        let bodies = group..one.past.min(group + LANES);
+        for (body, kept) in bodies.clone().zip(&mut all) {
+            let mut found = Q::none();
+            let body =
+                (core::array::from_fn(|axis| Pack::all(by.places[axis][body])), Pack::all(by.weights[body]));
+            for (first, reactions) in other.bodies().step_by(LANES).zip(reactions.chunks_exact_mut(D)) {
+                let places = core::array::from_fn(|axis| load(&by.places[axis], first));
+                add_both(by.quantity, &mut found, reactions, body, (places, load(by.weights, first)));
             }
-            let mut weights = load(by.weights, first);
-            if pack == whole {
-                r2 = r2 * bodies + nothing;
-                weights = load_before(other.past, by.weights, first);
+            if !last.is_empty() {
+                add_both(by.quantity, &mut found, last, body, (rest, weights_of_rest));
             }
-            by.quantity.add_both(&mut found, reactions, [weights, weight], &difference, r2);
+            *kept = found;
         }
-        for (sums, found) in sums.iter_mut().zip(found.as_ref()) {
-            sums[body - origin] += found.0.iter().sum::<f64>();
+        for (body, found) in bodies.zip(&all) {
+            for (sums, found) in sums.iter_mut().zip(found.as_ref()) {
+                sums[body - origin] += found.0.iter().sum::<f64>();
+            }
         }
     }
+}
+
+/// Adds what one body and several do to each other, each given by its places and weights.
+#[inline(always)]
+fn add_both<Q: Quantity<D>, const D: usize>(
+    quantity: &Q,
+    found: &mut Q::Sums,
+    reactions: &mut [Pack],
+    (at, weight): ([Pack; D], Pack),
+    (places, weights): ([Pack; D], Pack),
+) {
+    let mut difference = at;
+    let mut r2 = Pack::all(0.0);
+    for axis in 0..D {
+        difference[axis] = at[axis] - places[axis];
+        r2 += difference[axis] * difference[axis];
+    }
+    quantity.add_both(found, reactions, [weights, weight], &difference, r2);
 }
 
 /// Adds what earlier cubes did to some of a level.

@@ -78,7 +78,7 @@ pub(super) struct Ends {
 /// Adds the products of a square matrix, given row by row, with several vectors, in lanes.
 #[inline(always)]
 pub(super) fn add_products(matrix: &[f64], size: usize, ends: &[Ends], from: &[f64], to: &mut [f64]) {
-    let mut vectors = [Pack::all(0.0); BLOCK];
+    let [mut vectors, mut products] = [[Pack::all(0.0); BLOCK]; 2];
     for first in (0..size).step_by(BLOCK) {
         let columns = BLOCK.min(size - first);
         for (lane, Ends { from: start, .. }) in ends.iter().enumerate() {
@@ -87,26 +87,35 @@ pub(super) fn add_products(matrix: &[f64], size: usize, ends: &[Ends], from: &[f
                 vector.0[lane] = *entry;
             }
         }
-        for four in (0..size).step_by(FOUR) {
-            let row = |row: usize| {
-                // The last row again where there are fewer.
-                let start = (four + row).min(size - 1) * size + first;
-                &matrix[start..start + columns]
-            };
-            let rows: [&[f64]; FOUR] = [row(0), row(1), row(2), row(3)];
-            let mut products = [Pack::all(0.0); FOUR];
-            for (column, vector) in vectors[..columns].iter().enumerate() {
-                for row in 0..FOUR {
-                    products[row] += Pack::all(rows[row][column]) * *vector;
-                }
-            }
-            let count = FOUR.min(size - four);
+        for top in (0..size).step_by(BLOCK) {
+            let products = &mut products[..BLOCK.min(size - top)];
+            multiply(&matrix[first..], [top, size], &vectors[..columns], products);
             for (lane, Ends { to: start, .. }) in ends.iter().enumerate() {
-                let sums = &mut to[start + four..start + four + count];
-                for (sum, product) in sums.iter_mut().zip(&products) {
+                let sums = &mut to[start + top..];
+                for (sum, product) in sums.iter_mut().zip(&*products) {
                     *sum += product.0[lane];
                 }
             }
         }
+    }
+}
+
+/// Sets `products` to those of some rows of a matrix, from `top` on, each of `size` entries, with some vectors.
+#[inline(always)]
+fn multiply(matrix: &[f64], [top, size]: [usize; 2], vectors: &[Pack], products: &mut [Pack]) {
+    for (four, out) in products.chunks_mut(FOUR).enumerate() {
+        let row = |row: usize| {
+            // The last row again where there are fewer.
+            let start = (top + four * FOUR + row.min(out.len() - 1)) * size;
+            &matrix[start..start + vectors.len()]
+        };
+        let rows: [&[f64]; FOUR] = [row(0), row(1), row(2), row(3)];
+        let mut sums = [Pack::all(0.0); FOUR];
+        for (column, vector) in vectors.iter().enumerate() {
+            for row in 0..FOUR {
+                sums[row] += Pack::all(rows[row][column]) * *vector;
+            }
+        }
+        out.copy_from_slice(&sums[..out.len()]);
     }
 }

@@ -7,7 +7,7 @@ use crate::PairSum;
 /// What is summed for each body.
 pub(super) trait Quantity<const D: usize>: Sync {
     /// Its components.
-    type Sums: Copy + AsRef<[Pack]>;
+    type Sums: Copy + AsRef<[Pack]> + AsMut<[Pack]>;
     fn none() -> Self::Sums;
     /// Adds that of a body with `weight` at a squared distance `r2`, seen in the direction `difference`.
     fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: &[Pack; D], r2: Pack);

@@ -8,7 +8,8 @@ use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
 
-use super::basis::{self, Basis};
+use super::basis::Basis;
+use super::interpolant::Interpolant;
 use super::tree::exp2;
 
 /// Two cubes of one level that are no further apart than this, and do not touch.
@@ -37,8 +38,6 @@ fn offset<const D: usize>(number: usize) -> [i32; D] {
 /// The matrices κ between cubes of one size, of the rank that the tolerance asks for: κ ≈ U κ̃ Uᵀ with the same U for all t.
 #[derive(Clone, Debug)]
 pub(super) struct Transfer {
-    /// The binary logarithm of the edge.
-    pub(super) edge: i32,
     pub(super) rank: usize,
     /// U and its transpose, row by row.
     pub(super) compression: [Vec<f64>; 2],
@@ -47,28 +46,78 @@ pub(super) struct Transfer {
 }
 
 impl Transfer {
+    /// None where K has no numbers at these distances, or where forces to the `tolerance` are differences of K that rounding does not
+    /// leave.
     pub(super) fn new<const D: usize>(
         basis: &Basis<D>,
         tolerance: f64,
         edge: i32,
         kernel: impl Fn(f64) -> f64,
-    ) -> Self {
+    ) -> Option<Self> {
         let half = exp2(edge - 1);
-        let full = Full::new(basis, |r2| kernel(r2 * half * half));
-        let all: Vec<Option<DMatrix<f64>>> =
-            (0..offsets::<D>()).map(|number| full.matrix(basis, offset(number))).collect();
-        let range = range(all.iter().flatten(), basis.len(), tolerance);
-        let compressed = all.iter().map(|matrix| match matrix {
-            Some(matrix) => rows(&(range.transpose() * matrix * &range)),
+        let ordered = |t: &[i32; D]| !touch(*t) && t.is_sorted_by(|a, b| a >= b) && t[D - 1] >= 0;
+        let all = || (0..offsets::<D>()).map(offset::<D>);
+        let of = |t| (t, Interpolant::new(basis, t, |r2| kernel(r2 * half * half)));
+        let known: Vec<([i32; D], Interpolant)> = all().filter(ordered).map(of).collect();
+        let most = |of: fn(&Interpolant) -> f64| known.iter().map(|(_, found)| of(found)).fold(0.0, larger);
+        let [varying, size] = [most(Interpolant::varying), most(Interpolant::size)];
+        if size == 0.0 {
+            let (compression, matrices) = (Default::default(), all().map(|_| Vec::new()).collect());
+            return Some(Self { rank: 0, compression, matrices });
+        }
+        let is_above_rounding = varying.is_finite() && varying * tolerance > ROUNDING * size;
+        if !is_above_rounding {
+            return None;
+        }
+        let matrix = |t| matrix(basis, &known, t);
+        let octant = all().filter(|t| t.iter().all(|steps| *steps >= 0));
+        let range = range(basis, octant, matrix, varying, tolerance)?;
+        let compressed = all().map(|t| match matrix(t) {
+            Some(matrix) => rows(&(range.transpose() * (matrix * &range))),
             None => Vec::new(),
         });
         let matrices = compressed.collect();
-        Self { edge, rank: range.ncols(), compression: [rows(&range), rows(&range.transpose())], matrices }
+        Some(Self { rank: range.ncols(), compression: [rows(&range), rows(&range.transpose())], matrices })
     }
+}
+
+/// Rounding errors of the coefficients of an interpolant, over the size of K.
+const ROUNDING: f64 = 30.0 * f64::EPSILON;
+
+/// The larger of two numbers; none if one of them is none.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
 }
 
 fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
     matrix.transpose().as_slice().to_vec()
+}
+
+/// κ for any t, from those with t₁ ≥ … ≥ t_D ≥ 0; none for cubes that touch. K(|u − v + 2t|) is the same with coordinates exchanged and
+/// reflected, and T_m is odd or even.
+fn matrix<const D: usize>(
+    basis: &Basis<D>,
+    known: &[([i32; D], Interpolant)],
+    t: [i32; D],
+) -> Option<DMatrix<f64>> {
+    let mut from: [usize; D] = core::array::from_fn(|axis| axis);
+    from.sort_by_key(|&axis| -t[axis].abs());
+    let representative = from.map(|axis| t[axis].abs());
+    let (_, interpolant) = known.iter().find(|(known, _)| *known == representative)?;
+    let functions: Vec<(usize, f64)> = basis
+        .degrees
+        .iter()
+        .map(|degrees| {
+            let odd = (0..D).filter(|&axis| t[axis] < 0 && degrees[axis] % 2 == 1).count();
+            let sign = if odd % 2 == 0 { 1.0 } else { -1.0 };
+            (interpolant.place(from.map(|axis| degrees[axis])), sign)
+        })
+        .collect();
+    let entry = |m: usize, n: usize| {
+        let [(m, one), (n, other)] = [functions[m], functions[n]];
+        one * other * interpolant.coefficient(m, n)
+    };
+    Some(DMatrix::from_fn(basis.len(), basis.len(), entry))
 }
 
 /// Columns that a matrix is sampled by.
@@ -76,96 +125,60 @@ const SAMPLES: usize = 8;
 
 /// An orthonormal basis of the columns of all matrices, as far as they are not below the tolerance, by the singular values of the
 /// products with a few vectors that look random (Halko, Martinsson & Tropp 2011). With each κ comes its transpose, that of −t, so the
-/// columns are the rows as well.
+/// columns are the rows as well. With each t come its reflections: so the functions that are odd along the same axes are taken by
+/// themselves, for t without negative steps.
 ///
-/// They are measured by what varies: the constant part of a kernel makes no forces.
-fn range<'m>(
-    matrices: impl Iterator<Item = &'m DMatrix<f64>> + Clone,
-    size: usize,
+/// Columns are measured by what varies: the constant part of a kernel makes no forces. `scale` is about the size of that. None if there
+/// are no singular values.
+fn range<const D: usize>(
+    basis: &Basis<D>,
+    offsets: impl Iterator<Item = [i32; D]>,
+    matrix: impl Fn([i32; D]) -> Option<DMatrix<f64>>,
+    scale: f64,
     tolerance: f64,
-) -> DMatrix<f64> {
-    let varying = |matrix: &DMatrix<f64>| (matrix.norm_squared() - matrix[(0, 0)].powi(2)).max(0.0).sqrt();
-    let largest = matrices.clone().map(varying).fold(0.0, |a: f64, b| if b > a { b } else { a });
+) -> Option<DMatrix<f64>> {
+    let size = basis.len();
     let mut state = 2009_u64;
     let mut entry = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
     };
-    let samples: Vec<DMatrix<f64>> =
-        matrices.map(|matrix| matrix * DMatrix::from_fn(size, SAMPLES.min(size), |_, _| entry())).collect();
-    let columns: Vec<_> = samples.iter().flat_map(|sample| sample.column_iter()).collect();
-    let svd = DMatrix::from_columns(&columns).svd(true, false);
-    let rank = svd.singular_values.iter().filter(|value| **value > tolerance * largest).count().max(1);
-    svd.u.map_or_else(|| DMatrix::identity(size, size), |u| u.columns(0, rank).into_owned())
-}
-
-/// The matrices κ of the t with t₁ ≥ … ≥ t_D ≥ 0.
-struct Full<const D: usize> {
-    representatives: Vec<([i32; D], Vec<f64>)>,
-}
-
-impl<const D: usize> Full<D> {
-    fn new(basis: &Basis<D>, kernel: impl Fn(f64) -> f64) -> Self {
-        let nodes = basis::nodes(basis.order);
-        let to_coefficients = basis::coefficients(basis.order);
-        let all = (0..offsets::<D>()).map(offset);
-        let representatives =
-            all.filter(|t: &[i32; D]| !touch(*t) && t.is_sorted_by(|a, b| a >= b) && t[D - 1] >= 0);
-        let coefficients = |t| transformed(between(&nodes, t, &kernel), &to_coefficients, basis.order, 2 * D);
-        Self { representatives: representatives.map(|t| (t, coefficients(t))).collect() }
+    let mut largest = 0.0;
+    let mut samples = Vec::new();
+    for t in offsets {
+        let Some(matrix) = matrix(t) else { continue };
+        let matrix = matrix / scale;
+        largest = larger(largest, (matrix.norm_squared() - matrix[(0, 0)].powi(2)).max(0.0).sqrt());
+        // As many times as it has reflections.
+        let reflections = t.iter().filter(|steps| **steps != 0).fold(1.0, |count, _| 2.0 * count);
+        let vectors = DMatrix::from_fn(size, SAMPLES.min(size), |_, _| f64::sqrt(reflections) * entry());
+        samples.push(matrix * vectors);
     }
-
-    /// κ for any t; none for cubes that touch. K(|u − v + 2t|) is the same with coordinates exchanged and reflected, and T_m is odd or
-    /// even.
-    fn matrix(&self, basis: &Basis<D>, t: [i32; D]) -> Option<DMatrix<f64>> {
-        let mut from: [usize; D] = core::array::from_fn(|axis| axis);
-        from.sort_by_key(|&axis| -t[axis].abs());
-        let representative = from.map(|axis| t[axis].abs());
-        let (_, coefficients) = self.representatives.iter().find(|(known, _)| *known == representative)?;
-        let place =
-            |degrees: &[usize; D]| from.iter().fold(0, |place, &axis| place * basis.order + degrees[axis]);
-        let sign = |degrees: &[usize; D]| {
-            let odd = (0..D).filter(|&axis| t[axis] < 0 && degrees[axis] % 2 == 1).count();
-            if odd % 2 == 0 { 1.0 } else { -1.0 }
-        };
-        let all = basis.order.pow(D as u32);
-        let entry = |m: usize, n: usize| {
-            let [m, n] = [m, n].map(|function| &basis.degrees[function]);
-            sign(m) * sign(n) * coefficients[place(m) * all + place(n)]
-        };
-        Some(DMatrix::from_fn(basis.len(), basis.len(), entry))
-    }
-}
-
-/// A function of |u − v + 2t|² at all nodes u, v; the last coordinate of v runs fastest.
-fn between<const D: usize>(nodes: &[f64], offset: [i32; D], of: &impl Fn(f64) -> f64) -> Vec<f64> {
-    let order = nodes.len();
-    let all = order.pow(D as u32);
-    let coordinate = |place: usize, axis: usize| nodes[place / order.pow((D - 1 - axis) as u32) % order];
-    let mut values = Vec::with_capacity(all * all);
-    for target in 0..all {
-        for source in 0..all {
-            let square = |axis: usize| {
-                let steps = 2.0 * f64::from(offset[axis]);
-                (coordinate(target, axis) - coordinate(source, axis) + steps).powi(2)
-            };
-            values.push(of((0..D).map(square).sum()));
+    let mut columns = Vec::new();
+    for parity in 0..1_usize << D {
+        let is_odd = |axis: usize| parity >> axis & 1 == 1;
+        let of_parity = |m: &usize| (0..D).all(|axis| (basis.degrees[*m][axis] % 2 == 1) == is_odd(axis));
+        let functions: Vec<usize> = (0..size).filter(of_parity).collect();
+        if functions.is_empty() {
+            continue;
+        }
+        let parts: Vec<_> = samples.iter().map(|sample| sample.select_rows(&functions)).collect();
+        let all: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
+        for direction in directions(DMatrix::from_columns(&all), tolerance * largest)?.column_iter() {
+            let mut column = alloc::vec![0.0; size];
+            functions.iter().zip(direction.iter()).for_each(|(function, entry)| column[*function] = *entry);
+            columns.extend(column);
         }
     }
-    values
+    let rank = columns.len() / size;
+    (rank > 0).then(|| DMatrix::from_vec(size, rank, columns))
 }
 
-/// Takes a matrix to each of `axes` axes of an array.
-fn transformed(mut values: Vec<f64>, matrix: &[f64], order: usize, axes: usize) -> Vec<f64> {
-    let mut column = alloc::vec![0.0; order];
-    for axis in 0..axes {
-        let stride = order.pow(axis as u32);
-        for start in (0..values.len()).filter(|place| (place / stride).is_multiple_of(order)) {
-            for (m, entry) in column.iter_mut().enumerate() {
-                *entry = (0..order).map(|i| matrix[m * order + i] * values[start + i * stride]).sum();
-            }
-            column.iter().enumerate().for_each(|(m, entry)| values[start + m * stride] = *entry);
-        }
-    }
-    values
+/// The singular vectors of values above a bound; none if the iteration for them does not end.
+fn directions(columns: DMatrix<f64>, least: f64) -> Option<DMatrix<f64>> {
+    const ITERATIONS: usize = 10_000;
+    let svd = columns.try_svd(true, false, 5.0 * f64::EPSILON, ITERATIONS)?;
+    let kept: Vec<usize> =
+        (0..svd.singular_values.len()).filter(|place| svd.singular_values[*place] > least).collect();
+    svd.u.map(|vectors| vectors.select_columns(&kept))
 }

@@ -68,9 +68,8 @@ pub(super) struct Tree<const D: usize> {
 pub(super) struct NotFinite;
 
 impl<const D: usize> Tree<D> {
-    pub(super) fn new(bodies: usize) -> Self {
-        let order = (0..bodies).map(|body| (0, body as u32)).collect();
-        Self { order, cubes: Vec::new(), levels: Vec::new(), edge: 0, corner: [0.0; D] }
+    pub(super) fn new() -> Self {
+        Self { order: Vec::new(), cubes: Vec::new(), levels: Vec::new(), edge: 0, corner: [0.0; D] }
     }
 
     /// Sorts bodies at these places.
@@ -79,6 +78,9 @@ impl<const D: usize> Tree<D> {
     /// found again while the bodies move a little.
     pub(super) fn sort(&mut self, places: [&[f64]; D]) -> Result<(), NotFinite> {
         self.enclose(places)?;
+        if self.order.len() != places[0].len() {
+            self.order = (0..places[0].len()).map(|body| (0, body as u32)).collect();
+        }
         let cells = f64::from(1_u32 << LEVELS) / exp2(self.edge);
         for (key, body) in &mut self.order {
             *key = interleaved::<D>(core::array::from_fn(|axis| {

@@ -37,14 +37,13 @@ pub(super) struct Work<const D: usize> {
 }
 
 impl<const D: usize> Work<D> {
-    pub(super) fn new(bodies: usize) -> Self {
-        let padded = || alloc::vec![0.0; bodies + LANES];
+    pub(super) fn new() -> Self {
         Self {
-            tree: Tree::new(bodies),
+            tree: Tree::new(),
             lists: Lists::default(),
-            places: core::array::from_fn(|_| padded()),
-            weights: padded(),
-            sums: core::array::from_fn(|_| padded()),
+            places: core::array::from_fn(|_| Vec::new()),
+            weights: Vec::new(),
+            sums: core::array::from_fn(|_| Vec::new()),
             transfers: Vec::new(),
             moments: Vec::new(),
             locals: Vec::new(),
@@ -92,7 +91,7 @@ impl<const D: usize> Work<D> {
         let pairs = near.sum::<u64>() - self.tree.order.len() as u64;
         let levels = self.transfers.iter().zip(self.lists.far.chunks(offsets::<D>()));
         let products = levels.map(|(transfer, lists)| {
-            let rank = transfer.map_or(0, |position| expansion.transfer(position).rank as u64);
+            let rank = expansion.transfer(*transfer).map_or(0, |transfer| transfer.rank as u64);
             rank * rank * lists.iter().map(|list| list.len() as u64).sum::<u64>()
         });
         Ok(Operations { pairs, products: products.sum() })
@@ -106,6 +105,9 @@ impl<const D: usize> Work<D> {
         places: [&[f64]; D],
     ) -> Result<(), NotFinite> {
         self.tree.sort(places)?;
+        let room = places[0].len() + LANES;
+        let Self { places: sorted, weights, sums, .. } = self;
+        sorted.iter_mut().chain(sums).chain([weights]).for_each(|numbers| numbers.resize(room, 0.0));
         for (place, &(_, body)) in self.tree.order.iter().enumerate() {
             for axis in 0..D {
                 self.places[axis][place] = places[axis][body as usize];
@@ -114,12 +116,20 @@ impl<const D: usize> Work<D> {
             self.weights[place] = system.weight(body as usize);
         }
         self.lists.fill(&self.tree, expansion.basis.len());
+        let levels = self.tree.levels.len();
+        expansion.keep(self.tree.edge(levels as u32)..self.tree.edge(0));
         self.transfers.clear();
-        for (level, lists) in self.lists.far.chunks(offsets::<D>()).take(self.tree.levels.len()).enumerate() {
+        for level in 0..levels {
+            let lists = &self.lists.far[level * offsets::<D>()..][..offsets::<D>()];
             let has_any = lists.iter().any(|list| !list.is_empty());
             let edge = self.tree.edge(level as u32);
-            self.transfers.push(has_any.then(|| expansion.position(edge, |r2| system.kernel(r2))));
+            let transfer = if has_any { expansion.position(edge, |r2| system.kernel(r2)) } else { None };
+            if has_any && transfer.is_none() {
+                self.lists.approach::<D>(level);
+            }
+            self.transfers.push(transfer);
         }
+        self.lists.oppose(&self.tree);
         let entries = if self.has_far() { self.tree.cubes.len() * expansion.basis.len() } else { 0 };
         for coefficients in [&mut self.moments, &mut self.locals, &mut self.sent, &mut self.received] {
             coefficients.resize(entries, 0.0);
@@ -141,7 +151,7 @@ impl<const D: usize> Work<D> {
         for (level, cubes) in tree.levels.iter().enumerate().rev() {
             let (own, below) = moments.split_at_mut(cubes.end * size);
             let entries = cubes.start * size..cubes.end * size;
-            let transfer = transfers[level].map(|position| expansion.transfer(position));
+            let transfer = expansion.transfer(transfers[level]);
             let from = Sources { expansion, tree, places, weights, transfer, below, first_below: cubes.end };
             let whole = Moments {
                 from,
@@ -176,7 +186,7 @@ impl<const D: usize> Work<D> {
         let levels = tree.levels.iter().zip(lists.far.chunks(offsets::<D>())).zip(transfers);
         for ((cubes, far), transfer) in levels {
             let (above, own) = locals.split_at_mut(cubes.start * size);
-            let transfer = transfer.map(|position| expansion.transfer(position));
+            let transfer = expansion.transfer(*transfer);
             let by =
                 Actions { expansion, tree, places, has_far, far, lists, reactions, transfer, sent, above };
             let bodies = tree.cubes[cubes.start].first..tree.cubes[cubes.end - 1].past;

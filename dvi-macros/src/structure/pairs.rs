@@ -84,6 +84,9 @@ impl PairSum {
             kernel.into_iter().map(|(factor, exponent)| graph.power(factor.into(), exponent)).collect();
         let kernel = graph.product(&powers).scaled(term.scale * pairs.body.scale);
         let blocks = blocks(graph, &pairs, kernel)?;
+        if blocks.iter().any(|block| model.block_size(*block as usize) != pairs.bodies) {
+            return None;
+        }
         let square = Node::Coordinate(Coordinate { block: blocks[0], index: Index::literal(0) });
         let square = graph.intern(square);
         let kernel = of_square(graph, &pairs, &blocks, kernel, square)?;

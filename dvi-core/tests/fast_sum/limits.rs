@@ -1,0 +1,97 @@
+//! Kernels, places and sizes at which a fast sum cannot be had in the usual way.
+
+use dvi_core::DegenerateLagrangian;
+use dvi_core::fast_sum::{FastSum, FastSumError};
+use dvi_core::prelude::*;
+
+use crate::{Blobs, Gravity, blobs, compare, numbers};
+
+/// Beads on springs that do not get longer than `length`.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| x[j] * d(y[j])),
+    hamiltonian = -sum_pairs(0..n, |j, k|
+        (1.0 - ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)) / length.powi(2)).ln()),
+)]
+struct Springs {
+    n: usize,
+    length: f64,
+}
+
+/// Hard discs of diameter 1.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| x[j] * d(y[j])),
+    hamiltonian = strength * sum_pairs(0..n, |j, k| ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - 1.0).ln()),
+)]
+struct Discs {
+    n: usize,
+    strength: f64,
+}
+
+/// Places that are at least 1.05 apart.
+fn lattice(n: usize) -> Vec<f64> {
+    let side = (n as f64).sqrt().ceil() as usize;
+    let place = |number: usize| 1.2 * number as f64;
+    let x = (0..n).map(|j| place(j % side)).collect::<Vec<_>>();
+    let y = (0..n).map(|j| place(j / side));
+    x.into_iter().chain(y).zip(numbers(31)).map(|(place, number)| place + 0.05 * number).collect()
+}
+
+#[test]
+fn bodies_are_summed_one_by_one_where_the_kernel_has_no_numbers() {
+    let n = 700;
+    let q: Vec<f64> = numbers(30).take(2 * n).collect();
+    let (force, energy) = compare::<_, 2>(&Springs { n, length: 3.0 }, &q, 1e-8);
+    assert!(force < 1e-8 && energy < 1e-8, "{force:e}, {energy:e}");
+}
+
+#[test]
+fn the_kernel_need_not_have_a_number_at_any_place_without_a_body() {
+    let n = 500;
+    let (force, energy) = compare::<_, 2>(&Discs { n, strength: 1.0 }, &lattice(n), 1e-8);
+    assert!(force < 1e-8 && energy < 1e-8, "{force:e}, {energy:e}");
+}
+
+#[test]
+fn strong_and_weak_forces() {
+    let n = 500;
+    for strength in [1e155, 1e-160] {
+        let discs = Discs { n, strength };
+        let q = lattice(n);
+        let fast = FastSum::<_, 2>::new(&discs, 1e-6).unwrap();
+        let [mut found, mut expected] = [vec![0.0; 2 * n], vec![0.0; 2 * n]];
+        fast.hamiltonian_gradient(&q, 0.0, &mut found);
+        discs.hamiltonian_gradient(&q, 0.0, &mut expected);
+        let largest = expected.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-5 * largest, "{strength:e}: {found:e}, {expected:e}");
+        }
+        let state = DiscsState { x: q[..n].to_vec(), y: q[n..].to_vec() };
+        let error = fast.measured_error(&state, n).unwrap();
+        assert!(error > 1e-12 && error < 1e-6, "{strength:e}: {error:e}");
+    }
+}
+
+#[test]
+fn deep_inside_of_a_core() {
+    let n = 600;
+    for (size, core, tolerance) in [(1e-9, 0.05, 1e-8), (1.0, 1e3, 1e-8), (1e-3, 0.05, 1e-10)] {
+        let q: Vec<f64> = numbers(32).take(2 * n).map(|number| size * number).collect();
+        let system = Blobs { shear: 0.0, ..blobs(n, core) };
+        let (force, energy) = compare::<_, 2>(&system, &q, tolerance);
+        assert!(force < tolerance && energy < tolerance, "size {size:e}: {force:e}, {energy:e}");
+    }
+}
+
+#[test]
+fn systems_that_are_not_whole_are_errors() {
+    let short = Gravity { n: 10, g: 1.0, mass: vec![1.0; 9], core: 0.1 };
+    let error = FastSum::<_, 3>::new(&short, 1e-3).unwrap_err();
+    assert!(matches!(error, FastSumError::Index(_)), "{error}");
+    let huge = Discs { n: usize::MAX / 4, strength: 1.0 };
+    assert!(FastSum::<_, 2>::new(&huge, 1e-6).is_ok());
+    let whole = Gravity { n: 10, g: 1.0, mass: vec![1.0; 10], core: 0.1 };
+    let error = FastSum::<_, 3>::new(&whole, 1e-7).unwrap_err();
+    assert!(error.to_string().contains("between 1e-6 and 1e-2"), "{error}");
+}
