@@ -40,6 +40,7 @@ mod rounding;
 mod schroedinger;
 mod sections;
 mod shadow;
+mod shear_layer;
 mod sphere_vortices;
 mod spherical_pendulum;
 mod spring_chain;
@@ -93,5 +94,6 @@ pub const ALL: &[Experiment] = &[
     massless::EXPERIMENT,
     schroedinger::EXPERIMENT,
     sphere_vortices::EXPERIMENT,
+    shear_layer::EXPERIMENT,
     three_species::EXPERIMENT,
 ];

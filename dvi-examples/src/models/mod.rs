@@ -2,6 +2,7 @@
 
 mod beam;
 mod billiard;
+mod blobs;
 mod bouncer;
 mod disc;
 mod double_pendulum;
@@ -27,6 +28,7 @@ mod vortices;
 
 pub use beam::*;
 pub use billiard::*;
+pub use blobs::*;
 pub use bouncer::*;
 pub use disc::*;
 pub use double_pendulum::*;

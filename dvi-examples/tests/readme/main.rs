@@ -10,6 +10,7 @@ mod elastic;
 mod energy;
 mod impacts;
 mod long_runs;
+mod many_bodies;
 mod numbers;
 mod rotations;
 mod table;
