@@ -20,13 +20,13 @@ use crate::mechanics::motion::{
     StageWork,
 };
 use crate::methods::collocation::MOST;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::simd::Task;
 use crate::scalar::{Lanes, norm};
 use crate::solve::{Convergence, Iteration, Stopping, repeat};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::state::summation::{Summation, carry};
+use crate::state::summation::{Summation, left_out};
 use crate::{Lagrangian, Real, Scalar, System, Vector};
 
 use coefficients::{Coefficients, combine};
@@ -185,7 +185,21 @@ where
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        E::run(Step { method: self, system, memory, q, t, h, statistics })
+        E::run(Steps { method: self, system, memory, q, clock: Clock::new(t, h), count: 1, statistics }).1
+    }
+
+    fn steps(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let (taken, result) = E::run(Steps { method: self, system, memory, q, clock, count, statistics });
+        statistics.steps += taken;
+        result
     }
 
     fn velocity(
@@ -207,27 +221,45 @@ where
 {
 }
 
-/// A step.
-struct Step<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
+/// Up to `count` steps.
+struct Steps<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
     method: &'a Gauss<STAGES, E>,
     system: &'a S,
     memory: &'a mut GaussMemory<STAGES, S, T>,
     q: &'a mut Vector<S, T>,
-    t: T,
-    h: T,
+    clock: Clock<T>,
+    count: u64,
     statistics: &'a mut Statistics,
 }
 
-impl<const STAGES: usize, E, S, T: Real> Task for Step<'_, STAGES, E, S, T>
+impl<const STAGES: usize, E, S, T: Real> Task for Steps<'_, STAGES, E, S, T>
 where
     S: System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
-    type Output = Result<(), StepFailure>;
+    /// How many have succeeded.
+    type Output = (u64, Result<(), StepFailure>);
 
     #[inline(always)]
-    fn run(self) -> Result<(), StepFailure> {
-        let Self { method: &Gauss { stopping, summation, .. }, system, memory, q, t, h, statistics } = self;
+    fn run(mut self) -> Self::Output {
+        for taken in 0..self.count {
+            if let Err(failure) = self.step(self.clock.after(taken).time(), self.clock.step_size()) {
+                return (taken, Err(failure));
+            }
+        }
+        (self.count, Ok(()))
+    }
+}
+
+impl<const STAGES: usize, E, S, T: Real> Steps<'_, STAGES, E, S, T>
+where
+    S: System<Kind: FirstOrder<S, T>>,
+    E: StageEvaluation<STAGES, S, T>,
+{
+    #[inline(always)]
+    fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
+        let Self { method, system, memory, q, statistics, .. } = self;
+        let (stopping, summation) = (method.stopping, method.summation);
         S::Kind::gather(&mut memory.equations, q, &mut memory.y);
         memory.guess(h);
         let speed = largest(&memory.slopes[0]);
@@ -336,7 +368,10 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         S::Kind::arrive(equations, system, next, q, t + h)?;
         if summation == Summation::Compensated {
             for part in 0..y.len() {
-                carry(&mut rest[part], &y[part], &increment[part], &next[part]);
+                let sums = y[part].iter().zip(increment[part].iter()).zip(next[part].iter());
+                for (rest, ((&y, &increment), &next)) in rest[part].iter_mut().zip(sums) {
+                    *rest = left_out(y, increment + *rest, next);
+                }
             }
         }
         for (completed, slopes) in completed.iter_mut().zip(slopes.iter()) {

@@ -79,10 +79,15 @@ impl<S: System, T: Real> Memory<T> for Carried<S, T> {
 
 /// Sets `rest` to what rounding has left out of `sum`, that of x and of (Δ + `rest`).
 #[inline(never)]
-pub(crate) fn carry<T: Real>(rest: &mut [T], x: &[T], increment: &[T], sum: &[T]) {
+fn carry<T: Real>(rest: &mut [T], x: &[T], increment: &[T], sum: &[T]) {
     for (((&sum, &x), &delta), rest) in sum.iter().zip(x).zip(increment).zip(rest) {
-        let added = delta + *rest;
-        let x_is_larger = Scalar::abs(x) >= Scalar::abs(added);
-        *rest = if x_is_larger { (x - sum) + added } else { (added - sum) + x };
+        *rest = left_out(x, delta + *rest, sum);
     }
+}
+
+/// What rounding has left out of `sum`, that of x and `added`.
+#[inline(always)]
+pub(crate) fn left_out<T: Real>(x: T, added: T, sum: T) -> T {
+    let x_is_larger = Scalar::abs(x) >= Scalar::abs(added);
+    if x_is_larger { (x - sum) + added } else { (added - sum) + x }
 }
