@@ -13,7 +13,7 @@ use crate::{DegenerateLagrangian, Lagrangian, NondegenerateLagrangian, Scalar, W
 /// The attribute implements it where it finds such a sum in L or H: `sum_pairs(0..n, |j, k| …)` over all n bodies, where n is known at run
 /// time only and is the length of an array for each coordinate of a body. The sum is a term, or a factor of a term whose others depend on
 /// parameters alone. It sums products of weights, which are parameters with one index, the same for j as for k, and of K. In K the
-/// coordinates stand in (x[j] − x[k])² + …, as such or as a `hypot` in the plane; no other index, coordinate, velocity or the time stands
+/// coordinates stand in `(x[j] - x[k]).powi(2) + …`, as such or as a `hypot` in the plane; no other index, coordinate, velocity or the time stands
 /// there. Other ways to write the same are not recognised, such as sums over ordered pairs, or a sum within a bracket. If there are several
 /// such sums it is the first. There are no constraints, impacts, rotations or unit vectors. `fast_sum::FastSum`, with the feature
 /// `fast-sums`, is for such systems.
