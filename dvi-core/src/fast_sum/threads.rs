@@ -3,6 +3,7 @@
 //! Each number is computed by one part, in an order that no cut changes: so results are bitwise the same for every number of threads.
 
 /// Something to do that can be cut in two.
+#[cfg_attr(not(feature = "threads"), allow(dead_code, reason = "one thread does it all"))]
 pub(super) trait Part: Send + Sized {
     /// How much there is to do.
     fn size(&self) -> usize;
