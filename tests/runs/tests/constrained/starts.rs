@@ -179,6 +179,36 @@ fn redundant_constraints_of_a_chain_are_named() {
     assert_eq!(constraint, 17);
 }
 
+/// A bead on a circle that runs away along the axis of it, and out of the numbers.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0 + x.exp(),
+    constraint = y * y + z * z - 1.0,
+)]
+#[derive(Clone, Copy, Debug)]
+struct Runaway;
+
+/// Many steps at once end where the same steps one by one end, with the same failure and at the same state.
+#[test]
+fn what_is_no_number_ends_many_steps_where_it_arises() -> Outcome {
+    let start = RunawayState { x: 0.0, y: 1.0, z: 0.0, dot_x: 1.0, dot_y: 0.0, dot_z: 1.0 };
+    let [mut together, mut alone] = [
+        Integrator::new(&Runaway, Rattle::default(), 0.1, start)?,
+        Integrator::new(&Runaway, Rattle::default(), 0.1, start)?,
+    ];
+    let Err(failed) = together.take_steps(1000) else { return Err("numbers without an end".into()) };
+    let Err(error) = (0..1000).try_for_each(|_| alone.advance()) else {
+        return Err("numbers without an end".into());
+    };
+    assert!(matches!(error.failure, StepFailure::NotFinite { coordinate: 0, .. }), "{error}");
+    // What is no number is not equal to itself.
+    assert_eq!(format!("{failed:?}"), format!("{error:?}"));
+    assert!(together.statistics().steps > 5, "{error}");
+    assert_eq!(together.statistics(), alone.statistics());
+    assert_eq!(together.state(), alone.state());
+    Ok(())
+}
+
 /// A step that fails names the reason, and the run stays where it was.
 #[test]
 fn a_step_that_is_too_long_fails_and_leaves_the_state() -> Outcome {
