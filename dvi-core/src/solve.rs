@@ -89,6 +89,10 @@ pub(crate) trait Iteration<T> {
     /// # Errors
     /// Any [`StepFailure`] ends the iteration.
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure>;
+
+    /// Counts what `times` improvements have cost, if they have not counted it themselves.
+    #[inline(always)]
+    fn count(&self, _times: u64, _statistics: &mut Statistics) {}
 }
 
 impl<T, F: FnMut(&mut Statistics) -> Result<T, StepFailure>> Iteration<T> for F {
@@ -121,22 +125,32 @@ pub(crate) fn repeat<T: Real>(
     statistics: &mut Statistics,
     mut iteration: impl Iteration<T>,
 ) -> Result<(), StepFailure> {
+    // Beside the iterations.
+    let mut more = 0;
     let result = loop {
         let correction = match iteration.improve(statistics) {
             Ok(correction) => correction,
-            Err(failure) => break Err(failure),
+            Err(failure) => {
+                more = 1;
+                break Err(failure);
+            }
         };
         match convergence.judge(correction) {
             Verdict::Continue => {}
             // Comparisons have not seen the derivatives that numbers may carry.
             Verdict::Accept if carries_derivatives::<T>() => {
-                break (0..convergence.more).try_for_each(|_| iteration.improve(statistics).map(drop));
+                break (0..convergence.more).try_for_each(|_| {
+                    more += 1;
+                    iteration.improve(statistics).map(drop)
+                });
             }
             Verdict::Accept => break Ok(()),
             Verdict::GiveUp => break Err(convergence.failure()),
         }
     };
-    statistics.iterations += convergence.iterations as u64;
+    let iterations = convergence.iterations as u64;
+    statistics.iterations += iterations;
+    iteration.count(iterations + more, statistics);
     result
 }
 

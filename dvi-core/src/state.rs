@@ -2,6 +2,7 @@
 
 pub(crate) mod history;
 pub(crate) mod memory;
+pub(crate) mod rates;
 mod statistics;
 pub(crate) mod summation;
 

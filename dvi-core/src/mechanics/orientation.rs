@@ -66,18 +66,38 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     /// [`StepFailure::Orientation`]; the last is kept then.
     #[inline]
     pub(crate) fn check(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
+        self.pass(system, None, (q, t))
+    }
+
+    /// Compares Ω at points and times `within` a step and at its `end` with the last, and keeps that at the end.
+    ///
+    /// # Errors
+    /// [`StepFailure::Orientation`]; the last is kept then.
+    #[inline(always)]
+    pub(crate) fn pass(
+        &mut self,
+        system: &S,
+        within: Option<(&[T], T)>,
+        end: (&[T], T),
+    ) -> Result<(), StepFailure> {
         match self {
-            Self::Constant => {}
-            Self::Pairs([entries, next]) => {
+            Self::Pairs([entries, next]) if S::CANONICAL => {
                 scratch!(next = system, *next);
-                compare_pairs(system, q, t, entries, next)?;
+                if let Some((q, t)) = within {
+                    compare_pairs(system, q, t, entries, next)?;
+                }
+                compare_pairs(system, end.0, end.1, entries, next)?;
                 entries.copy_from_slice(next);
             }
-            Self::Pfaffian(before, matrix) => {
-                let after = Self::pfaffian(system, q, t, matrix);
+            Self::Pfaffian(before, matrix) if !S::CANONICAL => {
+                if let Some((q, t)) = within {
+                    compare(*before, Self::pfaffian(system, q, t, matrix))?;
+                }
+                let after = Self::pfaffian(system, end.0, end.1, matrix);
                 compare(*before, after)?;
                 *before = after;
             }
+            _ => {}
         }
         Ok(())
     }
@@ -89,12 +109,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     #[inline]
     pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
         match self {
-            Self::Constant => Ok(()),
-            Self::Pairs([entries, next]) => {
+            Self::Pairs([entries, next]) if S::CANONICAL => {
                 scratch!(next = system, *next);
                 compare_pairs(system, q, t, entries, next)
             }
-            Self::Pfaffian(before, matrix) => compare(*before, Self::pfaffian(system, q, t, matrix)),
+            Self::Pfaffian(before, matrix) if !S::CANONICAL => {
+                compare(*before, Self::pfaffian(system, q, t, matrix))
+            }
+            _ => Ok(()),
         }
     }
 
@@ -274,7 +296,13 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
 
 #[inline(always)]
 fn compare<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
-    // A product would underflow; what is not a number has no sign. A matrix that was singular has none to lose.
+    if before * after > T::lift(0.0) { Ok(()) } else { compare_signs(before, after) }
+}
+
+/// The same where the product may have underflowed, or is none.
+#[cold]
+fn compare_signs<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
+    // What is not a number has no sign. A matrix that was singular has none to lose.
     let zero = T::lift(0.0);
     let same = (before > zero && after > zero) || (before < zero && after < zero);
     if same || before == zero {

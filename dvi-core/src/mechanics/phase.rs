@@ -7,10 +7,11 @@ use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::scalar::norm;
-use crate::state::history::{History, is_similar};
+use crate::state::history::History;
 use crate::state::memory::{Memory, lasting};
 #[cfg(feature = "alloc")]
 use crate::state::memory::{Reader, Record};
+use crate::state::rates::is_similar;
 use crate::state::summation::{Carried, Summation};
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector};
 

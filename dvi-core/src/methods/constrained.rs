@@ -19,8 +19,8 @@ use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Stopping, iterate};
 use crate::state::Statistics;
-use crate::state::history::is_similar;
 use crate::state::memory::{Memory, lasting};
+use crate::state::rates::is_similar;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 

@@ -174,7 +174,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.rates.extrapolate(v);
+        memory.rates.extrapolate([v]);
         let Work { mut node, mut matrix, mut residual, .. } = Work::new(system);
         let mut legendre = Legendre { node: &mut node, matrix: &mut matrix, residual: &mut residual };
         legendre.solve(system, [q, &memory.p], t, v)

@@ -22,12 +22,12 @@ use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Guess, Stopping};
 use crate::state::Statistics;
-use crate::state::history::Rates;
 use crate::state::memory::{Memory, lasting};
+use crate::state::rates::Rates;
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
 pub use gauss::{OneStepGauss, OneStepGaussMemory};
 use split::{Split, copy_x, is_x};
-use stage::{Node, Stage, Step};
+use stage::{Rule, Stage, Step};
 
 /// A one-step scheme for degenerate systems in class: [`ProperlyDegenerate`].
 ///
@@ -65,14 +65,6 @@ pub struct OneStep {
     rule: Rule,
     /// The criterion by which a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Rule {
-    A,
-    B,
-    Midpoint,
-    Trapezoid,
 }
 
 impl OneStep {
@@ -128,10 +120,9 @@ pub struct OneStepMemory<S: System, T: Real> {
 struct Point<S: System, T: Real> {
     /// ϑ at the current point, zero along y.
     p: Vector<S, T>,
-    /// The velocity of x at the current point, and zero along y, for the schemes A and B.
-    velocity: Vector<S, T>,
-    /// The mean rates of change of the last steps, that of y to where it stands in the equations.
-    rates: Rates<S, T>,
+    /// The mean rates of change of the last steps, that of y to where it stands in the equations; and along y, for symmetric
+    /// schemes, by how much the rate from there to the end was another.
+    rates: Rates<S, T, 2>,
     orientation: FormOrientation<S, T>,
 }
 
@@ -142,6 +133,8 @@ struct Work<S: System, T: Real> {
     split: Split<S, T>,
     /// The end of the step.
     next: Vector<S, T>,
+    /// By how much the mean rate of y changes where it stands in the equations.
+    turn: Vector<S, T>,
 }
 
 impl<S: System, T: Real> Memory<T> for OneStepMemory<S, T> {
@@ -149,7 +142,7 @@ impl<S: System, T: Real> Memory<T> for OneStepMemory<S, T> {
 }
 
 impl<S: System, T: Real> Memory<T> for Point<S, T> {
-    lasting!(T; numbers p, numbers velocity, part rates, part orientation);
+    lasting!(T; numbers p, part rates, part orientation);
 }
 
 impl<S: System, T: Real> Carries<S, T> for OneStep {
@@ -159,12 +152,12 @@ impl<S: System, T: Real> Carries<S, T> for OneStep {
 impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        let [mut p, mut velocity]: [Vector<S, T>; 2] = core::array::from_fn(|_| system.space().vector());
+        let mut p = system.space().vector();
         system.one_form(q, t, &mut p);
         let rates = VectorField::starting(system, q, t)?;
-        copy_x(system, &rates, &mut velocity);
-        let (rates, orientation) = (Rates::new(system, rates), FormOrientation::new(system, q, t));
-        let point = Point { p, velocity, rates, orientation };
+        let (rates, orientation) =
+            (Rates::new(system, [rates, system.space().vector()]), FormOrientation::new(system, q, t));
+        let point = Point { p, rates, orientation };
         Ok(OneStepMemory { point, work: Work::new(system, q, t) })
     }
 
@@ -185,8 +178,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
             let midpoint = Self { rule: Rule::Midpoint, ..*self };
             let (point, mut work) = (&mut memory.point, Work::new(system, q, t));
             let step = Step { system, q: &*q, t, h, nodes: midpoint.rule.nodes() };
-            if midpoint.attempt(&step, point, &mut work, guess, statistics).is_ok() {
-                work.leave(system, q, point, h);
+            let mut cost = Statistics::default();
+            let attempt = midpoint.attempt(&step, point, &mut work, guess, &mut cost);
+            *statistics += cost;
+            if attempt.is_ok() {
+                work.leave(q, point, h);
                 return Ok(());
             }
             guess = Guess::Zero;
@@ -196,23 +192,6 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {}
-
-impl Rule {
-    #[inline(always)]
-    fn nodes(self) -> &'static [Node] {
-        match self {
-            Self::A => &[Node::END],
-            Self::B => &[Node::BEGIN],
-            Self::Midpoint => &[Node::CENTRE],
-            Self::Trapezoid => &Node::ENDS,
-        }
-    }
-
-    #[inline(always)]
-    fn is_symmetric(self) -> bool {
-        matches!(self, Self::Midpoint | Self::Trapezoid)
-    }
-}
 
 impl OneStep {
     /// A step from `guess`, of any rule and in any space.
@@ -235,7 +214,7 @@ impl OneStep {
                 (failed, Guess::Zero) => return failed,
             }
         }
-        work.leave(system, q, point, h);
+        work.leave(q, point, h);
         Ok(())
     }
 
@@ -253,8 +232,8 @@ impl OneStep {
         let Step { system, q, t, h, .. } = *step;
         let half = T::lift(0.5);
         let until_y = if self.is_symmetric() { half } else { T::lift(1.0) };
-        point.guess(step, guess, until_y, &mut work.stage.unknown);
-        work.stage.momentum.copy_from_slice(&point.p);
+        point.guess(step, guess, until_y, [&mut work.stage.unknown, &mut work.turn]);
+        copy_x(system, &point.p, &mut work.stage.momentum);
         let begin = if self.is_symmetric() { t } else { self.depart(step, point, work, statistics) };
         let from = if self.is_symmetric() { q } else { &work.next };
         work.stage.solve(&Step { q: from, t: begin, ..*step }, self.stopping, statistics)?;
@@ -267,8 +246,7 @@ impl OneStep {
         norm::finite(next)?;
         // Between two branches Ω changes its sign.
         norm::mean(q, next, &mut stage.point);
-        point.orientation.compare(system, &stage.point, t + half * h)?;
-        point.orientation.check(system, next, t + h)
+        point.orientation.pass(system, Some((&stage.point, t + half * h)), (next, t + h))
     }
 
     /// Sets `work.next` to where A and B begin and `work.stage.momentum` to the momentum there, and returns its time. The node
@@ -283,13 +261,15 @@ impl OneStep {
         let Step { system, q, t, h, .. } = *step;
         let Work { stage, next, .. } = work;
         next.copy_from_slice(q);
+        // The velocity of x where the last step has ended; that along y is in no formula.
+        let [velocity, _] = point.rates.latest();
         if self.rule == Rule::B {
-            for (next, &v) in next.iter_mut().zip(point.velocity.iter()) {
-                *next += h * v;
+            for i in (0..q.len()).filter(|&i| is_x(system, i)) {
+                next[i] += h * velocity[i];
             }
             return t + h;
         }
-        system.gradient(q, &point.velocity, t, &mut stage.gradient, &mut stage.one_form);
+        system.gradient(q, velocity, t, &mut stage.gradient, &mut stage.one_form);
         statistics.gradients += 1;
         for i in (0..q.len()).filter(|&i| is_x(system, i)) {
             stage.momentum[i] += h * stage.gradient[i];
@@ -319,7 +299,12 @@ impl OneStep {
 impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     #[inline(always)]
     fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
-        Self { stage: Stage::new(system, q, t), split: Split::new(system), next: system.space().vector() }
+        Self {
+            stage: Stage::new(system, q, t),
+            split: Split::new(system),
+            next: system.space().vector(),
+            turn: system.space().vector(),
+        }
     }
 
     /// Sets `next` to the end of a symmetric scheme's step, and the momentum and the rates.
@@ -337,16 +322,27 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         // p1 = p0 + h Σ w f_x, from the nodes at the solution.
         let time = stage.kick(step, statistics);
         // Between two branches Ω changes its sign.
-        point.orientation.compare(system, &stage.point, time)?;
+        if let Err(failure) = point.orientation.compare(system, &stage.point, time) {
+            // At what is no number Ω is none.
+            norm::finite(&stage.unknown)?;
+            return Err(failure);
+        }
         for i in 0..q.len() {
             let unknown = stage.unknown[i];
             stage.rates[i] = if is_x(system, i) { unknown } else { (unknown - q[i]) / half } / h;
         }
-        // From ȳ on, as far again; from there, if as far again is too far.
-        match self.solve_y(step, 1.0, stopping, statistics) {
+        // From ȳ on, as far again, and what the last steps have added; from there, if that is too far.
+        let solved = match self.solve_y(step, 1.0, stopping, statistics) {
             Err(_) => self.solve_y(step, 0.0, stopping, statistics),
             solved => solved,
+        };
+        let Self { stage, next, turn, .. } = self;
+        for i in 0..q.len() {
+            let rate = stage.rates[i];
+            turn[i] =
+                if is_x(system, i) { T::lift(0.0) } else { (next[i] - stage.unknown[i]) / half / h - rate };
         }
+        solved
     }
 
     /// Sets `next` to the end of the step, with y from `again` times as far as to ȳ beyond it.
@@ -358,32 +354,32 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let (Self { stage, split, next }, Step { system, q, t, h, .. }) = (self, step);
+        let (Self { stage, split, next, turn }, Step { system, q, t, h, .. }) = (self, step);
+        let rest = T::lift(again * 0.5) * *h;
         for i in 0..q.len() {
             let unknown = stage.unknown[i];
             next[i] =
-                if is_x(*system, i) { q[i] + unknown } else { unknown + T::lift(again) * (unknown - q[i]) };
+                if is_x(*system, i) { q[i] + unknown } else { unknown + rest * (stage.rates[i] + turn[i]) };
         }
         split.solve_y(system, next, *t + *h, &stage.momentum, stopping, statistics)
     }
 
     /// Moves `q` and `point` to the end of the step.
     #[inline(always)]
-    fn leave(&self, system: &S, q: &mut Vector<S, T>, point: &mut Point<S, T>, h: T) {
-        let Self { stage, next, .. } = self;
+    fn leave(&self, q: &mut Vector<S, T>, point: &mut Point<S, T>, h: T) {
+        let Self { stage, next, turn, .. } = self;
         q.copy_from_slice(next);
         point.p.copy_from_slice(&stage.momentum);
-        copy_x(system, &stage.rates, &mut point.velocity);
-        point.rates.push(h, &stage.rates);
+        point.rates.push(h, [&stage.rates, turn]);
     }
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Point<S, T> {
     /// Sets `unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
     #[inline(always)]
-    fn guess(&self, step: &Step<'_, S, T>, guess: Guess, c: T, unknown: &mut Vector<S, T>) {
+    fn guess(&self, step: &Step<'_, S, T>, guess: Guess, c: T, [unknown, turn]: [&mut Vector<S, T>; 2]) {
         let Step { system, q, h, .. } = *step;
-        self.rates.guess(h, guess, unknown);
+        self.rates.guess(h, guess, [unknown, turn]);
         for (i, unknown) in unknown.iter_mut().enumerate() {
             *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
         }

@@ -17,8 +17,8 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Stopping, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
-use crate::state::history::Rates;
 use crate::state::memory::{Memory, lasting};
+use crate::state::rates::Rates;
 use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights};
 
 /// The variational midpoint scheme with a projection onto p = α(q), for any degenerate system.
@@ -146,7 +146,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
         let rest: Vector<S, T> = vector();
         Ok(ProjectedMemory {
             p,
-            rates: Rates::new(system, rates),
+            rates: Rates::new(system, [rates]),
             orientation: FormOrientation::new(system, q, t),
             solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
             unknowns: core::array::from_fn(|_| vector()),
@@ -269,7 +269,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
     /// Sets Δ to what the last steps let expect, and λ to zero: it is smaller than the error of Δ.
     fn guess(&mut self, h: T, guess: Guess) {
         let Self { rates, unknowns: [delta, lambda], .. } = self;
-        rates.guess(h, guess, delta);
+        rates.guess(h, guess, [delta]);
         delta.iter_mut().for_each(|delta| *delta *= h);
         lambda.fill(T::lift(0.0));
     }
@@ -322,7 +322,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
         q.copy_from_slice(&work.end);
         p.copy_from_slice(&work.one_form);
         delta.iter_mut().for_each(|delta| *delta /= h);
-        rates.push(h, delta);
+        rates.push(h, [delta]);
     }
 }
 

@@ -99,6 +99,26 @@ pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
     sum * T::lift(0.0)
 }
 
+/// Whether a number that is not negative is finite, by one comparison.
+#[inline(always)]
+fn is_finite<T: Real>(size: T) -> bool {
+    size <= T::max_value().unwrap_or(T::lift(f64::MAX))
+}
+
+/// The largest |xᵢ|, if all entries are finite.
+///
+/// # Errors
+/// [`StepFailure::NotFinite`].
+#[inline(always)]
+pub(crate) fn finite_size<T: Real>(x: &[T]) -> Result<T, StepFailure> {
+    let sum = x.iter().fold(T::lift(-0.0), |sum, &x| sum + x);
+    if !is_finite(Scalar::abs(sum)) {
+        each_finite(x)?;
+    }
+    let sizes = x.iter().map(|&x| Scalar::abs(x));
+    Ok(sizes.reduce(larger).unwrap_or(T::lift(0.0)))
+}
+
 #[cold]
 fn each_finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
     match x.iter().position(|x| !x.is_finite()) {

@@ -1,5 +1,6 @@
 //! Gaussian elimination with partial pivoting, in place on a row-major slice: [`factor`] keeps PA = LU
-//! for many right-hand sides, [`eliminate`] serves one and is faster.
+//! for many right-hand sides, [`eliminate`] serves one and is faster. Two equations are solved by determinants where
+//! these lose nothing.
 //!
 //! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were
 //! subtracted to form its column: |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. The test does not change when the
@@ -7,7 +8,7 @@
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
-use crate::scalar::norm::{larger, singular};
+use crate::scalar::norm::{finite, larger, singular};
 use crate::{Real, Scalar};
 
 /// What a pivot is compared with at least: n ε times this still has a finite reciprocal.
@@ -137,6 +138,40 @@ pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), St
     Ok(())
 }
 
+/// Two equations: overwrites `x` with the solution of A y = x, or there are not two.
+///
+/// Cramer's rule needs no choice of rows. It is taken where the determinant loses at most two bits to cancellation and products
+/// stay far from the ends of the range of numbers; its errors are then those of elimination (Higham, *Accuracy and Stability of
+/// Numerical Algorithms*, 2002, section 1.10.1), which solves the others.
+///
+/// # Errors
+/// As [`factor`]; [`StepFailure::NotFinite`] if A is singular and `x` is no number.
+#[inline(always)]
+pub(crate) fn eliminate_two<T: Real>(matrix: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
+    let (&[a, b, c, d], [x, y]) = (matrix, x) else { return None };
+    let across = b * c;
+    let determinant = a * d - across;
+    let size = Scalar::abs(determinant);
+    // What is not a number is neither.
+    let is_safe =
+        size >= larger(T::lift(1e-100), T::lift(0.5) * Scalar::abs(across)) && size <= T::lift(1e100);
+    if is_safe {
+        let reciprocal = T::lift(1.0) / determinant;
+        [*x, *y] = [(d * *x - b * *y) * reciprocal, (a * *y - c * *x) * reciprocal];
+        return Some(Ok(()));
+    }
+    Some(by_elimination([a, b, c, d], [*x, *y]).map(|solution| [*x, *y] = solution))
+}
+
+/// The same by elimination. It gets copies: what another function sees has no place in registers.
+#[cold]
+#[inline(never)]
+fn by_elimination<T: Real>(mut matrix: [T; 4], mut x: [T; 2]) -> Result<[T; 2], StepFailure> {
+    let finite = finite(&x);
+    eliminate(&mut matrix, &mut x).map_err(|singular| finite.err().unwrap_or(singular))?;
+    Ok(x)
+}
+
 /// Adds A x to `out`, for a row-major A that has not been factored.
 #[inline]
 pub(crate) fn multiply_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
@@ -148,7 +183,7 @@ pub(crate) fn multiply_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{eliminate, factor, multiply_add, solve};
+    use super::{eliminate, eliminate_two, factor, multiply_add, solve};
     use crate::error::StepFailure;
     use nalgebra::{DMatrix, DVector};
 
@@ -184,6 +219,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn two_equations_are_solved_alike() {
+        for seed in 0..200 {
+            let (matrix, rhs) = (entries(4, seed), entries(2, seed + 1000));
+            // Some determinants vanish but for rounding, some products leave the range of numbers.
+            let scale = [1.0, 1e-160, 1e160][seed as usize % 3];
+            let matrix = if seed % 5 == 0 {
+                [matrix[0], matrix[1], matrix[0] * (1.0 + 1e-9), matrix[1]]
+            } else {
+                [matrix[0], matrix[1], matrix[2], matrix[3]]
+            };
+            let scaled = matrix.map(|a| a * scale);
+            let (mut consumed, mut x, mut y) = (scaled, [rhs[0], rhs[1]], [rhs[0], rhs[1]]);
+            assert_eq!(eliminate(&mut consumed, &mut x), Ok(()));
+            assert_eq!(eliminate_two(&scaled, &mut y), Some(Ok(())));
+            let reference = DMatrix::from_row_slice(2, 2, &matrix).svd(false, false).singular_values;
+            let (condition, size) = (reference.max() / reference.min(), x[0].abs().max(x[1].abs()));
+            let error = (x[0] - y[0]).abs().max((x[1] - y[1]).abs()) / size;
+            assert!(error < 4e-16 * condition, "seed {seed}: {x:?} and {y:?}");
+        }
+        assert_eq!(eliminate_two(&[1.0; 9], &mut [1.0; 3]), None);
+        let singular = eliminate_two(&[1.0, 2.0, 2.0, 4.0], &mut [1.0; 2]);
+        assert!(matches!(singular, Some(Err(StepFailure::Singular { column: 1, .. }))), "{singular:?}");
+        let none = eliminate_two(&[f64::NAN, 1.0, 1.0, 1.0], &mut [1.0, f64::NAN]);
+        assert!(matches!(none, Some(Err(StepFailure::NotFinite { coordinate: 1, .. }))), "{none:?}");
     }
 
     #[test]

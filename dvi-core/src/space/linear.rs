@@ -52,6 +52,9 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
+    if let Some(solved) = matrix.eliminate_two(x) {
+        return solved;
+    }
     let finite = norm::finite(x);
     matrix.eliminate(x).map_err(|singular| finite.err().unwrap_or(singular))
 }

@@ -54,6 +54,12 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// [`StepFailure::Pattern`] with an entry that has no room.
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure>;
 
+    /// The same of two equations, for which there is a faster way, or there are not two; A stays as it is.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`], or [`StepFailure::NotFinite`] if x is no number then.
+    fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>>;
+
     /// Replaces A by its factors.
     ///
     /// # Errors
@@ -100,6 +106,10 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
     #[inline(always)]
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
         elimination::eliminate(&mut self.matrix, x)
+    }
+    #[inline(always)]
+    fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>> {
+        elimination::eliminate_two(&self.matrix, x)
     }
     #[inline]
     fn factor(&mut self) -> Result<(), StepFailure> {

@@ -5,7 +5,6 @@
 
 use core::ops::Deref;
 
-use crate::solve::Guess;
 use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
 
@@ -17,7 +16,7 @@ pub(crate) const DEPTH: usize = 7;
 
 /// Row m: the coefficients of the last m increments, the newest first.
 #[rustfmt::skip]
-const COEFFICIENTS: [[f64; DEPTH]; DEPTH + 1] = [
+pub(super) const COEFFICIENTS: [[f64; DEPTH]; DEPTH + 1] = [
     [0.0,   0.0,  0.0,   0.0,  0.0,   0.0, 0.0],
     [1.0,   0.0,  0.0,   0.0,  0.0,   0.0, 0.0],
     [2.0,  -1.0,  0.0,   0.0,  0.0,   0.0, 0.0],
@@ -142,58 +141,6 @@ fn combine<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], next: usize, len
 
 impl<S: System, T: Real> Memory<T> for History<S, T> {
     lasting!(T; vectors ring, count len, count next, numbers seed; is_sound);
-}
-
-/// The mean rates of change of the last steps, for a method whose steps are of any length.
-#[derive(Debug)]
-pub(crate) struct Rates<S: System, T: Real> {
-    history: History<S, T>,
-    /// Zero before the first step.
-    last_step: T,
-}
-
-impl<S: System, T: Real> Rates<S, T> {
-    /// No step yet; the first guess is `seed`.
-    pub(crate) fn new(system: &S, seed: Vector<S, T>) -> Self {
-        Self { history: History::new(system, Some(seed)), last_step: T::lift(0.0) }
-    }
-
-    /// Sets `rates` to those of a step of length `h` to begin with.
-    pub(crate) fn guess(&self, h: T, guess: Guess, rates: &mut Vector<S, T>) {
-        guess.begin(rates, |rates| {
-            if is_similar(h, self.last_step) || self.last_step == T::lift(0.0) {
-                self.history.extrapolate(rates);
-            } else {
-                rates.fill(T::lift(0.0));
-            }
-        });
-    }
-
-    /// Sets `rates` to what those of the last steps lead to.
-    pub(crate) fn extrapolate(&self, rates: &mut [T]) {
-        self.history.extrapolate(rates);
-    }
-
-    /// Remembers those of a completed step of length `h`.
-    pub(crate) fn push(&mut self, h: T, rates: &[T]) {
-        if !is_similar(h, self.last_step) {
-            self.history.clear();
-        }
-        self.last_step = h;
-        self.history.push(rates);
-    }
-}
-
-impl<S: System, T: Real> Memory<T> for Rates<S, T> {
-    lasting!(T; part history, number last_step);
-}
-
-/// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same
-/// sign, and neither is twice as long as the other.
-#[inline(always)]
-pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
-    let [size, last_size] = [h, last].map(Scalar::abs);
-    h == last || h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size
 }
 
 #[cfg(test)]

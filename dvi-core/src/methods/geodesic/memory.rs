@@ -2,8 +2,8 @@
 
 use super::node::Node;
 use super::orientation::TangentMass;
-use crate::state::history::Rates;
 use crate::state::memory::{Memory, lasting};
+use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
 use crate::system::ManifoldSystem;
 use crate::{ManifoldLagrangian, Matrix, Real, Space, System, Vector};
@@ -91,7 +91,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
     pub(super) fn new(system: &S, rates: Vector<S, T>) -> Self {
         Self {
             p: system.space().vector(),
-            rates: Rates::new(system, rates),
+            rates: Rates::new(system, [rates]),
             lifted: system.space().vector(),
             carried: Carried::new(system, Summation::Compensated),
             kicks: None,

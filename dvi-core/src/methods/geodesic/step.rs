@@ -17,9 +17,10 @@ use crate::scalar::norm::reported;
 use crate::solve::{Convergence, Guess, Stopping, iterate};
 use crate::space::{Sink, SquareMatrix};
 use crate::state::Statistics;
+use crate::state::rates::Rates;
 use crate::state::summation::Carried;
 use crate::system::Factor;
-use crate::{ManifoldLagrangian, Real, Space, System, Weights};
+use crate::{ManifoldLagrangian, Real, Space, System, Vector, Weights};
 
 /// One step: where it begins, and how long it is.
 pub(super) struct Step<'a, S, T> {
@@ -54,8 +55,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         }
         let step = Step { system, q, p: p0, t, h };
         let mut attempt = |guess| {
-            rates.guess(h, guess, &mut work.displacement);
-            work.displacement.iter_mut().for_each(|displacement| *displacement *= h);
+            begin(rates, h, guess, &mut work.displacement);
             work.solve(&step, stopping, statistics, |work, statistics| match kicks {
                 None => work.linearize(&step, rule, statistics),
                 Some(Kicks { mass, .. }) => work.linearize_drift(&step, rule, mass),
@@ -94,7 +94,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         carried.advance(lifted, &work.increment, &work.lifted);
         q.copy_from_slice(&work.q);
         p.copy_from_slice(&work.p);
-        rates.push(h, &work.displacement);
+        rates.push(h, [&work.displacement]);
     }
 }
 
@@ -290,6 +290,13 @@ pub(super) fn depart<T: Real>(block: Block, path: Path<'_, T>, p0: &[T], p: &mut
             set(p, block, back.of(&vector(p0, block)));
         }
     }
+}
+
+/// Sets `displacement` to the guess. Inlined, it would take registers from the iterations.
+#[inline(never)]
+fn begin<S: System, T: Real>(rates: &Rates<S, T>, h: T, guess: Guess, displacement: &mut Vector<S, T>) {
+    rates.guess(h, guess, [&mut *displacement]);
+    displacement.iter_mut().for_each(|displacement| *displacement *= h);
 }
 
 /// Adds what L at a node does to the momentum in the step, as it is seen from there.

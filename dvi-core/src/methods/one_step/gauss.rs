@@ -18,8 +18,8 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Stopping, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
-use crate::state::history::is_similar;
 use crate::state::memory::{Memory, lasting};
+use crate::state::rates::is_similar;
 use crate::{Coupled, ProperlyDegenerate, Real, Space, System, Vector, Weights};
 
 /// Gauss collocation of a degenerate Lagrangian in class ([`ProperlyDegenerate`]) with `S` stages, 1 ≤ `S` ≤ 4.

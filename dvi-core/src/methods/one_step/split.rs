@@ -58,15 +58,14 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         match repeat(convergence, statistics, newton) {
             Err(failure @ StepFailure::NotConverged { .. }) => {
                 self.form.copy_from_slice(p);
-                let solved = self.solve_once(system, q, t, statistics);
-                let scale = solved.map(|()| norm::largest(&self.change[..q.len() / 2]));
+                let scale = self.solve_once(system, q, t, statistics);
                 failure.unless_rounding(|| scale)
             }
             solved => solved,
         }
     }
 
-    /// Sets `change` to (∂ϑ/∂y)⁻¹`form`.
+    /// Sets `change` to (∂ϑ/∂y)⁻¹`form`, and returns its size.
     #[inline(always)]
     fn solve_once(
         &mut self,
@@ -74,33 +73,33 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         q: &[T],
         t: T,
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<T, StepFailure> {
         let half = q.len() / 2;
         if S::CANONICAL {
             return self.divide(system, q, t);
         }
         self.eliminate(system, q, t, half, statistics)?;
-        norm::finite(&self.change[..half])
+        norm::finite_size(&self.change[..half])
     }
 
     /// The same where each row has one entry.
     #[inline(always)]
-    fn divide(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
+    fn divide(&mut self, system: &S, q: &[T], t: T) -> Result<T, StepFailure> {
         let half = q.len() / 2;
         scratch!(entries = system, self.block[..q.len()]);
         system.conjugate_entries(q, t, T::lift(1.0), T::lift(0.0), entries);
         let rows = || (0..q.len()).filter(|&i| is_x(system, i)).map(|i| (i, system.conjugate(i)));
         for (i, column) in rows() {
-            self.change[system.place(column) - half] = self.form[i] * (T::lift(1.0) / entries[i]);
+            self.change[system.place(column) - half] = self.form[i] / entries[i];
         }
-        let finite = norm::finite(&self.change[..half]);
-        // Where a reciprocal is not finite, its product is not either.
-        if finite.is_err() {
+        let size = norm::finite_size(&self.change[..half]);
+        // A quotient by a number without a reciprocal is not finite, unless its numerator is as small as that.
+        if size.is_err() {
             for (i, column) in rows() {
                 norm::reciprocal(entries[i], column)?;
             }
         }
-        finite
+        size
     }
 
     /// The same by elimination.
@@ -150,13 +149,13 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
         for (form, &p) in split.form.iter_mut().zip(p.iter()) {
             *form -= p;
         }
-        split.solve_once(system, q, *t, statistics)?;
+        let size = split.solve_once(system, q, *t, statistics)?;
         let half = q.len() / 2;
         for (i, q) in q.iter_mut().enumerate() {
             if let Some(y) = system.place(i).checked_sub(half) {
                 *q -= split.change[y];
             }
         }
-        Ok(norm::largest(&split.change[..half]))
+        Ok(size)
     }
 }

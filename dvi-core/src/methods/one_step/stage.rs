@@ -3,17 +3,43 @@
 //! r_x = Σⱼ wⱼ(ϑⱼ − h(1 − cⱼ) f_xⱼ) − p      r_y = −½h Σⱼ wⱼ f_yⱼ
 //!
 //! at the points (x0 + cⱼΔ, ȳ) with the velocity Δ/h along x. With R = 1 − cⱼ in rows of x and ½ in rows of y, and C = cⱼ in
-//! columns of Δ and 1 in those of ȳ, the matrix is Σⱼ wⱼ(C L_vq − R L_qv − h R C L_qq).
+//! columns of Δ and 1 in those of ȳ, the matrix is Σⱼ wⱼ(C L_vq − R L_qv − h R C L_qq). Of the midpoint scheme, solved for
+//! (½Δ, ȳ), it is Dα − (Dα)ᵀ − ½h L_qq.
 
 use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Iteration, Stopping, repeat};
-use crate::space::sink::Scaled;
+use crate::space::sink::{Product, Scaled};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
-use crate::{Linear, ProperlyDegenerate, Real, Space, System, Vector, Weights};
+use crate::{Linear, ProperlyDegenerate, Real, Scalar, Space, System, Vector, Weights};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rule {
+    A,
+    B,
+    Midpoint,
+    Trapezoid,
+}
+
+impl Rule {
+    #[inline(always)]
+    pub(super) fn nodes(self) -> &'static [Node] {
+        match self {
+            Self::A => &[Node::END],
+            Self::B => &[Node::BEGIN],
+            Self::Midpoint => &[Node::CENTRE],
+            Self::Trapezoid => &Node::ENDS,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn is_symmetric(self) -> bool {
+        matches!(self, Self::Midpoint | Self::Trapezoid)
+    }
+}
 
 /// A node of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,10 +49,10 @@ pub(super) struct Node {
 }
 
 impl Node {
-    pub(super) const BEGIN: Self = Self { c: 0.0, weight: 1.0 };
-    pub(super) const CENTRE: Self = Self { c: 0.5, weight: 1.0 };
-    pub(super) const END: Self = Self { c: 1.0, weight: 1.0 };
-    pub(super) const ENDS: [Self; 2] = [Self { c: 0.0, weight: 0.5 }, Self { c: 1.0, weight: 0.5 }];
+    const BEGIN: Self = Self { c: 0.0, weight: 1.0 };
+    const CENTRE: Self = Self { c: 0.5, weight: 1.0 };
+    const END: Self = Self { c: 1.0, weight: 1.0 };
+    const ENDS: [Self; 2] = [Self { c: 0.0, weight: 0.5 }, Self { c: 1.0, weight: 0.5 }];
 }
 
 /// A step from x in `q` at `t`.
@@ -116,7 +142,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         let step = Step { system, q, t, h, nodes };
         let (equations, solver, correction) = self.equations(&step);
         solver.solve(&mut OfMomentum(equations), correction)?;
-        Ok(norm::largest(correction))
+        let sizes = correction.iter().enumerate().map(|(i, &x)| Scalar::abs(step.stretch(i) * x));
+        let size = sizes.fold(T::lift(0.0), norm::larger);
+        // What has been evaluated is at the unknowns.
+        self.correction.fill(T::lift(0.0));
+        Ok(size)
     }
 
     /// The equations at the unknowns.
@@ -133,6 +163,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`, and returns the time of `point`.
     #[inline(always)]
     pub(super) fn kick(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> T {
+        if step.is_centred() {
+            return self.kick_at_centre(step);
+        }
         let Self { unknown, momentum, gradient, one_form, point, velocity, .. } = self;
         let mut time = step.t;
         for node in step.nodes {
@@ -146,9 +179,41 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         }
         time
     }
+
+    /// The same at the centre, from Newton's last iterate and its correction d, up to terms of the order d², as of the unknowns
+    /// themselves: along x his equations are (Dα − ½h Df)d = r = ϑ − ½h f − p, and so the half of the kick is ½h f + r − Dα d.
+    #[inline(always)]
+    fn kick_at_centre(&mut self, step: &Step<'_, S, T>) -> T {
+        let Self { momentum, gradient, one_form, point, velocity, correction, .. } = self;
+        let Step { system, t, h, .. } = *step;
+        let (half, centre) = (T::lift(0.5) * h, t + T::lift(0.5) * h);
+        // r − Dα d, which is small: what p has rounded off does not come back.
+        let rest = velocity;
+        for i in 0..rest.len() {
+            rest[i] = one_form[i] - momentum[i] - half * gradient[i];
+        }
+        let mut product = Product { x: correction, sum: rest };
+        system.one_form_jacobian(point, centre, T::lift(-1.0), T::lift(0.0), &mut product);
+        for i in (0..momentum.len()).filter(|&i| is_x(system, i)) {
+            momentum[i] += T::lift(2.0) * (half * gradient[i] + rest[i]);
+        }
+        centre
+    }
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
+    /// Whether the only node is the centre: its equations are solved for the point and not for Δ.
+    #[inline(always)]
+    fn is_centred(&self) -> bool {
+        self.nodes == [Node::CENTRE]
+    }
+
+    /// What an entry of the solution is multiplied by to give the change of the unknown.
+    #[inline(always)]
+    fn stretch(&self, i: usize) -> T {
+        T::lift(if self.is_centred() && is_x(self.system, i) { 2.0 } else { 1.0 })
+    }
+
     /// Sets `point` and `velocity` to those of `node`, and returns its time.
     #[inline(always)]
     fn place(
@@ -178,17 +243,23 @@ struct Newton<'a, S: System, T: Real> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[inline(always)]
-    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(&mut self, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { step, stage } = self;
-        statistics.linearizations += step.nodes.len() as u64;
-        statistics.factorisations += 1;
         let (mut equations, solver, correction) = stage.equations(step);
         solver.solve(&mut equations, correction)?;
-        norm::finite(correction)?;
-        for (unknown, &change) in stage.unknown.iter_mut().zip(stage.correction.iter()) {
+        let mut size = T::lift(0.0);
+        for (i, (unknown, &correction)) in stage.unknown.iter_mut().zip(stage.correction.iter()).enumerate() {
+            let change = step.stretch(i) * correction;
             *unknown -= change;
+            size = norm::larger(size, Scalar::abs(change));
         }
-        Ok(norm::largest(&stage.correction))
+        Ok(size)
+    }
+
+    #[inline(always)]
+    fn count(&self, times: u64, statistics: &mut Statistics) {
+        statistics.linearizations += times * self.step.nodes.len() as u64;
+        statistics.factorisations += times;
     }
 }
 
@@ -209,6 +280,17 @@ impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, 
         let Self { step, unknown, momentum, work: [point, velocity, gradient, one_form] } = self;
         let Step { system, h, nodes, .. } = **step;
         let half = T::lift(0.5);
+        if step.is_centred() {
+            let time = step.place(unknown, &Node::CENTRE, point, velocity);
+            let (one, zero) = (T::lift(1.0), T::lift(0.0));
+            let weights = Weights { qq: -half * h, qv: -one, vq: one, vv: zero };
+            system.linearize(point, velocity, time, weights, gradient, one_form, sink);
+            for (i, b) in b.iter_mut().enumerate() {
+                let impulse = half * h * gradient[i];
+                *b = if is_x(system, i) { one_form[i] - momentum[i] - impulse } else { -impulse };
+            }
+            return Ok(());
+        }
         for (i, b) in b.iter_mut().enumerate() {
             *b = -momentum[i];
         }
@@ -219,20 +301,13 @@ impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, 
             let column = |column: usize| if is_x(system, column) { c } else { T::lift(1.0) };
             let zero = T::lift(0.0);
             let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-            if *node == Node::CENTRE {
-                // Of this node, R is ½ in all rows.
-                let w = Weights { qq: -half * half * h, qv: -half, vq: half, vv: zero };
-                let factor = |_: usize, column: usize| T::lift(if is_x(system, column) { 1.0 } else { 2.0 });
-                system.linearize(point, velocity, time, w, gradient, one_form, &mut Scaled { sink, factor });
-            } else {
-                let mut add = |w: Weights<T>, factor: &dyn Fn(usize, usize) -> T| {
-                    let mut scaled = Scaled { sink: &mut *sink, factor };
-                    system.linearize(point, velocity, time, w, gradient, one_form, &mut scaled);
-                };
-                add(Weights { qq: -h, ..none }, &|i, j| row(i) * column(j));
-                add(Weights { qv: -T::lift(1.0), ..none }, &|i, _| row(i));
-                add(Weights { vq: weight, ..none }, &|_, j| column(j));
-            }
+            let mut add = |w: Weights<T>, factor: &dyn Fn(usize, usize) -> T| {
+                let mut scaled = Scaled { sink: &mut *sink, factor };
+                system.linearize(point, velocity, time, w, gradient, one_form, &mut scaled);
+            };
+            add(Weights { qq: -h, ..none }, &|i, j| row(i) * column(j));
+            add(Weights { qv: -T::lift(1.0), ..none }, &|i, _| row(i));
+            add(Weights { vq: weight, ..none }, &|_, j| column(j));
             for i in 0..b.len() {
                 b[i] += weight * one_form[i] - h * row(i) * gradient[i];
             }

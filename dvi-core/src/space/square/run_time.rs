@@ -89,6 +89,12 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             }
         }
     }
+    fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>> {
+        match &self.0 {
+            Storage::Dense(matrix, _) => elimination::eliminate_two(matrix, x),
+            Storage::Banded(_) | Storage::Sparse(_) => None,
+        }
+    }
     fn factor(&mut self) -> Result<(), StepFailure> {
         match &mut self.0 {
             Storage::Dense(matrix, permutation) => elimination::factor(matrix, permutation),
