@@ -125,27 +125,21 @@ pub(crate) fn repeat<T: Real>(
     statistics: &mut Statistics,
     mut iteration: impl Iteration<T>,
 ) -> Result<(), StepFailure> {
-    // Beside the iterations.
-    let mut more = 0;
-    let result = loop {
+    // The second is how many improvements there were beside the iterations.
+    let (result, more) = loop {
         let correction = match iteration.improve(statistics) {
             Ok(correction) => correction,
-            Err(failure) => {
-                more = 1;
-                break Err(failure);
-            }
+            Err(failure) => break (Err(failure), 1),
         };
         match convergence.judge(correction) {
             Verdict::Continue => {}
             // Comparisons have not seen the derivatives that numbers may carry.
             Verdict::Accept if carries_derivatives::<T>() => {
-                break (0..convergence.more).try_for_each(|_| {
-                    more += 1;
-                    iteration.improve(statistics).map(drop)
-                });
+                let mut improve = |_| iteration.improve(statistics).map(drop);
+                break ((0..convergence.more).try_for_each(&mut improve), convergence.more as u64);
             }
-            Verdict::Accept => break Ok(()),
-            Verdict::GiveUp => break Err(convergence.failure()),
+            Verdict::Accept => break (Ok(()), 0),
+            Verdict::GiveUp => break (Err(convergence.failure()), 0),
         }
     };
     let iterations = convergence.iterations as u64;

@@ -80,18 +80,17 @@ impl Rattle {
         // The last impulse is the guess: of the first step, as if that one had been as long.
         let ratio = from.ratio(h);
         from.impulses.first.iter_mut().for_each(|impulse| *impulse *= ratio);
-        let mut counted = Statistics::default();
-        let mut taken = 0;
+        let (mut taken, mut iterations) = (0, 0);
         while taken < count {
             let (t, q, here) = (clock.after(taken).time(), &at, &from.here);
             let step = Step { system, mass, is_metric: S::DIAGONAL_MASS, q, here, t, h, stopping, look };
             work.guess(T::lift(1.0), &from.impulses.first);
-            let mut after = counted;
-            if work.shake(&step, &mut after).is_err() || work.rattle(&step).is_err() {
+            let mut of_step = Statistics::default();
+            if work.shake(&step, &mut of_step).is_err() || work.rattle(&step).is_err() {
                 break;
             }
             from.follow(&mut at, &work);
-            counted = after;
+            iterations += of_step.iterations;
             taken += 1;
         }
         if taken > 0 {
@@ -100,7 +99,7 @@ impl Rattle {
             q.copy_from_slice(&at);
             point.restore(&from);
             statistics.gradients += taken;
-            statistics.iterations += counted.iterations;
+            statistics.iterations += iterations;
         }
         Some(taken)
     }
