@@ -22,6 +22,9 @@ use crate::{
     DegenerateLagrangian, Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights,
 };
 
+/// Of an orientation that is not kept as the system asks for: it cannot be compared.
+const UNKNOWN: StepFailure = StepFailure::Orientation { matrix: "Ω", before: f64::NAN, after: f64::NAN };
+
 /// Ω at the end of the last step; nothing if it is the same everywhere.
 #[derive(Debug)]
 pub(crate) enum FormOrientation<S: System, T: Real> {
@@ -97,7 +100,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
                 compare(*before, after)?;
                 *before = after;
             }
-            _ => {}
+            Self::Constant => {}
+            // Which of the two a system has is decided when it is compiled.
+            Self::Pairs(_) | Self::Pfaffian(..) => return Err(UNKNOWN),
         }
         Ok(())
     }
@@ -116,7 +121,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
             Self::Pfaffian(before, matrix) if !S::CANONICAL => {
                 compare(*before, Self::pfaffian(system, q, t, matrix))
             }
-            _ => Ok(()),
+            Self::Constant => Ok(()),
+            Self::Pairs(_) | Self::Pfaffian(..) => Err(UNKNOWN),
         }
     }
 
