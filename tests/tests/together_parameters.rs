@@ -208,3 +208,45 @@ fn systems_that_cannot_be_packed_are_taken_alone_unless_they_are_equal() -> Outc
     in_lanes!((0..4).map(mixed).collect::<Vec<_>>(), Variational::trapezoid(), 0.05, 0);
     Ok(())
 }
+
+/// No number: it has neither `Clone` nor `PartialEq`.
+#[derive(Debug)]
+struct Opaque;
+
+/// What can be declared with parameters of a generic type beside other fields.
+#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - k * w[0] * x * x) / 2.0)]
+#[derive(Debug)]
+#[allow(dead_code)]
+struct Beside<P = f64, const N: usize = 3> {
+    k: P,
+    w: [P; N],
+    opaque: Opaque,
+    #[cfg(any())]
+    absent: Opaque,
+}
+
+/// A system whose `==` passes over a list that is in no formula.
+#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - k * x * x) / 2.0)]
+#[derive(Clone, Debug)]
+struct Noted<P = f64> {
+    k: P,
+    notes: Vec<P>,
+}
+
+impl PartialEq for Noted {
+    fn eq(&self, other: &Self) -> bool {
+        self.k == other.k
+    }
+}
+
+#[test]
+fn lists_of_other_lengths_share_no_pack_even_if_systems_say_that_they_are_equal() -> Outcome {
+    let system = Beside { k: 1.0, w: [1.0; 2], opaque: Opaque };
+    let mut run =
+        Integrator::new(&system, Variational::trapezoid(), 0.1, BesideState { x: 1.0, dot_x: 0.0 })?;
+    run.take_steps(3)?;
+    let noted =
+        |j: usize| (Noted { k: 1.0, notes: vec![0.0; j % 3] }, NotedState { x: 1.0, dot_x: 0.1 * j as f64 });
+    in_lanes!((1..7).rev().map(noted).collect::<Vec<_>>(), Variational::trapezoid(), 0.05, 0);
+    Ok(())
+}

@@ -43,7 +43,7 @@ pub trait InStep<const W: usize, S: Lagrangian>: Method<S, f64> {
     fn packs(&self, system: &S) -> Self::Packs;
 
     /// Whether two systems differ in nothing but what may differ from lane to lane: [`Packable::fits`].
-    fn fit(a: &S, b: &S) -> bool;
+    fn fit(a: &S, b: &S) -> Option<bool>;
 
     /// Takes up to `count` steps of all `runs`, of which there are 1 to `W`, from the present time of `clock`, bit for bit as each
     /// would alone. Their `systems` share packs. Returns how many: fewer, or none, where one of the runs has to go on alone.

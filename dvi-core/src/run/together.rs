@@ -132,6 +132,6 @@ fn go_together<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + Part
     b: &Integrator<'_, S, M>,
 ) -> bool {
     let [of_a, of_b] = [a.system(), b.system()];
-    let share_packs = core::ptr::eq(of_a, of_b) || M::fit(of_a, of_b) || of_a == of_b;
+    let share_packs = core::ptr::eq(of_a, of_b) || M::fit(of_a, of_b).unwrap_or_else(|| of_a == of_b);
     share_packs && a.method() == b.method() && a.present() == b.present()
 }

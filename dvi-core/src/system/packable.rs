@@ -18,9 +18,9 @@ pub trait Packable<const W: usize>: System {
     /// A system in packs.
     type Packed: System<Space = Self::Space>;
 
-    /// Whether it differs from `other` in nothing but what may differ from lane to lane.
-    fn fits(&self, _other: &Self) -> bool {
-        false
+    /// Whether it differs from `other` in nothing but what may differ from lane to lane; `None` if only equal systems share a pack.
+    fn fits(&self, _other: &Self) -> Option<bool> {
+        None
     }
 
     /// Calls `f` with the pack of `systems`, of which there is at least one, each of which [`fits`](Self::fits) the first, or is equal to
@@ -69,7 +69,19 @@ impl<const W: usize, F: Packing<W>> Packing<W> for alloc::vec::Vec<F> {
     }
 }
 
-/// A field that all systems of a pack have alike.
-pub trait Shared<const W: usize>: Clone + PartialEq {}
+/// A field that all systems of a pack have alike. A bound on what it has itself would be one without `W`, which has to hold.
+pub trait Shared<const W: usize> {
+    /// Whether it is that of `other`.
+    fn same(&self, other: &Self) -> bool;
+    /// The field of a system in packs.
+    fn copy(&self) -> Self;
+}
 
-impl<const W: usize, F: Clone + PartialEq> Shared<W> for F {}
+impl<const W: usize, F: Clone + PartialEq> Shared<W> for F {
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+    fn copy(&self) -> Self {
+        self.clone()
+    }
+}

@@ -6,11 +6,11 @@
 //!     usize: Shared<__W>,
 //! {
 //!     type Packed = Kepler<Varied<Lanes<__W>>>;
-//!     fn fits(&self, __other: &Self) -> bool {
-//!         Packing::<__W>::fits(&self.mu, &__other.mu) && self.n == __other.n
+//!     fn fits(&self, __other: &Self) -> Option<bool> {
+//!         Some(Packing::<__W>::fits(&self.mu, &__other.mu) && Shared::<__W>::same(&self.n, &__other.n))
 //!     }
 //!     fn packed<__R>(__systems: &[&Self; __W], __f: impl FnOnce(&Self::Packed) -> __R) -> __R {
-//!         __f(&Kepler { mu: Packing::pack(__systems.map(|__system| &__system.mu)), n: __systems[0].n.clone() })
+//!         __f(&Kepler { mu: Packing::pack(__systems.map(|__system| &__system.mu)), n: Shared::<__W>::copy(&__systems[0].n) })
 //!     }
 //! }
 //! ```
@@ -40,7 +40,10 @@ fn generic(item: &ItemStruct) -> Option<&TypeParam> {
         }
         _ => false,
     };
-    (generic.bounds.iter().all(is_had) && item.generics.where_clause.is_none()).then_some(generic)
+    // A field that may not be there cannot be listed.
+    let is_certain = |field: &Field| !field.attrs.iter().any(|attribute| attribute.path().is_ident("cfg"));
+    let is_plain = generic.bounds.iter().all(is_had) && item.generics.where_clause.is_none();
+    (is_plain && item.fields.iter().all(is_certain)).then_some(generic)
 }
 
 /// Systems that share packs if they are equal.
@@ -67,7 +70,11 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
     let (name, allow) = (&item.ident, allow());
     let (private, number) = (quote!(#krate::__private), quote!(f64));
     let pack = quote!(#krate::Varied<#krate::scalar::Lanes<__W>>);
-    let constants = item.generics.const_params();
+    let constants = item.generics.const_params().map(|constant| {
+        let mut constant = constant.clone();
+        constant.default = None;
+        constant
+    });
     let arguments = |of: &TokenStream| {
         let arguments = item.generics.params.iter().map(|parameter| match parameter {
             GenericParam::Const(constant) => constant.ident.to_token_stream(),
@@ -82,8 +89,8 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
             [&number, &pack].map(|of| replaced(ty.to_token_stream(), &generic.ident, of));
         if of_numbers.to_string() == ty.to_token_stream().to_string() {
             bounds.push(quote!(#ty: #private::Shared<__W>));
-            fits.push(quote!(self.#field == __other.#field));
-            values.push(quote!(#field: ::core::clone::Clone::clone(&__systems[0].#field)));
+            fits.push(quote!(#private::Shared::<__W>::same(&self.#field, &__other.#field)));
+            values.push(quote!(#field: #private::Shared::<__W>::copy(&__systems[0].#field)));
         } else {
             bounds.push(quote!(#of_numbers: #private::Packing<__W, Packed = #of_packs>));
             fits.push(quote!(#private::Packing::<__W>::fits(&self.#field, &__other.#field)));
@@ -93,11 +100,14 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
     quote! {
         #[automatically_derived]
         #allow
+        #[allow(deprecated)]
         impl<#(#constants,)* const __W: usize> #krate::system::Packable<__W> for #name #of_numbers
         where #(#bounds),*
         {
             type Packed = #name #of_packs;
-            fn fits(&self, __other: &Self) -> bool { #(#fits)&&* }
+            fn fits(&self, __other: &Self) -> ::core::option::Option<bool> {
+                ::core::option::Option::Some(#(#fits)&&*)
+            }
             fn packed<__R>(
                 __systems: &[&Self; __W], __f: impl ::core::ops::FnOnce(&Self::Packed) -> __R,
             ) -> __R {
@@ -107,16 +117,21 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
     }
 }
 
-/// A type with `by` in place of `generic`.
+/// A type with `by` in place of `generic`, where that is no part of a path.
 fn replaced(ty: TokenStream, generic: &Ident, by: &TokenStream) -> TokenStream {
+    let mut is_after_colon = false;
     ty.into_iter()
-        .flat_map(|token| match token {
-            TokenTree::Ident(name) if name == *generic => by.clone(),
-            TokenTree::Group(group) => {
-                let inner = replaced(group.stream(), generic, by);
-                TokenTree::Group(proc_macro2::Group::new(group.delimiter(), inner)).into()
+        .flat_map(|token| {
+            let is_part = is_after_colon;
+            is_after_colon = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ':');
+            match token {
+                TokenTree::Ident(name) if name == *generic && !is_part => by.clone(),
+                TokenTree::Group(group) => {
+                    let inner = replaced(group.stream(), generic, by);
+                    TokenTree::Group(proc_macro2::Group::new(group.delimiter(), inner)).into()
+                }
+                other => other.into(),
             }
-            other => other.into(),
         })
         .collect()
 }

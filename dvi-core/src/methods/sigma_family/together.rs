@@ -66,7 +66,7 @@ where
         }
     }
 
-    fn fit(a: &S, b: &S) -> bool {
+    fn fit(a: &S, b: &S) -> Option<bool> {
         a.fits(b)
     }
 

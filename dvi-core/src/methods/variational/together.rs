@@ -39,7 +39,7 @@ where
         Packs { now: vectors(), kept: vectors(), reciprocals: space.vector(), one }
     }
 
-    fn fit(a: &S, b: &S) -> bool {
+    fn fit(a: &S, b: &S) -> Option<bool> {
         a.fits(b)
     }
 

@@ -64,14 +64,15 @@ impl Front {
 }
 
 impl Fronts {
-    /// The fronts of the matrix whose rows have entries in these columns, if their factors have no more numbers than `most`. Each
-    /// row needs an entry on the diagonal.
+    /// The fronts of the matrix whose rows have entries in these columns, if their factors have no more numbers than `most`, and if
+    /// they are found soon: patterns that fill as they are eliminated take the cube of their size. Each row needs an entry on the
+    /// diagonal.
     pub(super) fn new(rows: Vec<Vec<u32>>, most: usize) -> Option<Self> {
         let mut elimination = Elimination::new(rows);
         let mut numbers = 0;
         while let Some((_, column)) = elimination.next.pop_first() {
             numbers += elimination.eliminate(column);
-            if numbers > most {
+            if numbers > most || elimination.takes_too_long() {
                 return None;
             }
         }
@@ -148,6 +149,10 @@ impl Fronts {
     }
 }
 
+/// How many columns are looked at for each row, on average, in the search for fronts. A square lattice of 90 000 rows takes some
+/// thousand.
+const LOOKS: u64 = 4096;
+
 /// A matrix whose columns are being eliminated.
 struct Elimination {
     /// Sets of rows that have entries in the same columns.
@@ -160,6 +165,7 @@ struct Elimination {
     /// The last search that has seen a column.
     seen: Vec<u64>,
     searches: u64,
+    looks: u64,
     fronts: Vec<Found>,
 }
 
@@ -204,9 +210,15 @@ impl Elimination {
             degree: vec![0; n],
             seen: vec![0; n],
             searches: 0,
+            looks: 0,
             fronts: Vec::new(),
         };
-        (0..n as u32).for_each(|column| elimination.place(column));
+        for column in 0..n as u32 {
+            if elimination.takes_too_long() {
+                break;
+            }
+            elimination.place(column);
+        }
         elimination
     }
 
@@ -215,6 +227,7 @@ impl Elimination {
         self.searches += 1;
         let mut reach = Vec::new();
         for &set in &self.sets_of[column as usize] {
+            self.looks += self.sets[set as usize].columns.len() as u64;
             for &other in &self.sets[set as usize].columns {
                 if mem::replace(&mut self.seen[other as usize], self.searches) != self.searches {
                     reach.push(other);
@@ -261,9 +274,18 @@ impl Elimination {
         if !left.is_empty() {
             left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
             self.sets.push(Rows { columns: left.clone(), count: rows - pivots, from: Source::Front(front) });
-            left.into_iter().for_each(|other| self.place(other));
+            for other in left {
+                if self.takes_too_long() {
+                    break;
+                }
+                self.place(other);
+            }
         }
         numbers
+    }
+
+    fn takes_too_long(&self) -> bool {
+        self.looks > LOOKS * self.sets_of.len() as u64
     }
 
     /// The fronts, each after those whose rows it takes over, with nothing that waits between for another.

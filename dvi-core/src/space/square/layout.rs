@@ -80,8 +80,12 @@ mod tests {
         };
         assert!(matches!(lattice(20), Layout::Banded(_)));
         assert!(matches!(lattice(side), Layout::Sparse(..)));
-        // Each with the first, whose row may become the pivot of any column.
+        // Each with the first, whose row may become the pivot of any column; and each with two far away. Their fronts would take
+        // minutes to find.
+        let n = 20_000;
         assert!(matches!(of(n, (1..n).map(|i| (i, 0))), Layout::Full));
+        let far = (0..n).flat_map(|i| [(i, (3 * i + 7) % n), (i, (7 * i + 11) % n)]);
+        assert!(!matches!(of(n, far), Layout::Sparse(..)));
         assert!(matches!(of(50, (0..50).flat_map(|i| (0..50).map(move |j| (i, j)))), Layout::Full));
         assert!(matches!(of(300, (0..300).flat_map(|i| (0..i).map(move |j| (i, j)))), Layout::Full));
     }
