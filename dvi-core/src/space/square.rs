@@ -5,7 +5,8 @@
 //! that is found, lie close enough to the diagonal: chains and rings, whose coordinates may stand in several blocks. With n
 //! coordinates and b diagonals on each side, storage grows as n b and the time of a solution as n b². They are sparse where
 //! there are few entries and no narrow band: trees, networks, wide lattices. All others are full, also where one coordinate
-//! couples to all: its row may be the pivot of any column, and then all columns fill. Rows are exchanged in each of them, for the
+//! couples to all: its row may be the pivot of any column, and then all columns fill. The search for an order of elimination ends
+//! where it takes long, as in networks with links everywhere. Rows are exchanged in each of them, for the
 //! largest pivot in a column.
 
 #[cfg(feature = "alloc")]
