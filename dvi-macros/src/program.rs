@@ -226,28 +226,26 @@ fn rates(graph: &mut Graph, statements: &[Statement]) -> Vec<Statement> {
     statements.iter().filter_map(rate).collect()
 }
 
-/// `value` on (row, column) and, with the other weight, on (column, row).
+/// `value` on (row, column) and, with the other weight, on (column, row): on the diagonal with the sum of both.
 fn mirrored_pair(
     graph: &mut Graph,
     entry: &SecondContribution,
     weights: [Weight; 2],
     coordinates: [&Coordinate; 2],
 ) -> Vec<Statement> {
-    let mut place = |weight: Weight, row: &Coordinate, column: &Coordinate| {
-        let weight = graph.intern(Node::Weight(weight)).into();
-        let value = graph.multiply(weight, entry.value);
-        Statement {
-            loops: entry.loops.clone(),
-            place: Place::MatrixEntry(row.clone(), column.clone()),
-            value,
-        }
-    };
+    let [one, other] = weights.map(|weight| graph.intern(Node::Weight(weight)).into());
     let [row, column] = coordinates;
-    let mut statements = vec![place(weights[0], row, column)];
-    if entry.mirrored {
-        statements.push(place(weights[1], column, row));
-    }
-    statements
+    let places = match (entry.mirrored, row == column) {
+        (false, _) => vec![(one, row, column)],
+        (true, false) => vec![(one, row, column), (other, column, row)],
+        (true, true) => vec![(graph.add(one, other), row, column)],
+    };
+    let statement = |(weight, row, column): (Expr, &Coordinate, &Coordinate)| Statement {
+        loops: entry.loops.clone(),
+        place: Place::MatrixEntry(row.clone(), column.clone()),
+        value: graph.multiply(weight, entry.value),
+    };
+    places.into_iter().map(statement).collect()
 }
 
 fn weighted_hessian(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Statement> {

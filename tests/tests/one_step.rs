@@ -179,12 +179,9 @@ fn schemes_preserve_their_forms() -> Outcome {
         }
         Ok(())
     }
-    // A step of 0.5 of the first-order schemes is too long for the prey; equations of the others have solutions.
-    check(&PREY, &[1.0, 1.0], &[0.05, 0.1])?;
-    for method in [OneStep::midpoint(), OneStep::trapezoid()] {
-        let defect = defect(&PREY, &method, &[1.0, 1.0], 0.3, 0.0)?;
-        assert!(defect < 1e-13, "{method:?}: {defect:e}");
-    }
+    check(&PREY, &[1.0, 1.7], &[0.05, 0.1])?;
+    // Further away from the equilibrium at (1, 2) the scheme A has no solution with such a step.
+    check(&PREY, &[1.0, 1.99], &[0.5])?;
     check(&SPHERE, &[0.4, 0.3], &[0.05, 0.1, 0.5])?;
     check(&Mixed, &MIXED, &[0.05, 0.1, 0.5])?;
     check(&Ring { n: 3 }, &RING, &[0.05, 0.1, 0.5])?;
@@ -198,12 +195,37 @@ fn schemes_preserve_their_forms() -> Outcome {
 
 #[test]
 fn symmetric_schemes_go_back() -> Outcome {
-    for method in [OneStep::midpoint(), OneStep::trapezoid()] {
-        let there = stepped(&Mixed, &method, &MIXED, [0.2, 0.1], 200)?;
-        let back = stepped(&Mixed, &method, &there, [20.2, -0.1], 200)?;
-        assert!(apart(&back, &MIXED) < 1e-10, "{method:?}: {back:?}");
+    fn distance<S: ProperlyDegenerate, M: Method<S, f64>>(
+        system: &S,
+        method: &M,
+        q0: &[f64],
+    ) -> Result<f64, Box<dyn core::error::Error>> {
+        let there = stepped(system, method, q0, [0.2, 0.1], 200)?;
+        assert!(apart(&there, q0) > 1e-2, "{there:?} is where it began");
+        Ok(apart(&stepped(system, method, &there, [20.2, -0.1], 200)?, q0))
     }
-    Ok(())
+    fn check<S: ProperlyDegenerate>(system: &S, q0: &[f64]) -> Outcome {
+        for (name, distance) in [
+            ("midpoint", distance(system, &OneStep::midpoint(), q0)?),
+            ("trapezoid", distance(system, &OneStep::trapezoid(), q0)?),
+            ("Gauss 1", distance(system, &OneStepGauss::<1>::new(), q0)?),
+            ("Gauss 2", distance(system, &OneStepGauss::<2>::new(), q0)?),
+            ("Gauss 3", distance(system, &OneStepGauss::<3>::new(), q0)?),
+            ("Gauss 4", distance(system, &OneStepGauss::<4>::new(), q0)?),
+            ("triple jump", distance(system, &Composition::triple_jump(OneStep::midpoint()), q0)?),
+            ("Kahan & Li", distance(system, &Composition::kahan_li_8(OneStep::trapezoid()), q0)?),
+        ] {
+            assert!(distance < 1e-10, "{}, {name}: {distance:e}", S::REPORT.system);
+        }
+        // What is not symmetric is seen.
+        let lost = distance(system, &OneStep::scheme_a(), q0)?;
+        assert!(lost > 1e-3, "{}: {lost:e}", S::REPORT.system);
+        Ok(())
+    }
+    check(&PREY, &[1.0, 1.7])?;
+    check(&SPHERE, &[0.4, 0.3])?;
+    check(&Mixed, &MIXED)?;
+    check(&Ring { n: 3 }, &RING)
 }
 
 /// σ = ½ with an affine α is the midpoint rule too: for α = y dx the two schemes are the same map.

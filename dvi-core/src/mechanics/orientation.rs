@@ -69,7 +69,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     /// [`StepFailure::Orientation`]; the last is kept then.
     #[inline]
     pub(crate) fn check(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
-        self.pass(system, None, (q, t))
+        self.pass(system, &[], (q, t))
     }
 
     /// Compares Ω at points and times `within` a step and at its `end` with the last, and keeps that at the end.
@@ -80,31 +80,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     pub(crate) fn pass(
         &mut self,
         system: &S,
-        within: Option<(&[T], T)>,
+        within: &[(&[T], T)],
         end: (&[T], T),
     ) -> Result<(), StepFailure> {
-        match self {
-            Self::Pairs([entries, next]) if S::CANONICAL => {
-                scratch!(next = system, *next);
-                if let Some((q, t)) = within {
-                    compare_pairs(system, q, t, entries, next)?;
-                }
-                compare_pairs(system, end.0, end.1, entries, next)?;
-                entries.copy_from_slice(next);
-            }
-            Self::Pfaffian(before, matrix) if !S::CANONICAL => {
-                if let Some((q, t)) = within {
-                    compare(*before, Self::pfaffian(system, q, t, matrix))?;
-                }
-                let after = Self::pfaffian(system, end.0, end.1, matrix);
-                compare(*before, after)?;
-                *before = after;
-            }
-            Self::Constant => {}
-            // Which of the two a system has is decided when it is compiled.
-            Self::Pairs(_) | Self::Pfaffian(..) => return Err(UNKNOWN),
-        }
-        Ok(())
+        self.compare_all(system, within, Some(end))
     }
 
     /// Compares Ω at (`q`, `t`), within a step, with the last.
@@ -113,17 +92,43 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     /// [`StepFailure::Orientation`].
     #[inline]
     pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
-        match self {
-            Self::Pairs([entries, next]) if S::CANONICAL => {
-                scratch!(next = system, *next);
-                compare_pairs(system, q, t, entries, next)
-            }
-            Self::Pfaffian(before, matrix) if !S::CANONICAL => {
-                compare(*before, Self::pfaffian(system, q, t, matrix))
-            }
-            Self::Constant => Ok(()),
-            Self::Pairs(_) | Self::Pfaffian(..) => Err(UNKNOWN),
+        self.compare_all(system, &[(q, t)], None)
+    }
+
+    /// Compares Ω at points and times with the last, and keeps that at the `end`.
+    #[inline(always)]
+    fn compare_all(
+        &mut self,
+        system: &S,
+        within: &[(&[T], T)],
+        end: Option<(&[T], T)>,
+    ) -> Result<(), StepFailure> {
+        // Which of them a system has is decided when it is compiled.
+        if S::AFFINE {
+            return Ok(());
         }
+        if S::CANONICAL {
+            let Self::Pairs([entries, next]) = self else { return Err(UNKNOWN) };
+            scratch!(next = system, *next);
+            for &(q, t) in within {
+                compare_pairs(system, q, t, entries, next)?;
+            }
+            if let Some((q, t)) = end {
+                compare_pairs(system, q, t, entries, next)?;
+                entries.copy_from_slice(next);
+            }
+            return Ok(());
+        }
+        let Self::Pfaffian(before, matrix) = self else { return Err(UNKNOWN) };
+        for &(q, t) in within {
+            compare(*before, Self::pfaffian(system, q, t, matrix))?;
+        }
+        if let Some((q, t)) = end {
+            let after = Self::pfaffian(system, q, t, matrix);
+            compare(*before, after)?;
+            *before = after;
+        }
+        Ok(())
     }
 
     fn pfaffian(system: &S, q: &[T], t: T, matrix: &mut Matrix<S, T>) -> T {
@@ -144,7 +149,7 @@ fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
 ) -> Result<(), StepFailure> {
     system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
     // Ω is skew: the other row of a pair has the same entry with the other sign.
-    for i in (0..entries.len()).filter(|&i| i < system.conjugate(i)) {
+    for i in (0..entries.len()).filter(|&i| system.conjugate(i) < i) {
         compare(entries[i], next[i])?;
     }
     Ok(())

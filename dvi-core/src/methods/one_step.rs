@@ -237,16 +237,25 @@ impl OneStep {
         let begin = if self.is_symmetric() { t } else { self.depart(step, point, work, statistics) };
         let from = if self.is_symmetric() { q } else { &work.next };
         work.stage.solve(&Step { q: from, t: begin, ..*step }, self.stopping, statistics)?;
+        let mut node = t + h;
         if self.is_symmetric() {
-            work.end(step, point, self.stopping, statistics)?;
+            node = work.stage.kick(step, statistics);
+            if let Err(failure) = work.end(step, self.stopping, statistics) {
+                // Where Ω is singular there may be no end.
+                point.orientation.compare(system, &work.stage.point, node)?;
+                return Err(failure);
+            }
         } else {
             self.end(step, work);
         }
         let Work { stage, next, .. } = work;
         norm::finite(next)?;
         // Between two branches Ω changes its sign.
-        norm::mean(q, next, &mut stage.point);
-        point.orientation.pass(system, Some((&stage.point, t + half * h)), (next, t + h))
+        let middle = &mut stage.gradient;
+        norm::mean(q, next, middle);
+        let within: [(&[T], T); 2] = [(middle, t + half * h), (&stage.point, node)];
+        let within = if self.is_symmetric() { &within[..] } else { &within[..1] };
+        point.orientation.pass(system, within, (next, t + h))
     }
 
     /// Sets `work.next` to where A and B begin and `work.stage.momentum` to the momentum there, and returns its time. The node
@@ -312,37 +321,26 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     fn end(
         &mut self,
         step: &Step<'_, S, T>,
-        point: &mut Point<S, T>,
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Step { system, q, h, .. } = *step;
         let half = T::lift(0.5);
         let stage = &mut self.stage;
-        // p1 = p0 + h Σ w f_x, from the nodes at the solution.
-        let time = stage.kick(step, statistics);
-        // Between two branches Ω changes its sign.
-        if let Err(failure) = point.orientation.compare(system, &stage.point, time) {
-            // At what is no number Ω is none.
-            norm::finite(&stage.unknown)?;
-            return Err(failure);
-        }
         for i in 0..q.len() {
             let unknown = stage.unknown[i];
             stage.rates[i] = if is_x(system, i) { unknown } else { (unknown - q[i]) / half } / h;
         }
         // From ȳ on, as far again, and what the last steps have added; from there, if that is too far.
-        let solved = match self.solve_y(step, 1.0, stopping, statistics) {
-            Err(_) => self.solve_y(step, 0.0, stopping, statistics),
-            solved => solved,
-        };
+        self.solve_y(step, 1.0, stopping, statistics)
+            .or_else(|_| self.solve_y(step, 0.0, stopping, statistics))?;
         let Self { stage, next, turn, .. } = self;
         for i in 0..q.len() {
             let rate = stage.rates[i];
             turn[i] =
                 if is_x(system, i) { T::lift(0.0) } else { (next[i] - stage.unknown[i]) / half / h - rate };
         }
-        solved
+        Ok(())
     }
 
     /// Sets `next` to the end of the step, with y from `again` times as far as to ȳ beyond it.
@@ -355,11 +353,14 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let (Self { stage, split, next, turn }, Step { system, q, t, h, .. }) = (self, step);
-        let rest = T::lift(again * 0.5) * *h;
+        let (again, half) = (T::lift(again), T::lift(0.5) * *h);
         for i in 0..q.len() {
             let unknown = stage.unknown[i];
-            next[i] =
-                if is_x(*system, i) { q[i] + unknown } else { unknown + rest * (stage.rates[i] + turn[i]) };
+            next[i] = if is_x(*system, i) {
+                q[i] + unknown
+            } else {
+                unknown + again * ((unknown - q[i]) + half * turn[i])
+            };
         }
         split.solve_y(system, next, *t + *h, &stage.momentum, stopping, statistics)
     }

@@ -6,6 +6,9 @@ use crate::solve::Guess;
 use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
 
+/// The length of a ring: a power of two, which is quick to go around in.
+const RING: usize = DEPTH.next_power_of_two();
+
 /// `KINDS` kinds of rates of the last steps.
 #[derive(Debug)]
 pub(crate) struct Rates<S: System, T: Real, const KINDS: usize = 1> {
@@ -21,7 +24,7 @@ pub(crate) struct Rates<S: System, T: Real, const KINDS: usize = 1> {
 #[derive(Debug)]
 struct Kind<S: System, T: Real> {
     /// A ring that is written twice, so that the last seven always stand side by side, the newest first.
-    last: [Vector<S, T>; 2 * DEPTH],
+    last: [Vector<S, T>; 2 * RING],
     /// The first guess.
     seed: Vector<S, T>,
 }
@@ -36,12 +39,16 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
     /// Sets `rates` to those of a step of length `h` to begin with.
     #[inline(always)]
     pub(crate) fn guess(&self, h: T, guess: Guess, rates: [&mut Vector<S, T>; KINDS]) {
-        let is_expected = self.len == 0 || is_similar(h, self.last_step);
+        // The full sum has a known length and makes straight code, which is the first to be asked for.
+        let len = match guess {
+            Guess::Extrapolated if self.len == DEPTH && is_similar(h, self.last_step) => Some(DEPTH),
+            Guess::Extrapolated if self.len == 0 || is_similar(h, self.last_step) => Some(self.len),
+            Guess::Extrapolated | Guess::Zero => None,
+        };
         for (kind, rates) in self.kinds.iter().zip(rates) {
-            if guess == Guess::Extrapolated && is_expected {
-                kind.extrapolate(self.newest, self.len, rates);
-            } else {
-                rates.fill(T::lift(0.0));
+            match len {
+                Some(len) => kind.extrapolate(self.newest, len, rates),
+                None => rates.fill(T::lift(0.0)),
             }
         }
     }
@@ -55,10 +62,10 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
             }
             self.last_step = h;
         }
-        let newest = if self.newest == 0 { DEPTH } else { self.newest } - 1;
+        let newest = self.newest.wrapping_sub(1) % RING;
         for (kind, rates) in self.kinds.iter_mut().zip(rates) {
             kind.last[newest].copy_from_slice(rates);
-            kind.last[newest + DEPTH].copy_from_slice(rates);
+            kind.last[newest + RING].copy_from_slice(rates);
         }
         self.newest = newest;
         if self.len < DEPTH {
@@ -78,7 +85,7 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
 
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
-        self.len <= DEPTH && self.newest < DEPTH
+        self.len <= DEPTH && self.newest < RING
     }
 }
 
@@ -98,7 +105,8 @@ impl<S: System, T: Real> Kind<S, T> {
     fn combine(&self, newest: usize, len: usize, rates: &mut [T]) {
         // −0 is neutral for every number.
         rates.fill(T::lift(-0.0));
-        for (&coefficient, last) in COEFFICIENTS[len][..len].iter().zip(&self.last[newest..newest + DEPTH]) {
+        for (&coefficient, last) in COEFFICIENTS[len][..len].iter().zip(&self.last[newest % RING..][..DEPTH])
+        {
             for (rate, &last) in rates.iter_mut().zip(last.iter()) {
                 *rate += T::lift(coefficient) * last;
             }

@@ -130,7 +130,11 @@ fn rounding_of_momenta_ends_no_run() -> Outcome {
             }
         }
         let start: OneSidedState = OneSidedState { x: 0.1, y: 0.1 };
-        Integrator::new(&PREY, method, 0.01, start)?.take_steps(20_000)?;
+        for h in [0.01, 0.0106, 0.0118] {
+            Integrator::new(&PREY, method, h, start)?
+                .take_steps(20_000)
+                .map_err(|error| format!("h = {h}: {error}"))?;
+        }
         Ok(())
     }
     check(OneStep::midpoint())?;

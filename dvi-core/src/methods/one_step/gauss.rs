@@ -245,18 +245,24 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             }
             Ok(correction)
         });
-        solved.or_else(|failure| failure.unless_rounding(|| self.of_momentum(system, q, [t, h])))?;
+        solved.or_else(|failure| failure.unless_rounding(|| self.of_rounding(system, q, [t, h])))?;
         self.increments.iter().try_for_each(|increment| norm::finite(increment))
     }
 
-    /// What a relative error of the momentum makes of the increments.
-    fn of_momentum(&mut self, system: &S, q: &Vector<S, T>, [t, h]: [T; 2]) -> Result<T, StepFailure> {
+    /// What relative errors of momenta and coordinates make of the increments, where they have another sign in each stage: it is
+    /// differences between stages that are amplified.
+    fn of_rounding(&mut self, system: &S, q: &Vector<S, T>, [t, h]: [T; 2]) -> Result<T, StepFailure> {
         let Self { p, tableau, increments, residuals, solver, work, .. } = self;
-        residuals.iter_mut().for_each(|residual| residual.copy_from_slice(p));
+        let mut sign = T::lift(1.0);
+        for residual in residuals.iter_mut() {
+            residual.iter_mut().zip(p.iter()).for_each(|(residual, &p)| *residual = sign * p);
+            sign = -sign;
+        }
         let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
         solver.solve(&mut matrix, residuals)?;
-        let sizes = residuals[1..].iter().map(|residual| norm::largest(residual));
-        Ok(sizes.fold(T::lift(0.0), norm::larger))
+        let of_coordinates = T::lift(tableau.amplification()?) * norm::largest(q);
+        let of_momenta = residuals[1..].iter().map(|residual| norm::largest(residual));
+        Ok(of_momenta.fold(of_coordinates, norm::larger))
     }
 
     /// Sets `forces` to F and `residuals` to r.

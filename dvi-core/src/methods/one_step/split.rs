@@ -90,7 +90,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         system.conjugate_entries(q, t, T::lift(1.0), T::lift(0.0), entries);
         let rows = || (0..q.len()).filter(|&i| is_x(system, i)).map(|i| (i, system.conjugate(i)));
         for (i, column) in rows() {
-            self.change[system.place(column) - half] = self.form[i] / entries[i];
+            self.change[system.place(column) - half] = self.form[i] * (T::lift(1.0) / entries[i]);
         }
         let size = norm::finite_size(&self.change[..half]);
         // A quotient by a number without a reciprocal is not finite, unless its numerator is as small as that.
