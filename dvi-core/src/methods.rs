@@ -27,6 +27,7 @@ mod runge_kutta;
 mod sigma_family;
 mod symmetrised;
 mod together;
+mod tolerance;
 mod variational;
 mod walk;
 
@@ -57,6 +58,7 @@ pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use sigma_family::{ParasiticMode, Reinitialisation, Sigma, SigmaMemory, Start};
 pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
 pub use together::{Companion, InStep};
+pub use tolerance::Tolerance;
 pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
 
 /// The geometric structure that every step of a method preserves, up to rounding.
@@ -255,6 +257,28 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     /// is not known. `work` is storage for a point and a velocity.
     fn discrete_energy(&self, _span: Span<'_, S, T>, _work: &mut [Vector<S, T>; 2]) -> Option<T> {
         None
+    }
+
+    /// Whether [`local_error`](Self::local_error) is known.
+    fn estimates_local_error(&self) -> bool {
+        false
+    }
+
+    /// An estimate of the error of the last step, which was taken from time `t` with length `h`, in units of `tolerance`, without allocation;
+    /// `None` if the method has none. It is of the order h<sup>p+1</sup> of the error, with the [order](Scheme::order) p.
+    ///
+    /// # Errors
+    /// [`StepFailure`] if the equations of motion cannot be evaluated where the step began.
+    fn local_error(
+        &self,
+        _system: &S,
+        _memory: &mut Self::Memory,
+        _t: T,
+        _h: T,
+        _tolerance: Tolerance,
+        _statistics: &mut Statistics,
+    ) -> Result<Option<T>, StepFailure> {
+        Ok(None)
     }
 }
 

@@ -12,11 +12,11 @@ pub use crate::methods::Langevin;
 pub use crate::methods::{
     Collision, Composition, Constrained, EnergyLimit, Fitting, Galerkin, Gauss, Geodesic, Impacts, Newmark,
     OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, Reinitialisation, RungeKutta, Scheme, Sigma,
-    Start, Variational,
+    Start, Tolerance, Variational,
 };
 pub use crate::run::{
-    CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, Integrator, Osculating, Power, Reversible,
-    Run,
+    CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, ErrorControl, Integrator, Osculating, Power,
+    Reversible, Run,
 };
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::Summation;

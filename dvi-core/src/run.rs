@@ -24,7 +24,8 @@ pub use checkpoint::Checkpoint;
 pub use integrator::Integrator;
 pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, EnergyMomentumMemory,
-    Osculating, OsculatingMemory, Power, Reversible, ReversibleMemory, StepControl,
+    ErrorControl, ErrorControlMemory, Osculating, OsculatingMemory, Power, Reversible, ReversibleMemory,
+    StepControl,
 };
 
 #[cfg(feature = "alloc")]

@@ -153,6 +153,12 @@ fn controlled_runs_go_on() -> Outcome {
     let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
     let fitted = Variational::simpson().phase_fitted(Curvature(Reading::LeftFrozen));
     check_controlled(Variational::trapezoid(), Reversible::power(0.02, 1.5), start)?;
+    check_controlled(Gauss::<4>::new().in_lanes(), ErrorControl::new(1e-9, 0.5), start)?;
+    check_controlled(
+        EnergyLimit { method: Gauss::<2>::new(), limit: 1.0 },
+        ErrorControl::new(1e-5, 0.5),
+        start,
+    )?;
     check_controlled(fitted, Osculating::new(1e-3, 0.01), start)
 }
 

@@ -233,6 +233,18 @@ pub enum StepFailure {
         /// The discrete energy of that step without that of the run.
         defect: f64,
     },
+    /// No step, however short, has an error within the tolerance of the run
+    /// ([`ErrorControl`](crate::run::ErrorControl)).
+    #[error(
+        "no step meets the tolerance: the shortest that was tried, h = {h:e}, has an estimated error of {error:e} times what is \
+         allowed; a collision, or a demand out of reach"
+    )]
+    Tolerance {
+        /// The length of the shortest step that was tried.
+        h: f64,
+        /// Its estimated error, in units of what the tolerance allows.
+        error: f64,
+    },
     /// A step control asks for a step that does not advance the time.
     #[error(
         "the step control asks for h = {h:e}, which does not advance the time: a collision, or a demand out of reach"

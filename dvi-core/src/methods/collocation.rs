@@ -82,6 +82,12 @@ impl<const S: usize> Collocation<S> {
         Self { mu, a, b, c }
     }
 
+    /// Entry (k, j): the coefficient of Pₖ in the j-th Lagrange polynomial, bⱼ (2k+1) Pₖ(cⱼ).
+    pub(super) fn lagrange(&self) -> [[f64; S]; S] {
+        let within = self.c.map(legendre);
+        core::array::from_fn(|k| core::array::from_fn(|j| self.b[j] * (2 * k + 1) as f64 * within[j][k]))
+    }
+
     /// Entry (i, j): the j-th Lagrange polynomial at 1 + cᵢ, to continue a polynomial through the stages into the next step.
     pub(super) fn continuation(&self) -> [[f64; S]; S] {
         let (within, beyond) = (self.c.map(legendre), self.c.map(|c| legendre(1.0 + c)));

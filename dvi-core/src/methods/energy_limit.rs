@@ -5,7 +5,7 @@
 
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Method, PreservedForm, Scheme, Tolerance, VariableStep};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
@@ -123,7 +123,23 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
     }
 }
 
-impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {}
+impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {
+    fn estimates_local_error(&self) -> bool {
+        self.method.estimates_local_error()
+    }
+
+    fn local_error(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        t: T,
+        h: T,
+        tolerance: Tolerance,
+        statistics: &mut Statistics,
+    ) -> Result<Option<T>, StepFailure> {
+        self.method.local_error(system, &mut memory.inner, t, h, tolerance, statistics)
+    }
+}
 
 impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;

@@ -10,26 +10,23 @@
 //! stage, or for all stages at once.
 
 mod coefficients;
+mod local_error;
+mod memory;
 
-use core::fmt;
 use core::marker::PhantomData;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::motion::{
-    AtStages, EquationsOf, FirstOrder, InLanes, Motion, OneByOne, PackedOf, PointOf, Slopes, StageEvaluation,
-    StageWork,
-};
+use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvaluation};
 use crate::methods::collocation::MOST;
-use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, Tolerance, VariableStep};
 use crate::scalar::simd::Task;
 use crate::scalar::{Lanes, norm};
 use crate::solve::{Convergence, Iteration, Stopping, repeat};
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
-use crate::state::summation::{Summation, left_out};
+use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, Scalar, System, Vector};
 
-use coefficients::{Coefficients, combine};
+pub use memory::GaussMemory;
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 8, of order 2`S`, on the equations of motion y' = X(y, t).
 ///
@@ -81,37 +78,6 @@ impl<const S: usize> Default for Gauss<S> {
     }
 }
 
-/// The stages of a Gauss step, and those of the step before.
-pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
-    equations: EquationsOf<S, T>,
-    coefficients: Coefficients<STAGES, T>,
-    /// The slopes K of the last completed step.
-    completed: StagesOf<STAGES, S, T>,
-    /// What rounding has left out of y, if sums are compensated.
-    rest: PointOf<S, T>,
-    slopes: StagesOf<STAGES, S, T>,
-    /// L, of these slopes.
-    terms: StagesOf<STAGES, S, T>,
-    stages: StagesOf<STAGES, S, T>,
-    /// Where the step begins, its increment, and where it ends.
-    y: PointOf<S, T>,
-    increment: PointOf<S, T>,
-    next: PointOf<S, T>,
-    work: StageWork<STAGES, S, T>,
-}
-
-type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
-
-impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
-    lasting!(T; part equations, packs completed, part rest);
-}
-
-impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for GaussMemory<STAGES, S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("GaussMemory").field("completed", &self.completed).finish_non_exhaustive()
-    }
-}
-
 /// The largest of all numbers in `packs`.
 #[inline(always)]
 fn largest<const STAGES: usize, T: Real>(packs: &[Lanes<STAGES, T>]) -> T {
@@ -147,32 +113,7 @@ where
 {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        let mut equations = S::Kind::begin(system, q, v, t)?;
-        let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] =
-            core::array::from_fn(|_| S::Kind::point(system));
-        let [mut completed, slopes, terms, stages]: [StagesOf<STAGES, S, T>; 4] =
-            core::array::from_fn(|_| S::Kind::point(system));
-        S::Kind::gather(&mut equations, q, &mut y);
-        S::Kind::evaluate(&mut equations, system, &y, t, &mut slope, &mut Statistics::default())
-            .map_err(StartError::Starter)?;
-        for (packs, numbers) in completed.iter_mut().zip(slope.iter()) {
-            for (pack, &number) in packs.iter_mut().zip(numbers.iter()) {
-                *pack = Lanes::all(number);
-            }
-        }
-        Ok(GaussMemory {
-            equations,
-            coefficients: Coefficients::new(),
-            completed,
-            rest,
-            slopes,
-            terms,
-            stages,
-            y,
-            increment,
-            next,
-            work: StageWork::new(system),
-        })
+        GaussMemory::begin(system, q, v, t)
     }
 
     #[inline]
@@ -219,6 +160,21 @@ where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
+    fn estimates_local_error(&self) -> bool {
+        true
+    }
+
+    fn local_error(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        t: T,
+        h: T,
+        tolerance: Tolerance,
+        statistics: &mut Statistics,
+    ) -> Result<Option<T>, StepFailure> {
+        memory.local_error(system, t, h, tolerance, statistics).map(Some)
+    }
 }
 
 /// Up to `count` steps.
@@ -304,79 +260,5 @@ where
             largest = memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
         }
         Ok(Scalar::abs(*h) * largest)
-    }
-}
-
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
-    /// Continues the polynomial through the completed stages into the next step.
-    #[inline(always)]
-    fn guess(&mut self, h: T) {
-        let Self { coefficients, completed, slopes, terms, y, .. } = self;
-        let weights = Lanes::all(h) * coefficients.b;
-        for part in 0..y.len() {
-            let nothing = |_| [T::lift(0.0); 2];
-            combine(&coefficients.continuation, &completed[part], nothing, &mut slopes[part]);
-            for (term, &slope) in terms[part].iter_mut().zip(slopes[part].iter()) {
-                *term = weights * slope;
-            }
-        }
-    }
-
-    /// Evaluates one part of the slopes of all stages, and returns the largest change of one.
-    #[inline(always)]
-    fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
-        &mut self,
-        part: usize,
-        system: &S,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
-        let Self { equations, coefficients, slopes, terms, stages, y, rest, work, .. } = self;
-        // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
-        let moved = (part + 1) % y.len();
-        let from = |k: usize| [y[moved][k], rest[moved][k]];
-        combine(&coefficients.mu, &terms[moved], from, &mut stages[moved]);
-        let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
-        let at = AtStages { system, y: &*stages, t: times };
-        let weights = Lanes::all(h) * coefficients.b;
-        let changes = [T::lift(0.0); STAGES];
-        let mut renewed = Slopes { slopes, terms: &mut terms[part], part, weights, changes };
-        E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
-        Ok(norm::largest(&renewed.changes))
-    }
-
-    /// Moves to the end of the step.
-    #[inline(always)]
-    fn arrive(
-        &mut self,
-        summation: Summation,
-        system: &S,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<(), StepFailure> {
-        let Self { equations, completed, slopes, terms, y, rest, increment, next, .. } = self;
-        for part in 0..y.len() {
-            let numbers = y[part].iter().zip(rest[part].iter()).zip(terms[part].iter());
-            let moved = increment[part].iter_mut().zip(next[part].iter_mut());
-            for ((increment, next), ((&y, &rest), terms)) in moved.zip(numbers) {
-                *increment = terms.0.iter().fold(T::lift(0.0), |sum, &term| sum + term);
-                *next = y + (*increment + rest);
-            }
-        }
-        S::Kind::arrive(equations, system, next, q, t + h)?;
-        if summation == Summation::Compensated {
-            for part in 0..y.len() {
-                let sums = y[part].iter().zip(increment[part].iter()).zip(next[part].iter());
-                for (rest, ((&y, &increment), &next)) in rest[part].iter_mut().zip(sums) {
-                    *rest = left_out(y, increment + *rest, next);
-                }
-            }
-        }
-        for (completed, slopes) in completed.iter_mut().zip(slopes.iter()) {
-            completed.copy_from_slice(slopes);
-        }
-        Ok(())
     }
 }

@@ -121,8 +121,9 @@ impl<T: Real> Checkpoint<T> {
             return Err(CheckpointError::Velocities { expected, found }.into());
         }
         finite(system, &self.q, &self.v)?;
-        let Statistics { steps, iterations, gradients, linearizations, factorisations } = self.statistics;
-        let counts = [steps, iterations, gradients, linearizations, factorisations];
+        let Statistics { steps, rejected, iterations, gradients, linearizations, factorisations } =
+            self.statistics;
+        let counts = [steps, rejected, iterations, gradients, linearizations, factorisations];
         if counts.iter().any(|&count| count > BEYOND) || !self.record.is_finite() {
             return Err(CheckpointError::Damaged.into());
         }

@@ -36,6 +36,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::Gap { .. }
             | StepFailure::Density { .. } => true,
             StepFailure::TimeRate { rate } => rate.is_nan(),
+            StepFailure::Tolerance { error, .. } => error.is_nan(),
             StepFailure::EnergyStep { defect, .. } => defect.is_nan(),
             StepFailure::Energy { now, .. } => now.is_nan(),
             StepFailure::Orientation { after, .. } => after.is_nan(),

@@ -2,11 +2,12 @@
 //!
 //! A method keeps its good long-time behaviour under variable steps if the whole map, step control included, is
 //! symmetric or comes from a transformed system; choosing each step by the error of the one before destroys it
-//! (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind, [`Osculating`] of the
-//! other. With [`EnergyMomentum`] the length of a step is an unknown of its equations.
+//! (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind, [`ErrorControl`] and [`Osculating`] of
+//! the other. With [`EnergyMomentum`] the length of a step is an unknown of its equations.
 
 mod controlled;
 mod energy_momentum;
+mod error_control;
 mod integrator;
 mod osculating;
 mod reversible;
@@ -20,6 +21,7 @@ use crate::{Lagrangian, Real};
 
 pub use controlled::ControlledRun;
 pub use energy_momentum::{EnergyMomentum, EnergyMomentumMemory};
+pub use error_control::{ErrorControl, ErrorControlMemory};
 pub use integrator::ControlledIntegrator;
 pub use osculating::{CentreSpeed, Osculating, OsculatingMemory};
 pub use reversible::{Density, Power, Reversible, ReversibleMemory};

@@ -8,6 +8,8 @@ use core::ops::AddAssign;
 pub struct Statistics {
     /// Completed steps.
     pub steps: u64,
+    /// Steps that a step control has tried and taken back, because their error was too large or because they failed.
+    pub rejected: u64,
     /// Iterations of nonlinear solvers, of both kinds.
     pub iterations: u64,
     /// Evaluations of ∇H, or of ∂L/∂q and ∂L/∂v together.
@@ -21,6 +23,7 @@ pub struct Statistics {
 impl AddAssign for Statistics {
     fn add_assign(&mut self, other: Self) {
         self.steps += other.steps;
+        self.rejected += other.rejected;
         self.iterations += other.iterations;
         self.gradients += other.gradients;
         self.linearizations += other.linearizations;

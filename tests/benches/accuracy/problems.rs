@@ -42,6 +42,11 @@ macro_rules! gauss {
             $on.method("Gauss 16, one by one", Gauss::<8>::new(), fine($sixteen)),
             $on.method(GAUSS_16, Gauss::<8>::new().in_lanes(), fine($sixteen)),
             $on.method("Gauss 16, in lanes, tolerance 1e-12", to_tolerance, fine($sixteen)),
+            $on.controlled(
+                "Gauss 16, in lanes, steps by error",
+                Gauss::<8>::new().in_lanes(),
+                &tolerances(15),
+            ),
         ]
     }};
 }

@@ -4,7 +4,7 @@ use crate::state::memory::Memory;
 use core::fmt;
 
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, VariableStep};
+use crate::methods::{Carries, Tolerance, VariableStep};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
 use crate::{Lagrangian, Real, System, Vector};
@@ -62,6 +62,16 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
         }
         let Stepper { system, method, memory, q, statistics, .. } = &mut self.stepper;
         method.step(system, memory, q, t, h, statistics)
+    }
+
+    /// An estimate of the error of the last step, from time `t` of length `h`, in units of `tolerance`, without allocation; `None` if the method
+    /// has none.
+    ///
+    /// # Errors
+    /// As [`VariableStep::local_error`].
+    pub fn local_error(&mut self, t: T, h: T, tolerance: Tolerance) -> Result<Option<T>, StepFailure> {
+        let Stepper { system, method, memory, statistics, .. } = &mut self.stepper;
+        method.local_error(system, memory, t, h, tolerance, statistics)
     }
 
     /// Keeps the present point, to [go back](Self::go_back) to it. Nothing happens if the control does not

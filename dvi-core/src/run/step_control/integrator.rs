@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{ControlledRun, Reversible, StepControl, reversible};
+use super::{ControlledRun, ErrorControl, Reversible, StepControl, reversible};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepError};
@@ -177,6 +177,35 @@ where
         match self.controlled.stepper.velocity(self.time(), &mut v) {
             Ok(()) => self.control.density_at(&self.control_memory, &self.controlled.stepper.q, &v),
             Err(_) => T::lift(f64::NAN),
+        }
+    }
+}
+
+impl<S: Lagrangian<T>, M, T: Real> ControlledIntegrator<'_, S, M, ErrorControl, T>
+where
+    M: VariableStep<S, T>,
+{
+    /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the rounding of the time. Nothing is
+    /// allocated. A time that the run has reached or passed, or that is not a number, takes no step.
+    ///
+    /// # Errors
+    /// [`StepError`] of the first step that fails; the run stays at the last good state.
+    pub fn advance_to(&mut self, t: T) -> Result<(), StepError> {
+        self.control_memory.set_end(Some(t));
+        let result = self.steps_to(t);
+        self.control_memory.set_end(None);
+        result
+    }
+
+    fn steps_to(&mut self, t: T) -> Result<(), StepError> {
+        let forward = T::lift(self.control.first_step) > T::lift(0.0);
+        loop {
+            let now = self.time();
+            let is_ahead = if forward { now < t } else { now > t };
+            if !is_ahead || now + (t - now) == now {
+                return Ok(());
+            }
+            self.step()?;
         }
     }
 }

@@ -200,11 +200,13 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
                         return Ok(h);
                     }
                     run.go_back();
+                    run.stepper.statistics.rejected += 1;
                     h *= factor;
                 }
                 // The failure of a longer step tells more than that the steps became too short.
                 Err(failure @ StepFailure::StepLength { .. }) => return Err(failed.unwrap_or(failure)),
                 Err(failure) => {
+                    run.stepper.statistics.rejected += 1;
                     failed = Some(failure);
                     h *= T::lift(0.2);
                 }

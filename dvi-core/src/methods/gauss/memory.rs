@@ -1,0 +1,159 @@
+//! Where a Gauss step is, and what it leaves to the next one.
+
+use core::fmt;
+
+use super::coefficients::{Coefficients, combine};
+use crate::error::{StartError, StepFailure};
+use crate::mechanics::motion::{
+    AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, Slopes, StageEvaluation, StageWork,
+};
+use crate::scalar::{Lanes, norm};
+use crate::state::Statistics;
+use crate::state::memory::{Memory, lasting};
+use crate::state::summation::{Summation, left_out};
+use crate::{Real, System, Vector};
+
+/// The stages of a Gauss step, and those of the step before.
+pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    pub(super) equations: EquationsOf<S, T>,
+    pub(super) coefficients: Coefficients<STAGES, T>,
+    /// The slopes K of the last completed step.
+    completed: StagesOf<STAGES, S, T>,
+    /// The length of that step; zero before the first.
+    last: T,
+    /// What rounding has left out of y, if sums are compensated.
+    rest: PointOf<S, T>,
+    pub(super) slopes: StagesOf<STAGES, S, T>,
+    /// L, of these slopes.
+    terms: StagesOf<STAGES, S, T>,
+    stages: StagesOf<STAGES, S, T>,
+    /// Where the step begins, its increment, and where it ends.
+    pub(super) y: PointOf<S, T>,
+    pub(super) increment: PointOf<S, T>,
+    pub(super) next: PointOf<S, T>,
+    work: StageWork<STAGES, S, T>,
+}
+
+type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
+
+impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
+    lasting!(T; part equations, packs completed, number last, part rest);
+}
+
+impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for GaussMemory<STAGES, S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("GaussMemory").field("completed", &self.completed).finish_non_exhaustive()
+    }
+}
+
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
+    pub(super) fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self, StartError> {
+        let mut equations = S::Kind::begin(system, q, v, t)?;
+        let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] =
+            core::array::from_fn(|_| S::Kind::point(system));
+        let [mut completed, slopes, terms, stages]: [StagesOf<STAGES, S, T>; 4] =
+            core::array::from_fn(|_| S::Kind::point(system));
+        S::Kind::gather(&mut equations, q, &mut y);
+        S::Kind::evaluate(&mut equations, system, &y, t, &mut slope, &mut Statistics::default())
+            .map_err(StartError::Starter)?;
+        for (packs, numbers) in completed.iter_mut().zip(slope.iter()) {
+            for (pack, &number) in packs.iter_mut().zip(numbers.iter()) {
+                *pack = Lanes::all(number);
+            }
+        }
+        Ok(Self {
+            equations,
+            coefficients: Coefficients::new(),
+            completed,
+            last: T::lift(0.0),
+            rest,
+            slopes,
+            terms,
+            stages,
+            y,
+            increment,
+            next,
+            work: StageWork::new(system),
+        })
+    }
+
+    /// Continues the polynomial through the completed stages into the next step.
+    #[inline(always)]
+    pub(super) fn guess(&mut self, h: T) {
+        let Self { coefficients, completed, last, slopes, terms, y, .. } = self;
+        let weights = Lanes::all(h) * coefficients.b;
+        let continued;
+        let continuation = if h == *last || *last == T::lift(0.0) {
+            &coefficients.continuation
+        } else {
+            continued = coefficients.continuation_over(h / *last);
+            &continued
+        };
+        for part in 0..y.len() {
+            let nothing = |_| [T::lift(0.0); 2];
+            combine(continuation, &completed[part], nothing, &mut slopes[part]);
+            for (term, &slope) in terms[part].iter_mut().zip(slopes[part].iter()) {
+                *term = weights * slope;
+            }
+        }
+    }
+
+    /// Evaluates one part of the slopes of all stages, and returns the largest change of one.
+    #[inline(always)]
+    pub(super) fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
+        &mut self,
+        part: usize,
+        system: &S,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<T, StepFailure> {
+        let Self { equations, coefficients, slopes, terms, stages, y, rest, work, .. } = self;
+        // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
+        let moved = (part + 1) % y.len();
+        let from = |k: usize| [y[moved][k], rest[moved][k]];
+        combine(&coefficients.mu, &terms[moved], from, &mut stages[moved]);
+        let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
+        let at = AtStages { system, y: &*stages, t: times };
+        let weights = Lanes::all(h) * coefficients.b;
+        let changes = [T::lift(0.0); STAGES];
+        let mut renewed = Slopes { slopes, terms: &mut terms[part], part, weights, changes };
+        E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
+        Ok(norm::largest(&renewed.changes))
+    }
+
+    /// Moves to the end of the step.
+    #[inline(always)]
+    pub(super) fn arrive(
+        &mut self,
+        summation: Summation,
+        system: &S,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<(), StepFailure> {
+        let Self { equations, completed, last, slopes, terms, y, rest, increment, next, .. } = self;
+        for part in 0..y.len() {
+            let numbers = y[part].iter().zip(rest[part].iter()).zip(terms[part].iter());
+            let moved = increment[part].iter_mut().zip(next[part].iter_mut());
+            for ((increment, next), ((&y, &rest), terms)) in moved.zip(numbers) {
+                *increment = terms.0.iter().fold(T::lift(0.0), |sum, &term| sum + term);
+                *next = y + (*increment + rest);
+            }
+        }
+        S::Kind::arrive(equations, system, next, q, t + h)?;
+        if summation == Summation::Compensated {
+            for part in 0..y.len() {
+                let sums = y[part].iter().zip(increment[part].iter()).zip(next[part].iter());
+                for (rest, ((&y, &increment), &next)) in rest[part].iter_mut().zip(sums) {
+                    *rest = left_out(y, increment + *rest, next);
+                }
+            }
+        }
+        for (completed, slopes) in completed.iter_mut().zip(slopes.iter()) {
+            completed.copy_from_slice(slopes);
+        }
+        *last = h;
+        Ok(())
+    }
+}

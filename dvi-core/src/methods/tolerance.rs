@@ -1,0 +1,54 @@
+//! What the error of a step may be, and the error that a method estimates in these units.
+
+use crate::error::StartError;
+use crate::scalar::norm::{larger, reported};
+use crate::{Real, Scalar};
+
+/// The error that a step may have: in a coordinate qⱼ absolute + relative |qⱼ|, and in a momentum relative · max|p|.
+///
+/// Momenta are small where masses are, and have other units than coordinates; so their error is compared with the largest momentum,
+/// that which the step adds included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// In units of the numbers, and no less than their rounding, 2.3 · 10⁻¹⁶ in double precision.
+    pub relative: f64,
+    /// In the units of the coordinates; zero or positive. Zero asks for the digits of a coordinate that is zero but for rounding errors, which
+    /// no step gives.
+    pub absolute: f64,
+}
+
+impl Tolerance {
+    /// Whether both are in range.
+    pub(crate) fn validate<T: Real>(self) -> Result<(), StartError> {
+        let parameter = |name, value, range| Err(StartError::Parameter { name, value, range });
+        if !(self.relative >= reported(T::default_epsilon()) && self.relative.is_finite()) {
+            return parameter("relative", self.relative, "finite, and at least the rounding of the numbers");
+        }
+        if !(self.absolute >= 0.0 && self.absolute.is_finite()) {
+            return parameter("absolute", self.absolute, "zero or positive, and finite");
+        }
+        Ok(())
+    }
+
+    /// What is allowed in a coordinate of this size.
+    #[inline(always)]
+    pub(crate) fn of_coordinate<T: Real>(self, size: T) -> T {
+        T::lift(self.absolute) + T::lift(self.relative) * size
+    }
+
+    /// What is allowed in a momentum, where the largest has this size.
+    #[inline(always)]
+    pub(crate) fn of_momentum<T: Real>(self, size: T) -> T {
+        T::lift(self.relative) * size
+    }
+}
+
+/// max |xⱼ|/wⱼ, where `allowed`(j) = wⱼ; no error is within every tolerance, also that of zero.
+#[inline(always)]
+pub(crate) fn in_units_of<T: Real>(errors: &[T], allowed: impl Fn(usize) -> T) -> T {
+    let zero = T::lift(0.0);
+    errors.iter().enumerate().fold(zero, |largest, (j, &error)| {
+        let size = Scalar::abs(error);
+        if size > zero { larger(largest, size / allowed(j)) } else { largest }
+    })
+}

@@ -1,0 +1,201 @@
+//! Steps whose error is estimated and kept below a tolerance.
+//!
+//! h' = h e^(−0.7) e₋^(0.4),    e = ε^(1/k)/f
+//!
+//! after a step with estimated error ε, in units of the tolerance, where ε is of order k in h: so e is how many times too long the step was,
+//! with the safety factor f, and e₋ is that of the step before. This is the proportional–integral controller of Gustafsson 1991, with the
+//! constants of Hairer & Wanner 1996, section IV.2. Steps settle at e = 1. After a step that is taken back h' = h/e.
+
+use super::{ControlledRun, StepControl};
+use crate::error::{StartError, StepFailure};
+use crate::methods::{Tolerance, VariableStep};
+use crate::scalar::norm::{larger, reported};
+use crate::state::memory::{Memory, lasting};
+use crate::{Lagrangian, Real, Scalar};
+
+/// f: the next step aims at less than the tolerance.
+const SAFETY: f64 = 0.9;
+/// A step is at least and at most so many times as long as the one before.
+const FACTORS: [f64; 2] = [0.2, 2.0];
+/// A step that has failed is tried again with this part of its length.
+const AFTER_FAILURE: f64 = 0.25;
+/// The exponents of e and e₋.
+const EXPONENTS: [f64; 2] = [-0.7, 0.4];
+/// e₋ counts as at least this: what was far too short does not keep the next steps short.
+const LEAST_BEFORE: f64 = 0.5;
+/// Steps that are no more than this longer than what is left to a given time lead there.
+const STRETCH: f64 = 1.01;
+
+/// Steps whose estimated error is within a tolerance, for those who want a motion up to some time to so many digits, and no form to be
+/// preserved.
+///
+/// **It destroys the long-time behaviour of symplectic and symmetric methods.** A step that is chosen by its error depends on where it
+/// begins and not on where it leads, so that the map of a step is neither symplectic nor symmetric, and errors of energy and momenta
+/// grow as those of any other method do (Hairer, Lubich & Wanner 2006, section VIII.1). They are within what the tolerance lets through.
+/// For long runs take steps of one length, or [`Reversible`](super::Reversible).
+///
+/// The control is for methods that estimate the error of a step: [`Gauss`](crate::methods::Gauss), with
+/// [`EnergyLimit`](crate::methods::EnergyLimit) around it or not. A step that does not meet the tolerance, or fails, is taken back, and
+/// tried again with a shorter one; [`Statistics::rejected`](crate::state::Statistics::rejected) counts them. Where no step meets it the
+/// run ends with [`StepFailure::Tolerance`]. The error of a run is the sum of what its steps contribute, and so is proportional to the tolerance,
+/// not within it. Below a tolerance of some 10⁻¹⁴ it is rounding.
+///
+/// ```
+/// use core::f64::consts::TAU;
+/// use dvi_core::prelude::*;
+///
+/// /// A comet.
+/// #[lagrangian(
+///     coordinates(x, y),
+///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / (x * x + y * y).sqrt(),
+/// )]
+/// struct Kepler;
+///
+/// // An orbit of eccentricity 0.9 at its pericentre.
+/// let start: KeplerState = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
+/// let control = ErrorControl::new(1e-10, 0.01);
+/// let mut run = ControlledIntegrator::new(&Kepler, Gauss::<8>::new().in_lanes(), control, start)?;
+/// run.advance_to(TAU)?;
+/// assert!((run.state().x - 0.1).abs() < 1e-8);
+/// assert!(run.steps() < 40);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorControl {
+    /// The error that a step may have.
+    pub tolerance: Tolerance,
+    /// The length of the first step that is tried; negative to run back in time.
+    pub first_step: f64,
+}
+
+impl ErrorControl {
+    /// With the same tolerance for relative and for absolute errors.
+    pub fn new(tolerance: f64, first_step: f64) -> Self {
+        Self { tolerance: Tolerance { relative: tolerance, absolute: tolerance }, first_step }
+    }
+}
+
+/// What [`ErrorControl`] carries from step to step.
+#[derive(Debug)]
+pub struct ErrorControlMemory<T> {
+    /// The length of the next step.
+    h: T,
+    /// The estimated error of the last step, in units of the tolerance; before the first step 1.
+    error: T,
+    /// e of the last step, at least [`LEAST_BEFORE`].
+    excess: T,
+    /// A time that no step goes beyond, if there is one.
+    end: Option<T>,
+}
+
+impl<T: Real> Memory<T> for ErrorControlMemory<T> {
+    lasting!(T; number h, number error, number excess; is_sound);
+}
+
+impl<T: Real> ErrorControlMemory<T> {
+    /// The estimated error of the last step, in units of the tolerance; before the first step 1.
+    pub fn error(&self) -> T {
+        self.error
+    }
+
+    /// The length of the step that is tried next.
+    pub fn next_step(&self) -> T {
+        self.h
+    }
+
+    /// No step goes beyond this time, if there is one.
+    pub(super) fn set_end(&mut self, end: Option<T>) {
+        self.end = end;
+    }
+
+    #[cfg(feature = "alloc")]
+    fn is_sound(&self) -> bool {
+        self.h != T::lift(0.0) && self.excess > T::lift(0.0)
+    }
+}
+
+/// A factor for the length of a step within bounds; the least one where it is not a number.
+fn within<T: Real>(factor: T, least: f64, most: f64) -> T {
+    let [least, most] = [least, most].map(T::lift);
+    if factor > most { most } else { larger(least, factor) }
+}
+
+impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl {
+    const REJECTS: bool = true;
+    type Memory = ErrorControlMemory<T>;
+
+    fn begin(&self, _system: &S, _q: &[T], _v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
+        self.tolerance.validate::<T>()?;
+        if !self.first_step.is_finite() || self.first_step == 0.0 {
+            return Err(StartError::Step { h: self.first_step });
+        }
+        let h = T::lift(self.first_step);
+        Ok((ErrorControlMemory { h, error: T::lift(1.0), excess: T::lift(1.0), end: None }, h))
+    }
+
+    fn admit<M: VariableStep<S, T>>(&self, method: &M) -> Result<(), StartError> {
+        if method.estimates_local_error() {
+            return Ok(());
+        }
+        let reason = "the method has no estimate of the error of a step: take `Gauss`";
+        Err(StartError::Unsupported { option: "ErrorControl", reason })
+    }
+
+    fn step<M: VariableStep<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut ControlledRun<'_, S, M, T>,
+        t: T,
+    ) -> Result<T, StepFailure> {
+        run.keep();
+        let order = (run.stepper.method.order() + 1) as f64;
+        let excess = |error: T| Scalar::powf(error, T::lift(1.0 / order)) / T::lift(SAFETY);
+        let left = memory.end.map(|end| end - t);
+        let is_last = |left: &T| Scalar::abs(*left) <= T::lift(STRETCH) * Scalar::abs(memory.h);
+        let mut h = left.filter(is_last).unwrap_or(memory.h);
+        let mut failed = None;
+        loop {
+            match self.attempt(run, t, h) {
+                Ok(error) if error <= T::lift(1.0) => {
+                    let (e, [now, before]) = (excess(error), EXPONENTS.map(T::lift));
+                    let most = if failed.is_none() { FACTORS[1] } else { 1.0 };
+                    let factor = Scalar::powf(e, now) * Scalar::powf(memory.excess, before);
+                    let next = h * within(factor, FACTORS[0], most);
+                    // A step that is cut short by the end of the run says little of the next one.
+                    let is_cut = left == Some(h) && Scalar::abs(next) < Scalar::abs(memory.h);
+                    memory.h = if is_cut { memory.h } else { next };
+                    (memory.error, memory.excess) = (error, larger(T::lift(LEAST_BEFORE), e));
+                    return Ok(h);
+                }
+                Ok(error) => {
+                    run.go_back();
+                    run.stepper.statistics.rejected += 1;
+                    failed = Some(StepFailure::Tolerance { h: reported(h), error: reported(error) });
+                    h *= within(T::lift(1.0) / excess(error), FACTORS[0], SAFETY);
+                }
+                // The failure of a longer step tells more than that the steps became too short.
+                Err(failure @ StepFailure::StepLength { .. }) => return Err(failed.unwrap_or(failure)),
+                Err(failure) => {
+                    run.stepper.statistics.rejected += 1;
+                    failed = Some(failure);
+                    h *= T::lift(AFTER_FAILURE);
+                }
+            }
+        }
+    }
+}
+
+impl ErrorControl {
+    /// Takes a step of length `h` and returns its estimated error, in units of the tolerance; goes back if there is none.
+    fn attempt<S: Lagrangian<T>, M: VariableStep<S, T>, T: Real>(
+        &self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        t: T,
+        h: T,
+    ) -> Result<T, StepFailure> {
+        run.step(t, h)?;
+        let error = run.local_error(t, h, self.tolerance).inspect_err(|_| run.go_back())?;
+        // A method without an estimate has not been admitted.
+        Ok(error.unwrap_or(T::lift(f64::NAN)))
+    }
+}

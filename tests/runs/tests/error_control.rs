@@ -1,0 +1,317 @@
+//! Steps chosen by their error: that errors fall with the tolerance, that steps which are taken back leave no trace, how runs end, and
+//! that the long-time behaviour of the method is lost.
+
+use core::f64::consts::{PI, TAU};
+use dvi_core::methods::VariableStep;
+use dvi_core::prelude::*;
+use dvi_core::run::{ControlledRun, StepControl};
+use dvi_tests::configurations::chaotic;
+use dvi_tests::larger;
+use dvi_tests::zoo::regular::{DoublePendulum, DoublePendulumState, Kepler, KeplerState};
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+const KEPLER: Kepler = Kepler { mu: 1.0 };
+const TOLERANCES: [f64; 9] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
+
+/// At the pericentre of an orbit with period 2π.
+fn pericentre(e: f64) -> KeplerState {
+    KeplerState { x: 1.0 - e, y: 0.0, dot_x: 0.0, dot_y: ((1.0 + e) / (1.0 - e)).sqrt() }
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |largest, (a, b)| larger(largest, (a - b).abs()))
+}
+
+/// The errors at time `end` for each tolerance, against steps of one length that are `fine`.
+fn errors<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
+    system: &S,
+    method: M,
+    start: &S::State<f64>,
+    end: f64,
+    fine: &[f64],
+) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+    let error = |&tolerance: &f64| {
+        let control = ErrorControl::new(tolerance, 0.01);
+        let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+        run.advance_to(end)?;
+        assert!((run.time() - end).abs() <= 1e-15 * end.abs(), "{:e}", run.time() - end);
+        assert!(run.control_memory().error() <= 1.0);
+        Ok(distance(run.q(), fine))
+    };
+    TOLERANCES.iter().map(error).collect()
+}
+
+/// Errors are within `most` tolerances, smaller for a tolerance that is a hundredth, and fall with it as the local error of this order
+/// lets expect: error and steps of one length are as hᵖ where the tolerance is as hᵖ⁺¹.
+fn check(errors: &[f64], order: f64, most: f64, band: f64) {
+    for (error, tolerance) in errors.iter().zip(TOLERANCES) {
+        assert!(error / tolerance < most, "{error:e} at {tolerance:e}");
+    }
+    assert!(errors.windows(3).all(|errors| errors[2] < 0.2 * errors[0]), "{errors:?}");
+    let pairs: Vec<(f64, f64)> = TOLERANCES.into_iter().zip(errors.iter().copied()).collect();
+    let slope = convergence_order(&pairs).unwrap_or(f64::NAN);
+    let expected = order / (order + 1.0);
+    assert!((slope - expected).abs() < band, "{slope}, expected {expected}: {errors:?}");
+}
+
+#[test]
+fn errors_fall_with_the_tolerance_on_an_eccentric_orbit() -> Outcome {
+    // After one and a half periods the comet is at its apocentre.
+    let (start, end, fine) = (pericentre(0.9), 1.5 * TAU, [-1.9, 0.0]);
+    check(&errors(&KEPLER, Gauss::<2>::new(), &start, end, &fine)?, 4.0, 4000.0, 0.1);
+    check(&errors(&KEPLER, Gauss::<4>::new().in_lanes(), &start, end, &fine)?, 8.0, 60.0, 0.1);
+    check(&errors(&KEPLER, Gauss::<8>::new().in_lanes(), &start, end, &fine)?, 16.0, 60.0, 0.4);
+    Ok(())
+}
+
+#[test]
+fn errors_fall_with_the_tolerance_on_vortices() -> Outcome {
+    let (vortices, start) = chaotic();
+    let end = 20.0;
+    let mut fine = Integrator::new(&vortices, Gauss::<8>::new().in_lanes(), end / 4000.0, start)?;
+    fine.take_steps(4000)?;
+    check(&errors(&vortices, Gauss::<3>::new(), &start, end, fine.q())?, 6.0, 4000.0, 0.1);
+    check(&errors(&vortices, Gauss::<5>::new().in_lanes(), &start, end, fine.q())?, 10.0, 4000.0, 0.1);
+    check(&errors(&vortices, Gauss::<8>::new().in_lanes(), &start, end, fine.q())?, 16.0, 4000.0, 0.1);
+    Ok(())
+}
+
+#[test]
+fn errors_fall_with_the_tolerance_where_the_mass_matrix_varies() -> Outcome {
+    let system = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 1.3], g: 9.81 };
+    let start = DoublePendulumState { a: 1.0, b: -0.5, dot_a: 0.0, dot_b: 0.0 };
+    let end = -3.0;
+    let mut fine = Integrator::new(&system, Gauss::<8>::new(), end / 3000.0, start.clone())?;
+    fine.take_steps(3000)?;
+    for tolerance in TOLERANCES {
+        let control = ErrorControl::new(tolerance, -0.01);
+        let mut run = ControlledIntegrator::new(&system, Gauss::<6>::new(), control, start.clone())?;
+        run.advance_to(end)?;
+        let error = distance(run.q(), fine.q());
+        assert!(run.time() == end && error < 100.0 * tolerance, "{tolerance:e}: {error:e}");
+    }
+    Ok(())
+}
+
+/// The smallest and the largest ratio of the error of a step, in units of the tolerance, to its estimate.
+fn estimates<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
+    system: &S,
+    method: M,
+    start: &S::State<f64>,
+    [end, tolerance]: [f64; 2],
+    fine: impl Fn(S::State<f64>, [f64; 2]) -> Result<Vec<f64>, Box<dyn core::error::Error>>,
+) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+    let mut run =
+        ControlledIntegrator::new(system, method, ErrorControl::new(tolerance, 0.01), start.clone())?;
+    let mut range = [f64::INFINITY, 0.0];
+    while run.time() < end {
+        let (before, t) = (run.state(), run.time());
+        run.advance()?;
+        let exact = fine(before, [t, run.step_size()])?;
+        let errors = run.q().iter().zip(&exact);
+        let error = errors.fold(0.0, |most, (q, exact)| {
+            larger(most, (q - exact).abs() / (tolerance * (1.0 + exact.abs())))
+        });
+        // A first step that is much too short has no error but rounding.
+        if error * tolerance > 1e-13 {
+            let ratio = error / run.control_memory().error();
+            range = [if ratio < range[0] { ratio } else { range[0] }, larger(range[1], ratio)];
+        }
+    }
+    Ok(range)
+}
+
+#[test]
+fn estimates_are_near_the_error_of_a_step() -> Outcome {
+    let (vortices, start) = chaotic();
+    let of_vortices = |before, [t, h]: [f64; 2]| {
+        let mut fine = Integrator::new_at(&vortices, Gauss::<8>::new(), t, h / 8.0, before)?;
+        fine.take_steps(8)?;
+        Ok(fine.q().to_vec())
+    };
+    let of_kepler = |before, [t, h]: [f64; 2]| {
+        let mut fine = Integrator::new_at(&KEPLER, Gauss::<8>::new(), t, h / 8.0, before)?;
+        fine.take_steps(8)?;
+        Ok(fine.q().to_vec())
+    };
+    for [least, most] in [
+        estimates(&vortices, Gauss::<2>::new(), &start, [20.0, 1e-7], of_vortices)?,
+        estimates(&vortices, Gauss::<4>::new(), &start, [20.0, 1e-7], of_vortices)?,
+        estimates(&vortices, Gauss::<8>::new(), &start, [20.0, 1e-7], of_vortices)?,
+        estimates(&KEPLER, Gauss::<1>::new(), &pericentre(0.5), [TAU, 1e-6], of_kepler)?,
+        estimates(&KEPLER, Gauss::<3>::new(), &pericentre(0.9), [TAU, 1e-7], of_kepler)?,
+        estimates(&KEPLER, Gauss::<8>::new(), &pericentre(0.9), [TAU, 1e-7], of_kepler)?,
+    ] {
+        println!("{least:e} {most:e}");
+        assert!(least > 3e-3 && most < 8.0, "{least:e} {most:e}");
+    }
+    Ok(())
+}
+
+/// Steps of one length, before each of which a longer one is taken back.
+#[derive(Clone, Copy, Debug)]
+struct Detour {
+    h: f64,
+    long: Option<f64>,
+}
+
+impl<S: Lagrangian> StepControl<S, f64> for Detour {
+    const REJECTS: bool = true;
+    type Memory = ();
+    fn begin(&self, _system: &S, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
+        Ok(((), self.h))
+    }
+    fn step<M: VariableStep<S, f64>>(
+        &self,
+        _memory: &mut (),
+        run: &mut ControlledRun<'_, S, M, f64>,
+        t: f64,
+    ) -> Result<f64, StepFailure> {
+        if let Some(long) = self.long {
+            run.keep();
+            let tolerance = Tolerance { relative: 1e-9, absolute: 0.0 };
+            run.step(t, long)?;
+            assert!(run.local_error(t, long, tolerance)?.is_some_and(|error| error > 0.0));
+            run.go_back();
+        }
+        run.step(t, self.h).map(|()| self.h)
+    }
+}
+
+#[test]
+fn steps_that_are_taken_back_leave_no_trace() -> Outcome {
+    fn check<S: Lagrangian<State<f64>: PartialEq>, M: VariableStep<S, f64> + Copy>(
+        system: &S,
+        method: M,
+        start: &S::State<f64>,
+    ) -> Outcome {
+        let run = |long| {
+            let mut run = ControlledIntegrator::new(system, method, Detour { h: 0.01, long }, start.clone())?;
+            run.take_steps(100)?;
+            Ok::<_, Box<dyn core::error::Error>>((run.state(), run.checkpoint()))
+        };
+        let [(state, straight), (again, detour)] = [run(None)?, run(Some(0.1))?];
+        assert_eq!(state, again);
+        // All but what it has cost is the same.
+        let text = |run| format!("{run:?}").split("statistics").next().map(str::to_owned);
+        assert_eq!(text(straight), text(detour));
+        Ok(())
+    }
+    let (vortices, points) = chaotic();
+    check(&vortices, Gauss::<2>::new(), &points)?;
+    check(&KEPLER, Gauss::<3>::new().in_lanes(), &pericentre(0.6))?;
+    let system = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 1.3], g: 9.81 };
+    let start = DoublePendulumState { a: 1.0, b: -0.5, dot_a: 0.0, dot_b: 2.0 };
+    check(&system, Gauss::<3>::new(), &start)?;
+    // A first step that is much too long comes to the same as the one that is found in its place.
+    let first = |h| {
+        let method = Gauss::<8>::new().in_lanes();
+        let mut run =
+            ControlledIntegrator::new(&KEPLER, method, ErrorControl::new(1e-9, h), pericentre(0.9))?;
+        run.advance()?;
+        Ok::<_, Box<dyn core::error::Error>>((run.step_size(), run.state(), run.statistics().rejected))
+    };
+    let (length, state, rejected) = first(1000.0)?;
+    assert!(rejected > 3 && length < 0.1, "{rejected} {length}");
+    assert_eq!(first(length)?, (length, state, 0));
+    Ok(())
+}
+
+#[test]
+fn a_head_on_collision_ends_with_an_error_at_the_last_good_state() -> Outcome {
+    let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let method = Gauss::<8>::new().in_lanes();
+        let mut run = ControlledIntegrator::new(&KEPLER, method, ErrorControl::new(tolerance, 0.1), start)?;
+        let error = run.advance_to(3.0).err().ok_or("it collides")?;
+        // Half the period of the orbit of semi-axis ½.
+        let fall = PI * 0.5_f64.powf(1.5);
+        println!("{error} {} {} {:e}", run.steps(), run.statistics().rejected, run.time() - fall);
+        assert_eq!((error.step, error.time), (run.steps(), run.time()));
+        assert!((run.time() - fall).abs() < 10.0 * tolerance, "{} {}", run.time(), error);
+        assert!(run.state().x.is_finite());
+        assert!(
+            matches!(
+                error.failure,
+                StepFailure::Tolerance { .. }
+                    | StepFailure::StepLength { .. }
+                    | StepFailure::NotConverged { .. }
+            ),
+            "{error}"
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn options_and_methods_out_of_range_are_refused() {
+    let refusal = |relative, absolute, first_step| {
+        let control = ErrorControl { tolerance: Tolerance { relative, absolute }, first_step };
+        ControlledIntegrator::new(&KEPLER, Gauss::<2>::new(), control, pericentre(0.5)).err()
+    };
+    for relative in [0.0, -1.0, 1e-17, f64::NAN, f64::INFINITY] {
+        let error = refusal(relative, 0.0, 0.1);
+        assert!(matches!(error, Some(StartError::Parameter { name: "relative", .. })), "{error:?}");
+    }
+    for absolute in [-1.0, f64::NAN, f64::INFINITY] {
+        let error = refusal(1e-3, absolute, 0.1);
+        assert!(matches!(error, Some(StartError::Parameter { name: "absolute", .. })), "{error:?}");
+    }
+    for h in [0.0, f64::INFINITY] {
+        assert_eq!(refusal(1e-3, 0.0, h), Some(StartError::Step { h }));
+    }
+    let control = ErrorControl::new(1e-6, 0.1);
+    let error = ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), control, pericentre(0.5)).err();
+    assert!(matches!(error, Some(StartError::Unsupported { option: "ErrorControl", .. })), "{error:?}");
+}
+
+#[test]
+fn an_energy_limit_lets_the_estimate_through() -> Outcome {
+    let control = ErrorControl::new(1e-3, 0.1);
+    let free = Gauss::<2>::new();
+    let mut run = ControlledIntegrator::new(&KEPLER, free, control, pericentre(0.9))?;
+    run.advance_to(50.0)?;
+    let limited = EnergyLimit { method: free, limit: 1e-5 };
+    let mut run = ControlledIntegrator::new(&KEPLER, limited, control, pericentre(0.9))?;
+    let energy = run.energy();
+    // A step that changes the energy too much is a failure, after which a shorter one is tried.
+    while run.time() < 50.0 && run.advance().is_ok() {
+        assert!((run.energy() - energy).abs() <= 1e-5);
+    }
+    assert!(run.steps() > 10 && run.statistics().rejected > 0);
+    Ok(())
+}
+
+/// The largest errors of the energy in the first and in the last tenth of `periods`.
+fn energy_errors(
+    mut run: impl Run<Scalar = f64>,
+    periods: f64,
+) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+    let initial = run.energy();
+    let mut largest = [0.0; 2];
+    while run.time() < periods * TAU {
+        run.advance()?;
+        let tenth = run.time() / (0.1 * periods * TAU);
+        let error = (run.energy() - initial).abs();
+        if tenth < 1.0 {
+            largest[0] = larger(largest[0], error);
+        } else if tenth > 9.0 {
+            largest[1] = larger(largest[1], error);
+        }
+    }
+    Ok(largest)
+}
+
+#[test]
+fn the_energy_drifts_as_it_does_not_with_steps_of_one_length() -> Outcome {
+    let (method, start, periods) = (Gauss::<2>::new(), pericentre(0.5), 1000.0);
+    let controlled = ControlledIntegrator::new(&KEPLER, method, ErrorControl::new(1e-6, 0.1), start)?;
+    let [first, last] = energy_errors(controlled, periods)?;
+    println!("{first:e} {last:e}");
+    assert!(last > 5.0 * first, "{first:e} {last:e}");
+    let [first, last] = energy_errors(Integrator::new(&KEPLER, method, TAU / 100.0, start)?, periods)?;
+    println!("{first:e} {last:e}");
+    assert!(last < 1.1 * first, "{first:e} {last:e}");
+    Ok(())
+}
