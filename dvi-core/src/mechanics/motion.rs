@@ -23,7 +23,7 @@ use crate::{Real, Scalar, System, Vector};
 
 pub use flow_on_q::FlowOnQ;
 pub use hamilton::HamiltonsEquations;
-pub(crate) use stages::{AtStages, Slopes, StageWork};
+pub(crate) use stages::{AtStages, Slopes, StageWork, weigh};
 pub use stages::{FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.

@@ -255,10 +255,10 @@ where
     #[inline(always)]
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { system, memory, t, h, .. } = self;
-        let mut largest = T::lift(0.0);
-        for part in (0..memory.y.len()).rev() {
-            largest = memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
+        for part in (1..memory.y.len()).rev() {
+            memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
         }
+        let largest = memory.evaluate_part::<E>(0, system, *t, *h, statistics)?;
         Ok(Scalar::abs(*h) * largest)
     }
 }

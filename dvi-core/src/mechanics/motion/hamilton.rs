@@ -251,9 +251,9 @@ where
     ) -> Result<(), StepFailure> {
         let [q, p] = &at.y.0;
         if slopes.part == 1 {
-            let force = work.of_forces();
-            at.system.force(q, &slopes.slopes.0[0], at.t, force);
-            slopes.renew_all(force);
+            let [velocity, force] = &mut slopes.slopes.0;
+            at.system.force(q, velocity, at.t, force);
+            slopes.renewed();
             statistics.gradients += W as u64;
             return Ok(());
         }

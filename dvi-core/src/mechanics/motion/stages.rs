@@ -37,12 +37,6 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> 
         Self { point, slope, vector: space.vector(), gradient: space.vector(), entries: space.vector() }
     }
 
-    /// For the forces of a regular system.
-    #[inline(always)]
-    pub(super) fn of_forces(&mut self) -> &mut Vector<S, Lanes<W, T>> {
-        &mut self.gradient
-    }
-
     /// For the vector field of a degenerate system.
     #[inline(always)]
     pub(super) fn of_field(&mut self) -> LaneWork<'_, W, T> {
@@ -73,7 +67,7 @@ pub struct Slopes<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     pub(crate) part: usize,
     /// h b.
     pub(crate) weights: Lanes<W, T>,
-    /// The largest changes of a slope so far, of each stage first, as the stages are beside one another.
+    /// The largest changes of a velocity so far, of each stage first, as the stages are beside one another.
     pub(crate) changes: [T; W],
 }
 
@@ -90,12 +84,39 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T>
         self.terms[j] = self.weights * renewed;
     }
 
+    /// Takes over that the entry has been renewed in its place, where nothing is asked of its changes.
+    #[inline(always)]
+    pub(super) fn renewed(&mut self) {
+        weigh(self.weights, &self.slopes[self.part], self.terms);
+    }
+
     #[inline(always)]
     pub(super) fn renew_all(&mut self, renewed: &[Lanes<W, T>]) {
         for (j, &renewed) in renewed.iter().enumerate() {
             self.renew(j, renewed);
         }
     }
+}
+
+/// Sets each of `terms` to `weights` times the slope. The loop is one over blocks, because over single packs the compiler would take lanes
+/// of several packs together, and load and store them one by one.
+#[inline(always)]
+pub(crate) fn weigh<const W: usize, T: Real>(
+    weights: Lanes<W, T>,
+    slopes: &[Lanes<W, T>],
+    terms: &mut [Lanes<W, T>],
+) {
+    let each = |terms: &mut [Lanes<W, T>], slopes: &[Lanes<W, T>]| {
+        for (term, &slope) in terms.iter_mut().zip(slopes) {
+            *term = weights * slope;
+        }
+    };
+    let (blocks, left) = slopes.as_chunks::<4>();
+    let (term_blocks, terms_left) = terms.as_chunks_mut::<4>();
+    for (terms, slopes) in term_blocks.iter_mut().zip(blocks) {
+        each(terms, slopes);
+    }
+    each(terms_left, left);
 }
 
 impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for Slopes<'_, W, S, T> {

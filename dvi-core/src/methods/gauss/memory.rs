@@ -5,7 +5,7 @@ use core::fmt;
 use super::coefficients::{Coefficients, combine};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
-    AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, Slopes, StageEvaluation, StageWork,
+    AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, Slopes, StageEvaluation, StageWork, weigh,
 };
 use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
@@ -92,9 +92,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         for part in 0..y.len() {
             let nothing = |_| [T::lift(0.0); 2];
             combine(continuation, &completed[part], nothing, &mut slopes[part]);
-            for (term, &slope) in terms[part].iter_mut().zip(slopes[part].iter()) {
-                *term = weights * slope;
-            }
+            weigh(weights, &slopes[part], &mut terms[part]);
         }
     }
 
@@ -119,7 +117,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         let changes = [T::lift(0.0); STAGES];
         let mut renewed = Slopes { slopes, terms: &mut terms[part], part, weights, changes };
         E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
-        Ok(norm::largest(&renewed.changes))
+        Ok(largest_of(renewed.changes))
     }
 
     /// Moves to the end of the step.
@@ -156,4 +154,18 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         *last = h;
         Ok(())
     }
+}
+
+/// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
+#[inline(always)]
+fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
+    let mut count = N;
+    while count > 1 {
+        let half = count.div_ceil(2);
+        for i in 0..count - half {
+            numbers[i] = norm::larger(numbers[i], numbers[i + half]);
+        }
+        count = half;
+    }
+    numbers[0]
 }
