@@ -156,6 +156,10 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     fn has_velocity_forces() -> bool {
         false
     }
+    /// 1/m for each coordinate, if p' is a force of positions and time alone and q' = p/m: the equations are q'' = f(q, t) then.
+    fn reciprocal_masses(_equations: &Self::Equations) -> Option<&[T]> {
+        None
+    }
     /// The size of the velocities whose difference the velocity at (`q`, p, `t`) is: rounding is relative to it.
     ///
     /// # Errors

@@ -82,6 +82,27 @@ impl<const S: usize> Collocation<S> {
         Self { mu, a, b, c }
     }
 
+    /// ν and β of the method on q'' = f(q, t), with the velocities of the stages eliminated: aᵢⱼ = νᵢⱼbⱼ in Qᵢ and bⱼβⱼ in q⁺, where
+    ///
+    /// νᵢⱼ = Σₖ μᵢₖ bₖ μₖⱼ,   βⱼ = Σₖ bₖ μₖⱼ = 1 − cⱼ
+    ///
+    /// Steps are symplectic if νᵢⱼ − νⱼᵢ = βⱼ − βᵢ (Suris 1989). This holds exactly in the arithmetic, since all these numbers are multiples of
+    /// 2⁻⁵³ below 1, whose differences are not rounded (Antoñana, Makazaga & Murua 2025).
+    pub(super) fn nystrom(&self) -> ([[f64; S]; S], [f64; S]) {
+        let Self { mu, b, c, .. } = self;
+        // Below the centre a node has finer digits than 2⁻⁵³, and is what that above leaves of 1.
+        let beta: [f64; S] = core::array::from_fn(|j| if 2 * j < S { c[S - 1 - j] } else { 1.0 - c[j] });
+        let mut nu = [[0.0; S]; S];
+        for i in 0..S {
+            for j in 0..=i {
+                let exact: f64 = (0..S).map(|k| mu[i][k] * b[k] * mu[k][j]).sum();
+                nu[i][j] = if exact < 0.5 { (exact + 0.5) - 0.5 } else { exact };
+                nu[j][i] = nu[i][j] - (beta[j] - beta[i]);
+            }
+        }
+        (nu, beta)
+    }
+
     /// Entry (k, j): the coefficient of Pₖ in the j-th Lagrange polynomial, bⱼ (2k+1) Pₖ(cⱼ).
     pub(super) fn lagrange(&self) -> [[f64; S]; S] {
         let within = self.c.map(legendre);
@@ -116,7 +137,8 @@ mod tests {
     /// The simplifying assumptions that define collocation at the zeros of the Legendre polynomial:
     /// C(s): Σⱼ aᵢⱼ cⱼᵏ⁻¹ = cᵢᵏ/k for k ≤ s, and B(2s): Σᵢ bᵢ cᵢᵏ⁻¹ = 1/k for k ≤ 2s.
     fn check<const S: usize>() {
-        let Collocation::<S> { mu, a, b, c } = Collocation::gauss();
+        let tableau = Collocation::<S>::gauss();
+        let Collocation { mu, a, b, c } = tableau;
         assert!(c.is_sorted());
         let moment = |w: &[f64; S], k: i32| w.iter().zip(&c).map(|(w, c)| w * c.powi(k - 1)).sum::<f64>();
         for k in 1..=2 * S as i32 {
@@ -132,6 +154,22 @@ mod tests {
                 assert_eq!(mu[i][j] + mu[j][i], 1.0, "{S} stages, ({i}, {j})");
                 let symplectic = b[i] * a[i][j] + b[j] * a[j][i] - b[i] * b[j];
                 assert!(symplectic.abs() < 1e-16, "{S} stages, ({i}, {j})");
+            }
+        }
+        let (nu, beta) = tableau.nystrom();
+        for i in 0..S {
+            assert!((beta[i] + c[i] - 1.0).abs() < 1e-15);
+            for j in 0..S {
+                // Without rounding: each is a multiple of 2⁻⁵³, and so in integers.
+                let [ij, ji, of_i, of_j] = [nu[i][j], nu[j][i], beta[i], beta[j]].map(|x| x * 2_f64.powi(53));
+                assert!([ij, ji, of_i, of_j].iter().all(|x| x.fract() == 0.0), "{S} stages, ({i}, {j})");
+                assert_eq!(ij as i64 - ji as i64, of_j as i64 - of_i as i64, "{S} stages, ({i}, {j})");
+            }
+            // Σⱼ aᵢⱼ cⱼᵏ = cᵢᵏ⁺²/((k+1)(k+2)) for k < S − 1, of the quadrature twice.
+            for k in 0..S as i32 - 1 {
+                let sum: f64 = (0..S).map(|j| nu[i][j] * b[j] * c[j].powi(k)).sum();
+                let exact = c[i].powi(k + 2) / f64::from((k + 1) * (k + 2));
+                assert!((sum - exact).abs() < 1e-15, "{S} stages, row {i}, degree {k}");
             }
         }
     }

@@ -14,6 +14,7 @@ mod one_step;
 mod parasitic;
 mod projected;
 mod round_off;
+mod second_order;
 mod smooth_orbits;
 mod splines;
 mod step_control;

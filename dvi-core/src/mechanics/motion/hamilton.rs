@@ -170,6 +170,13 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         !S::SEPARABLE
     }
     #[inline(always)]
+    fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
+        match &equations.inverse {
+            Velocities::Constant(mass) if S::SEPARABLE => mass.reciprocals(),
+            Velocities::Constant(_) | Velocities::Varying(_) => None,
+        }
+    }
+    #[inline(always)]
     fn cancelling(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,

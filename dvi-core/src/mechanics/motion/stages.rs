@@ -87,7 +87,7 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T>
     /// Takes over that the entry has been renewed in its place, where nothing is asked of its changes.
     #[inline(always)]
     pub(super) fn renewed(&mut self) {
-        weigh(self.weights, &self.slopes[self.part], self.terms);
+        weigh(|_| self.weights, &self.slopes[self.part], self.terms);
     }
 
     #[inline(always)]
@@ -98,26 +98,30 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T>
     }
 }
 
-/// Sets each of `terms` to `weights` times the slope. The loop is one over blocks, because over single packs the compiler would take lanes
-/// of several packs together, and load and store them one by one.
+/// Sets `terms`ₖ to `weights`(k) times `packs`ₖ. The loop is one over blocks, because over single packs the compiler would take lanes of
+/// several packs together, and load and store them one by one.
 #[inline(always)]
 pub(crate) fn weigh<const W: usize, T: Real>(
-    weights: Lanes<W, T>,
-    slopes: &[Lanes<W, T>],
+    weights: impl Fn(usize) -> Lanes<W, T>,
+    packs: &[Lanes<W, T>],
     terms: &mut [Lanes<W, T>],
 ) {
-    let each = |terms: &mut [Lanes<W, T>], slopes: &[Lanes<W, T>]| {
-        for (term, &slope) in terms.iter_mut().zip(slopes) {
-            *term = weights * slope;
+    let (blocks, left) = packs.as_chunks::<BLOCK>();
+    let (term_blocks, terms_left) = terms.as_chunks_mut::<BLOCK>();
+    let mut first = 0;
+    for (terms, packs) in term_blocks.iter_mut().zip(blocks) {
+        for k in 0..BLOCK {
+            terms[k] = weights(first + k) * packs[k];
         }
-    };
-    let (blocks, left) = slopes.as_chunks::<4>();
-    let (term_blocks, terms_left) = terms.as_chunks_mut::<4>();
-    for (terms, slopes) in term_blocks.iter_mut().zip(blocks) {
-        each(terms, slopes);
+        first += BLOCK;
     }
-    each(terms_left, left);
+    for (k, (term, &pack)) in terms_left.iter_mut().zip(left).enumerate() {
+        *term = weights(first + k) * pack;
+    }
 }
+
+/// How many packs are taken at once.
+const BLOCK: usize = 4;
 
 impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for Slopes<'_, W, S, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -18,6 +18,17 @@ pub(super) struct Coefficients<const STAGES: usize, T> {
     lagrange: [[T; STAGES]; STAGES],
     pub(super) b: Lanes<STAGES, T>,
     pub(super) c: Lanes<STAGES, T>,
+    pub(super) nystrom: Nystrom<STAGES, T>,
+}
+
+/// The same for equations of second order, of which the velocities of the stages have been eliminated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nystrom<const STAGES: usize, T> {
+    /// Column j of ν.
+    pub(super) nu: [Lanes<STAGES, T>; STAGES],
+    pub(super) beta: Lanes<STAGES, T>,
+    /// 1 − β.
+    pub(super) nodes: Lanes<STAGES, T>,
 }
 
 /// So far the polynomial of a step is continued, in units of that step: to the end of one that is twice as long, and back over it and
@@ -32,7 +43,17 @@ impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
         };
         let [b, c] = [tableau.b, tableau.c].map(|numbers| Lanes(numbers.map(T::lift)));
         let lagrange = tableau.lagrange().map(|row| row.map(T::lift));
-        Self { mu: columns(tableau.mu), continuation: columns(tableau.continuation()), lagrange, b, c }
+        let (nu, beta) = tableau.nystrom();
+        let [beta, nodes] = [beta, beta.map(|beta| 1.0 - beta)].map(|numbers| Lanes(numbers.map(T::lift)));
+        let nystrom = Nystrom { nu: columns(nu), beta, nodes };
+        Self {
+            mu: columns(tableau.mu),
+            continuation: columns(tableau.continuation()),
+            lagrange,
+            b,
+            c,
+            nystrom,
+        }
     }
 
     /// Column j of the continuation into a step whose length is `ratio` times that of the one before.
@@ -72,12 +93,13 @@ impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
 /// How many numbers of a point are combined at once.
 const BLOCK: usize = 4;
 
-/// Sets pack k of `out` to y + (e + Σⱼ `columns`ⱼ xⱼ), for the numbers x in the lanes of that pack of `packs` and `from`(k) = (y, e).
+/// Sets pack k of `out` to y + (e + Σⱼ `columns`ⱼ xⱼ), for the numbers x in the lanes of that pack of `packs` and `from`(k) = (y, e), where y is
+/// the same for all stages.
 #[inline(always)]
 pub(super) fn combine<const STAGES: usize, T: Real>(
     columns: &[Lanes<STAGES, T>; STAGES],
     packs: &[Lanes<STAGES, T>],
-    from: impl Fn(usize) -> [T; 2],
+    from: impl Fn(usize) -> (T, Lanes<STAGES, T>),
     out: &mut [Lanes<STAGES, T>],
 ) {
     let (blocks, left) = packs.as_chunks::<BLOCK>();
@@ -96,11 +118,11 @@ pub(super) fn combine<const STAGES: usize, T: Real>(
 fn combine_block<const STAGES: usize, const N: usize, T: Real>(
     columns: &[Lanes<STAGES, T>; STAGES],
     packs: &[Lanes<STAGES, T>; N],
-    from: [[T; 2]; N],
+    from: [(T, Lanes<STAGES, T>); N],
 ) -> [Lanes<STAGES, T>; N] {
     let mut sums = [Lanes::all(T::lift(0.0)); N];
     for k in 0..N {
-        sums[k] = Lanes::all(from[k][1]);
+        sums[k] = from[k].1;
     }
     for j in 0..STAGES {
         for k in 0..N {
@@ -108,7 +130,7 @@ fn combine_block<const STAGES: usize, const N: usize, T: Real>(
         }
     }
     for k in 0..N {
-        sums[k] = Lanes::all(from[k][0]) + sums[k];
+        sums[k] = Lanes::all(from[k].0) + sums[k];
     }
     sums
 }

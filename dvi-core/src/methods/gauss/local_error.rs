@@ -36,6 +36,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
+        self.set_velocities();
         let Self { equations, coefficients, slopes, y, increment: defect, next, .. } = self;
         S::Kind::evaluate(equations, system, y, t, defect, statistics)?;
         let at_start = coefficients.at_start();

@@ -22,11 +22,11 @@ pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
     /// The length of that step; zero before the first.
     last: T,
     /// What rounding has left out of y, if sums are compensated.
-    rest: PointOf<S, T>,
+    pub(super) rest: PointOf<S, T>,
     pub(super) slopes: StagesOf<STAGES, S, T>,
     /// L, of these slopes.
-    terms: StagesOf<STAGES, S, T>,
-    stages: StagesOf<STAGES, S, T>,
+    pub(super) terms: StagesOf<STAGES, S, T>,
+    pub(super) stages: StagesOf<STAGES, S, T>,
     /// Where the step begins, its increment, and where it ends.
     pub(super) y: PointOf<S, T>,
     pub(super) increment: PointOf<S, T>,
@@ -80,7 +80,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     /// Continues the polynomial through the completed stages into the next step.
     #[inline(always)]
     pub(super) fn guess(&mut self, h: T) {
-        let Self { coefficients, completed, last, slopes, terms, y, .. } = self;
+        let Self { equations, coefficients, completed, last, slopes, terms, y, .. } = self;
         let weights = Lanes::all(h) * coefficients.b;
         let continued;
         let continuation = if h == *last || *last == T::lift(0.0) {
@@ -89,14 +89,22 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
             continued = coefficients.continuation_over(h / *last);
             &continued
         };
-        for part in 0..y.len() {
-            let nothing = |_| [T::lift(0.0); 2];
+        for part in first_part::<S, T>(equations)..y.len() {
+            let nothing = |_| (T::lift(0.0), Lanes::all(T::lift(0.0)));
             combine(continuation, &completed[part], nothing, &mut slopes[part]);
-            weigh(weights, &slopes[part], &mut terms[part]);
+            weigh(|_| weights, &slopes[part], &mut terms[part]);
         }
     }
 
-    /// Evaluates one part of the slopes of all stages, and returns the largest change of one.
+    /// Sets one part of the points of the stages by the slopes of that part.
+    #[inline(always)]
+    pub(super) fn reach(&mut self, part: usize) {
+        let Self { coefficients, terms, stages, y, rest, .. } = self;
+        let from = |k: usize| (y[part][k], Lanes::all(rest[part][k]));
+        combine(&coefficients.mu, &terms[part], from, &mut stages[part]);
+    }
+
+    /// Evaluates one part of the slopes at the points of all stages, and returns the largest change of a velocity.
     #[inline(always)]
     pub(super) fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
@@ -106,11 +114,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         h: T,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
-        let Self { equations, coefficients, slopes, terms, stages, y, rest, work, .. } = self;
-        // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
-        let moved = (part + 1) % y.len();
-        let from = |k: usize| [y[moved][k], rest[moved][k]];
-        combine(&coefficients.mu, &terms[moved], from, &mut stages[moved]);
+        let Self { equations, coefficients, slopes, terms, stages, work, .. } = self;
         let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
         let at = AtStages { system, y: &*stages, t: times };
         let weights = Lanes::all(h) * coefficients.b;
@@ -130,13 +134,18 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         t: T,
         h: T,
     ) -> Result<(), StepFailure> {
+        self.displace(h);
         let Self { equations, completed, last, slopes, terms, y, rest, increment, next, .. } = self;
+        let first = first_part::<S, T>(equations);
         for part in 0..y.len() {
-            let numbers = y[part].iter().zip(rest[part].iter()).zip(terms[part].iter());
-            let moved = increment[part].iter_mut().zip(next[part].iter_mut());
-            for ((increment, next), ((&y, &rest), terms)) in moved.zip(numbers) {
-                *increment = terms.0.iter().fold(T::lift(0.0), |sum, &term| sum + term);
-                *next = y + (*increment + rest);
+            if part >= first {
+                for (increment, terms) in increment[part].iter_mut().zip(terms[part].iter()) {
+                    *increment = sum(*terms);
+                }
+            }
+            let numbers = y[part].iter().zip(increment[part].iter()).zip(rest[part].iter());
+            for (next, ((&y, &increment), &rest)) in next[part].iter_mut().zip(numbers) {
+                *next = y + (increment + rest);
             }
         }
         S::Kind::arrive(equations, system, next, q, t + h)?;
@@ -148,17 +157,29 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
                 }
             }
         }
-        for (completed, slopes) in completed.iter_mut().zip(slopes.iter()) {
-            completed.copy_from_slice(slopes);
+        for part in first..y.len() {
+            completed[part].copy_from_slice(&slopes[part]);
         }
         *last = h;
         Ok(())
     }
 }
 
+/// The first part whose slopes are carried from step to step. Of equations of second order, of which only forces are evaluated, that is the
+/// second.
+#[inline(always)]
+pub(super) fn first_part<S: System<Kind: FirstOrder<S, T>>, T: Real>(equations: &EquationsOf<S, T>) -> usize {
+    usize::from(S::Kind::reciprocal_masses(equations).is_some())
+}
+
+#[inline(always)]
+pub(super) fn sum<const STAGES: usize, T: Real>(pack: Lanes<STAGES, T>) -> T {
+    pack.0.iter().fold(T::lift(0.0), |sum, &number| sum + number)
+}
+
 /// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
 #[inline(always)]
-fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
+pub(super) fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
     let mut count = N;
     while count > 1 {
         let half = count.div_ceil(2);

@@ -1,0 +1,93 @@
+//! Gauss collocation on q'' = M⁻¹f(q, t) with a constant diagonal M, with the velocities of the stages eliminated.
+//!
+//! Qᵢ = q + h cᵢ M⁻¹p + h M⁻¹Σⱼ νᵢⱼ Lⱼ,   Lᵢ = hbᵢ f(Qᵢ, t + cᵢh)
+//! q⁺ = q + h M⁻¹p + h M⁻¹Σⱼ βⱼ Lⱼ,   p⁺ = p + Σᵢ Lᵢ
+//!
+//! It is the same method, a Nyström method (Hairer, Nørsett & Wanner 1993, section II.14), and one combination of stages in each sweep
+//! where that on (q, p) has two. With νᵢⱼ − νⱼᵢ = βⱼ − βᵢ exactly it is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025).
+
+use super::coefficients::combine;
+use super::memory::{GaussMemory, largest_of, sum};
+use crate::error::StepFailure;
+use crate::mechanics::motion::{FirstOrder, StageEvaluation, weigh};
+use crate::scalar::{Lanes, norm};
+use crate::state::Statistics;
+use crate::{Real, Scalar, System};
+
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
+    /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the equations are not of second
+    /// order.
+    #[inline(always)]
+    pub(super) fn place(&mut self, h: T) -> Option<T> {
+        let Self { equations, coefficients, terms, stages, y, rest, .. } = self;
+        let reciprocals = S::Kind::reciprocal_masses(equations)?;
+        let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
+            return None;
+        };
+        weigh(|k| Lanes::all(h * reciprocals[k]), momenta, displacements);
+        let nodes = coefficients.nystrom.nodes;
+        let from = |k: usize| {
+            let by = h * reciprocals[k];
+            let small = Lanes::all(rest[0][k]) + nodes * Lanes::all(by * rest[1][k]);
+            (y[0][k], small + nodes * Lanes::all(by * y[1][k]))
+        };
+        combine(&coefficients.nystrom.nu, displacements, from, renewed);
+        let mut changes = [T::lift(0.0); STAGES];
+        for (place, &renewed) in places.iter_mut().zip(renewed.iter()) {
+            for stage in 0..STAGES {
+                let change = Scalar::abs(renewed.0[stage] - place.0[stage]);
+                changes[stage] = norm::larger(changes[stage], change);
+            }
+            *place = renewed;
+        }
+        Some(largest_of(changes))
+    }
+
+    /// Evaluates the forces at all stages once and moves them, and returns the largest change of a position; `None` if the equations are
+    /// not of second order.
+    #[inline(always)]
+    pub(super) fn improve_places<E: StageEvaluation<STAGES, S, T>>(
+        &mut self,
+        system: &S,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<Option<T>, StepFailure> {
+        if S::Kind::reciprocal_masses(&self.equations).is_none() {
+            return Ok(None);
+        }
+        self.evaluate_part::<E>(1, system, t, h, statistics)?;
+        Ok(self.place(h))
+    }
+
+    /// The largest h q' where the step begins; `None` if the equations are not of second order.
+    #[inline(always)]
+    pub(super) fn drift(&self, h: T) -> Option<T> {
+        let reciprocals = S::Kind::reciprocal_masses(&self.equations)?;
+        let rates = self.y[1].iter().zip(reciprocals).map(|(&p, &reciprocal)| h * reciprocal * p);
+        Some(rates.fold(T::lift(0.0), |largest, rate| norm::larger(largest, Scalar::abs(rate))))
+    }
+
+    /// Sets the increment of the coordinates, if the equations are of second order.
+    #[inline(always)]
+    pub(super) fn displace(&mut self, h: T) {
+        let Self { equations, coefficients, terms, y, rest, increment, .. } = self;
+        let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
+        for (k, &reciprocal) in reciprocals.iter().enumerate() {
+            let by = h * reciprocal;
+            let forced = sum(coefficients.nystrom.beta * terms[0][k]);
+            increment[0][k] = by * y[1][k] + (forced + by * rest[1][k]);
+        }
+    }
+
+    /// Sets the velocities of the stages, if the equations are of second order: steps do without them.
+    pub(super) fn set_velocities(&mut self) {
+        let Self { equations, coefficients, slopes, terms, y, .. } = self;
+        let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
+        let from = |k: usize| (y[1][k], Lanes::all(T::lift(0.0)));
+        combine(&coefficients.mu, &terms[1], from, &mut slopes[0]);
+        for (velocity, &reciprocal) in slopes[0].iter_mut().zip(reciprocals) {
+            *velocity = *velocity * Lanes::all(reciprocal);
+        }
+    }
+}
