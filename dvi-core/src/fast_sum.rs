@@ -75,7 +75,6 @@ mod polynomials;
 mod quantity;
 mod refinement;
 mod system;
-mod threads;
 mod transfer;
 mod tree;
 mod work;

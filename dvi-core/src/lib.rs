@@ -131,6 +131,7 @@ pub mod solve;
 pub mod space;
 pub mod state;
 pub mod system;
+mod threads;
 
 #[cfg(feature = "macros")]
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};

@@ -10,6 +10,7 @@ pub(crate) mod lanes;
 pub(crate) mod norm;
 mod number;
 pub(crate) mod pack;
+pub(crate) mod pairs;
 pub(crate) mod simd;
 mod sinc;
 
@@ -51,6 +52,8 @@ macro_rules! scalar {
             + Neg<Output = Self>
             + AddAssign
             + SubAssign
+            + Send
+            + Sync
             + 'static
         {
             /// Several of them, which generated loops take at once.

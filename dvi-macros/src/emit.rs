@@ -29,6 +29,7 @@ use crate::symbolic::{Coordinate, Fold, Graph};
 
 mod indices;
 mod packs;
+mod pairs;
 mod values;
 
 pub(crate) struct Emitter<'a> {
@@ -58,6 +59,8 @@ struct Function<'a> {
     /// Whether a constant stands in the place of functions of several variables where they are not known.
     is_guarded: bool,
     element: Element,
+    /// Whether it is the [part](pairs) of one body.
+    is_part: bool,
 }
 
 pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
@@ -109,7 +112,8 @@ impl Emitter<'_> {
             inlined[position] = is_short || matches!(instruction, Instruction::Literal(_));
         }
         let element = Element::Number;
-        let function = Function { emitter: self, routine, inlined: &inlined, is_guarded, element };
+        let function =
+            Function { emitter: self, routine, inlined: &inlined, is_guarded, element, is_part: false };
         let body = function.steps(&routine.steps);
         if routine.has_packs(&function) {
             let krate = self.krate();
@@ -172,20 +176,27 @@ impl Function<'_> {
                 quote!(let #name = #value;)
             }
             Step::Loop { over, folds, body } => {
-                let krate = self.emitter.krate();
-                let begin = folds.iter().map(|Accumulated { fold, result, .. }| {
-                    let (name, neutral) = (name(*result), fold.neutral());
-                    quote!(let mut #name = <__T as #krate::Scalar>::lift(#neutral);)
-                });
+                let begin = self.begin(folds);
                 let repeated = if self.runs_over_packs(over, folds, body) {
                     self.packs(over, folds, body)
                 } else {
-                    self.emitter.loop_over(over, &self.terms(folds, body))
+                    let one_by_one = self.emitter.loop_over(over, &self.terms(folds, body));
+                    self.pairs(over, folds, body).map_or(one_by_one.clone(), |pairs| pairs.or(&one_by_one))
                 };
-                quote!(#(#begin)* #repeated)
+                quote!(#begin #repeated)
             }
             Step::Write(statement, value) => self.write(&self.routine.statements[*statement].place, *value),
         }
+    }
+
+    /// Sums and products without terms.
+    fn begin(&self, folds: &[Accumulated]) -> TokenStream {
+        let krate = self.emitter.krate();
+        let begin = folds.iter().map(|Accumulated { fold, result, .. }| {
+            let (name, neutral) = (name(*result), fold.neutral());
+            quote!(let mut #name = <__T as #krate::Scalar>::lift(#neutral);)
+        });
+        quote!(#(#begin)*)
     }
 
     /// The body of a loop.
@@ -205,9 +216,8 @@ impl Function<'_> {
         let target = match place {
             Place::Result => return self.signed(value),
             Place::Entry(output, coordinate) => {
-                let array =
-                    format_ident!("{}", output_block(*output, coordinate.block), span = Span::mixed_site());
-                let index = self.emitter.index(&coordinate.index);
+                let array = output_array(*output, coordinate.block);
+                let index = self.entry(&coordinate.index);
                 if let Element::Pack = self.element {
                     let (krate, terms) = (self.emitter.krate(), self.register(value.register));
                     let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
@@ -280,6 +290,11 @@ pub(crate) fn constraint_members(constraint: u32) -> String {
 /// The number of the first member of a declared constraint.
 pub(crate) fn first_constraint(constraint: u32) -> String {
     format!("row{constraint}")
+}
+
+/// The slice of a block of an output.
+fn output_array(output: Output, block: u32) -> Ident {
+    format_ident!("{}", output_block(output, block), span = Span::mixed_site())
 }
 
 pub(crate) fn output_block(output: Output, block: u32) -> String {

@@ -117,57 +117,136 @@ fn vortices() {
                     __q.len(),
                     #[inline(always)]
                     || {
-                        for __i0 in (0usize)..(N) {
-                            let __r0 = __q0[__i0];
-                            let __r6 = T::lift(0.15915494309189535f64)
-                                * T::lift(
-                                    __private::Number::number(self.gamma[__i0]),
-                                );
-                            let __r9 = __q1[__i0];
-                            let mut __r16 = T::lift(-0.0);
-                            let mut __r18 = T::lift(-0.0);
-                            let __whole = __private::whole(__i0 + 1usize, N);
-                            {
-                                let __r0 = __private::all(__r0);
-                                let __r6 = __private::all(__r6);
-                                let __r9 = __private::all(__r9);
-                                let mut __sum16 = __private::Sums::<T>::empty();
-                                let mut __sum18 = __private::Sums::<T>::empty();
-                                for __i1 in __private::packs::<
-                                    T,
-                                >(__i0 + 1usize, __whole) {
-                                    let __r2 = __r0 - __private::load(__q0, __i1);
-                                    let __r11 = __r9 - __private::load(__q1, __i1);
-                                    let __r14 = (__private::parameters::<
+                        if __private::are_many(N) {
+                            let __p0 = &self.gamma[..];
+                            __private::halves(
+                                N,
+                                [&mut __vector0[..], &mut __vector1[..]],
+                                #[inline(always)]
+                                |
+                                    __i0: usize,
+                                    [__lower,
+                                    __upper,
+                                    __first,
+                                    ]: [usize; 3],
+                                    [__vector0,
+                                    __vector1,
+                                    ]: &mut [&mut [T]; 2usize]|
+                                {
+                                    let __r0 = __q0[__i0];
+                                    let __r6 = T::lift(
+                                        0.15915494309189535f64,
+                                    )
+                                        * T::lift(
+                                            __private::Number::number(__p0[__i0]),
+                                        );
+                                    let __r9 = __q1[__i0];
+                                    let mut __r16 = T::lift(-0.0);
+                                    let mut __r18 = T::lift(-0.0);
+                                    let __whole = __private::whole(__lower, __upper);
+                                    {
+                                        let __r0 = __private::all(__r0);
+                                        let __r6 = __private::all(__r6);
+                                        let __r9 = __private::all(__r9);
+                                        let mut __sum16 = __private::Sums::<T>::empty();
+                                        let mut __sum18 = __private::Sums::<T>::empty();
+                                        for __i1 in __private::packs::<
+                                            T,
+                                        >(__lower, __whole) {
+                                            let __r2 = __r0 - __private::load(__q0, __i1);
+                                            let __r11 = __r9 - __private::load(__q1, __i1);
+                                            let __r14 = (__private::parameters::<
+                                                T,
+                                                _,
+                                            >(&__p0[..], __i1) * __r6)
+                                                / ((__r2 * __r2) + (__r11 * __r11));
+                                            let __r15 = __r2 * __r14;
+                                            let __r17 = __r11 * __r14;
+                                            __private::subtract_from(
+                                                __vector0,
+                                                __i1 - __first,
+                                                __r15,
+                                            );
+                                            __private::subtract_from(
+                                                __vector1,
+                                                __i1 - __first,
+                                                __r17,
+                                            );
+                                            __sum16.add_terms(__r15);
+                                            __sum18.add_terms(__r17);
+                                        }
+                                        __r16 += __sum16.total();
+                                        __r18 += __sum18.total();
+                                    }
+                                    for __i1 in __whole..__upper {
+                                        let __r2 = __r0 - __q0[__i1];
+                                        let __r11 = __r9 - __q1[__i1];
+                                        let __r14 = (T::lift(
+                                            __private::Number::number(__p0[__i1]),
+                                        ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
+                                        let __r15 = __r2 * __r14;
+                                        let __r17 = __r11 * __r14;
+                                        __vector0[__i1 - __first] -= __r15;
+                                        __vector1[__i1 - __first] -= __r17;
+                                        __r16 += __r15;
+                                        __r18 += __r17;
+                                    }
+                                    [__r16, __r18]
+                                },
+                            );
+                        } else {
+                            for __i0 in (0usize)..(N) {
+                                let __r0 = __q0[__i0];
+                                let __r6 = T::lift(0.15915494309189535f64)
+                                    * T::lift(
+                                        __private::Number::number(self.gamma[__i0]),
+                                    );
+                                let __r9 = __q1[__i0];
+                                let mut __r16 = T::lift(-0.0);
+                                let mut __r18 = T::lift(-0.0);
+                                let __whole = __private::whole(__i0 + 1usize, N);
+                                {
+                                    let __r0 = __private::all(__r0);
+                                    let __r6 = __private::all(__r6);
+                                    let __r9 = __private::all(__r9);
+                                    let mut __sum16 = __private::Sums::<T>::empty();
+                                    let mut __sum18 = __private::Sums::<T>::empty();
+                                    for __i1 in __private::packs::<
                                         T,
-                                        _,
-                                    >(&self.gamma[..], __i1) * __r6)
-                                        / ((__r2 * __r2) + (__r11 * __r11));
+                                    >(__i0 + 1usize, __whole) {
+                                        let __r2 = __r0 - __private::load(__q0, __i1);
+                                        let __r11 = __r9 - __private::load(__q1, __i1);
+                                        let __r14 = (__private::parameters::<
+                                            T,
+                                            _,
+                                        >(&self.gamma[..], __i1) * __r6)
+                                            / ((__r2 * __r2) + (__r11 * __r11));
+                                        let __r15 = __r2 * __r14;
+                                        let __r17 = __r11 * __r14;
+                                        __private::subtract_from(__vector0, __i1, __r15);
+                                        __private::subtract_from(__vector1, __i1, __r17);
+                                        __sum16.add_terms(__r15);
+                                        __sum18.add_terms(__r17);
+                                    }
+                                    __r16 += __sum16.total();
+                                    __r18 += __sum18.total();
+                                }
+                                for __i1 in __whole..N {
+                                    let __r2 = __r0 - __q0[__i1];
+                                    let __r11 = __r9 - __q1[__i1];
+                                    let __r14 = (T::lift(
+                                        __private::Number::number(self.gamma[__i1]),
+                                    ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
                                     let __r15 = __r2 * __r14;
                                     let __r17 = __r11 * __r14;
-                                    __private::subtract_from(__vector0, __i1, __r15);
-                                    __private::subtract_from(__vector1, __i1, __r17);
-                                    __sum16.add_terms(__r15);
-                                    __sum18.add_terms(__r17);
+                                    __vector0[__i1] -= __r15;
+                                    __vector1[__i1] -= __r17;
+                                    __r16 += __r15;
+                                    __r18 += __r17;
                                 }
-                                __r16 += __sum16.total();
-                                __r18 += __sum18.total();
+                                __vector0[__i0] += __r16;
+                                __vector1[__i0] += __r18;
                             }
-                            for __i1 in __whole..N {
-                                let __r2 = __r0 - __q0[__i1];
-                                let __r11 = __r9 - __q1[__i1];
-                                let __r14 = (T::lift(
-                                    __private::Number::number(self.gamma[__i1]),
-                                ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
-                                let __r15 = __r2 * __r14;
-                                let __r17 = __r11 * __r14;
-                                __vector0[__i1] -= __r15;
-                                __vector1[__i1] -= __r17;
-                                __r16 += __r15;
-                                __r18 += __r17;
-                            }
-                            __vector0[__i0] += __r16;
-                            __vector1[__i0] += __r18;
                         }
                     },
                 )

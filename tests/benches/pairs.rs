@@ -97,9 +97,14 @@ fn gradients(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("by hand, each pair once", n), |bencher| {
             bencher.iter(|| system.by_pairs(black_box(&q), &mut gradient));
         });
-        group.bench_function(BenchmarkId::new("generated", n), |bencher| {
-            bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
-        });
+        for threads in [1, 2] {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            group.bench_function(BenchmarkId::new(format!("generated, {threads} thread(s)"), n), |bencher| {
+                pool.install(|| {
+                    bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
+                });
+            });
+        }
     }
     group.finish();
 }

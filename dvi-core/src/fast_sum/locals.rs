@@ -10,10 +10,10 @@ use super::neighbours::add_reactions;
 use super::packs::{Ends, LANES, Pack, add_before, add_product, add_products};
 use super::polynomials::at_bodies;
 use super::quantity::Quantity;
-use super::threads::Part;
 use super::transfer::Transfer;
 use super::tree::Tree;
 use crate::scalar::simd::widest_if;
+use crate::threads::Part;
 
 /// What acts on the cubes of a level.
 #[derive(Clone, Copy, Debug)]

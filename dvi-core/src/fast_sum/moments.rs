@@ -7,10 +7,10 @@ use super::basis::{Chebyshev, MOST};
 use super::expansion::{Expansion, Row};
 use super::packs::{LANES, Pack, add_product, load_before};
 use super::polynomials::at_bodies;
-use super::threads::Part;
 use super::transfer::Transfer;
 use super::tree::{Cube, Tree};
 use crate::scalar::simd::widest_if;
+use crate::threads::Part;
 
 /// What moments are made of.
 #[derive(Clone, Copy, Debug)]

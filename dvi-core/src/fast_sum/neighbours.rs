@@ -9,10 +9,10 @@ use core::ops::Range;
 use super::lists::{Lists, Pair, on};
 use super::packs::{LANES, Pack, add_before, load, load_before};
 use super::quantity::Quantity;
-use super::threads::Part;
 use super::tree::{Cube, Tree};
 use crate::scalar::Lanes;
 use crate::scalar::simd::widest_if;
+use crate::threads::Part;
 
 /// What acts nearby.
 #[derive(Debug)]

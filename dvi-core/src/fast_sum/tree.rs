@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::threads;
+use crate::threads;
 
 /// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
 const LEVELS: u32 = 20;

@@ -11,10 +11,10 @@ use super::moments::{Moments, Sources};
 use super::neighbours::{Nearby, Neighbours};
 use super::packs::{LANES, Pack};
 use super::quantity::Quantity;
-use super::threads::share;
 use super::transfer::offsets;
 use super::tree::{NotFinite, Tree};
 use crate::PairSum;
+use crate::threads::share;
 
 /// The numbers of one evaluation, kept from one to the next.
 #[derive(Clone, Debug)]

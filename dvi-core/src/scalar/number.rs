@@ -7,7 +7,7 @@ use crate::Scalar;
     message = "a parameter of a formula must be a number, `{Self}` is not",
     label = "not a number"
 )]
-pub trait Number: Copy {
+pub trait Number: Copy + Sync {
     /// Its value.
     fn number(self) -> f64;
 }
@@ -65,7 +65,7 @@ impl<N: Number> Number for &N {
     message = "a parameter of a system that is computed in `{T}` is a number or `Varied<{T}>`, `{Self}` is neither",
     label = "cannot be a parameter in `{T}`"
 )]
-pub trait Parameter<T>: Copy {
+pub trait Parameter<T>: Copy + Sync {
     /// Its value among the numbers that the system is computed in.
     fn value(self) -> T;
 }

@@ -110,11 +110,21 @@ impl Function<'_> {
 
     /// A loop, as packs and then what is left. Its sums have begun.
     pub(super) fn packs(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> TokenStream {
+        let bounds = [&over.range.lower, &over.range.upper].map(|bound| self.emitter.range_bound(bound));
+        self.packs_between(&bounds, over.depth, folds, body)
+    }
+
+    /// The same of the loop at `depth`, between these bounds.
+    pub(super) fn packs_between(
+        &self,
+        [lower, upper]: &[TokenStream; 2],
+        depth: u32,
+        folds: &[Accumulated],
+        body: &[Step],
+    ) -> TokenStream {
         let krate = self.emitter.krate();
         let packed = Function { element: Element::Pack, ..*self };
-        let (index, whole) = (open(over.depth), local("whole"));
-        let [lower, upper] =
-            [&over.range.lower, &over.range.upper].map(|bound| self.emitter.range_bound(bound));
+        let (index, whole) = (open(depth), local("whole"));
         let outside = self.read_from_outside(folds, body).into_iter().map(|register| {
             let name = name(register);
             quote!(let #name = #krate::__private::all(#name);)

@@ -1,7 +1,8 @@
 //! The values of instructions to tokens.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens as _, format_ident, quote, quote_spanned};
+use syn::Ident;
 
 use super::{Element, Emitter, Function, local, name, own_function, scalar_field};
 use crate::instructions::{Instruction, Register, Signed};
@@ -99,7 +100,7 @@ impl Function<'_> {
     }
 
     /// A positive term first: a − b rather than −b + a.
-    fn sum(&self, terms: &[Signed]) -> TokenStream {
+    pub(super) fn sum(&self, terms: &[Signed]) -> TokenStream {
         let mut order: Vec<&Signed> = terms.iter().collect();
         order.sort_by_key(|term| term.negative);
         let mut tokens = self.signed(*order[0]);
@@ -149,25 +150,37 @@ impl Function<'_> {
 
     fn parameter(&self, parameter: &Parameter) -> TokenStream {
         let krate = self.emitter.krate();
-        let name = &self.emitter.model.parameters[parameter.field as usize];
         let indices = parameter.indices.iter().map(|index| self.emitter.index(index));
-        let place = &name.tokens;
+        let place = if self.is_part {
+            parameter_slice(parameter.field).into_token_stream()
+        } else {
+            self.emitter.model.parameters[parameter.field as usize].tokens.clone()
+        };
         if let Element::Pack = self.element {
             return quote!(#krate::__private::parameters::<__T, _>(&#place[..], #(#indices)*));
         }
-        self.emitter.parameter(parameter.field, &quote!(#([#indices])*))
+        self.emitter.parameter_at(parameter.field, &quote!(#place #([#indices])*))
     }
+}
+
+/// The slice of a field of parameters.
+pub(super) fn parameter_slice(field: u32) -> Ident {
+    local(format_args!("p{field}"))
 }
 
 impl Emitter<'_> {
     /// A parameter as a number, with its indices in brackets.
     pub(crate) fn parameter(&self, field: u32, indices: &TokenStream) -> TokenStream {
+        let place = &self.model.parameters[field as usize].tokens;
+        self.parameter_at(field, &quote!(#place #indices))
+    }
+
+    /// The parameter at a place.
+    fn parameter_at(&self, field: u32, place: &TokenStream) -> TokenStream {
         let krate = self.krate();
-        let name = &self.model.parameters[field as usize];
-        let place = &name.tokens;
-        match &name.generic {
-            Some(generic) => quote!(<#generic as #krate::Parameter<__T>>::value(#place #indices)),
-            None => quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place #indices))),
+        match &self.model.parameters[field as usize].generic {
+            Some(generic) => quote!(<#generic as #krate::Parameter<__T>>::value(#place)),
+            None => quote!(<__T as #krate::Scalar>::lift(#krate::__private::Number::number(#place))),
         }
     }
 }

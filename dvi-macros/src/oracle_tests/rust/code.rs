@@ -51,6 +51,8 @@ pub(super) enum Code {
     /// Arms with the integer that they match, or `_`.
     Match(Box<Code>, Vec<(Option<i128>, Code)>),
     For(Pattern, Box<Code>, Box<Code>, Box<Code>),
+    /// `__private::halves`: the number of bodies, their entries, and what is done for some pairs of a body.
+    Halves(Box<Code>, Box<Code>, [Pattern; 3], Box<Code>),
     Return(Box<Code>),
     Continue,
     Try(Box<Code>),
@@ -61,4 +63,16 @@ pub(super) struct Function {
     pub(super) parameters: usize,
     pub(super) slots: usize,
     pub(super) body: Code,
+}
+
+/// Sets the slots of a pattern.
+pub(super) fn bind(pattern: &Pattern, value: Value, slots: &mut [Value]) {
+    match (pattern, value) {
+        (Pattern::Slot(slot), value) => slots[*slot] = value,
+        (Pattern::Ignored, _) => {}
+        (Pattern::Tuple(patterns), Value::Tuple(values)) => {
+            patterns.iter().zip(values).for_each(|(pattern, value)| bind(pattern, value, slots));
+        }
+        (Pattern::Tuple(_), other) => panic!("{other:?} is no tuple"),
+    }
 }

@@ -19,6 +19,8 @@ pub(super) enum Callee {
     CheckIndices,
     /// `__private::whole`
     Whole,
+    /// `__private::are_many`
+    AreMany,
     /// `Sink::add`, of a dense matrix.
     AddEntry,
     Ok,
@@ -79,6 +81,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "__private", "check_index"] => Callee::CheckIndex,
         [.., "__private", "check_indices"] => Callee::CheckIndices,
         [.., "__private", "whole"] => Callee::Whole,
+        [.., "__private", "are_many"] => Callee::AreMany,
         [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,
         [.., owner, name] if TRAITS.contains(owner) => Callee::Generated((*name).into()),

@@ -4,11 +4,12 @@ use std::collections::HashMap;
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
-use syn::{BinOp, Expr, FnArg, ImplItem, Item, Lit, Pat, RangeLimits, Stmt, Type, UnOp};
+use syn::{BinOp, Expr, FnArg, ImplItem, Item, Lit, Pat, RangeLimits, Stmt, UnOp};
 
 use super::code::{Code, Function, Operator, Pattern};
 use super::functions::{Callee, callee, comparison};
-use super::value::{Kind, Value};
+use super::literals::{arm_value, kind, literal_value};
+use super::value::Value;
 
 /// The generated functions and constants of a system, by name.
 #[derive(Debug, Default)]
@@ -34,7 +35,7 @@ const TRAITS: [&str; 7] = [
     "UnilateralLagrangian",
 ];
 
-fn unknown(what: &str, tokens: &impl ToTokens) -> ! {
+pub(super) fn unknown(what: &str, tokens: &impl ToTokens) -> ! {
     panic!("the interpreter does not know this {what}: {}", tokens.to_token_stream())
 }
 
@@ -143,6 +144,9 @@ impl Parser {
             Pat::Tuple(tuple) => {
                 Pattern::Tuple(tuple.elems.iter().map(|element| self.pattern(element)).collect())
             }
+            Pat::Slice(slice) => {
+                Pattern::Tuple(slice.elems.iter().map(|element| self.pattern(element)).collect())
+            }
             other => unknown("pattern", other),
         }
     }
@@ -199,6 +203,9 @@ impl Parser {
             Expr::Assign(assign) => Code::Assign(None, self.boxed(&assign.left), self.boxed(&assign.right)),
             Expr::Call(call) => {
                 let Expr::Path(path) = &*call.func else { unknown("call", call) };
+                if segments(path).last().is_some_and(|name| name == "halves") {
+                    return self.halves(call);
+                }
                 let arguments = call.args.iter().map(|argument| self.expr(argument)).collect();
                 called(&segments(path), arguments)
             }
@@ -232,6 +239,23 @@ impl Parser {
             Expr::Try(tried) => Code::Try(self.boxed(&tried.expr)),
             other => unknown("expression", other),
         }
+    }
+
+    /// The pairs of many bodies.
+    fn halves(&mut self, call: &syn::ExprCall) -> Code {
+        let mut arguments = call.args.iter();
+        let (Some(bodies), Some(entries), Some(Expr::Closure(row))) =
+            (arguments.next(), arguments.next(), arguments.next())
+        else {
+            unknown("call", call)
+        };
+        let (bodies, entries) = (self.boxed(bodies), self.boxed(entries));
+        let outside = self.scope.len();
+        let patterns: Vec<Pattern> = row.inputs.iter().map(|input| self.pattern(input)).collect();
+        let body = self.boxed(&row.body);
+        self.scope.truncate(outside);
+        let patterns = patterns.try_into().unwrap_or_else(|_| unknown("closure", row));
+        Code::Halves(bodies, entries, patterns, body)
     }
 
     fn path(&mut self, path: &syn::ExprPath) -> Code {
@@ -342,45 +366,4 @@ fn method(receiver: Box<Code>, name: String, mut arguments: Vec<Code>) -> Code {
 /// The segments of a path; `<T as Trait>::name` is `Trait::name`.
 fn segments(path: &syn::ExprPath) -> Vec<String> {
     path.path.segments.iter().map(|segment| segment.ident.to_string()).collect()
-}
-
-fn kind(ty: &Type) -> Kind {
-    match ty.to_token_stream().to_string().as_str() {
-        "usize" => Kind::Usize,
-        "i64" | "i128" => Kind::I64,
-        "i32" => Kind::I32,
-        "f64" => Kind::F64,
-        _ => unknown("type", ty),
-    }
-}
-
-fn literal_value(literal: &Lit) -> Value {
-    match literal {
-        Lit::Int(value) => {
-            let kind = match value.suffix() {
-                "usize" => Kind::Usize,
-                "i64" | "i128" => Kind::I64,
-                "i32" => Kind::I32,
-                "" => Kind::Open,
-                "f64" => return Value::Real(value.base10_parse().expect("a number")),
-                _ => unknown("literal", value),
-            };
-            Value::Integer(value.base10_parse().expect("an integer"), kind)
-        }
-        Lit::Float(value) => Value::Real(value.base10_digits().parse().expect("a number")),
-        Lit::Str(text) => Value::Text(text.value()),
-        Lit::Bool(value) => Value::Bool(value.value),
-        other => unknown("literal", other),
-    }
-}
-
-fn arm_value(pattern: &Pat) -> Option<i128> {
-    match pattern {
-        Pat::Wild(_) => None,
-        Pat::Lit(literal) => match literal_value(&literal.lit) {
-            Value::Integer(value, _) => Some(value),
-            _ => unknown("pattern", pattern),
-        },
-        other => unknown("pattern", other),
-    }
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::arithmetic::{cast, integer_method, kind_of, operation};
-use super::code::{Code, Function, Operator, Pattern};
+use super::code::{Code, Function, Operator, Pattern, bind};
 use super::functions::Callee;
 use super::parse::Expansion;
 use super::value::{Kind, Nested, Value};
@@ -166,6 +166,11 @@ impl Machine<'_> {
                 }
                 Ok(Value::Unit)
             }
+            Code::Halves(bodies, entries, patterns, row) => {
+                let bodies = self.run(bodies, slots)?.integer() as usize;
+                let Value::Tuple(entries) = self.run(entries, slots)? else { panic!("a list of entries") };
+                self.halves(bodies, &entries, (patterns, row), slots)
+            }
             Code::Return(value) => Err(Jump::Return(self.run(value, slots)?)),
             Code::Continue => Err(Jump::Continue),
             Code::Try(value) => match self.run(value, slots)? {
@@ -173,6 +178,41 @@ impl Machine<'_> {
                 value => Ok(value),
             },
         }
+    }
+
+    /// The pairs of each body with those of the first half that come after it, and with those of the second.
+    fn halves(
+        &mut self,
+        bodies: usize,
+        entries: &[Value],
+        ([of_body, of_range, of_entries], row): (&[Pattern; 3], &Code),
+        slots: &mut Vec<Value>,
+    ) -> Step {
+        let integer = |value: usize| Value::Integer(value as i128, Kind::Usize);
+        let part = |entries: &Value, first: usize, length: usize| match entries {
+            Value::View { array, start, .. } => Value::View { array: *array, start: start + first, length },
+            other => panic!("{other:?} has no entries"),
+        };
+        for body in 0..bodies {
+            for (first, past) in [(0, bodies / 2), (bodies / 2, bodies)] {
+                let lower = first.max(body + 1);
+                if lower >= past {
+                    continue;
+                }
+                bind(of_body, integer(body), slots);
+                bind(of_range, Value::Tuple([lower, past, first].map(integer).into()), slots);
+                let of_others = entries.iter().map(|entries| part(entries, first, past - first));
+                bind(of_entries, Value::Tuple(of_others.collect()), slots);
+                let Value::Tuple(sums) = self.run(row, slots)? else { panic!("a list of sums") };
+                for (entries, sum) in entries.iter().zip(sums) {
+                    let Value::View { array, start, .. } = entries else {
+                        panic!("{entries:?} has no entries")
+                    };
+                    self.arrays[*array][start + body] += sum.real();
+                }
+            }
+        }
+        Ok(Value::Unit)
     }
 
     fn field(&self, base: &Value, name: &str) -> Value {
@@ -271,6 +311,8 @@ impl Machine<'_> {
                 let left_over = (integer(1) - integer(0)).max(0) % 2;
                 Ok(Value::Integer(integer(1) - left_over, Kind::Usize))
             }
+            // Few enough that both ways are taken.
+            Callee::AreMany => Ok(Value::Bool(integer(0) >= 3)),
             Callee::CheckIndex | Callee::CheckIndices => {
                 let length = arguments[arguments.len() - 1].integer();
                 let past = if let Callee::CheckIndices = callee { integer(2) } else { integer(1) + 1 };
@@ -344,16 +386,5 @@ impl Machine<'_> {
             }
             _ => panic!("the interpreter does not know the method `{name}` of {receiver:?}"),
         }
-    }
-}
-
-fn bind(pattern: &Pattern, value: Value, slots: &mut [Value]) {
-    match (pattern, value) {
-        (Pattern::Slot(slot), value) => slots[*slot] = value,
-        (Pattern::Ignored, _) => {}
-        (Pattern::Tuple(patterns), Value::Tuple(values)) => {
-            patterns.iter().zip(values).for_each(|(pattern, value)| bind(pattern, value, slots));
-        }
-        (Pattern::Tuple(_), other) => panic!("{other:?} is no tuple"),
     }
 }
