@@ -33,7 +33,7 @@ where
     let factors = if runs.iter().all(is_reversal) {
         None
     } else if load_if_all_have(factors, of_run, runs.len()) {
-        Some(&**factors)
+        Some(&*factors)
     } else {
         return 0;
     };
@@ -87,9 +87,10 @@ where
 /// Some steps with σ = 0.
 struct Leaps<'a, const W: usize, S: System> {
     system: &'a S,
-    reciprocals: &'a [Lanes<W>],
+    // Of the type of a vector, so that where a size is known the loops have no ends of their own.
+    reciprocals: &'a Packed<W, S>,
     /// What K⁻¹c1 is of Δ in each coordinate, if that is not −1.
-    factors: Option<&'a [Lanes<W>]>,
+    factors: Option<&'a Packed<W, S>>,
     clock: Clock<f64>,
     steps: u64,
     q: &'a mut Packed<W, S>,
@@ -107,13 +108,15 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Leaps<'_, W, S>
         for step in 0..steps {
             system.hamiltonian_gradient(q, Lanes::all(clock.after(step).time()), gradient);
             let points = q.iter_mut().zip(ahead.iter_mut()).zip(before.iter_mut());
-            for (j, (((q, ahead), before), &reciprocal)) in points.zip(reciprocals).enumerate() {
-                *before = *q;
+            for (j, (((q, ahead), before), &reciprocal)) in points.zip(reciprocals.iter()).enumerate() {
+                let now = *q;
                 *q = *ahead + gradient[system.conjugate(j)] * reciprocal;
-                *ahead = *before;
+                *ahead = now;
+                *before = now;
             }
+            let Some(factors) = factors else { continue };
             for (((ahead, &before), &q), &factor) in
-                ahead.iter_mut().zip(before.iter()).zip(q.iter()).zip(factors.unwrap_or_default())
+                ahead.iter_mut().zip(before.iter()).zip(q.iter()).zip(factors.iter())
             {
                 *ahead = q + factor * (q - before);
             }

@@ -102,7 +102,7 @@ struct Midpoints<'a, const W: usize, S: System> {
     system: &'a S,
     stopping: Stopping,
     budget: usize,
-    reciprocals: &'a [Lanes<W>],
+    reciprocals: &'a Packed<W, S>,
     clock: Clock<f64>,
     steps: u64,
     has_shift: bool,
