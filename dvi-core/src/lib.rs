@@ -94,7 +94,10 @@
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
 //! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random` and `serde`.
 //! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`; implies `std`.
-//! - `threads`: what is computed for many bodies is shared by threads; implies `std`.
+//! - `threads`: what is computed for many bodies is shared by threads: the generated sums over all pairs of 512 bodies and more, and
+//!   those of `fast-sums`. Results are bitwise the same for every number of threads. The threads are those of the pool of `rayon` that
+//!   a run is taken in. From outside of a pool they have to be woken for each sum, which pays for some 800 bodies and more. Implies
+//!   `std`.
 //! - `mpi`: ensembles over the processes of an MPI program; needs MPI on the system, and libclang to build. Implies `ensembles`.
 //! - `random` (default): methods with noise.
 //! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when

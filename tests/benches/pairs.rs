@@ -1,5 +1,5 @@
-//! The right side of many vortices, each of which moves all others: the generated gradient beside two by hand; and the check of
-//! indices before a run.
+//! The right side of many vortices, each of which moves all others: the generated gradient, on one thread and on two, beside two by
+//! hand; and the check of indices before a run.
 //!
 //! `cargo bench -p dvi-benches --bench pairs`. Throughput counts ordered pairs: n(n − 1) of n vortices.
 

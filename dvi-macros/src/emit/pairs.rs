@@ -177,7 +177,7 @@ impl Function<'_> {
                 Step::Loop { .. } => {}
             }
         }
-        Some(nest)
+        (!nest.outputs.is_empty()).then_some(nest)
     }
 
     /// The block that a statement adds to, at the index of the loop at `depth` itself.
