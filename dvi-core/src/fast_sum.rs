@@ -42,7 +42,8 @@
 //! # What is computed
 //!
 //! Cubes are divided until they hold few bodies. Where two cubes of one size do not touch, the kernel K(r²) between them is replaced by
-//! its interpolant in products of Chebyshev polynomials of both places. This makes of the sum over pairs another function of the places,
+//! its interpolant in products of Chebyshev polynomials of both places (Fong & Darve 2009). What far cubes do in a cube is made of fewer
+//! functions than there are such products; expansions are kept in those, level by level (H²-matrices, Hackbusch & Börm 2002). This makes of the sum over pairs another function of the places,
 //! H̃, for a given division into cubes. The gradient is that of H̃, not an approximation to the gradient of H: so the motion conserves
 //! H̃ as far as the method does, and forces of bodies on each other have the symmetries that H̃ has. H̃ depends on differences of places
 //! only approximately, so momenta are conserved as far as the tolerance goes.
@@ -64,16 +65,19 @@
 //! bitwise the same for every number of threads.
 
 mod basis;
+mod directions;
 mod expansion;
 mod interpolant;
 mod lists;
 mod locals;
+mod matrix;
 mod moments;
 mod neighbours;
 mod packs;
 mod polynomials;
 mod quantity;
 mod refinement;
+mod subspace;
 mod system;
 mod transfer;
 mod tree;
@@ -91,9 +95,7 @@ use self::quantity::{Gradient, Potential};
 use self::transfer::larger;
 use self::work::Work;
 use crate::error::{IndexError, LengthError};
-use crate::{PairSum, Space, State, System};
-
-type VectorOf<S> = <<S as System>::Space as Space>::Vector<f64>;
+use crate::{PairSum, Space, State};
 
 /// There is no fast sum of a system.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -163,10 +165,8 @@ impl<S: fmt::Debug, const D: usize> fmt::Debug for FastSum<'_, S, D> {
     }
 }
 
-impl<'s, S, const D: usize> FastSum<'s, S, D>
-where
-    S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
-{
+// A bound less than below: so a system without such a sum is refused once.
+impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
     /// Sums the pairs of `system` with forces of a relative error of about `tolerance`, ‖∇H̃ − ∇H‖/‖∇H‖ over all bodies. Tests find it
     /// below the tolerance for ln(r² + c²) with several c, with bodies in a square, near a line and in clusters, and for 1/√(r² + c²) in
     /// space and two kernels more. It is larger where the forces on most bodies cancel, and where rounding is not far: at 1e-10 it was
@@ -174,7 +174,7 @@ where
     ///
     /// # Errors
     /// [`ToleranceError`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`IndexError`] as of
-    /// [`check`](System::check).
+    /// [`check`](crate::System::check).
     pub fn new(system: &'s S, tolerance: f64) -> Result<Self, FastSumError> {
         system.check()?;
         let least = if D > 2 { LEAST_IN_SPACE } else { LEAST };
@@ -185,7 +185,12 @@ where
         let inner = RefCell::new((Expansion::new(order, least), Work::new()));
         Ok(Self { system, tolerance, inner })
     }
+}
 
+impl<'s, S, const D: usize> FastSum<'s, S, D>
+where
+    S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
+{
     /// The system whose pairs are summed.
     pub fn system(&self) -> &'s S {
         self.system
@@ -238,10 +243,24 @@ where
     }
 
     /// The coordinates of a state.
-    fn point(&self, state: &S::State<f64>) -> Result<VectorOf<S>, LengthError> {
-        let space = self.system.space();
-        let (mut q, mut v) = (Space::vector(space), Space::vector(space));
-        state.write(|block| self.system.block_len(block), &mut q, &mut v)?;
+    ///
+    /// A system may declare more of them than there is memory for, a state has no more. So there is room for an array when the state is
+    /// known to have it.
+    fn point(&self, state: &S::State<f64>) -> Result<Vec<f64>, LengthError> {
+        let dimension = self.system.space().dimension();
+        let (mut q, mut v) = (Vec::new(), Vec::new());
+        loop {
+            match state.write(|block| self.system.block_len(block), &mut q, &mut v) {
+                Ok(()) => break,
+                Err(error) if error.found == error.expected && q.len() < dimension.saturating_mul(2) => {
+                    for numbers in [&mut q, &mut v] {
+                        numbers.resize(numbers.len() + error.found, 0.0);
+                    }
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        q.truncate(dimension);
         Ok(q)
     }
 

@@ -84,3 +84,19 @@ pub(crate) fn sort<T: Ord + Send>(numbers: &mut [T]) {
 pub(crate) fn sort<T: Ord + Send>(numbers: &mut [T]) {
     numbers.sort_unstable();
 }
+
+/// Changes each entry.
+#[cfg(all(feature = "fast-sums", feature = "threads"))]
+pub(crate) fn each<T: Send>(entries: &mut [T], change: impl Fn(&mut T) + Sync) {
+    use rayon::iter::ParallelIterator;
+    /// What is fewer is not worth handing over.
+    const TOGETHER: usize = 4096;
+    rayon::slice::ParallelSliceMut::par_chunks_mut(entries, TOGETHER)
+        .for_each(|entries| entries.iter_mut().for_each(&change));
+}
+
+/// Changes each entry.
+#[cfg(all(feature = "fast-sums", not(feature = "threads")))]
+pub(crate) fn each<T: Send>(entries: &mut [T], change: impl Fn(&mut T) + Sync) {
+    entries.iter_mut().for_each(change);
+}

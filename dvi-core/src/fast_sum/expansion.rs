@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use super::basis::Basis;
 use super::refinement::Refinement;
+use super::subspace::Subspace;
 use super::transfer::Transfer;
 
 /// The functions of the basis that differ in their last degree only.
@@ -16,6 +17,9 @@ pub(super) struct Row<const D: usize> {
     pub(super) len: usize,
 }
 
+/// Subspaces that are kept.
+const MOST_KEPT: usize = 64;
+
 /// The basis of all expansions, and the matrices that act on them.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion<const D: usize> {
@@ -25,7 +29,11 @@ pub(super) struct Expansion<const D: usize> {
     tolerance: f64,
     /// By the binary logarithm of the edge; none where bodies are to be summed one by one.
     transfers: Vec<(i32, Option<Transfer>)>,
+    subspaces: Vec<(Key, Subspace)>,
 }
+
+/// What a subspace depends on: that of larger cubes, the binary logarithm of the edge, and whether there are matrices between these cubes.
+type Key = (Option<usize>, i32, bool);
 
 impl<const D: usize> Expansion<D> {
     /// Functions with a total degree below `order`, and matrices without singular values below `tolerance` times the largest.
@@ -38,7 +46,7 @@ impl<const D: usize> Expansion<D> {
         };
         let rows: Vec<Row<D>> = firsts.map(row).collect();
         let refinement = Refinement::new(&basis, &rows);
-        Self { basis, rows, refinement, tolerance, transfers: Vec::new() }
+        Self { basis, rows, refinement, tolerance, transfers: Vec::new(), subspaces: Vec::new() }
     }
 
     /// Where the matrices between cubes with this edge are, if there are any; they are computed where they are needed first.
@@ -55,8 +63,31 @@ impl<const D: usize> Expansion<D> {
         self.transfers[position?].1.as_ref()
     }
 
+    /// Where the functions are for cubes with this edge, within others with those at `above`, and with the matrices at `own`.
+    pub(super) fn subspace_position(&mut self, above: Option<usize>, edge: i32, own: Option<usize>) -> usize {
+        let key = (above, edge, own.is_some());
+        let known = self.subspaces.iter().position(|(known, _)| *known == key);
+        known.unwrap_or_else(|| {
+            let parts = (&self.basis, &*self.rows, &self.refinement);
+            let found = Subspace::new(parts, self.subspace(above), self.transfer(own), self.tolerance);
+            self.subspaces.push((key, found));
+            self.subspaces.len() - 1
+        })
+    }
+
+    pub(super) fn subspace(&self, position: Option<usize>) -> Option<&Subspace> {
+        Some(&self.subspaces[position?].1)
+    }
+
     /// Forgets the matrices of cubes that are far from these sizes.
     pub(super) fn keep(&mut self, edges: Range<i32>) {
-        self.transfers.retain(|(edge, _)| (edges.start - 1..=edges.end).contains(edge));
+        let kept = edges.start - 1..=edges.end;
+        self.transfers.retain(|(edge, _)| kept.contains(edge));
+        // Others depend on them.
+        if self.subspaces.len() > MOST_KEPT
+            || self.subspaces.iter().any(|((_, edge, _), _)| !kept.contains(edge))
+        {
+            self.subspaces.clear();
+        }
     }
 }

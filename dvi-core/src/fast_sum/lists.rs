@@ -26,6 +26,8 @@ pub(super) struct Lists {
     pub(super) packs: Vec<usize>,
     /// Where the pair stands that has target and source exchanged.
     pub(super) opposite: Vec<usize>,
+    /// Where the near pairs of each cube begin, and where those of the last one end.
+    firsts: Vec<usize>,
     queue: Vec<Pair>,
 }
 
@@ -83,7 +85,12 @@ impl Lists {
 
     /// Finds what depends on both orders of a pair.
     pub(super) fn oppose<const D: usize>(&mut self, tree: &Tree<D>) {
-        let Self { near, packs, opposite, .. } = self;
+        let Self { near, packs, opposite, firsts, .. } = self;
+        firsts.clear();
+        for (number, pair) in near.iter().enumerate() {
+            firsts.resize(firsts.len().max(pair.target as usize + 1), number);
+        }
+        firsts.resize(tree.cubes.len() + 1, near.len());
         packs.clear();
         opposite.clear();
         let mut before = 0;
@@ -92,9 +99,10 @@ impl Lists {
             if source > target {
                 before += tree.cubes[source as usize].bodies().len().div_ceil(LANES);
             }
-            // The list is in the order of targets, and of sources for each.
-            let place = near.partition_point(|pair| *pair < Pair { target: source, source: target });
-            opposite.push(place);
+            let first = firsts[source as usize];
+            let of_source = &near[first..firsts[source as usize + 1]];
+            // In the order of their sources.
+            opposite.push(first + of_source.partition_point(|pair| pair.source < target));
         }
         packs.push(before);
     }

@@ -6,10 +6,12 @@ use core::ops::Range;
 use super::basis::Chebyshev;
 use super::expansion::{Expansion, Row};
 use super::lists::{Lists, Pair, on};
+use super::matrix::{Batch, Ends, VECTORS, padded};
 use super::neighbours::add_reactions;
-use super::packs::{Ends, LANES, Pack, add_before, add_product, add_products};
+use super::packs::{LANES, Pack, add_before};
 use super::polynomials::at_bodies;
 use super::quantity::Quantity;
+use super::subspace::{Subspace, number};
 use super::transfer::Transfer;
 use super::tree::Tree;
 use crate::scalar::simd::widest_if;
@@ -21,18 +23,21 @@ pub(super) struct Actions<'w, const D: usize> {
     pub(super) expansion: &'w Expansion<D>,
     pub(super) tree: &'w Tree<D>,
     pub(super) places: &'w [Vec<f64>; D],
-    /// Whether there are far cubes on any level.
-    pub(super) has_far: bool,
     /// For each offset, the cubes of the level that act on others as wholes.
     pub(super) far: &'w [Vec<Pair>],
     pub(super) lists: &'w Lists,
     /// What bodies of earlier cubes do one by one.
     pub(super) reactions: &'w [Pack],
     pub(super) transfer: Option<&'w Transfer>,
-    /// The compressed moments of all cubes.
-    pub(super) sent: &'w [f64],
-    /// The local expansions of the cubes before this level.
+    /// The functions of the level, if cubes of this level or larger ones act as wholes.
+    pub(super) subspace: Option<&'w Subspace>,
+    /// The moments of all cubes of the level, and the first of these cubes.
+    pub(super) moments: &'w [f64],
+    pub(super) first: usize,
+    /// The functions of the level before, if they are there; its local expansions, and the first of its cubes.
+    pub(super) subspace_above: Option<&'w Subspace>,
     pub(super) above: &'w [f64],
+    pub(super) first_above: usize,
 }
 
 /// What is summed for some cubes of one level.
@@ -40,9 +45,10 @@ pub(super) struct Actions<'w, const D: usize> {
 pub(super) struct Locals<'w, const D: usize> {
     pub(super) by: Actions<'w, D>,
     pub(super) cubes: Range<usize>,
-    /// For each cube the potential of far cubes in it, and of those on its level the same compressed.
+    /// For each cube the potential of far cubes in it.
     pub(super) locals: &'w mut [f64],
-    pub(super) received: &'w mut [f64],
+    /// Room for that of one cube in the basis.
+    pub(super) room: &'w mut [f64],
     /// For the bodies of these cubes, from the first one on.
     pub(super) sums: [&'w mut [f64]; D],
 }
@@ -52,102 +58,109 @@ impl<const D: usize> Part for Locals<'_, D> {
         self.sums[0].len()
     }
     fn halves(self) -> (Self, Option<Self>) {
-        let Self { by, cubes, locals, received, mut sums } = self;
+        let Self { by, cubes, locals, room, mut sums } = self;
         let count = cubes.len() / 2;
         if count == 0 {
-            return (Self { by, cubes, locals, received, sums }, None);
+            return (Self { by, cubes, locals, room, sums }, None);
         }
         let middle = cubes.start + count;
-        let entries = count * by.expansion.basis.len() * usize::from(by.has_far);
         let bodies = by.tree.cubes[middle].first - by.tree.cubes[cubes.start].first;
-        let [(locals, other_locals), (received, other_received)] =
-            [locals, received].map(|all| all.split_at_mut(entries));
+        let stride = by.subspace.map_or(0, |subspace| subspace.stride);
+        let (locals, other_locals) = locals.split_at_mut(count * stride);
+        let size = by.subspace.map_or(0, |_| padded(by.expansion.basis.len()));
+        let (room, other_room) = room.split_at_mut(count * size);
         let other_sums = sums.each_mut().map(|sums| {
             let (own, other) = core::mem::take(sums).split_at_mut(bodies);
             *sums = own;
             other
         });
-        let other = Self {
-            by,
-            cubes: middle..cubes.end,
-            locals: other_locals,
-            received: other_received,
-            sums: other_sums,
-        };
-        (Self { by, cubes: cubes.start..middle, locals, received, sums }, Some(other))
+        let other =
+            Self { by, cubes: middle..cubes.end, locals: other_locals, room: other_room, sums: other_sums };
+        (Self { by, cubes: cubes.start..middle, locals, room, sums }, Some(other))
     }
 }
 
 impl<const D: usize> Locals<'_, D> {
     pub(super) fn distribute<Q: Quantity<D>>(mut self) {
-        if self.by.has_far {
-            self.exchange();
-            self.expand::<Q>();
+        if let Some(subspace) = self.by.subspace {
+            self.locals.fill(0.0);
+            self.inherit(subspace);
+            self.exchange(subspace);
+            self.evaluate::<Q>(subspace);
         }
         let Self { by, cubes, mut sums, .. } = self;
         add_reactions(by.tree, by.lists, &cubes, by.reactions, &mut sums);
     }
 
-    /// What other cubes do as wholes.
-    fn exchange(&mut self) {
-        let Self { by, cubes, received, .. } = self;
+    /// What acts on the cubes around these.
+    fn inherit(&mut self, subspace: &Subspace) {
+        let Self { by, cubes, locals, .. } = self;
+        let Some(above) = by.subspace_above else { return };
+        for (side, matrix) in subspace.narrow.iter().enumerate() {
+            let mut batch = Batch::new();
+            for (place, cube) in by.tree.cubes[cubes.clone()].iter().enumerate() {
+                if number(cube.side()) == side {
+                    let from = (cube.whole - by.first_above) * above.stride;
+                    batch.push(Ends { from, to: place * subspace.stride }, matrix, by.above, locals);
+                }
+            }
+            batch.finish(matrix, by.above, locals);
+        }
+    }
+
+    /// What other cubes of the level do as wholes.
+    fn exchange(&mut self, subspace: &Subspace) {
+        let Self { by, cubes, locals, .. } = self;
         let Some(transfer) = by.transfer else { return };
-        let size = by.expansion.basis.len();
-        received.fill(0.0);
         for (list, matrix) in by.far.iter().zip(&transfer.matrices) {
-            let list = &list[on(list, cubes)];
+            let mut batch = Batch::new();
+            for Pair { target, source } in &list[on(list, cubes)] {
+                let from = (*source as usize - by.first) * subspace.stride;
+                let to = (*target as usize - cubes.start) * subspace.stride;
+                batch.push(Ends { from, to }, matrix, by.moments, locals);
+            }
+            batch.finish(matrix, by.moments, locals);
+        }
+    }
+
+    /// What the expansions are at the bodies of the cubes that are not divided.
+    fn evaluate<Q: Quantity<D>>(&mut self, subspace: &Subspace) {
+        let Self { by, cubes, locals, room, sums } = self;
+        let Expansion { basis, rows, .. } = by.expansion;
+        let size = padded(basis.len());
+        let first = by.tree.cubes[cubes.start].first;
+        let all = by.tree.cubes[cubes.clone()].iter().enumerate();
+        let mut leaves = all.filter(|(_, cube)| !cube.is_divided());
+        loop {
+            let mut some = [None; VECTORS];
+            let mut ends = [Ends::default(); VECTORS];
+            let mut count = 0;
+            for (number, (place, cube)) in (0..VECTORS.min(room.len() / size)).zip(&mut leaves) {
+                some[number] = Some(cube);
+                ends[number] = Ends { from: place * subspace.stride, to: number * size };
+                count = number + 1;
+            }
+            if count == 0 {
+                break;
+            }
+            room[..count * size].fill(0.0);
+            subspace.expand.add_products(&ends[..count], locals, room);
             widest_if(
                 true,
                 #[inline(always)]
                 || {
-                    for some in list.chunks(LANES) {
-                        let mut ends = [Ends::default(); LANES];
-                        for (ends, pair) in ends.iter_mut().zip(some) {
-                            let to = (pair.target as usize - cubes.start) * size;
-                            *ends = Ends { from: pair.source as usize * size, to };
+                    let mut at = [Chebyshev::none(); D];
+                    for (cube, local) in some.iter().flatten().zip(room.chunks_exact(size)) {
+                        let frame = by.tree.frame(cube);
+                        for body in cube.bodies().step_by(LANES) {
+                            at_bodies::<D, true>(&mut at, basis.order, by.places, frame, body, cube.past);
+                            let found = evaluated::<D, Q>(local, rows, &at, 1.0 / frame.1);
+                            add_before(cube.past - first, sums, body - first, found.as_ref());
                         }
-                        add_products(matrix, transfer.rank, &ends[..some.len()], by.sent, received);
                     }
                 },
             );
         }
-    }
-
-    /// The expansions of these cubes, and what they are at the bodies of those that are not divided.
-    fn expand<Q: Quantity<D>>(&mut self) {
-        let Self { by, cubes, locals, received, sums } = self;
-        let Expansion { basis, rows, refinement, .. } = by.expansion;
-        let size = basis.len();
-        widest_if(
-            true,
-            #[inline(always)]
-            || {
-                let mut at = [Chebyshev::none(); D];
-                let first = by.tree.cubes[cubes.start].first;
-                let both = locals.chunks_exact_mut(size).zip(received.chunks_exact(size));
-                for (number, (local, received)) in cubes.clone().zip(both) {
-                    let cube = &by.tree.cubes[number];
-                    if cube.level == 0 {
-                        local.fill(0.0);
-                    } else {
-                        local.copy_from_slice(&by.above[cube.whole * size..(cube.whole + 1) * size]);
-                        refinement.narrow(rows, cube.side(), local);
-                    }
-                    if let Some(Transfer { rank, compression: [_, expand], .. }) = by.transfer {
-                        add_product(local, expand, &received[..*rank]);
-                    }
-                    if cube.is_divided() {
-                        continue;
-                    }
-                    let frame = by.tree.frame(cube);
-                    for body in cube.bodies().step_by(LANES) {
-                        at_bodies::<D, true>(&mut at, basis.order, by.places, frame, body, cube.past);
-                        let found = evaluated::<D, Q>(local, rows, &at, 1.0 / frame.1);
-                        add_before(cube.past - first, sums, body - first, found.as_ref());
-                    }
-                }
-            },
-        );
     }
 }
 

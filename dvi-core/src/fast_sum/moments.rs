@@ -5,9 +5,10 @@ use core::ops::Range;
 
 use super::basis::{Chebyshev, MOST};
 use super::expansion::{Expansion, Row};
-use super::packs::{LANES, Pack, add_product, load_before};
+use super::matrix::{Batch, Ends, VECTORS};
+use super::packs::{LANES, Pack, load_before};
 use super::polynomials::at_bodies;
-use super::transfer::Transfer;
+use super::subspace::{Subspace, number};
 use super::tree::{Cube, Tree};
 use crate::scalar::simd::widest_if;
 use crate::threads::Part;
@@ -19,9 +20,10 @@ pub(super) struct Sources<'w, const D: usize> {
     pub(super) tree: &'w Tree<D>,
     pub(super) places: &'w [Vec<f64>; D],
     pub(super) weights: &'w [f64],
-    /// What is sent to others from cubes of this level, if anything.
-    pub(super) transfer: Option<&'w Transfer>,
-    /// The moments of the cubes from the next level on, and the first of these cubes.
+    /// The functions of this level.
+    pub(super) subspace: &'w Subspace,
+    /// Those of the next one, if there is one; its moments, and the first of its cubes.
+    pub(super) subspace_below: Option<&'w Subspace>,
     pub(super) below: &'w [f64],
     pub(super) first_below: usize,
 }
@@ -31,9 +33,9 @@ pub(super) struct Sources<'w, const D: usize> {
 pub(super) struct Moments<'w, const D: usize> {
     pub(super) from: Sources<'w, D>,
     pub(super) cubes: Range<usize>,
-    /// Of each cube Σ w B over its bodies; the same, compressed; and room for those of a part.
+    /// Of each cube Σ w B over its bodies, for the functions B of the subspace.
     pub(super) moments: &'w mut [f64],
-    pub(super) sent: &'w mut [f64],
+    /// Room for those of one cube in the basis.
     pub(super) room: &'w mut [f64],
 }
 
@@ -42,20 +44,13 @@ impl<const D: usize> Part for Moments<'_, D> {
         self.cubes.len()
     }
     fn halves(self) -> (Self, Option<Self>) {
-        let Self { from, cubes, moments, sent, room } = self;
+        let Self { from, cubes, moments, room } = self;
         let count = cubes.len() / 2;
         let middle = cubes.start + count;
-        let entries = count * from.expansion.basis.len();
-        let [(moments, other_moments), (sent, other_sent), (room, other_room)] =
-            [moments, sent, room].map(|all| all.split_at_mut(entries));
-        let other = Self {
-            from,
-            cubes: middle..cubes.end,
-            moments: other_moments,
-            sent: other_sent,
-            room: other_room,
-        };
-        (Self { from, cubes: cubes.start..middle, moments, sent, room }, Some(other))
+        let (moments, other_moments) = moments.split_at_mut(count * from.subspace.stride);
+        let (room, other_room) = room.split_at_mut(count * from.expansion.basis.len());
+        let other = Self { from, cubes: middle..cubes.end, moments: other_moments, room: other_room };
+        (Self { from, cubes: cubes.start..middle, moments, room }, Some(other))
     }
 }
 
@@ -66,36 +61,44 @@ const FOUR: usize = 4;
 
 impl<const D: usize> Moments<'_, D> {
     pub(super) fn collect(self) {
-        let Self { from, cubes, moments, sent, room } = self;
-        let size = from.expansion.basis.len();
-        widest_if(
-            true,
-            #[inline(always)]
-            || {
-                let mut at = [[Chebyshev::none(); D]; TOGETHER];
-                let all = moments.chunks_exact_mut(size).zip(sent.chunks_exact_mut(size));
-                for ((number, (moments, sent)), room) in cubes.zip(all).zip(room.chunks_exact_mut(size)) {
-                    let cube = &from.tree.cubes[number];
-                    moments.fill(0.0);
-                    if !cube.is_divided() {
-                        of_bodies(&from, cube, &mut at, moments);
+        let Self { from, cubes, moments, room } = self;
+        let (stride, size) = (from.subspace.stride, from.expansion.basis.len());
+        let of_part = &from.tree.cubes[cubes.clone()];
+        moments.fill(0.0);
+        let mut leaves = of_part.iter().enumerate().filter(|(_, cube)| !cube.is_divided());
+        loop {
+            let mut ends = [Ends::default(); VECTORS];
+            let mut count = 0;
+            widest_if(
+                true,
+                #[inline(always)]
+                || {
+                    let mut at = [[Chebyshev::none(); D]; TOGETHER];
+                    let rooms = room.chunks_exact_mut(size).take(VECTORS);
+                    for (number, (room, (place, cube))) in rooms.zip(&mut leaves).enumerate() {
+                        room.fill(0.0);
+                        of_bodies(&from, cube, &mut at, room);
+                        ends[number] = Ends { from: number * size, to: place * stride };
+                        count = number + 1;
                     }
-                    for part in cube.parts() {
-                        let start = (part - from.first_below) * size;
-                        room.copy_from_slice(&from.below[start..start + size]);
-                        let Expansion { refinement, rows, .. } = from.expansion;
-                        refinement.widen(rows, from.tree.cubes[part].side(), room);
-                        moments.iter_mut().zip(&*room).for_each(|(moment, part)| *moment += part);
-                    }
-                    if let Some(Transfer { rank: rank @ 1.., compression: [compress, _], .. }) = from.transfer
-                    {
-                        let sent = &mut sent[..*rank];
-                        sent.fill(0.0);
-                        add_product(sent, compress, moments);
-                    }
+                },
+            );
+            if count == 0 {
+                break;
+            }
+            from.subspace.compress.add_products(&ends[..count], room, moments);
+        }
+        let Some(below) = from.subspace_below else { return };
+        for (side, matrix) in below.widen.iter().enumerate() {
+            let mut batch = Batch::new();
+            for (place, cube) in of_part.iter().enumerate() {
+                for part in cube.parts().filter(|part| number(from.tree.cubes[*part].side()) == side) {
+                    let ends = Ends { from: (part - from.first_below) * below.stride, to: place * stride };
+                    batch.push(ends, matrix, from.below, moments);
                 }
-            },
-        );
+            }
+            batch.finish(matrix, from.below, moments);
+        }
     }
 }
 

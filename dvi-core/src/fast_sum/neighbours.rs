@@ -159,11 +159,13 @@ fn between<Q: Quantity<D>, const D: usize>(
     reactions: &mut [Pack],
 ) {
     reactions.fill(Pack::all(0.0));
+    let places_of_other = by.places.each_ref().map(|places| &places[other.bodies()]);
+    let weights_of_other = &by.weights[other.bodies()];
     let whole = other.bodies().len() / LANES;
     let (reactions, last) = reactions.split_at_mut(whole * D);
     // In lanes without a body the last one stands, with the weight 0.
     let rest: [Pack; D] = core::array::from_fn(|axis| {
-        let places = &by.places[axis][other.bodies()];
+        let places = places_of_other[axis];
         Lanes(core::array::from_fn(|lane| places[(whole * LANES + lane).min(places.len() - 1)]))
     });
     let weights_of_rest = load_before(other.past, by.weights, other.first + whole * LANES);
@@ -175,9 +177,10 @@ fn between<Q: Quantity<D>, const D: usize>(
             let mut found = Q::none();
             let body =
                 (core::array::from_fn(|axis| Pack::all(by.places[axis][body])), Pack::all(by.weights[body]));
-            for (first, reactions) in other.bodies().step_by(LANES).zip(reactions.chunks_exact_mut(D)) {
-                let places = core::array::from_fn(|axis| load(&by.places[axis], first));
-                add_both(by.quantity, &mut found, reactions, body, (places, load(by.weights, first)));
+            for (pack, reactions) in reactions.chunks_exact_mut(D).enumerate() {
+                let places = core::array::from_fn(|axis| load(places_of_other[axis], pack * LANES));
+                let weights = load(weights_of_other, pack * LANES);
+                add_both(by.quantity, &mut found, reactions, body, (places, weights));
             }
             if !last.is_empty() {
                 add_both(by.quantity, &mut found, last, body, (rest, weights_of_rest));

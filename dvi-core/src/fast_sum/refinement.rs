@@ -13,8 +13,6 @@ use super::expansion::Row;
 pub(super) struct Refinement {
     /// T_m((c ± 1)/2) = Σ_n a_{mn} T_n(c), first for the lower half: by rows.
     halves: [Vec<[f64; MOST]>; 2],
-    /// The same, by columns.
-    columns: [Vec<[f64; MOST]>; 2],
     /// For all axes but the last: which row of functions is made of which; first those that are made of most.
     mixtures: Vec<Mixture>,
 }
@@ -32,10 +30,6 @@ struct Mixture {
 impl Refinement {
     pub(super) fn new<const D: usize>(basis: &Basis<D>, rows: &[Row<D>]) -> Self {
         let halves = [-1.0, 1.0].map(|side| half(basis.order, side));
-        let columns = halves.each_ref().map(|rows| {
-            let entry = |n: usize, m: usize| rows.get(m).map_or(0.0, |row| row[n]);
-            (0..basis.order).map(|n| core::array::from_fn(|m| entry(n, m))).collect()
-        });
         let mut mixtures = Vec::new();
         for axis in 0..D - 1 {
             for row in rows.iter().rev() {
@@ -53,24 +47,7 @@ impl Refinement {
                 }
             }
         }
-        Self { halves, columns, mixtures }
-    }
-
-    /// Makes the moments of a part those of the cube around it: A times them.
-    #[inline(always)]
-    pub(super) fn widen<const D: usize>(&self, rows: &[Row<D>], side: [bool; D], moments: &mut [f64]) {
-        for Mixture { axis, degrees: [m, n], firsts: [to, from], len } in &self.mixtures {
-            let factor = self.halves[usize::from(side[*axis])][*m][*n];
-            // The others are of a lower degree, and stand before.
-            let (others, own) = moments.split_at_mut(*to);
-            let own = &mut own[..*len];
-            if from == to {
-                own.iter_mut().for_each(|moment| *moment *= factor);
-            } else {
-                add_scaled(own, factor, &others[*from..from + len]);
-            }
-        }
-        along_rows(rows, &self.columns[usize::from(side[D - 1])], moments);
+        Self { halves, mixtures }
     }
 
     /// Makes the local expansion of a cube that of its part: Aᵀ times it.

@@ -9,7 +9,9 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use super::basis::Basis;
+use super::directions::Directions;
 use super::interpolant::Interpolant;
+use super::matrix::Matrix;
 use super::tree::exp2;
 
 /// Two cubes of one level that are no further apart than this, and do not touch.
@@ -38,11 +40,10 @@ fn offset<const D: usize>(number: usize) -> [i32; D] {
 /// The matrices κ between cubes of one size, of the rank that the tolerance asks for: κ ≈ U κ̃ Uᵀ with the same U for all t.
 #[derive(Clone, Debug)]
 pub(super) struct Transfer {
-    pub(super) rank: usize,
-    /// U and its transpose, row by row.
-    pub(super) compression: [Vec<f64>; 2],
-    /// κ̃ for each t, row by row; of cubes that touch there is none.
-    pub(super) matrices: Vec<Vec<f64>>,
+    /// U
+    pub(super) directions: Directions,
+    /// κ̃ for each t; of cubes that touch there is none.
+    pub(super) matrices: Vec<Matrix>,
 }
 
 impl Transfer {
@@ -62,8 +63,8 @@ impl Transfer {
         let most = |of: fn(&Interpolant) -> f64| known.iter().map(|(_, found)| of(found)).fold(0.0, larger);
         let [varying, size] = [most(Interpolant::varying), most(Interpolant::size)];
         if size == 0.0 {
-            let (compression, matrices) = (Default::default(), all().map(|_| Vec::new()).collect());
-            return Some(Self { rank: 0, compression, matrices });
+            let (directions, matrices) = (Directions::none(basis.len()), Vec::new());
+            return Some(Self { directions, matrices });
         }
         let is_above_rounding = varying.is_finite() && varying * tolerance > ROUNDING * size;
         if !is_above_rounding {
@@ -71,13 +72,17 @@ impl Transfer {
         }
         let matrix = |t| matrix(basis, &known, t);
         let octant = all().filter(|t| t.iter().all(|steps| *steps >= 0));
-        let range = range(basis, octant, matrix, varying, tolerance)?;
-        let compressed = all().map(|t| match matrix(t) {
-            Some(matrix) => rows(&(range.transpose() * (matrix * &range))),
-            None => Vec::new(),
+        let directions = range(basis, octant, matrix, varying, tolerance)?;
+        let range = &directions.functions;
+        let compressed = all().map(|t| {
+            let of_matrix = |matrix: DMatrix<f64>| Matrix::new(&range.tr_mul(&(matrix * range)));
+            matrix(t).map_or_else(Matrix::default, of_matrix)
         });
-        let matrices = compressed.collect();
-        Some(Self { rank: range.ncols(), compression: [rows(&range), rows(&range.transpose())], matrices })
+        Some(Self { matrices: compressed.collect(), directions })
+    }
+
+    pub(super) fn rank(&self) -> usize {
+        self.directions.weights.len()
     }
 }
 
@@ -87,10 +92,6 @@ const ROUNDING: f64 = 30.0 * f64::EPSILON;
 /// The larger of two numbers; none if one of them is none.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
-}
-
-fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
-    matrix.transpose().as_slice().to_vec()
 }
 
 /// κ for any t, from those with t₁ ≥ … ≥ t_D ≥ 0; none for cubes that touch. K(|u − v + 2t|) is the same with coordinates exchanged and
@@ -136,7 +137,7 @@ fn range<const D: usize>(
     matrix: impl Fn([i32; D]) -> Option<DMatrix<f64>>,
     scale: f64,
     tolerance: f64,
-) -> Option<DMatrix<f64>> {
+) -> Option<Directions> {
     let size = basis.len();
     let mut state = 2009_u64;
     let mut entry = || {
@@ -154,31 +155,8 @@ fn range<const D: usize>(
         let vectors = DMatrix::from_fn(size, SAMPLES.min(size), |_, _| f64::sqrt(reflections) * entry());
         samples.push(matrix * vectors);
     }
-    let mut columns = Vec::new();
-    for parity in 0..1_usize << D {
-        let is_odd = |axis: usize| parity >> axis & 1 == 1;
-        let of_parity = |m: &usize| (0..D).all(|axis| (basis.degrees[*m][axis] % 2 == 1) == is_odd(axis));
-        let functions: Vec<usize> = (0..size).filter(of_parity).collect();
-        if functions.is_empty() {
-            continue;
-        }
-        let parts: Vec<_> = samples.iter().map(|sample| sample.select_rows(&functions)).collect();
-        let all: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
-        for direction in directions(DMatrix::from_columns(&all), tolerance * largest)?.column_iter() {
-            let mut column = alloc::vec![0.0; size];
-            functions.iter().zip(direction.iter()).for_each(|(function, entry)| column[*function] = *entry);
-            columns.extend(column);
-        }
-    }
-    let rank = columns.len() / size;
-    (rank > 0).then(|| DMatrix::from_vec(size, rank, columns))
-}
-
-/// The singular vectors of values above a bound; none if the iteration for them does not end.
-fn directions(columns: DMatrix<f64>, least: f64) -> Option<DMatrix<f64>> {
-    const ITERATIONS: usize = 10_000;
-    let svd = columns.try_svd(true, false, 5.0 * f64::EPSILON, ITERATIONS)?;
-    let kept: Vec<usize> =
-        (0..svd.singular_values.len()).filter(|place| svd.singular_values[*place] > least).collect();
-    svd.u.map(|vectors| vectors.select_columns(&kept))
+    let all: Vec<_> = samples.iter().flat_map(|sample| sample.column_iter()).collect();
+    let mut directions = Directions::of_parities(basis, &DMatrix::from_columns(&all), tolerance * largest);
+    directions.weights.iter_mut().for_each(|weight| *weight /= largest);
+    (!directions.weights.is_empty()).then_some(directions)
 }

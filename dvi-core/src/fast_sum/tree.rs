@@ -82,12 +82,13 @@ impl<const D: usize> Tree<D> {
             self.order = (0..places[0].len()).map(|body| (0, body as u32)).collect();
         }
         let cells = f64::from(1_u32 << LEVELS) / exp2(self.edge);
-        for (key, body) in &mut self.order {
+        let corner = self.corner;
+        threads::each(&mut self.order, |(key, body)| {
             *key = interleaved::<D>(core::array::from_fn(|axis| {
-                let cell = ((places[axis][*body as usize] - self.corner[axis]) * cells) as u32;
+                let cell = ((places[axis][*body as usize] - corner[axis]) * cells) as u32;
                 cell.min((1 << LEVELS) - 1)
             }));
-        }
+        });
         threads::sort(&mut self.order);
         self.divide();
         Ok(())

@@ -7,14 +7,27 @@ use super::Operations;
 use super::expansion::Expansion;
 use super::lists::{Lists, on, pairs};
 use super::locals::{Actions, Locals};
+use super::matrix::padded;
 use super::moments::{Moments, Sources};
 use super::neighbours::{Nearby, Neighbours};
 use super::packs::{LANES, Pack};
 use super::quantity::Quantity;
-use super::transfer::offsets;
+use super::transfer::{Transfer, offsets};
 use super::tree::{NotFinite, Tree};
 use crate::PairSum;
 use crate::threads::share;
+
+/// Where to find what belongs to the cubes of one level.
+#[derive(Clone, Copy, Debug)]
+struct Level {
+    /// The matrices between those that act on others as wholes, if there are such.
+    transfer: Option<usize>,
+    /// The functions of their expansions, if these or larger cubes act on others as wholes.
+    subspace: Option<usize>,
+    /// Their first coefficient, and the first of the next level.
+    start: usize,
+    past: usize,
+}
 
 /// The numbers of one evaluation, kept from one to the next.
 #[derive(Clone, Debug)]
@@ -25,13 +38,12 @@ pub(super) struct Work<const D: usize> {
     places: [Vec<f64>; D],
     weights: Vec<f64>,
     sums: [Vec<f64>; D],
-    /// For each level with cubes that act on others as wholes: which matrices they have.
-    transfers: Vec<Option<usize>>,
-    /// Of each cube, by the functions of the basis: see [`Moments`] and [`Locals`].
+    levels: Vec<Level>,
+    /// Of each cube, by the functions of its level: see [`Moments`] and [`Locals`].
     moments: Vec<f64>,
     locals: Vec<f64>,
-    sent: Vec<f64>,
-    received: Vec<f64>,
+    /// For cubes of one level, by the functions of the basis.
+    room: Vec<f64>,
     /// What bodies do to those of later cubes: see [`Neighbours`].
     reactions: Vec<Pack>,
 }
@@ -44,11 +56,10 @@ impl<const D: usize> Work<D> {
             places: core::array::from_fn(|_| Vec::new()),
             weights: Vec::new(),
             sums: core::array::from_fn(|_| Vec::new()),
-            transfers: Vec::new(),
+            levels: Vec::new(),
             moments: Vec::new(),
             locals: Vec::new(),
-            sent: Vec::new(),
-            received: Vec::new(),
+            room: Vec::new(),
             reactions: Vec::new(),
         }
     }
@@ -89,9 +100,9 @@ impl<const D: usize> Work<D> {
         let near = self.lists.near.iter().map(|pair| pairs(cube(pair.target), cube(pair.source)) as u64);
         // A body is beside itself in the list of its own cube.
         let pairs = near.sum::<u64>() - self.tree.order.len() as u64;
-        let levels = self.transfers.iter().zip(self.lists.far.chunks(offsets::<D>()));
-        let products = levels.map(|(transfer, lists)| {
-            let rank = expansion.transfer(*transfer).map_or(0, |transfer| transfer.rank as u64);
+        let levels = self.levels.iter().zip(self.lists.far.chunks(offsets::<D>()));
+        let products = levels.map(|(level, lists)| {
+            let rank = expansion.transfer(level.transfer).map_or(0, Transfer::rank) as u64;
             rank * rank * lists.iter().map(|list| list.len() as u64).sum::<u64>()
         });
         Ok(Operations { pairs, products: products.sum() })
@@ -118,7 +129,8 @@ impl<const D: usize> Work<D> {
         self.lists.fill(&self.tree, expansion.basis.len());
         let levels = self.tree.levels.len();
         expansion.keep(self.tree.edge(levels as u32)..self.tree.edge(0));
-        self.transfers.clear();
+        self.levels.clear();
+        let (mut subspace, mut past) = (None, 0);
         for level in 0..levels {
             let lists = &self.lists.far[level * offsets::<D>()..][..offsets::<D>()];
             let has_any = lists.iter().any(|list| !list.is_empty());
@@ -127,40 +139,40 @@ impl<const D: usize> Work<D> {
             if has_any && transfer.is_none() {
                 self.lists.approach::<D>(level);
             }
-            self.transfers.push(transfer);
+            if subspace.is_some() || transfer.is_some() {
+                subspace = Some(expansion.subspace_position(subspace, edge, transfer));
+            }
+            let start = past;
+            past +=
+                self.tree.levels[level].len() * expansion.subspace(subspace).map_or(0, |found| found.stride);
+            self.levels.push(Level { transfer, subspace, start, past });
         }
         self.lists.oppose(&self.tree);
-        let entries = if self.has_far() { self.tree.cubes.len() * expansion.basis.len() } else { 0 };
-        for coefficients in [&mut self.moments, &mut self.locals, &mut self.sent, &mut self.received] {
-            coefficients.resize(entries, 0.0);
-        }
+        [&mut self.moments, &mut self.locals].iter_mut().for_each(|numbers| numbers.resize(past, 0.0));
+        let widest = self.tree.levels.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+        let size = if subspace.is_some() { padded(expansion.basis.len()) } else { 0 };
+        self.room.resize(widest * size, 0.0);
         Ok(())
-    }
-
-    fn has_far(&self) -> bool {
-        self.transfers.iter().any(Option::is_some)
     }
 
     /// The moments of all cubes, level by level from below.
     fn collect(&mut self, expansion: &Expansion<D>) {
-        if !self.has_far() {
-            return;
-        }
-        let Self { tree, places, weights, moments, sent, received, transfers, .. } = self;
-        let size = expansion.basis.len();
+        let Self { tree, levels, places, weights, moments, room, .. } = self;
         for (level, cubes) in tree.levels.iter().enumerate().rev() {
-            let (own, below) = moments.split_at_mut(cubes.end * size);
-            let entries = cubes.start * size..cubes.end * size;
-            let transfer = expansion.transfer(transfers[level]);
-            let from = Sources { expansion, tree, places, weights, transfer, below, first_below: cubes.end };
-            let whole = Moments {
-                from,
-                cubes: cubes.clone(),
-                moments: &mut own[entries.clone()],
-                sent: &mut sent[entries.clone()],
-                room: &mut received[entries],
+            let Level { subspace, start, past, .. } = levels[level];
+            let Some(subspace) = expansion.subspace(subspace) else { return };
+            let (own, below) = moments[start..].split_at_mut(past - start);
+            let from = Sources {
+                expansion,
+                tree,
+                places,
+                weights,
+                subspace,
+                subspace_below: levels.get(level + 1).and_then(|level| expansion.subspace(level.subspace)),
+                below,
+                first_below: cubes.end,
             };
-            share(whole, &Moments::collect);
+            share(Moments { from, cubes: cubes.clone(), moments: own, room }, &Moments::collect);
         }
     }
 
@@ -180,24 +192,37 @@ impl<const D: usize> Work<D> {
 
     /// What far cubes do, level by level from above, and the reactions on their bodies.
     fn distribute<Q: Quantity<D>>(&mut self, expansion: &Expansion<D>) {
-        let has_far = self.has_far();
-        let Self { tree, lists, places, sums, locals, sent, received, transfers, reactions, .. } = self;
-        let size = if has_far { expansion.basis.len() } else { 0 };
-        let levels = tree.levels.iter().zip(lists.far.chunks(offsets::<D>())).zip(transfers);
-        for ((cubes, far), transfer) in levels {
-            let (above, own) = locals.split_at_mut(cubes.start * size);
-            let transfer = expansion.transfer(*transfer);
-            let by =
-                Actions { expansion, tree, places, has_far, far, lists, reactions, transfer, sent, above };
+        let Self { tree, lists, levels, places, sums, moments, locals, room, reactions, .. } = self;
+        let (mut subspace_above, mut start_above, mut first_above) = (None, 0, 0);
+        for ((cubes, far), level) in tree.levels.iter().zip(lists.far.chunks(offsets::<D>())).zip(levels) {
+            let Level { transfer, subspace, start, past } = *level;
+            let (above, own) = locals.split_at_mut(start);
+            let subspace = expansion.subspace(subspace);
+            let by = Actions {
+                expansion,
+                tree,
+                places,
+                far,
+                lists,
+                reactions,
+                transfer: expansion.transfer(transfer),
+                subspace,
+                moments: &moments[start..past],
+                first: cubes.start,
+                subspace_above,
+                above: &above[start_above..],
+                first_above,
+            };
             let bodies = tree.cubes[cubes.start].first..tree.cubes[cubes.end - 1].past;
             let whole = Locals {
                 by,
                 cubes: cubes.clone(),
-                locals: &mut own[..cubes.len() * size],
-                received: &mut received[cubes.start * size..cubes.end * size],
+                locals: &mut own[..past - start],
+                room,
                 sums: sums.each_mut().map(|sums| &mut sums[bodies.clone()]),
             };
             share(whole, &Locals::distribute::<Q>);
+            (subspace_above, start_above, first_above) = (subspace, start, cubes.start);
         }
     }
 }

@@ -84,13 +84,38 @@ fn deep_inside_of_a_core() {
     }
 }
 
+/// Between the size of a cluster and the distance of the clusters there are cubes that have none far from them.
+#[test]
+fn clusters_far_apart() {
+    let n = 1200;
+    for size in [1e-1, 1e-2, 1e-4] {
+        for core in [0.0, 0.05] {
+            for tolerance in [1e-4, 1e-8] {
+                let clusters: Vec<f64> = numbers(33)
+                    .take(2 * n)
+                    .enumerate()
+                    .map(|(j, number)| size * number + [0.0, 1.0, 1.3][j % n % 3])
+                    .collect();
+                let system = Blobs { shear: 0.0, ..blobs(n, core) };
+                let (force, energy) = compare::<_, 2>(&system, &clusters, tolerance);
+                let case = format!("size {size:e}, core {core}, tolerance {tolerance:e}");
+                assert!(force < tolerance && energy < tolerance, "{case}: {force:e}, {energy:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn systems_that_are_not_whole_are_errors() {
     let short = Gravity { n: 10, g: 1.0, mass: vec![1.0; 9], core: 0.1 };
     let error = FastSum::<_, 3>::new(&short, 1e-3).unwrap_err();
     assert!(matches!(error, FastSumError::Index(_)), "{error}");
     let huge = Discs { n: usize::MAX / 4, strength: 1.0 };
-    assert!(FastSum::<_, 2>::new(&huge, 1e-6).is_ok());
+    let fast = FastSum::<_, 2>::new(&huge, 1e-6).unwrap();
+    let state = DiscsState { x: vec![0.0; 3], y: vec![0.0; 3] };
+    let error = fast.measured_error(&state, 3).unwrap_err();
+    assert_eq!((error.array, error.expected, error.found), ("x", usize::MAX / 4, 3));
+    assert!(fast.operations(&state).is_err());
     let whole = Gravity { n: 10, g: 1.0, mass: vec![1.0; 10], core: 0.1 };
     let error = FastSum::<_, 3>::new(&whole, 1e-7).unwrap_err();
     assert!(error.to_string().contains("between 1e-6 and 1e-2"), "{error}");

@@ -35,6 +35,17 @@ struct Charges {
     charge: Vec<f64>,
 }
 
+/// Stars of mass 1 in a plane.
+#[lagrangian(
+    coordinates(x[n], y[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0
+        + g * sum_pairs(0..n, |j, k| 1.0 / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) + 0.01).sqrt()),
+)]
+struct Disc {
+    n: usize,
+    g: f64,
+}
+
 fn stars(n: usize) -> Stars {
     let mass = numbers(1).map(|number| (1.5 + number) / n as f64).take(n).collect();
     Stars { mass, g: 0.5, core: 0.2, field: 0.3, friction: 0.1 }
@@ -137,6 +148,44 @@ fn methods_for_regular_systems_take_them() {
     same_course(&fast, Composition::kahan_li_8(Variational::trapezoid()));
     same_course(&fast, Gauss::<2> { stopping, ..Gauss::new() });
     same_course(&fast, RungeKutta::classical());
+    same_course(&fast, Galerkin::<3> { stopping, ..Galerkin::new() });
+}
+
+#[test]
+fn newmark_steps() {
+    let n = 300;
+    let disc = Disc { n, g: 1.0 / n as f64 };
+    let some = |seed| numbers(seed).take(n).collect();
+    let start = DiscState { x: some(5), y: some(6), dot_x: some(7), dot_y: some(8) };
+    let fast = FastSum::<_, 2>::new(&disc, 1e-8).unwrap();
+    for beta in [0.0, 0.25] {
+        let stopping = Stopping { tolerance: 1e-10, ..Stopping::default() };
+        let method = Newmark { stopping, ..Newmark::new(beta) };
+        let mut run = Integrator::new(&fast, method, 0.02, start.clone()).unwrap();
+        let mut exact = Integrator::new(&disc, method, 0.02, start.clone()).unwrap();
+        run.take_steps(10).unwrap();
+        exact.take_steps(10).unwrap();
+        let apart = apart(&run.state().x, &exact.state().x);
+        assert!(apart > 0.0 && apart < 1e-8, "{beta}: {apart:e}");
+    }
+}
+
+/// With all second derivatives: those of the sum over all pairs.
+#[test]
+fn newton_steps_of_systems_without_a_constant_mass() {
+    let n = 70;
+    let charges = Charges { n, charge: numbers(4).map(|number| 0.2 + 0.1 * number).take(n).collect() };
+    let some = |seed| numbers(seed).take(n).collect();
+    let start = ChargesState { x: some(5), y: some(6), dot_x: some(7), dot_y: some(8) };
+    let fast = FastSum::<_, 2>::new(&charges, 1e-8).unwrap();
+    let method =
+        Galerkin::<3> { stopping: Stopping { tolerance: 1e-10, ..Stopping::default() }, ..Galerkin::new() };
+    let mut run = Integrator::new(&fast, method, 0.02, start.clone()).unwrap();
+    let mut exact = Integrator::new(&charges, method, 0.02, start).unwrap();
+    run.take_steps(3).unwrap();
+    exact.take_steps(3).unwrap();
+    let apart = apart(&run.state().x, &exact.state().x);
+    assert!(apart < 1e-8, "{apart:e}");
 }
 
 #[test]

@@ -1,0 +1,67 @@
+//! Orthonormal combinations of the functions of a basis.
+
+use alloc::vec::Vec;
+
+use nalgebra::DMatrix;
+
+use super::basis::Basis;
+
+/// Combinations of the basis, of which each is odd or even along each axis.
+#[derive(Clone, Debug)]
+pub(super) struct Directions {
+    /// By columns.
+    pub(super) functions: DMatrix<f64>,
+    /// How much of each there is.
+    pub(super) weights: Vec<f64>,
+}
+
+impl Directions {
+    pub(super) fn none(size: usize) -> Self {
+        Self { functions: DMatrix::zeros(size, 0), weights: Vec::new() }
+    }
+
+    /// The singular vectors of columns and of their reflections, of values above a bound.
+    pub(super) fn of_parities<const D: usize>(basis: &Basis<D>, columns: &DMatrix<f64>, least: f64) -> Self {
+        let mut found = Self::none(basis.len());
+        for parity in 0..1_usize << D {
+            let is_odd = |axis: usize| parity >> axis & 1 == 1;
+            let of_parity = |m: &usize| (0..D).all(|axis| (basis.degrees[*m][axis] % 2 == 1) == is_odd(axis));
+            let functions: Vec<usize> = (0..basis.len()).filter(of_parity).collect();
+            if functions.is_empty() || columns.ncols() == 0 {
+                continue;
+            }
+            let (vectors, weights) = singular(columns.select_rows(&functions), least);
+            let mut all = DMatrix::zeros(basis.len(), weights.len());
+            for (row, function) in functions.iter().enumerate() {
+                all.row_mut(*function).copy_from(&vectors.row(row));
+            }
+            found.extend(Self { functions: all, weights });
+        }
+        found
+    }
+
+    /// Adds others, which are orthogonal to these.
+    pub(super) fn extend(&mut self, others: Self) {
+        let known = self.weights.len();
+        let functions = core::mem::replace(&mut self.functions, DMatrix::zeros(0, 0));
+        self.functions = functions.resize_horizontally(known + others.weights.len(), 0.0);
+        self.functions.columns_mut(known, others.weights.len()).copy_from(&others.functions);
+        self.weights.extend(others.weights);
+    }
+}
+
+/// The singular vectors of values above a bound, and these values. If the iteration for them does not end, all directions of the columns
+/// are kept.
+fn singular(columns: DMatrix<f64>, least: f64) -> (DMatrix<f64>, Vec<f64>) {
+    const ITERATIONS: usize = 10_000;
+    let found = columns.clone().try_svd(true, false, 5.0 * f64::EPSILON, ITERATIONS);
+    let Some((svd, vectors)) = found.and_then(|mut svd| svd.u.take().map(|vectors| (svd, vectors))) else {
+        let vectors = columns.qr().q();
+        let weights = alloc::vec![least; vectors.ncols()];
+        return (vectors, weights);
+    };
+    let kept: Vec<usize> =
+        (0..svd.singular_values.len()).filter(|place| svd.singular_values[*place] > least).collect();
+    let weights = kept.iter().map(|place| svd.singular_values[*place]).collect();
+    (vectors.select_columns(&kept), weights)
+}
