@@ -13,11 +13,13 @@ pub(super) struct Directions {
     pub(super) functions: DMatrix<f64>,
     /// How much of each there is.
     pub(super) weights: Vec<f64>,
+    /// Along which axes each is odd: bit by bit.
+    parities: Vec<usize>,
 }
 
 impl Directions {
     pub(super) fn none(size: usize) -> Self {
-        Self { functions: DMatrix::zeros(size, 0), weights: Vec::new() }
+        Self { functions: DMatrix::zeros(size, 0), weights: Vec::new(), parities: Vec::new() }
     }
 
     /// The singular vectors of columns and of their reflections, of values above a bound.
@@ -35,7 +37,8 @@ impl Directions {
             for (row, function) in functions.iter().enumerate() {
                 all.row_mut(*function).copy_from(&vectors.row(row));
             }
-            found.extend(Self { functions: all, weights });
+            let parities = alloc::vec![parity; weights.len()];
+            found.extend(Self { functions: all, weights, parities });
         }
         found
     }
@@ -47,6 +50,16 @@ impl Directions {
         self.functions = functions.resize_horizontally(known + others.weights.len(), 0.0);
         self.functions.columns_mut(known, others.weights.len()).copy_from(&others.functions);
         self.weights.extend(others.weights);
+        self.parities.extend(others.parities);
+    }
+
+    /// −1 for each that changes its sign where these axes are reflected, and 1 for the others.
+    pub(super) fn signs<const D: usize>(&self, reflected: [bool; D]) -> Vec<f64> {
+        let sign = |parity: &usize| {
+            let odd = (0..D).filter(|&axis| reflected[axis] && parity >> axis & 1 == 1).count();
+            if odd % 2 == 0 { 1.0 } else { -1.0 }
+        };
+        self.parities.iter().map(sign).collect()
     }
 }
 

@@ -3,6 +3,8 @@
 use alloc::vec::Vec;
 
 use super::basis::{self, Basis};
+use super::matrix::padded;
+use super::packs::LANES;
 use super::transfer::larger;
 use crate::scalar::simd::widest_if;
 
@@ -30,28 +32,34 @@ impl Interpolant {
         let mut places = alloc::vec![usize::MAX; all];
         functions.iter().enumerate().for_each(|(function, place)| places[*place] = function);
         // First for each node of the target in the functions of the source, then these functions in those of the target.
-        let [mut values, mut room] = [alloc::vec![0.0; all], alloc::vec![0.0; all]];
-        let mut half = alloc::vec![0.0; all * size];
+        let [mut values, mut room] = [alloc::vec![0.0; all * LANES], alloc::vec![0.0; all * LANES]];
+        let mut half = alloc::vec![0.0; all * padded(size)];
         let mut largest = 0.0;
-        for target in 0..all {
-            for (source, value) in values.iter_mut().enumerate() {
-                let square = |axis: usize| {
-                    let steps = 2.0 * f64::from(t[axis]);
-                    (coordinate(target, axis) - coordinate(source, axis) + steps).powi(2)
-                };
-                *value = kernel((0..D).map(square).sum());
-                largest = larger(largest, value.abs());
+        for first in (0..all).step_by(LANES) {
+            for (source, values) in values.chunks_exact_mut(LANES).enumerate() {
+                for (target, value) in (first..all).zip(values) {
+                    let square = |axis: usize| {
+                        let steps = 2.0 * f64::from(t[axis]);
+                        (coordinate(target, axis) - coordinate(source, axis) + steps).powi(2)
+                    };
+                    *value = kernel((0..D).map(square).sum());
+                    largest = larger(largest, value.abs());
+                }
             }
             transform.apply(&mut values, &mut room);
             for (function, place) in functions.iter().enumerate() {
-                half[function * all + target] = values[*place];
+                for (target, value) in (first..all).zip(&values[place * LANES..(place + 1) * LANES]) {
+                    half[(function / LANES * all + target) * LANES + function % LANES] = *value;
+                }
             }
         }
         let mut coefficients = alloc::vec![0.0; size * size];
-        for (n, column) in half.chunks_exact_mut(all).enumerate() {
-            transform.apply(column, &mut room);
+        for (first, columns) in (0..size).step_by(LANES).zip(half.chunks_exact_mut(all * LANES)) {
+            transform.apply(columns, &mut room);
             for (m, place) in functions.iter().enumerate() {
-                coefficients[m * size + n] = column[*place];
+                for (n, value) in (first..size).zip(&columns[place * LANES..(place + 1) * LANES]) {
+                    coefficients[m * size + n] = *value;
+                }
             }
         }
         Self { order, size, places, coefficients, largest }
@@ -78,7 +86,7 @@ impl Interpolant {
     }
 }
 
-/// From values at the nodes of a cube to coefficients: the same matrix along each axis.
+/// From values at the nodes of a cube to coefficients, several functions at once: the same matrix along each axis.
 struct Transform {
     order: usize,
     axes: usize,
@@ -96,7 +104,7 @@ impl Transform {
 
     fn along(&self, axis: usize, from: &[f64], to: &mut [f64]) {
         let Self { order, axes, matrix } = self;
-        let inner = order.pow((axes - 1 - axis) as u32);
+        let inner = order.pow((axes - 1 - axis) as u32) * LANES;
         widest_if(
             true,
             #[inline(always)]

@@ -61,14 +61,14 @@ impl Subspace {
             fields[(0, 0)] = 1.0;
             // What is in these functions already; twice, for rounding errors.
             for _ in 0..2 {
-                let known = directions.functions.tr_mul(&fields);
+                let known = directions.functions.transpose() * &fields;
                 fields -= &directions.functions * known;
             }
             directions.extend(Directions::of_parities(basis, &fields, SLACK * tolerance));
         }
         let functions = &directions.functions;
         let sides = 0..above.map_or(0, |_| 1_usize << D);
-        let links = sides.filter_map(|side| above.map(|above| functions.tr_mul(&narrowed(above, side))));
+        let links = sides.filter_map(|side| above.map(|above| functions.transpose() * narrowed(above, side)));
         let links: Vec<_> = links.collect();
         Self {
             stride: padded(functions.ncols()),

@@ -1,4 +1,6 @@
 //! A fast sum as a system: what `S` is, with the sum over pairs exchanged.
+//!
+//! The compiler does not recommend these in its messages: a system is not of another kind for them.
 
 use super::FastSum;
 use super::packs::Pack;
@@ -11,6 +13,7 @@ use crate::{
     System, Weights,
 };
 
+#[diagnostic::do_not_recommend]
 impl<S: System, const D: usize> System for FastSum<'_, S, D> {
     type Space = S::Space;
     type State<T: Scalar> = S::State<T>;
@@ -32,6 +35,7 @@ impl<S: System, const D: usize> System for FastSum<'_, S, D> {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> Lagrangian for FastSum<'_, S, D>
 where
     S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
@@ -94,6 +98,7 @@ where
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> DegenerateLagrangian for FastSum<'_, S, D>
 where
     S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + Sync,
@@ -130,11 +135,13 @@ where
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> AffineOneForm for FastSum<'_, S, D> where
     S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + AffineOneForm + Sync
 {
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> ProperlyDegenerate for FastSum<'_, S, D>
 where
     S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + ProperlyDegenerate + Sync,
@@ -144,6 +151,7 @@ where
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> NondegenerateLagrangian for FastSum<'_, S, D>
 where
     S: RegularPairSum<f64, D> + PairSum<Pack, D> + Sync,
@@ -162,16 +170,19 @@ where
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> RegularLagrangian for FastSum<'_, S, D> where
     S: RegularPairSum<f64, D> + PairSum<Pack, D> + RegularLagrangian + Sync
 {
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> Separable for FastSum<'_, S, D> where
     S: RegularPairSum<f64, D> + PairSum<Pack, D> + Separable + Sync
 {
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, const D: usize> QuadraticInVelocity for FastSum<'_, S, D> where
     S: RegularPairSum<f64, D> + PairSum<Pack, D> + QuadraticInVelocity + Sync
 {

@@ -71,14 +71,22 @@ impl Transfer {
             return None;
         }
         let matrix = |t| matrix(basis, &known, t);
-        let octant = all().filter(|t| t.iter().all(|steps| *steps >= 0));
-        let directions = range(basis, octant, matrix, varying, tolerance)?;
+        let octant = || all().filter(|t| t.iter().all(|steps| *steps >= 0));
+        let directions = range(basis, octant(), matrix, varying, tolerance)?;
         let range = &directions.functions;
-        let compressed = all().map(|t| {
-            let of_matrix = |matrix: DMatrix<f64>| Matrix::new(&range.tr_mul(&(matrix * range)));
-            matrix(t).map_or_else(Matrix::default, of_matrix)
-        });
-        Some(Self { matrices: compressed.collect(), directions })
+        let compressed = |t| matrix(t).map(|matrix| (t, range.transpose() * (matrix * range)));
+        let compressed: Vec<([i32; D], DMatrix<f64>)> = octant().filter_map(compressed).collect();
+        // The others by reflections.
+        let reflected = |t: [i32; D]| {
+            let found = compressed.iter().find(|(known, _)| *known == t.map(i32::abs));
+            let signs = directions.signs(t.map(|steps| steps < 0));
+            found.map_or_else(Matrix::default, |(_, matrix)| {
+                let entry = |i: usize, j: usize| signs[i] * signs[j] * matrix[(i, j)];
+                Matrix::new(&DMatrix::from_fn(signs.len(), signs.len(), entry))
+            })
+        };
+        let matrices = all().map(reflected).collect();
+        Some(Self { directions, matrices })
     }
 
     pub(super) fn rank(&self) -> usize {
