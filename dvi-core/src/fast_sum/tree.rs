@@ -7,8 +7,6 @@ use crate::threads;
 
 /// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
 const LEVELS: u32 = 20;
-/// A cube with no more bodies is not divided.
-const FEW: usize = 64;
 
 /// A cube with its bodies.
 #[derive(Clone, Copy, Debug)]
@@ -72,11 +70,11 @@ impl<const D: usize> Tree<D> {
         Self { order: Vec::new(), cubes: Vec::new(), levels: Vec::new(), edge: 0, corner: [0.0; D] }
     }
 
-    /// Sorts bodies at these places.
+    /// Sorts bodies at these places, into cubes that are divided if they have more than `few`.
     ///
     /// The largest cube depends on nothing but the extent of the bodies, and its edges are powers of two, so that the same cubes are
     /// found again while the bodies move a little.
-    pub(super) fn sort(&mut self, places: [&[f64]; D]) -> Result<(), NotFinite> {
+    pub(super) fn sort(&mut self, places: [&[f64]; D], few: usize) -> Result<(), NotFinite> {
         self.enclose(places)?;
         if self.order.len() != places[0].len() {
             self.order = (0..places[0].len()).map(|body| (0, body as u32)).collect();
@@ -90,7 +88,7 @@ impl<const D: usize> Tree<D> {
             }));
         });
         threads::sort(&mut self.order);
-        self.divide();
+        self.divide(few);
         Ok(())
     }
 
@@ -130,7 +128,7 @@ impl<const D: usize> Tree<D> {
         }
     }
 
-    fn divide(&mut self) {
+    fn divide(&mut self, few: usize) {
         let whole = Cube {
             level: 0,
             cell: [0; D],
@@ -150,7 +148,7 @@ impl<const D: usize> Tree<D> {
                 // All cubes of the level stand here, and none of the next.
                 self.levels.push(next..self.cubes.len());
             }
-            if cube.past - cube.first > FEW && cube.level < LEVELS {
+            if cube.past - cube.first > few && cube.level < LEVELS {
                 let first_part = self.cubes.len();
                 self.divide_cube(next);
                 (self.cubes[next].first_part, self.cubes[next].past_part) = (first_part, self.cubes.len());

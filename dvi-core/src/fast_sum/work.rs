@@ -17,6 +17,11 @@ use super::tree::{NotFinite, Tree};
 use crate::PairSum;
 use crate::threads::share;
 
+/// A cube with no more bodies is not divided: near bodies then take about as long as far cubes.
+const FEW: usize = 64;
+/// In space the matrices are larger. The same, for each function of the basis.
+const FEW_IN_SPACE: usize = 2;
+
 /// Where to find what belongs to the cubes of one level.
 #[derive(Clone, Copy, Debug)]
 struct Level {
@@ -115,7 +120,8 @@ impl<const D: usize> Work<D> {
         system: &S,
         places: [&[f64]; D],
     ) -> Result<(), NotFinite> {
-        self.tree.sort(places)?;
+        let few = if D > 2 { FEW_IN_SPACE * expansion.basis.len() } else { FEW };
+        self.tree.sort(places, few)?;
         let room = places[0].len() + LANES;
         let Self { places: sorted, weights, sums, .. } = self;
         sorted.iter_mut().chain(sums).chain([weights]).for_each(|numbers| numbers.resize(room, 0.0));
