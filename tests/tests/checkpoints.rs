@@ -148,6 +148,46 @@ fn regular_runs_go_on() -> Outcome {
     check(&chain, Variational::midpoint(), wave)
 }
 
+/// A pendulum, whose steps leave as much of its constraint as their tolerance allows.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - 9.8 * y,
+    constraint = x * x + y * y - 1.0,
+)]
+#[derive(Clone, Debug)]
+struct Pendulum;
+
+#[test]
+fn constrained_runs_of_a_loose_tolerance_go_on_from_everywhere() -> Outcome {
+    fn check<M: Method<Pendulum, f64> + Copy>(method: M, h: f64) -> Outcome {
+        let start = PendulumState { x: 0.6, y: -0.8, dot_x: 0.8, dot_y: 0.6 };
+        let mut run = Integrator::new(&Pendulum, method, h, start)?;
+        for _ in 0..500 {
+            run.advance()?;
+            let mut again = Integrator::resume(&Pendulum, method, &run.checkpoint())?;
+            let before = run.checkpoint();
+            run.advance()?;
+            again.advance()?;
+            assert_eq!(again.checkpoint(), run.checkpoint());
+            run = Integrator::resume(&Pendulum, method, &before)?;
+        }
+        // A start that is farther away is not one.
+        let away = PendulumState { x: 0.61, y: -0.8, dot_x: 0.8, dot_y: 0.6 };
+        let refused = Integrator::new(&Pendulum, method, h, away).err();
+        assert!(matches!(refused, Some(StartError::OffConstraint { .. })), "{refused:?}");
+        Ok(())
+    }
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-12] {
+        let stopping = Stopping { tolerance, ..Stopping::default() };
+        for h in [0.03, 0.1, 0.2] {
+            check(Rattle { stopping }, h).map_err(|error| format!("RATTLE, {tolerance:e}, {h}: {error}"))?;
+            let constrained = Constrained { stopping, ..Constrained::new(Variational::midpoint()) };
+            check(constrained, h).map_err(|error| format!("{tolerance:e}, {h}: {error}"))?;
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn controlled_runs_go_on() -> Outcome {
     let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };

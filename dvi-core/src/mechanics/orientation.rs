@@ -150,7 +150,11 @@ fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
     system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), next);
     // Ω is skew: the other row of a pair has the same entry with the other sign.
     for i in (0..entries.len()).filter(|&i| system.conjugate(i) < i) {
-        compare(entries[i], next[i])?;
+        // Where a formula has left its domain there is no Ω.
+        compare(entries[i], next[i]).map_err(|failure| match next[i].is_finite() {
+            true => failure,
+            false => StepFailure::NotFinite { coordinate: i, value: reported(next[i]) },
+        })?;
     }
     Ok(())
 }

@@ -309,7 +309,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
         self.scheme.admit(system)?;
         self.scheme.admit_inside()?;
         evaluate(system, q, v, t)?;
-        consistent::check(system, [q, v], t, Among::Steps(h))?;
+        consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
         let vector = || system.space().vector();
         let [mut p, mut velocity, mut work]: [Vector<S, T>; 3] = core::array::from_fn(|_| vector());
         system.gradient(q, v, t, &mut work, &mut p);

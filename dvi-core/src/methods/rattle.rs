@@ -116,7 +116,7 @@ impl<S: ConstrainedSystem, T: Real> Carries<S, T> for Rattle {
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        consistent::check(system, [q, v], t, Among::Steps(h))?;
+        consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
         let mut work = Work::new(system);
         let Work { q: at, place, values, .. } = &mut work;

@@ -3,8 +3,10 @@
 //! these lose nothing.
 //!
 //! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were
-//! subtracted to form its column: |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. The test does not change when the
-//! matrix is multiplied by a constant, unless pivots become so small that their reciprocals overflow.
+//! subtracted to form it: |pivot| ≤ n ε Σⱼ |lₖⱼ uⱼₖ|, j < k. The test does not change when rows and columns are multiplied by
+//! constants, as they are where coordinates have units, unless pivots become so small that their reciprocals overflow. [`eliminate`],
+//! which keeps no l, looks at maxⱼ |uⱼₖ| in place of the sum, so that with units of very different size it may refuse what [`factor`]
+//! takes.
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
@@ -24,7 +26,14 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
     let n = permutation.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
-        let row = pivot_row(matrix, n, k, rounding)?;
+        let (row, pivot) = largest_below(matrix, n, k);
+        let terms = (0..k).map(|j| Scalar::abs(matrix[row * n + j] * matrix[j * n + k]));
+        let subtracted = terms.fold(T::lift(LEAST), |sum, term| sum + term);
+        // A pivot that is not a number is no use either.
+        let is_usable = pivot > rounding * subtracted;
+        if !is_usable {
+            return Err(singular(pivot, k));
+        }
         permutation[k] = row;
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
         let upper = &mut upper[k * n..];
@@ -43,9 +52,9 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
     Ok(())
 }
 
-/// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of those above.
+/// The row at or below `k` with the largest entry in column `k`, and its size.
 #[inline(always)]
-fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize, rounding: T) -> Result<usize, StepFailure> {
+fn largest_below<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
     let mut best = (k, Scalar::abs(matrix[k * n + k]));
     for row in k + 1..n {
         let size = Scalar::abs(matrix[row * n + k]);
@@ -53,7 +62,13 @@ fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize, rounding: T) -> Result<u
             best = (row, size);
         }
     }
-    let (row, pivot) = best;
+    best
+}
+
+/// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of those above.
+#[inline(always)]
+fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize, rounding: T) -> Result<usize, StepFailure> {
+    let (row, pivot) = largest_below(matrix, n, k);
     let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
     // A pivot that is not a number is no use either.
     let usable = pivot > rounding * above;

@@ -55,8 +55,25 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     if let Some(solved) = matrix.eliminate_two(x) {
         return solved;
     }
+    match matrix.eliminate(x) {
+        Ok(()) => Ok(()),
+        Err(_) => by_factors(matrix, equations, x),
+    }
+}
+
+/// The same where elimination has found no pivot: by factors, which know what a pivot is left over from.
+#[cold]
+#[inline(never)]
+fn by_factors<T: Real, M: SquareMatrix<T>>(
+    matrix: &mut M,
+    equations: &mut impl LinearEquations<T>,
+    x: &mut [T],
+) -> Result<(), StepFailure> {
+    equations.evaluate(x, matrix.cleared())?;
     let finite = norm::finite(x);
-    matrix.eliminate(x).map_err(|singular| finite.err().unwrap_or(singular))
+    matrix.factor().map_err(|singular| finite.err().unwrap_or(singular))?;
+    matrix.solve(x);
+    Ok(())
 }
 
 impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> LinearSolver<T>

@@ -80,37 +80,49 @@ impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfPosition<'_,
     }
 }
 
-/// The constraint of positions that is farthest from being kept, of those that are off by more than rounding errors, and its value.
-/// Errors of rounding are those of the coordinates, `scale`, times the derivatives by them.
+/// The constraint of positions that is farthest from being kept, of those that are off by more than the errors of the coordinates,
+/// `error`, times the derivatives by them explain, and its value.
 fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     mut of: impl LinearEquations<T>,
-    scale: impl Fn(usize) -> T,
+    error: impl Fn(usize) -> T,
 ) -> Result<Option<(usize, f64)>, StepFailure> {
     let [mut values, mut sizes]: [Multipliers<S, T>; 2] = [0, 1].map(|_| system.multipliers().vector());
     of.evaluate(
         &mut values,
-        &mut Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * scale(j)),
+        &mut Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j)),
     )?;
-    let rounding = ROUNDINGS * reported(T::default_epsilon());
     let mut worst = None;
     for (constraint, (&value, &size)) in values.iter().zip(sizes.iter()).enumerate() {
         let (value, size) = (reported(value), reported(size));
         let off = if value.is_nan() { f64::INFINITY } else { value.abs() / size };
-        if off > rounding && worst.is_none_or(|(_, _, known)| off > known) {
+        if off > 1.0 && worst.is_none_or(|(_, _, known)| off > known) {
             worst = Some((constraint, value, off));
         }
     }
     Ok(worst.map(|(constraint, value, _)| (constraint, value)))
 }
 
-/// What velocities are rounded relative to besides themselves, where a run begins.
+/// Where a state stands, which says how exact it is: what velocities are rounded relative to besides themselves, and the tolerance of
+/// positions if that is looser than rounding.
 #[derive(Clone, Copy)]
 pub(crate) enum Among<T> {
-    /// The velocities that forces give in a step of length h: what a run at rest leaves.
-    Steps(T),
+    /// The velocities that forces give in a step of length h, what a run at rest leaves; and what its iterations leave.
+    Steps { h: T, tolerance: f64 },
     /// The velocities that forces give on a way of the size of the coordinates.
     States,
+}
+
+impl<T: Real> Among<T> {
+    /// What the tolerance of a run leaves in positions. Where it asks for rounding errors they are all that there is.
+    fn left_over(self, [q, v]: [&[T]; 2]) -> T {
+        match self {
+            Self::Steps { h, tolerance } if tolerance > reported(T::default_epsilon()) => {
+                T::lift(tolerance) * (norm::largest(q) + Scalar::abs(h) * norm::largest(v))
+            }
+            Self::Steps { .. } | Self::States => T::lift(0.0),
+        }
+    }
 }
 
 /// Whether a motion along the constraints leads through (`q`, `v`, `t`).
@@ -131,7 +143,9 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
         Err(system.outside(q, v, t).map_or(error, StartError::Outside))
     };
     if S::Kind::OF_POSITIONS {
-        let off = worst(system, OfPosition { system, at }, |j| Scalar::abs(q[j]));
+        let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
+        let left_over = among.left_over([q, v]);
+        let off = worst(system, OfPosition { system, at }, |j| rounding * Scalar::abs(q[j]) + left_over);
         match off.map_err(StartError::Starter)? {
             Some((constraint, value)) if value.is_finite() => {
                 return Err(StartError::OffConstraint { constraint, value });
@@ -147,7 +161,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     for ((scale, &force), (&q, &v)) in sizes.iter_mut().zip(force.iter()).zip(q.iter().zip(v)) {
         let acceleration = Scalar::abs(force) * *scale * *scale;
         let of_force = match among {
-            Among::Steps(h) => Scalar::abs(h) * acceleration,
+            Among::Steps { h, .. } => Scalar::abs(h) * acceleration,
             Among::States => Scalar::sqrt(acceleration * Scalar::abs(q)),
         };
         *scale = Scalar::abs(v) + of_force;
@@ -159,7 +173,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     residuals.evaluate(system, at, v, |j| sizes[j]);
     match residuals.worst(system, at, v) {
         None => determined.map_err(|failure| match among {
-            Among::Steps(_) => StartError::Starter(failure),
+            Among::Steps { .. } => StartError::Starter(failure),
             Among::States => StartError::Undetermined(failure),
         }),
         Some((constraint, rate)) if rate.is_finite() => {
