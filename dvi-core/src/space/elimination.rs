@@ -3,10 +3,11 @@
 //! these lose nothing.
 //!
 //! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were
-//! subtracted to form it: |pivot| ≤ n ε Σⱼ |lₖⱼ uⱼₖ|, j < k. The test does not change when rows and columns are multiplied by
-//! constants, as they are where coordinates have units, unless pivots become so small that their reciprocals overflow. [`eliminate`],
-//! which keeps no l, looks at maxⱼ |uⱼₖ| in place of the sum, so that with units of very different size it may refuse what [`factor`]
-//! takes.
+//! subtracted to form its column: |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. The test does not change when the
+//! matrix is multiplied by a constant, unless pivots become so small that their reciprocals overflow.
+//! [`factor_in_any_units`] holds it against those that were subtracted to form it alone, n ε Σⱼ |lₖⱼ uⱼₖ|, which does not change either
+//! when rows and columns are multiplied by constants of their own, as they are where coordinates have units; but it
+//! sees less of what rounding has left over of rows that depend on each other.
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
@@ -23,17 +24,39 @@ pub(crate) const LEAST: f64 = 1e-290;
 /// [`StepFailure::Singular`] with the column and the largest candidate for its pivot.
 #[inline]
 pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Result<(), StepFailure> {
-    let n = permutation.len();
-    let rounding = T::default_epsilon() * T::lift(n as f64);
-    for k in 0..n {
+    factor_by(matrix, permutation, pivot_row)
+}
+
+/// The same of a matrix whose rows and columns may have units of very different size.
+///
+/// # Errors
+/// As [`factor`].
+#[inline]
+pub(crate) fn factor_in_any_units<T: Real>(
+    matrix: &mut [T],
+    permutation: &mut [usize],
+) -> Result<(), StepFailure> {
+    factor_by(matrix, permutation, |matrix, n, k, rounding| {
         let (row, pivot) = largest_below(matrix, n, k);
         let terms = (0..k).map(|j| Scalar::abs(matrix[row * n + j] * matrix[j * n + k]));
         let subtracted = terms.fold(T::lift(LEAST), |sum, term| sum + term);
         // A pivot that is not a number is no use either.
         let is_usable = pivot > rounding * subtracted;
-        if !is_usable {
-            return Err(singular(pivot, k));
-        }
+        if is_usable { Ok(row) } else { Err(singular(pivot, k)) }
+    })
+}
+
+/// With the row that `pivot_row` chooses in each column.
+#[inline(always)]
+fn factor_by<T: Real>(
+    matrix: &mut [T],
+    permutation: &mut [usize],
+    pivot_row: impl Fn(&[T], usize, usize, T) -> Result<usize, StepFailure>,
+) -> Result<(), StepFailure> {
+    let n = permutation.len();
+    let rounding = T::default_epsilon() * T::lift(n as f64);
+    for k in 0..n {
+        let row = pivot_row(matrix, n, k, rounding)?;
         permutation[k] = row;
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
         let upper = &mut upper[k * n..];

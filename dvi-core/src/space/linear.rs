@@ -32,6 +32,9 @@ pub trait LinearEquations<T> {
     /// # Errors
     /// Those of what they are computed from.
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure>;
+
+    /// Whether A is regular but for single points, so that a small pivot is one of units, and not of rows that depend on each other.
+    const IN_ANY_UNITS: bool = false;
 }
 
 /// What solves linear equations, with the storage that it needs.
@@ -55,13 +58,21 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     if let Some(solved) = matrix.eliminate_two(x) {
         return solved;
     }
+    let finite = norm::finite(x);
     match matrix.eliminate(x) {
         Ok(()) => Ok(()),
-        Err(_) => by_factors(matrix, equations, x),
+        Err(StepFailure::Singular { .. }) if finite.is_ok() && is_in_any_units(equations) => {
+            by_factors(matrix, equations, x)
+        }
+        Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
 }
 
-/// The same where elimination has found no pivot: by factors, which know what a pivot is left over from.
+fn is_in_any_units<T, E: LinearEquations<T>>(_: &E) -> bool {
+    E::IN_ANY_UNITS
+}
+
+/// The same where elimination has found no pivot.
 #[cold]
 #[inline(never)]
 fn by_factors<T: Real, M: SquareMatrix<T>>(
@@ -70,8 +81,7 @@ fn by_factors<T: Real, M: SquareMatrix<T>>(
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
-    let finite = norm::finite(x);
-    matrix.factor().map_err(|singular| finite.err().unwrap_or(singular))?;
+    matrix.factor_in_any_units()?;
     matrix.solve(x);
     Ok(())
 }

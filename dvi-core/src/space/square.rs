@@ -67,6 +67,12 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// As [`eliminate`](Self::eliminate).
     fn factor(&mut self) -> Result<(), StepFailure>;
 
+    /// The same of a matrix whose rows and columns may have units of very different size, if its storage has a way for it.
+    ///
+    /// # Errors
+    /// As [`eliminate`](Self::eliminate).
+    fn factor_in_any_units(&mut self) -> Result<(), StepFailure>;
+
     /// Overwrites `x` with the solution of A y = x, for an A that has been factored.
     fn solve(&self, x: &mut [T]);
 
@@ -115,6 +121,9 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
     #[inline]
     fn factor(&mut self) -> Result<(), StepFailure> {
         elimination::factor(&mut self.matrix, &mut self.permutation)
+    }
+    fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
+        elimination::factor_in_any_units(&mut self.matrix, &mut self.permutation)
     }
     #[inline]
     fn solve(&self, x: &mut [T]) {

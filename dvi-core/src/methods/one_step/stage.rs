@@ -275,6 +275,8 @@ struct Equations<'a, S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
+    const IN_ANY_UNITS: bool = true;
+
     #[inline(always)]
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { step, unknown, momentum, work: [point, velocity, gradient, one_form] } = self;
@@ -320,6 +322,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, 
 struct OfMomentum<'a, S: System, T: Real>(Equations<'a, S, T>);
 
 impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for OfMomentum<'_, S, T> {
+    const IN_ANY_UNITS: bool = true;
+
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         self.0.evaluate(b, sink)?;
         b.copy_from_slice(self.0.momentum);

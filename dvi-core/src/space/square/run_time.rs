@@ -102,6 +102,13 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             Storage::Sparse(sparse) => sparse.factor(),
         }
     }
+    fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
+        match &mut self.0 {
+            Storage::Dense(matrix, permutation) => elimination::factor_in_any_units(matrix, permutation),
+            Storage::Banded(banded) => banded.factor(),
+            Storage::Sparse(sparse) => sparse.factor(),
+        }
+    }
     fn solve(&self, x: &mut [T]) {
         match &self.0 {
             Storage::Dense(matrix, permutation) => elimination::solve(matrix, permutation, x),
