@@ -151,9 +151,12 @@ fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
     // Ω is skew: the other row of a pair has the same entry with the other sign.
     for i in (0..entries.len()).filter(|&i| system.conjugate(i) < i) {
         // Where a formula has left its domain there is no Ω.
-        compare(entries[i], next[i]).map_err(|failure| match next[i].is_finite() {
-            true => failure,
-            false => StepFailure::NotFinite { coordinate: i, value: reported(next[i]) },
+        compare(entries[i], next[i]).map_err(|failure| {
+            if next[i].is_finite() {
+                failure
+            } else {
+                StepFailure::NotFinite { coordinate: i, value: reported(next[i]) }
+            }
         })?;
     }
     Ok(())

@@ -49,9 +49,9 @@ pub trait LinearSolver<T: Real>: Debug {
 }
 
 #[inline(always)]
-fn eliminate<T: Real, M: SquareMatrix<T>>(
+fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
     matrix: &mut M,
-    equations: &mut impl LinearEquations<T>,
+    equations: &mut E,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
@@ -61,15 +61,11 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     let finite = norm::finite(x);
     match matrix.eliminate(x) {
         Ok(()) => Ok(()),
-        Err(StepFailure::Singular { .. }) if finite.is_ok() && is_in_any_units(equations) => {
+        Err(StepFailure::Singular { .. }) if finite.is_ok() && E::IN_ANY_UNITS => {
             by_factors(matrix, equations, x)
         }
         Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
-}
-
-fn is_in_any_units<T, E: LinearEquations<T>>(_: &E) -> bool {
-    E::IN_ANY_UNITS
 }
 
 /// The same where elimination has found no pivot.
