@@ -14,19 +14,30 @@ const MANY: usize = 32;
 /// maxᵢ |xᵢ|; an entry that is not a number does not count.
 #[inline(always)]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
-    let of = |x: &[T]| x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)));
-    if x.len() < MANY {
-        return of(x);
+    fold(x.len(), T::lift(0.0), |largest, i| larger(largest, Scalar::abs(x[i])), larger)
+}
+
+/// Folds i = 0, …, n − 1 into `start`, by an operation for which neither the order matters nor whether `start` counts once or
+/// more often: eight that do not wait for one another if there are many, joined in the end.
+#[inline(always)]
+pub(crate) fn fold<T: Real>(
+    n: usize,
+    start: T,
+    mut add: impl FnMut(T, usize) -> T,
+    join: impl Fn(T, T) -> T,
+) -> T {
+    if n < MANY {
+        return (0..n).fold(start, add);
     }
-    // Eight do not wait for one another.
-    let (chunks, rest) = x.as_chunks::<8>();
-    let mut partial = [of(rest); 8];
-    for chunk in chunks {
-        for (largest, &x) in partial.iter_mut().zip(chunk) {
-            *largest = larger(*largest, Scalar::abs(x));
+    let mut partial = [start; 8];
+    let chunks = n / 8;
+    for chunk in 0..chunks {
+        for (lane, partial) in partial.iter_mut().enumerate() {
+            *partial = add(*partial, 8 * chunk + lane);
         }
     }
-    of(&partial)
+    let rest = (8 * chunks..n).fold(start, add);
+    partial.into_iter().fold(rest, join)
 }
 
 /// The same of a few entries that are numbers; if one is not, some number or none.
@@ -61,18 +72,19 @@ pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
 /// The smallest |xᵢ| that is not zero, at most `bound`.
 #[inline(always)]
 pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {
-    x.iter().map(|&x| Scalar::abs(x)).fold(
-        bound,
-        |smallest, x| {
-            if x < smallest && x > T::lift(0.0) { x } else { smallest }
-        },
-    )
+    let smaller = |a, b| if b < a { b } else { a };
+    let add = |smallest, i: usize| {
+        let size = Scalar::abs(x[i]);
+        if size < smallest && size > T::lift(0.0) { size } else { smallest }
+    };
+    fold(x.len(), bound, add, smaller)
 }
 
 /// maxᵢ |xᵢ − yᵢ|; an entry that is not a number does not count.
 #[inline(always)]
 pub(crate) fn distance<T: Real>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::lift(0.0), |largest, (&x, &y)| larger(largest, Scalar::abs(x - y)))
+    let n = x.len().min(y.len());
+    fold(n, T::lift(0.0), |largest, i| larger(largest, Scalar::abs(x[i] - y[i])), larger)
 }
 
 #[inline(always)]

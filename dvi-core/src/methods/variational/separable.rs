@@ -186,16 +186,28 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
             }
         }
         let Work { increment, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
-        self.mass.solve(momentum, velocity);
         let sums = self.coefficients.sums();
-        for (i, ((velocity, delta), &q)) in
-            velocity.iter_mut().zip(increment.iter_mut()).zip(self.q).enumerate()
-        {
+        let correct = |i: usize, velocity: T, q: T, delta: &mut T| {
             let sums = sums(i);
-            let residual = h * *velocity + sums.left * q - sums.mixed * *delta;
-            // It is of no use any more.
-            *velocity = residual * sums.inverse_kappa;
-            *delta += *velocity;
+            let correction = (h * velocity + sums.left * q - sums.mixed * *delta) * sums.inverse_kappa;
+            *delta += correction;
+            correction
+        };
+        // Corrections take the place of velocities, which are of no use any more.
+        if let Some(reciprocals) = self.mass.reciprocals() {
+            let unknowns = velocity.iter_mut().zip(increment.iter_mut()).zip(self.q);
+            for (i, (((velocity, delta), &q), (&p, &reciprocal))) in
+                unknowns.zip(momentum.iter().zip(reciprocals)).enumerate()
+            {
+                *velocity = correct(i, p * reciprocal, q, delta);
+            }
+        } else {
+            self.mass.solve(momentum, velocity);
+            for (i, ((velocity, delta), &q)) in
+                velocity.iter_mut().zip(increment.iter_mut()).zip(self.q).enumerate()
+            {
+                *velocity = correct(i, *velocity, q, delta);
+            }
         }
         norm::largest(velocity)
     }
