@@ -81,7 +81,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             Self::Factors(matrix) => {
                 statistics.factorisations += 1;
                 system.one_form_jacobian(q, t, a, b, matrix.cleared());
-                matrix.factor()
+                matrix.factor().or_else(|_| {
+                    system.one_form_jacobian(q, t, a, b, matrix.cleared());
+                    matrix.factor_in_any_units()
+                })
             }
         }
     }

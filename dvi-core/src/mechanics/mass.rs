@@ -56,7 +56,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         });
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
         let mut factors = matrix.clone();
-        factors.factor()?;
+        factors.factor_with_care([&mut l_q, &mut l_v])?;
         let [masses, reciprocals] = [space.vector(), space.vector()];
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
     }

@@ -73,6 +73,13 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// As [`eliminate`](Self::eliminate).
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure>;
 
+    /// The same, which also finds singular what rounding errors of its entries may make singular, if its storage has a way for it.
+    /// `work` has room for two vectors.
+    ///
+    /// # Errors
+    /// As [`eliminate`](Self::eliminate).
+    fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure>;
+
     /// Overwrites `x` with the solution of A y = x, for an A that has been factored.
     fn solve(&self, x: &mut [T]);
 
@@ -124,6 +131,9 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
     }
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
         elimination::factor_in_any_units(&mut self.matrix, &mut self.permutation)
+    }
+    fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
+        elimination::factor_with_care(&mut self.matrix, &mut self.permutation, work)
     }
     #[inline]
     fn solve(&self, x: &mut [T]) {

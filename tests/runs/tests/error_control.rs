@@ -271,6 +271,10 @@ fn an_energy_limit_lets_the_estimate_through() -> Outcome {
     let control = ErrorControl::new(1e-3, 0.1);
     let free = Gauss::<2>::new();
     let mut run = ControlledIntegrator::new(&KEPLER, free, control, pericentre(0.9))?;
+    for never in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        run.advance_to(never)?;
+        assert_eq!(run.steps(), 0);
+    }
     run.advance_to(50.0)?;
     let limited = EnergyLimit { method: free, limit: 1e-5 };
     let mut run = ControlledIntegrator::new(&KEPLER, limited, control, pericentre(0.9))?;

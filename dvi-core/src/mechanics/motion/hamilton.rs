@@ -298,6 +298,12 @@ fn rates<S: NondegenerateLagrangian<T>, T: Real>(
     let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] =
         core::array::from_fn(|_| system.space().vector());
     velocity.copy_from_slice(v);
+    if S::SEPARABLE {
+        system.force(q, &[], t, &mut l_v);
+        Mass::new(system, q, t)?.solve(&l_v, &mut acceleration);
+        norm::finite(&acceleration)?;
+        return Ok([velocity, acceleration]);
+    }
     let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
     let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
     solver.solve(&mut equations, &mut acceleration)?;

@@ -186,11 +186,14 @@ where
     M: VariableStep<S, T>,
 {
     /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the rounding of the time. Nothing is
-    /// allocated. A time that the run has reached or passed, or that is not a number, takes no step.
+    /// allocated. A time that the run has reached or passed, or that is not finite, takes no step.
     ///
     /// # Errors
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
     pub fn advance_to(&mut self, t: T) -> Result<(), StepError> {
+        if !t.is_finite() {
+            return Ok(());
+        }
         self.control_memory.set_end(Some(t));
         let result = self.steps_to(t);
         self.control_memory.set_end(None);

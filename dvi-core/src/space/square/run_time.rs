@@ -109,6 +109,13 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             Storage::Sparse(sparse) => sparse.factor(),
         }
     }
+    fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
+        match &mut self.0 {
+            Storage::Dense(matrix, permutation) => elimination::factor_with_care(matrix, permutation, work),
+            Storage::Banded(banded) => banded.factor(),
+            Storage::Sparse(sparse) => sparse.factor(),
+        }
+    }
     fn solve(&self, x: &mut [T]) {
         match &self.0 {
             Storage::Dense(matrix, permutation) => elimination::solve(matrix, permutation, x),
