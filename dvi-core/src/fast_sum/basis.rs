@@ -23,10 +23,10 @@ impl<T: Scalar> Chebyshev<T> {
     }
 }
 
-/// Sets the polynomials at u along each axis by the recurrences T_{m+1} = 2u T_m − T_{m−1} and its derivative, for m < `order`;
-/// derivatives only if asked for.
+/// Sets the polynomials at u along each axis, and their derivatives, by the recurrence T_{m+1} = 2u T_m − T_{m−1} and its derivative, for
+/// m < `order`.
 #[inline(always)]
-pub(super) fn set_polynomials<T: Scalar, const D: usize, const SLOPES: bool>(
+pub(super) fn set_polynomials<T: Scalar, const D: usize>(
     at: &mut [Chebyshev<T>; D],
     u: &[T; D],
     order: usize,
@@ -39,9 +39,7 @@ pub(super) fn set_polynomials<T: Scalar, const D: usize, const SLOPES: bool>(
     for m in 2..order {
         for (Chebyshev { value, slope }, &u) in at.iter_mut().zip(u) {
             value[m] = two * u * value[m - 1] - value[m - 2];
-            if SLOPES {
-                slope[m] = two * (value[m - 1] + u * slope[m - 1]) - slope[m - 2];
-            }
+            slope[m] = two * (value[m - 1] + u * slope[m - 1]) - slope[m - 2];
         }
     }
 }

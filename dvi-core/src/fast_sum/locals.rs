@@ -3,13 +3,13 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::basis::Chebyshev;
+use super::basis::{Chebyshev, set_polynomials};
 use super::expansion::{Expansion, Row};
 use super::lists::{Lists, Pair, on};
 use super::matrix::{Batch, Ends, VECTORS, padded};
 use super::neighbours::add_reactions;
 use super::packs::{LANES, Pack, add_before};
-use super::polynomials::at_bodies;
+use super::polynomials::coordinates;
 use super::quantity::Quantity;
 use super::subspace::{Subspace, number};
 use super::transfer::Transfer;
@@ -131,6 +131,7 @@ impl<const D: usize> Locals<'_, D> {
         let first = by.tree.cubes[cubes.start].first;
         let all = by.tree.cubes[cubes.clone()].iter().enumerate();
         let mut leaves = all.filter(|(_, cube)| !cube.is_divided());
+        let mut at = [[Chebyshev::none(); D]; TOGETHER];
         loop {
             let mut some = [None; VECTORS];
             let mut ends = [Ends::default(); VECTORS];
@@ -149,13 +150,23 @@ impl<const D: usize> Locals<'_, D> {
                 true,
                 #[inline(always)]
                 || {
-                    let mut at = [Chebyshev::none(); D];
                     for (cube, local) in some.iter().flatten().zip(room.chunks_exact(size)) {
                         let frame = by.tree.frame(cube);
-                        for body in cube.bodies().step_by(LANES) {
-                            at_bodies::<D, true>(&mut at, basis.order, by.places, frame, body, cube.past);
+                        for body in cube.bodies().step_by(TOGETHER * LANES) {
+                            // Packs without a body are in the middle of the cube.
+                            for (pack, at) in at.iter_mut().enumerate() {
+                                let u = coordinates(
+                                    by.places,
+                                    frame,
+                                    (body + pack * LANES).min(cube.past),
+                                    cube.past,
+                                );
+                                set_polynomials(at, &u, basis.order);
+                            }
                             let found = evaluated::<D, Q>(local, rows, &at, 1.0 / frame.1);
-                            add_before(cube.past - first, sums, body - first, found.as_ref());
+                            for (body, found) in (body..cube.past).step_by(LANES).zip(&found) {
+                                add_before(cube.past - first, sums, body - first, found.as_ref());
+                            }
                         }
                     }
                 },
@@ -164,23 +175,31 @@ impl<const D: usize> Locals<'_, D> {
     }
 }
 
+/// Packs of bodies that an expansion is evaluated at.
+const TOGETHER: usize = 2;
+
 /// What a local expansion is at some bodies.
 #[inline(always)]
 fn evaluated<const D: usize, Q: Quantity<D>>(
     local: &[f64],
     rows: &[Row<D>],
-    at: &[Chebyshev<Pack>; D],
+    at: &[[Chebyshev<Pack>; D]; TOGETHER],
     scale: f64,
-) -> Q::Sums {
-    let last = &at[D - 1];
-    let mut found = Q::none();
+) -> [Q::Sums; TOGETHER] {
+    let mut found = [Q::none(); TOGETHER];
     for Row { degrees, first, len } in rows {
-        let mut row = [Pack::all(0.0); 2];
+        let mut sums = [[Pack::all(0.0); 2]; TOGETHER];
         for (degree, &coefficient) in local[*first..first + len].iter().enumerate() {
-            row[0] += Pack::all(coefficient) * last.value[degree];
-            row[1] += Pack::all(coefficient) * last.slope[degree];
+            let coefficient = Pack::all(coefficient);
+            for pack in 0..TOGETHER {
+                let last = &at[pack][D - 1];
+                sums[pack][0] += coefficient * last.value[degree];
+                sums[pack][1] += coefficient * last.slope[degree];
+            }
         }
-        Q::add_row(&mut found, at, degrees, row, scale);
+        for pack in 0..TOGETHER {
+            Q::add_row(&mut found[pack], &at[pack], degrees, sums[pack], scale);
+        }
     }
     found
 }

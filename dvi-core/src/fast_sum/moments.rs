@@ -3,11 +3,11 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::basis::{Chebyshev, MOST};
+use super::basis::MOST;
 use super::expansion::{Expansion, Row};
 use super::matrix::{Batch, Ends, VECTORS};
-use super::packs::{LANES, Pack, load_before};
-use super::polynomials::at_bodies;
+use super::packs::{LANES, Pack, add_lanes, load_before};
+use super::polynomials::coordinates;
 use super::subspace::{Subspace, number};
 use super::tree::{Cube, Tree};
 use crate::scalar::simd::widest_if;
@@ -55,9 +55,9 @@ impl<const D: usize> Part for Moments<'_, D> {
 }
 
 /// Bodies whose polynomials are known at once, in packs.
-const TOGETHER: usize = 8;
-/// Moments that are summed at once.
-const FOUR: usize = 4;
+const TOGETHER: usize = 6;
+/// Moments that are summed at once: of four the compiler would mix the lanes.
+const AT_ONCE: usize = 3;
 
 impl<const D: usize> Moments<'_, D> {
     pub(super) fn collect(self) {
@@ -66,6 +66,7 @@ impl<const D: usize> Moments<'_, D> {
         let of_part = &from.tree.cubes[cubes.clone()];
         moments.fill(0.0);
         let mut leaves = of_part.iter().enumerate().filter(|(_, cube)| !cube.is_divided());
+        let mut at = [[[Pack::all(0.0); TOGETHER]; MOST]; D];
         loop {
             let mut ends = [Ends::default(); VECTORS];
             let mut count = 0;
@@ -73,7 +74,6 @@ impl<const D: usize> Moments<'_, D> {
                 true,
                 #[inline(always)]
                 || {
-                    let mut at = [[Chebyshev::none(); D]; TOGETHER];
                     let rooms = room.chunks_exact_mut(size).take(VECTORS);
                     for (number, (room, (place, cube))) in rooms.zip(&mut leaves).enumerate() {
                         room.fill(0.0);
@@ -102,44 +102,57 @@ impl<const D: usize> Moments<'_, D> {
     }
 }
 
+/// The polynomials of each degree at several packs of bodies, along each axis.
+type Values<const D: usize> = [[[Pack; TOGETHER]; MOST]; D];
+
 /// Adds the moments of the bodies of a cube.
 #[inline(always)]
-fn of_bodies<const D: usize>(
-    from: &Sources<'_, D>,
-    cube: &Cube<D>,
-    at: &mut [[Chebyshev<Pack>; D]; TOGETHER],
-    moments: &mut [f64],
-) {
+fn of_bodies<const D: usize>(from: &Sources<'_, D>, cube: &Cube<D>, at: &mut Values<D>, moments: &mut [f64]) {
     let frame = from.tree.frame(cube);
     for group in cube.bodies().step_by(TOGETHER * LANES) {
         let mut weights = [Pack::all(0.0); TOGETHER];
+        let mut kept = [Pack::all(0.0); MOST + AT_ONCE];
         let mut count = 0;
         for first in (group..cube.past).step_by(LANES).take(TOGETHER) {
-            let order = from.expansion.basis.order;
-            at_bodies::<D, false>(&mut at[count], order, from.places, frame, first, cube.past);
+            let u = coordinates(from.places, frame, first, cube.past);
+            for (at, u) in at.iter_mut().zip(u) {
+                set_values(at, count, u, from.expansion.basis.order);
+            }
             weights[count] = load_before(cube.past, from.weights, first);
             count += 1;
         }
         for Row { degrees, first, len } in &from.expansion.rows {
             let mut products = weights;
-            for (product, at) in products[..count].iter_mut().zip(&*at) {
-                for axis in 0..D - 1 {
-                    *product = *product * at[axis].value[degrees[axis]];
+            for axis in 0..D - 1 {
+                let values = &at[axis][degrees[axis]];
+                for pack in 0..TOGETHER {
+                    products[pack] = products[pack] * values[pack];
                 }
             }
-            for degree in (0..*len).step_by(FOUR) {
-                let mut sums = [Pack::all(0.0); FOUR];
-                for (product, at) in products[..count].iter().zip(&*at) {
-                    for other in 0..FOUR {
+            for degree in (0..*len).step_by(AT_ONCE) {
+                let mut sums = [Pack::all(0.0); AT_ONCE];
+                for pack in 0..count {
+                    let product = products[pack];
+                    for other in 0..AT_ONCE {
                         // Those behind the last are not used.
-                        sums[other] += *product * at[D - 1].value[(degree + other) % MOST];
+                        sums[other] += product * at[D - 1][(degree + other) % MOST][pack];
                     }
                 }
-                let moments = &mut moments[first + degree..first + len.min(&(degree + FOUR))];
-                for (moment, sum) in moments.iter_mut().zip(&sums) {
-                    *moment += sum.0.iter().sum::<f64>();
-                }
+                kept[degree..degree + AT_ONCE].copy_from_slice(&sums);
             }
+            add_lanes(kept[..*len].iter(), &mut moments[*first..first + len]);
         }
+    }
+}
+
+/// Sets the polynomials of a pack of bodies at u.
+#[inline(always)]
+fn set_values(at: &mut [[Pack; TOGETHER]; MOST], pack: usize, u: Pack, order: usize) {
+    let [mut before, mut last] = [Pack::all(1.0), u];
+    (at[0][pack], at[1][pack]) = (before, last);
+    let twice = u + u;
+    for at in &mut at[2..order.max(2)] {
+        (before, last) = (last, twice * last - before);
+        at[pack] = last;
     }
 }

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::lists::{Lists, Pair, on};
-use super::packs::{LANES, Pack, add_before, load, load_before};
+use super::packs::{LANES, Pack, add_before, add_lanes, load, load_before};
 use super::quantity::Quantity;
 use super::tree::{Cube, Tree};
 use crate::scalar::Lanes;
@@ -97,21 +97,47 @@ impl<Q: Quantity<D>, const D: usize> Neighbours<'_, Q, D> {
             true,
             #[inline(always)]
             || {
-                for number in near {
-                    let Pair { target, source } = by.lists.near[number];
-                    let [one, other] = [target, source].map(|cube| &by.tree.cubes[cube as usize]);
-                    if target == source {
-                        within(&by, one, origin, &mut sums);
-                    } else if target < source {
-                        let packs =
-                            [number, number + 1].map(|number| D * (by.lists.packs[number] - first_pack));
-                        between(&by, one, other, origin, &mut sums, &mut reactions[packs[0]..packs[1]]);
+                let mut kept = [Q::none(); TOGETHER];
+                let mut number = near.start;
+                for pairs in by.lists.near[near].chunk_by(|pair, next| pair.target == next.target) {
+                    let one = &by.tree.cubes[pairs[0].target as usize];
+                    let mut later = number;
+                    for Pair { target, source } in pairs {
+                        if target == source {
+                            within(&by, one, origin, &mut sums);
+                        }
+                        later += usize::from(source <= target);
+                    }
+                    number += pairs.len();
+                    let packs = [later, number].map(|number| D * (by.lists.packs[number] - first_pack));
+                    let reactions = &mut reactions[packs[0]..packs[1]];
+                    reactions.fill(Pack::all(0.0));
+                    for first in one.bodies().step_by(TOGETHER) {
+                        let bodies = first..one.past.min(first + TOGETHER);
+                        let kept = &mut kept[..bodies.len()];
+                        kept.fill(Q::none());
+                        let mut rest = &mut *reactions;
+                        for pair in &by.lists.near[later..number] {
+                            let other = &by.tree.cubes[pair.source as usize];
+                            let (own, others) = rest.split_at_mut(D * other.bodies().len().div_ceil(LANES));
+                            between(&by, bodies.clone(), other, kept, own);
+                            rest = others;
+                        }
+                        for (axis, sums) in sums.iter_mut().enumerate() {
+                            add_lanes(
+                                kept.iter().filter_map(|found| found.as_ref().get(axis)),
+                                &mut sums[bodies.start - origin..],
+                            );
+                        }
                     }
                 }
             },
         );
     }
 }
+
+/// Bodies of a cube whose sums are kept while other cubes act on them.
+const TOGETHER: usize = 64;
 
 /// Adds what the bodies of a cube do to each other.
 #[inline(always)]
@@ -122,43 +148,59 @@ fn within<Q: Quantity<D>, const D: usize>(
     sums: &mut [&mut [f64]; D],
 ) {
     for first in cube.bodies().step_by(LANES) {
+        let past = cube.past.min(first + LANES);
         let mut found = Q::none();
         let at: [Pack; D] = core::array::from_fn(|axis| load(&by.places[axis], first));
-        for body in cube.bodies() {
-            let mut difference = at;
-            let mut r2 = Pack::all(0.0);
-            for axis in 0..D {
-                difference[axis] = at[axis] - Pack::all(by.places[axis][body]);
-                r2 += difference[axis] * difference[axis];
+        for bodies in [cube.first..first, past..cube.past] {
+            for body in bodies {
+                let place = core::array::from_fn(|axis| Pack::all(by.places[axis][body]));
+                add_one(by.quantity, &mut found, at, (place, Pack::all(by.weights[body])));
             }
-            let weight = Pack::all(by.weights[body]);
-            if (first..first + LANES).contains(&body) {
-                // Of itself it adds nothing, whatever K is there.
-                let mut some = Q::none();
-                by.quantity.add_pair(&mut some, weight, &difference, r2);
-                for (found, some) in found.as_mut().iter_mut().zip(some.as_mut()) {
-                    some.0[body - first] = 0.0;
-                    *found += *some;
-                }
-            } else {
-                by.quantity.add_pair(&mut found, weight, &difference, r2);
-            }
+        }
+        // Each body of the pack with the next one, with the one after that, and so on, but not with itself.
+        let places = by.places.each_ref().map(|places| repeated(&places[first..past]));
+        let weights = repeated(&by.weights[first..past]);
+        for steps in 1..past - first {
+            let place = core::array::from_fn(|axis| load(&places[axis], steps));
+            add_one(by.quantity, &mut found, at, (place, load(&weights, steps)));
         }
         add_before(cube.past - origin, sums, first - origin, found.as_ref());
     }
 }
 
-/// Adds what the bodies of the cubes `one` and `other` do to each other: to the sums of `one`, and to the `reactions` on `other`.
+/// Numbers one after the other, and again from the first.
+#[inline(always)]
+fn repeated(numbers: &[f64]) -> [f64; 2 * LANES] {
+    core::array::from_fn(|place| numbers[place % numbers.len()])
+}
+
+/// Adds what others, given by their places and weights, do to some bodies `at` their places.
+#[inline(always)]
+fn add_one<Q: Quantity<D>, const D: usize>(
+    quantity: &Q,
+    found: &mut Q::Sums,
+    at: [Pack; D],
+    (places, weights): ([Pack; D], Pack),
+) {
+    let mut difference = at;
+    let mut r2 = Pack::all(0.0);
+    for axis in 0..D {
+        difference[axis] = at[axis] - places[axis];
+        r2 += difference[axis] * difference[axis];
+    }
+    quantity.add_pair(found, weights, &difference, r2);
+}
+
+/// Adds what some bodies of one cube and those of an `other` do to each other: to what is `kept` for the ones, and to the `reactions` on
+/// the others.
 #[inline(always)]
 fn between<Q: Quantity<D>, const D: usize>(
     by: &Nearby<'_, Q, D>,
-    one: &Cube<D>,
+    bodies: Range<usize>,
     other: &Cube<D>,
-    origin: usize,
-    sums: &mut [&mut [f64]; D],
+    kept: &mut [Q::Sums],
     reactions: &mut [Pack],
 ) {
-    reactions.fill(Pack::all(0.0));
     let places_of_other = by.places.each_ref().map(|places| &places[other.bodies()]);
     let weights_of_other = &by.weights[other.bodies()];
     let whole = other.bodies().len() / LANES;
@@ -169,29 +211,19 @@ fn between<Q: Quantity<D>, const D: usize>(
         Lanes(core::array::from_fn(|lane| places[(whole * LANES + lane).min(places.len() - 1)]))
     });
     let weights_of_rest = load_before(other.past, by.weights, other.first + whole * LANES);
-    for group in one.bodies().step_by(LANES) {
-        // The lanes of a body are added up when those of all are in memory: else the compiler takes them apart before.
-        let mut all = [Q::none(); LANES];
-        let bodies = group..one.past.min(group + LANES);
-        for (body, kept) in bodies.clone().zip(&mut all) {
-            let mut found = Q::none();
-            let body =
-                (core::array::from_fn(|axis| Pack::all(by.places[axis][body])), Pack::all(by.weights[body]));
-            for (pack, reactions) in reactions.chunks_exact_mut(D).enumerate() {
-                let places = core::array::from_fn(|axis| load(places_of_other[axis], pack * LANES));
-                let weights = load(weights_of_other, pack * LANES);
-                add_both(by.quantity, &mut found, reactions, body, (places, weights));
-            }
-            if !last.is_empty() {
-                add_both(by.quantity, &mut found, last, body, (rest, weights_of_rest));
-            }
-            *kept = found;
+    for (body, kept) in bodies.zip(kept) {
+        let mut found = *kept;
+        let body =
+            (core::array::from_fn(|axis| Pack::all(by.places[axis][body])), Pack::all(by.weights[body]));
+        for (pack, reactions) in reactions.chunks_exact_mut(D).enumerate() {
+            let places = core::array::from_fn(|axis| load(places_of_other[axis], pack * LANES));
+            let weights = load(weights_of_other, pack * LANES);
+            add_both(by.quantity, &mut found, reactions, body, (places, weights));
         }
-        for (body, found) in bodies.zip(&all) {
-            for (sums, found) in sums.iter_mut().zip(found.as_ref()) {
-                sums[body - origin] += found.0.iter().sum::<f64>();
-            }
+        if !last.is_empty() {
+            add_both(by.quantity, &mut found, last, body, (rest, weights_of_rest));
         }
+        *kept = found;
     }
 }
 

@@ -48,3 +48,14 @@ pub(super) fn add_before<const D: usize>(
         }
     }
 }
+
+/// Adds to each number the sum of the lanes of a pack.
+///
+/// It is no part of what calls it: the compiler would take packs apart long before, and put them together again.
+#[inline(never)]
+pub(super) fn add_lanes<'a>(packs: impl Iterator<Item = &'a Pack>, to: &mut [f64]) {
+    for (pack, to) in packs.zip(to) {
+        let [a, b, c, d, e, f, g, h] = pack.0;
+        *to += ((a + e) + (c + g)) + ((b + f) + (d + h));
+    }
+}

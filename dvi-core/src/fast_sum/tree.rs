@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::packs::LANES;
 use crate::threads;
 
 /// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
@@ -87,7 +88,10 @@ impl<const D: usize> Tree<D> {
                 cell.min((1 << LEVELS) - 1)
             }));
         });
-        threads::sort(&mut self.order);
+        // Nothing to do where bodies did not move.
+        if !self.order.is_sorted() {
+            threads::sort(&mut self.order);
+        }
         self.divide(few);
         Ok(())
     }
@@ -96,19 +100,9 @@ impl<const D: usize> Tree<D> {
         let mut ends = [(0.0, 0.0); D];
         let mut extent = 0.0;
         for (end, places) in ends.iter_mut().zip(places) {
-            // The sum is not finite if a place is not.
-            let sum: f64 = places.iter().map(|place| place.abs()).sum();
-            if !sum.is_finite() {
-                return Err(NotFinite);
-            }
-            let lowest = places
-                .iter()
-                .fold(f64::INFINITY, |lowest, &place| if place < lowest { place } else { lowest });
-            let highest = places
-                .iter()
-                .fold(f64::NEG_INFINITY, |highest, &place| if place > highest { place } else { highest });
-            *end = (lowest, highest);
-            extent = if highest - lowest > extent { highest - lowest } else { extent };
+            *end = interval(places)?;
+            let length = end.1 - end.0;
+            extent = if length > extent { length } else { extent };
         }
         let mut exponent = exponent(extent);
         // Bodies far from the origin: places that are no multiples of a cell of the smallest cubes.
@@ -193,15 +187,67 @@ impl<const D: usize> Tree<D> {
     }
 }
 
+/// The least and the largest of some places.
+fn interval(places: &[f64]) -> Result<(f64, f64), NotFinite> {
+    let mut lowest = [f64::INFINITY; LANES];
+    let mut highest = [f64::NEG_INFINITY; LANES];
+    let mut sum = [0.0; LANES];
+    let mut add = |places: &[f64]| {
+        for (lane, &place) in places.iter().enumerate().take(LANES) {
+            lowest[lane] = if place < lowest[lane] { place } else { lowest[lane] };
+            highest[lane] = if place > highest[lane] { place } else { highest[lane] };
+            sum[lane] += place.abs();
+        }
+    };
+    let packs = places.chunks_exact(LANES);
+    let rest = packs.remainder();
+    packs.for_each(&mut add);
+    add(rest);
+    // The sum is not finite if a place is not.
+    if !sum.iter().sum::<f64>().is_finite() {
+        return Err(NotFinite);
+    }
+    Ok((
+        lowest.into_iter().fold(f64::INFINITY, f64::min),
+        highest.into_iter().fold(f64::NEG_INFINITY, f64::max),
+    ))
+}
+
 /// Bit b of coordinate a becomes bit D b + a.
+#[inline(always)]
 fn interleaved<const D: usize>(cell: [u32; D]) -> u64 {
     let mut key = 0;
     for (axis, place) in cell.into_iter().enumerate() {
-        for bit in 0..LEVELS {
-            key |= u64::from(place >> bit & 1) << (bit * D as u32 + axis as u32);
-        }
+        key |= spread::<D>(place) << axis;
     }
     key
+}
+
+/// Bit b becomes bit D b: halves of the bits are moved apart, then halves of these.
+#[inline(always)]
+fn spread<const D: usize>(place: u32) -> u64 {
+    let mut bits = u64::from(place);
+    for shift in [16, 8, 4, 2, 1] {
+        bits = (bits | bits << (shift * (D - 1))) & const { groups::<D>() }[shift.trailing_zeros() as usize];
+    }
+    bits
+}
+
+/// For each power of two, the bits that stand in groups of as many, and D − 1 groups apart.
+const fn groups<const D: usize>() -> [u64; 5] {
+    let mut masks = [0; 5];
+    let mut power = 0;
+    while power < masks.len() {
+        let mut bit = 0;
+        while bit < u64::BITS {
+            if (bit >> power) % D as u32 == 0 {
+                masks[power] |= 1 << bit;
+            }
+            bit += 1;
+        }
+        power += 1;
+    }
+    masks
 }
 
 /// 2^exponent.
@@ -212,4 +258,32 @@ pub(super) fn exp2(exponent: i32) -> f64 {
 /// The least exponent of a power of two that is not below `extent`, and 0 for none.
 fn exponent(extent: f64) -> i32 {
     if extent > 0.0 { extent.log2().ceil() as i32 } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEVELS, interleaved};
+
+    fn holds<const D: usize>() {
+        let mut state = 3_u32;
+        for _ in 0..1000 {
+            let cell: [u32; D] = core::array::from_fn(|_| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                state >> (32 - LEVELS)
+            });
+            let bit =
+                |axis: usize, bit: u32| u64::from(cell[axis] >> bit & 1) << (bit * D as u32 + axis as u32);
+            let expected = (0..D)
+                .flat_map(|axis| (0..LEVELS).map(move |number| (axis, number)))
+                .fold(0, |key, (axis, number)| key | bit(axis, number));
+            assert_eq!(interleaved(cell), expected);
+        }
+    }
+
+    #[test]
+    fn bits_of_the_coordinates_alternate() {
+        holds::<1>();
+        holds::<2>();
+        holds::<3>();
+    }
 }
