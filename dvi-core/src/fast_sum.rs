@@ -77,6 +77,7 @@ mod packs;
 mod polynomials;
 mod quantity;
 mod refinement;
+mod singular;
 mod subspace;
 mod system;
 mod transfer;

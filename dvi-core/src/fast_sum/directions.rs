@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use super::basis::Basis;
+use super::singular::singular;
 
 /// Combinations of the basis, of which each is odd or even along each axis.
 #[derive(Clone, Debug)]
@@ -32,7 +33,7 @@ impl Directions {
             if functions.is_empty() || columns.ncols() == 0 {
                 continue;
             }
-            let (vectors, weights) = singular(columns.select_rows(&functions), least);
+            let (vectors, weights) = singular(&columns.select_rows(&functions), least);
             let mut all = DMatrix::zeros(basis.len(), weights.len());
             for (row, function) in functions.iter().enumerate() {
                 all.row_mut(*function).copy_from(&vectors.row(row));
@@ -61,20 +62,4 @@ impl Directions {
         };
         self.parities.iter().map(sign).collect()
     }
-}
-
-/// The singular vectors of values above a bound, and these values. If the iteration for them does not end, all directions of the columns
-/// are kept.
-fn singular(columns: DMatrix<f64>, least: f64) -> (DMatrix<f64>, Vec<f64>) {
-    const ITERATIONS: usize = 10_000;
-    let found = columns.clone().try_svd(true, false, 5.0 * f64::EPSILON, ITERATIONS);
-    let Some((svd, vectors)) = found.and_then(|mut svd| svd.u.take().map(|vectors| (svd, vectors))) else {
-        let vectors = columns.qr().q();
-        let weights = alloc::vec![least; vectors.ncols()];
-        return (vectors, weights);
-    };
-    let kept: Vec<usize> =
-        (0..svd.singular_values.len()).filter(|place| svd.singular_values[*place] > least).collect();
-    let weights = kept.iter().map(|place| svd.singular_values[*place]).collect();
-    (vectors.select_columns(&kept), weights)
 }

@@ -29,6 +29,16 @@ struct Discs {
     strength: f64,
 }
 
+/// Pairs on harmonic springs: a kernel of exactly four products.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| x[j] * d(y[j])),
+    hamiltonian = sum_pairs(0..n, |j, k| (x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)),
+)]
+struct Harmonic {
+    n: usize,
+}
+
 /// Places that are at least 1.05 apart.
 fn lattice(n: usize) -> Vec<f64> {
     let side = (n as f64).sqrt().ceil() as usize;
@@ -102,6 +112,19 @@ fn clusters_far_apart() {
                 assert!(force < tolerance && energy < tolerance, "{case}: {force:e}, {energy:e}");
             }
         }
+    }
+}
+
+#[test]
+fn kernels_of_a_low_rank() {
+    let n = 3000;
+    let place = |j: usize, square: f64| ((j % 7) as f64, square * ((j % 7) as f64).powi(2));
+    let x = (0..n).map(|j| place(j, 0.37).0 + 0.01 * (1.7 * j as f64).sin());
+    let y = (0..n).map(|j| place(j, 0.37).1 + 0.01 * (2.9 * j as f64).cos());
+    let q: Vec<f64> = x.chain(y).collect();
+    for tolerance in [1e-3, 1e-4, 1e-5, 3e-6, 1e-7, 2e-10] {
+        let (force, energy) = compare::<_, 2>(&Harmonic { n }, &q, 0.9999999 * tolerance);
+        assert!(force < tolerance && energy < tolerance, "tolerance {tolerance:e}: {force:e}, {energy:e}");
     }
 }
 
