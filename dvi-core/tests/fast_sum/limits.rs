@@ -39,6 +39,18 @@ struct Harmonic {
     n: usize,
 }
 
+/// Kernels that fall off like a Gaussian.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| x[j] * d(y[j])),
+    hamiltonian = sum_pairs(0..n, |j, k|
+        (-((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)) / length.powi(2)).exp()),
+)]
+struct Gaussian {
+    n: usize,
+    length: f64,
+}
+
 /// Places that are at least 1.05 apart.
 fn lattice(n: usize) -> Vec<f64> {
     let side = (n as f64).sqrt().ceil() as usize;
@@ -124,6 +136,20 @@ fn kernels_of_a_low_rank() {
     let q: Vec<f64> = x.chain(y).collect();
     for tolerance in [1e-3, 1e-4, 1e-5, 3e-6, 1e-7, 2e-10] {
         let (force, energy) = compare::<_, 2>(&Harmonic { n }, &q, 0.9999999 * tolerance);
+        assert!(force < tolerance && energy < tolerance, "tolerance {tolerance:e}: {force:e}, {energy:e}");
+    }
+}
+
+/// In small cubes a Gaussian is nearly 1 − r²/c².
+#[test]
+fn a_spiral_into_the_middle_of_a_gaussian() {
+    let n = 2000;
+    let radius = |j: usize| 1e-6_f64.powf(j as f64 / n as f64);
+    let x = (0..n).map(|j| radius(j) * (2.4 * j as f64).cos());
+    let y = (0..n).map(|j| radius(j) * (2.4 * j as f64).sin());
+    let q: Vec<f64> = x.chain(y).collect();
+    for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
+        let (force, energy) = compare::<_, 2>(&Gaussian { n, length: 0.3 }, &q, tolerance);
         assert!(force < tolerance && energy < tolerance, "tolerance {tolerance:e}: {force:e}, {energy:e}");
     }
 }
