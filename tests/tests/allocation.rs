@@ -294,6 +294,8 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         chain_start,
         Galerkin::<4>::new(),
         Galerkin { solver: Solver::Newton, ..Galerkin::<5>::new() },
+        Galerkin::<9>::new().in_lanes(),
+        Galerkin { solver: Solver::Newton, ..Galerkin::<9>::new() },
         Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged)),
         Newmark::new(0.25),
         Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },

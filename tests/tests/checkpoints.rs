@@ -133,6 +133,10 @@ fn regular_runs_go_on() -> Outcome {
     check(&KEPLER, Variational::simpson().phase_fitted(Radial(Reading::Averaged)), planet)?;
     check(&KEPLER, Variational::simpson().phase_fitted(Constant(1.0)), planet)?;
     check(&KEPLER, Galerkin::<4>::new(), planet)?;
+    check(&KEPLER, Galerkin { summation, ..Galerkin::<9>::new() }, planet)?;
+    check(&KEPLER, Galerkin { summation, ..Galerkin::<9>::new() }.in_lanes(), planet)?;
+    check(&KEPLER, Galerkin::<6>::new().in_lanes(), planet)?;
+    check(&KEPLER, Galerkin::<6>::new().phase_fitted(Constant(1.0)), planet)?;
     check(&KEPLER, dvi_core::methods::Composition::kahan_li_6(Variational::trapezoid()), planet)?;
     check(&Polar, Variational::midpoint(), particle)?;
     check(&Polar, Galerkin::<3>::new(), particle)?;

@@ -130,6 +130,7 @@ fn steps_with_interior_displacements_equal_the_general_step() -> Outcome {
     check(&kepler, Galerkin::<3>::new(), &start)?;
     check(&kepler, Galerkin::<4>::new(), &start)?;
     check(&kepler, Galerkin::<5>::new(), &start)?;
+    check(&kepler, Galerkin::<9>::new(), &start)?;
     check(&kepler, Galerkin::<4>::new().phase_fitted(Constant(1.3)), &start)?;
     let driven = DrivenOscillator { depth: 0.3, omega: 2.0 };
     check(&driven, Galerkin::<4>::new(), &DrivenOscillatorState { x: 0.4, dot_x: 0.9 })?;

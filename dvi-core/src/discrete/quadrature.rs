@@ -189,12 +189,6 @@ impl Quadrature {
         })
     }
 
-    /// The Lobatto rule with a number of nodes that is known when compiled.
-    pub(crate) const fn lobatto_of<const NODES: usize>() -> Self {
-        const { assert!(NODES >= 2 && NODES <= 5, "Lobatto rules are available with 2 to 5 nodes") };
-        Self::of(LOBATTO[NODES - 2], NODES)
-    }
-
     /// The Lobatto rule with two to five nodes, both ends among them, exact to degree 2·`nodes` − 3.
     ///
     /// # Errors

@@ -91,6 +91,18 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         self.carried[0].add(q, increment, q1);
     }
 
+    /// What rounding has left out of coordinate `k`.
+    #[inline(always)]
+    pub(crate) fn left_out_of_q(&self, k: usize) -> T {
+        self.carried[0].left_out_of(k)
+    }
+
+    /// What rounding has left out of its momentum.
+    #[inline(always)]
+    pub(crate) fn left_out_of_p(&self, k: usize) -> T {
+        self.carried[1].left_out_of(k)
+    }
+
     /// Sets `p1` to p0 and `impulse`.
     pub(crate) fn kick(&self, impulse: &[T], p1: &mut [T]) {
         self.carried[1].add(&self.p, impulse, p1);

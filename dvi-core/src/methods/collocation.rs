@@ -10,6 +10,9 @@
 //! exactly in the arithmetic: of each pair the larger number is rounded, and the other is what it leaves of 1
 //! (Antoñana, Makazaga & Murua 2017, section 3).
 
+pub(super) mod lobatto;
+pub(super) mod packs;
+
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::elimination::eliminate;

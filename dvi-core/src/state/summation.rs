@@ -46,6 +46,15 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
         }
     }
 
+    /// What rounding has left out of number `k`.
+    #[inline(always)]
+    pub(crate) fn left_out_of(&self, k: usize) -> T {
+        match &self.rest {
+            Some(rest) => rest[k],
+            None => T::lift(0.0),
+        }
+    }
+
     /// Sets `sum` to x + Δ, or x + (Δ + e).
     pub(crate) fn add(&self, x: &[T], increment: &[T], sum: &mut [T]) {
         for i in 0..x.len() {

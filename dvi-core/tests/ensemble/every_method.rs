@@ -40,6 +40,8 @@ fn of_regular_systems() -> Checked {
     check("midpoint", system, Variational::midpoint(), h, states)?;
     check("simpson", system, Variational::simpson(), -h, states)?;
     check("galerkin", system, Galerkin::<3>::new(), h, states)?;
+    check("galerkin-nine", system, Galerkin::<9>::new(), h, states)?;
+    check("galerkin-lanes", system, Galerkin::<9>::new().in_lanes(), h, states)?;
     check("newmark", system, Newmark::new(0.25), h, states)?;
     check("gauss", system, Gauss::<2>::new(), h, states)?;
     check("gauss-lanes", system, Gauss::<4>::new().in_lanes(), h, states)?;

@@ -2,6 +2,7 @@
 
 mod equations;
 mod failures;
+mod many_nodes;
 mod orders;
 mod oscillator;
 mod structure;

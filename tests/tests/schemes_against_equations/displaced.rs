@@ -10,21 +10,35 @@ use super::equations::{Formula, defect, dual, interpolation, size};
 use super::systems::{Coupled, Fast, Magnetic, Shaken};
 use super::{Outcome, START, STEPS};
 
-/// The Lobatto rules of 3, 4 and 5 nodes on [0, 1] (Abramowitz & Stegun 1964, 25.4.32).
+/// P_n and its first two derivatives at x inside, by the recurrence of the polynomials and their differential equation.
+fn legendre(n: usize, x: f64) -> [f64; 3] {
+    let (mut last, mut value) = (1.0, x);
+    for k in 2..=n {
+        let k = k as f64;
+        (last, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * last) / k);
+    }
+    let n = n as f64;
+    let first = n * (last - x * value) / (1.0 - x * x);
+    [value, first, (2.0 * x * first - n * (n + 1.0) * value) / (1.0 - x * x)]
+}
+
+/// The Lobatto rules on [0, 1]: both ends, and the zeros of P'ₛ₋₁ by Newton's method from the extrema of a Chebyshev polynomial; weights
+/// 2/(s(s−1)P²ₛ₋₁) on [−1, 1] (Abramowitz & Stegun 1964, 25.4.32).
 fn lobatto(nodes: usize) -> (Vec<f64>, Vec<f64>) {
-    let (c, w) = match nodes {
-        3 => (vec![-1.0, 0.0, 1.0], vec![1.0 / 3.0, 4.0 / 3.0, 1.0 / 3.0]),
-        4 => {
-            let c = 0.2_f64.sqrt();
-            (vec![-1.0, -c, c, 1.0], vec![1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0])
+    let n = nodes - 1;
+    let rule = (0..nodes).map(|j| {
+        let mut x = -(core::f64::consts::PI * j as f64 / n as f64).cos();
+        let mut value: f64 = 1.0;
+        if j > 0 && j < n {
+            for _ in 0..8 {
+                let [_, first, second] = legendre(n, x);
+                x -= first / second;
+            }
+            [value, ..] = legendre(n, x);
         }
-        _ => {
-            let c = (3.0_f64 / 7.0).sqrt();
-            let w = [0.1, 49.0 / 90.0, 32.0 / 45.0, 49.0 / 90.0, 0.1];
-            (vec![-1.0, -c, 0.0, c, 1.0], w.to_vec())
-        }
-    };
-    (c.iter().map(|c| (1.0 + c) / 2.0).collect(), w.iter().map(|w| w / 2.0).collect())
+        ((1.0 + x) / 2.0, 1.0 / ((nodes * n) as f64 * value * value))
+    });
+    rule.unzip()
 }
 
 /// The derivative at `at` of the Lagrange polynomial of node k.
@@ -156,4 +170,9 @@ fn four_nodes() -> Outcome {
 #[test]
 fn five_nodes() -> Outcome {
     check_nodes::<5>()
+}
+
+#[test]
+fn six_nodes() -> Outcome {
+    check_nodes::<6>()
 }

@@ -7,10 +7,11 @@
 //! The equations of a step are the derivatives of L_d in the directions (φ̂ⱼᵣ, ψ̂ⱼᵣ): that of δʳ for each interior
 //! node, and that of q0, (b, B), for p0 + D₁L_d. Direction 0 moves both ends and gives (D₁ + D₂)L_d.
 
+use crate::discrete::Rule;
 use crate::discrete::basis::Bases;
 use crate::discrete::frequency;
-use crate::discrete::quadrature::{self, Quadrature, Rule};
 use crate::error::StepFailure;
+use crate::methods::collocation::lobatto::{Lobatto, MOST};
 use crate::scalar::norm::reported;
 use crate::space::elimination;
 use crate::{Real, Scalar};
@@ -19,23 +20,7 @@ use crate::{Real, Scalar};
 const RESONANCE: f64 = 1e-4;
 
 /// How many unknowns there are at most.
-const UNKNOWNS: usize = quadrature::NODES - 1;
-
-/// Entry (j, k): the derivative at node j of the Lagrange polynomial of node k.
-pub(super) fn differentiation<const NODES: usize>(rule: &Quadrature) -> [[f64; NODES]; NODES] {
-    let c = rule.nodes();
-    let others = |k: usize| (0..NODES).filter(move |&m| m != k);
-    let scale = |k: usize| others(k).fold(1.0, |product, m| product * (c[k] - c[m]));
-    core::array::from_fn(|j| {
-        core::array::from_fn(|k| {
-            if j == k {
-                others(k).fold(0.0, |sum, m| sum + 1.0 / (c[k] - c[m]))
-            } else {
-                scale(j) / (scale(k) * (c[j] - c[k]))
-            }
-        })
-    })
-}
+const UNKNOWNS: usize = MOST - 1;
 
 /// The coefficients for one frequency and step.
 #[derive(Clone, Copy, Debug)]
@@ -56,9 +41,9 @@ pub(super) struct Coefficients<const NODES: usize, T> {
 }
 
 impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
-    /// For u = ωh, where `a` is the [`differentiation`] matrix of `rule`.
+    /// For u = ωh, where `a` is the matrix of `rule` that differentiates.
     #[inline]
-    pub(super) fn new(rule: &Quadrature, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
+    pub(super) fn new(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
         let (zero, one, last) = (T::lift(0.0), T::lift(1.0), NODES - 1);
         let none = [[zero; NODES]; NODES];
         let mut new = Self {
@@ -150,43 +135,15 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Coefficients, differentiation};
-    use crate::discrete::quadrature::{Quadrature, Rule};
+    use super::Coefficients;
     use crate::error::StepFailure;
-
-    fn check<const NODES: usize>() -> Result<(), crate::error::StartError> {
-        let rule = Quadrature::lobatto(NODES)?;
-        let (a, c, w) = (differentiation::<NODES>(&rule), rule.nodes(), rule.weights());
-        for (row, &at) in a.iter().zip(c) {
-            // Equation 28: exact on polynomials of degree NODES − 1, and on no others.
-            for n in 0..=NODES as i32 {
-                let sum: f64 = row.iter().zip(c).map(|(a, c)| a * c.powi(n)).sum();
-                let exact = if n == 0 { 0.0 } else { f64::from(n) * at.powi(n - 1) };
-                assert_eq!((sum - exact).abs() < 1e-13, n < NODES as i32, "c = {at}, degree {n}");
-            }
-        }
-        for j in 0..NODES {
-            for k in 0..NODES {
-                // Summation by parts: the rule is exact on products of a polynomial and a derivative.
-                let boundary = if j != k || (j > 0 && j < NODES - 1) { 0.0 } else { 2.0 * c[j] - 1.0 };
-                assert!((w[j] * a[j][k] + w[k] * a[k][j] - boundary).abs() < 1e-14, "({j}, {k})");
-            }
-        }
-        Ok(())
-    }
+    use crate::methods::collocation::lobatto::Lobatto;
 
     #[test]
-    fn polynomials_are_differentiated() -> Result<(), crate::error::StartError> {
-        check::<3>()?;
-        check::<4>()?;
-        check::<5>()
-    }
-
-    #[test]
-    fn the_multiplier_of_the_new_point_is_that_of_the_exact_step() -> Result<(), crate::error::StartError> {
+    fn the_multiplier_of_the_new_point_is_that_of_the_exact_step() {
         // ∂²L_d/∂q0∂q1 of the exact discrete Lagrangian of the oscillator is −u/sin u.
-        let rule = Quadrature::lobatto(5)?;
-        let a = differentiation::<5>(&rule);
+        let rule = Lobatto::<5>::new();
+        let a = rule.differentiation();
         for u in [0.1_f64, 0.5, 1.0, 1.5] {
             let Ok(mut coefficients) = Coefficients::<5, f64>::new(&rule, &a, u) else {
                 panic!("u = {u} is not resonant")
@@ -194,13 +151,12 @@ mod tests {
             let found = coefficients.invert().unwrap_or(f64::NAN);
             assert!((found - u / u.sin()).abs() < 1e-5 * u.powi(8), "u = {u}: {found}");
         }
-        Ok(())
     }
 
     #[test]
-    fn half_periods_are_resonant() -> Result<(), crate::error::StartError> {
-        let rule = Quadrature::lobatto(4)?;
-        let a = differentiation::<4>(&rule);
+    fn half_periods_are_resonant() {
+        let rule = Lobatto::<4>::new();
+        let a = rule.differentiation();
         let failure = |u| Coefficients::<4, f64>::new(&rule, &a, u).err();
         let half_turn = failure(core::f64::consts::PI);
         assert!(matches!(half_turn, Some(StepFailure::Resonance { .. })), "{half_turn:?}");
@@ -209,6 +165,5 @@ mod tests {
             matches!(undefined, Some(StepFailure::Frequency { omega }) if omega.is_nan()),
             "{undefined:?}"
         );
-        Ok(())
     }
 }

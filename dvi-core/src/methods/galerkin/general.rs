@@ -6,12 +6,14 @@
 //! solved by Newton for all unknowns at once. Where the frequency is read from the motion, the residual is
 //! exact, and the matrix is that of ω held constant, which is close enough for the iteration to contract.
 
-use super::Step;
 use super::coefficients::Coefficients;
+use super::interior::InteriorNodes;
 use super::memory::{Path, Work};
+use super::steps::Step;
+use crate::discrete::Rule;
 use crate::discrete::frequency::{Frequency, FrequencyIn};
-use crate::discrete::quadrature::{Quadrature, Rule};
 use crate::error::StepFailure;
+use crate::methods::collocation::lobatto::Lobatto;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, scratch};
@@ -20,14 +22,17 @@ use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector, Weights};
 use core::ops::DerefMut;
 
 /// The unknowns.
-pub(super) fn newton<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+pub(super) fn newton<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
+    step: &Step<'_, NODES, S, F, T, E>,
+    path: &mut Path<NODES, S, T, I>,
     q: &[T],
     solver: &mut Coupled<NODES, S, T>,
     guess: Guess,
     statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
+) -> Result<(), StepFailure>
+where
+    I: InteriorNodes<NODES, S, T>,
+{
     path.guess(step, q);
     if guess == Guess::Zero {
         for unknown in &mut path.work.unknowns[1..] {
@@ -77,11 +82,14 @@ fn place<const NODES: usize, T: Real, V: DerefMut<Target = [T]>>(
 }
 
 /// Sets `work.residuals` at the current unknowns.
-fn differentiate<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+fn differentiate<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E, I>(
+    step: &Step<'_, NODES, S, F, T, E>,
+    path: &mut Path<NODES, S, T, I>,
     statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
+) -> Result<(), StepFailure>
+where
+    I: InteriorNodes<NODES, S, T>,
+{
     for residual in &mut path.work.residuals {
         residual.fill(T::lift(0.0));
     }
@@ -106,9 +114,9 @@ fn differentiate<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency
 }
 
 /// The matrix ∂rᵣ/∂xₖ at the current unknowns.
-struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real> {
-    step: &'a Step<'b, NODES, S, F, T>,
-    rule: &'a Quadrature,
+struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real, E> {
+    step: &'a Step<'b, NODES, S, F, T, E>,
+    rule: &'a Lobatto<NODES>,
     coefficients: &'a Coefficients<NODES, T>,
     unknowns: &'a [Vector<S, T>; NODES],
     /// Work space: point and velocity of a node, and the first derivatives of L there.
@@ -118,8 +126,8 @@ struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real> {
     t: T,
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real> NodeSum<NODES, T>
-    for Linearized<'_, '_, NODES, S, F, T>
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E> NodeSum<NODES, T>
+    for Linearized<'_, '_, NODES, S, F, T, E>
 {
     #[inline(always)]
     fn place(&mut self, j: usize) {
@@ -168,20 +176,19 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real> N
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1 = p0 + (D₁ + D₂)L_d.
-pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
+    step: &Step<'_, NODES, S, F, T, E>,
+    path: &mut Path<NODES, S, T, I>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
+) -> Result<(), StepFailure>
+where
+    I: InteriorNodes<NODES, S, T>,
+{
     path.read_frequency(step, statistics)?;
     differentiate(step, path, statistics)?;
-    let Work { unknowns, residuals, momentum, next, next_force, .. } = &mut path.work;
+    let Work { unknowns, residuals, momentum, next, .. } = &mut path.work;
     path.phase.reach(&unknowns[0], &unknowns[NODES - 1], next);
     path.phase.kick(&residuals[0], momentum);
-    if S::SEPARABLE {
-        step.system.force(next, &[], step.node_time(1.0), next_force);
-        statistics.gradients += 1;
-    }
     path.complete(step.system, [step.h, step.node_time(1.0)], q)
 }

@@ -8,12 +8,12 @@
 //! which are the blocks of q0 and q1 that are left once those of the displacements have been [eliminated](crate::space::linear::blocks).
 
 use super::Galerkin;
-use super::coefficients::{Coefficients, differentiation};
+use super::coefficients::Coefficients;
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
-use crate::discrete::quadrature::{Quadrature, Rule};
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Rule, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::linear_of_all;
+use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate};
@@ -26,7 +26,7 @@ use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Space, System,
 #[derive(Debug)]
 pub struct GalerkinLagrangian<const NODES: usize, S: System, F, T: Real = f64> {
     method: Galerkin<NODES, F>,
-    rule: Quadrature,
+    rule: Lobatto<NODES>,
     differentiation: [[f64; NODES]; NODES],
     storage: Storage<NODES, S, T>,
 }
@@ -47,7 +47,7 @@ struct Path<'a, const NODES: usize, S, T> {
     system: &'a S,
     interval: Interval<T>,
     ends: Ends<'a, T>,
-    rule: &'a Quadrature,
+    rule: &'a Lobatto<NODES>,
     coefficients: Coefficients<NODES, T>,
 }
 
@@ -282,7 +282,7 @@ where
     }
 
     fn discrete_lagrangian(&self, system: &S) -> GalerkinLagrangian<NODES, S, F, T> {
-        let (space, rule) = (system.space(), Quadrature::lobatto_of::<NODES>());
+        let (space, rule) = (system.space(), Lobatto::new());
         let vectors = || core::array::from_fn(|_| space.vector());
         let storage = Storage {
             displacements: vectors(),
@@ -291,7 +291,7 @@ where
             permutation: space.permutation(),
             node: NodeWork::new(system),
         };
-        GalerkinLagrangian { method: self.clone(), rule, differentiation: differentiation(&rule), storage }
+        GalerkinLagrangian { method: self.clone(), differentiation: rule.differentiation(), rule, storage }
     }
 }
 

@@ -1,11 +1,9 @@
-//! The coefficients of Gauss collocation in packs over the stages, and what is combined with them.
-//!
-//! Σⱼ aⱼ xⱼ, where a number x of each stage has a lane, is a sum of columns aⱼ. It is taken of several numbers at once, so that each
-//! column is read once for all of them while their sums stay in registers.
+//! The coefficients of Gauss collocation in packs over the stages.
 
 use crate::Real;
 use crate::methods::collocation::Collocation;
-use crate::scalar::{Lanes, norm};
+use crate::methods::collocation::packs::{Nystrom, continuation, lagrange_at};
+use crate::scalar::Lanes;
 
 /// Coefficients in packs over the stages that they lead to.
 #[derive(Clone, Copy, Debug)]
@@ -20,20 +18,6 @@ pub(super) struct Coefficients<const STAGES: usize, T> {
     pub(super) c: Lanes<STAGES, T>,
     pub(super) nystrom: Nystrom<STAGES, T>,
 }
-
-/// The same for equations of second order, of which the velocities of the stages have been eliminated.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Nystrom<const STAGES: usize, T> {
-    /// Column j of ν.
-    pub(super) nu: [Lanes<STAGES, T>; STAGES],
-    pub(super) beta: Lanes<STAGES, T>,
-    /// 1 − β.
-    pub(super) nodes: Lanes<STAGES, T>,
-}
-
-/// So far the polynomial of a step is continued, in units of that step: to the end of one that is twice as long, and back over it and
-/// as far beyond.
-const REACH: [f64; 2] = [-3.0, 2.0];
 
 impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
     pub(super) fn new() -> Self {
@@ -59,80 +43,14 @@ impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
     /// Column j of the continuation into a step whose length is `ratio` times that of the one before.
     #[inline(always)]
     pub(super) fn continuation_over(&self, ratio: T) -> [Lanes<STAGES, T>; STAGES] {
-        let [back, ahead] = REACH.map(T::lift);
-        let ratio = if ratio > ahead { ahead } else { norm::larger(back, ratio) };
-        self.lagrange_at(Lanes::all(T::lift(1.0)) + Lanes::all(ratio) * self.c)
+        continuation(&self.lagrange, self.c, ratio)
     }
 
     /// The Lagrange polynomials at the start of the step.
     #[inline(always)]
     pub(super) fn at_start(&self) -> [T; STAGES] {
-        self.lagrange_at(Lanes::all(T::lift(0.0))).map(|column| column.0[0])
+        lagrange_at(&self.lagrange, Lanes::<STAGES, T>::all(T::lift(0.0))).map(|column| column.0[0])
     }
-
-    /// The Lagrange polynomials at points `x` of the step, whose ends are 0 and 1, or beyond.
-    #[inline(always)]
-    fn lagrange_at(&self, x: Lanes<STAGES, T>) -> [Lanes<STAGES, T>; STAGES] {
-        let number = |value: f64| Lanes::all(T::lift(value));
-        let z = number(2.0) * x - number(1.0);
-        let (mut last, mut legendre) = (number(0.0), number(1.0));
-        let mut columns = [number(0.0); STAGES];
-        for k in 0..STAGES {
-            for j in 0..STAGES {
-                columns[j] += Lanes::all(self.lagrange[k][j]) * legendre;
-            }
-            let degree = k as f64;
-            let next = number((2.0 * degree + 1.0) / (degree + 1.0)) * z * legendre
-                - number(degree / (degree + 1.0)) * last;
-            (last, legendre) = (legendre, next);
-        }
-        columns
-    }
-}
-
-/// How many numbers of a point are combined at once.
-const BLOCK: usize = 4;
-
-/// Sets pack k of `out` to y + (e + Σⱼ `columns`ⱼ xⱼ), for the numbers x in the lanes of that pack of `packs` and `from`(k) = (y, e), where y is
-/// the same for all stages.
-#[inline(always)]
-pub(super) fn combine<const STAGES: usize, T: Real>(
-    columns: &[Lanes<STAGES, T>; STAGES],
-    packs: &[Lanes<STAGES, T>],
-    from: impl Fn(usize) -> (T, Lanes<STAGES, T>),
-    out: &mut [Lanes<STAGES, T>],
-) {
-    let (blocks, left) = packs.as_chunks::<BLOCK>();
-    let (outs, out_left) = out.as_chunks_mut::<BLOCK>();
-    let mut first = 0;
-    for (packs, out) in blocks.iter().zip(outs) {
-        *out = combine_block(columns, packs, core::array::from_fn(|k| from(first + k)));
-        first += BLOCK;
-    }
-    for (k, (pack, out)) in left.iter().zip(out_left).enumerate() {
-        [*out] = combine_block(columns, &[*pack], [from(first + k)]);
-    }
-}
-
-#[inline(always)]
-fn combine_block<const STAGES: usize, const N: usize, T: Real>(
-    columns: &[Lanes<STAGES, T>; STAGES],
-    packs: &[Lanes<STAGES, T>; N],
-    from: [(T, Lanes<STAGES, T>); N],
-) -> [Lanes<STAGES, T>; N] {
-    let mut sums = [Lanes::all(T::lift(0.0)); N];
-    for k in 0..N {
-        sums[k] = from[k].1;
-    }
-    for j in 0..STAGES {
-        for k in 0..N {
-            sums[k] += columns[j] * Lanes::all(packs[k].0[j]);
-        }
-    }
-    for k in 0..N {
-        sums[k] = Lanes::all(from[k].0) + sums[k];
-    }
-    sums
 }
 
 #[cfg(test)]

@@ -2,12 +2,13 @@
 
 use core::fmt;
 
-use super::coefficients::{Coefficients, combine};
+use super::coefficients::Coefficients;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
     AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, Slopes, StageEvaluation, StageWork, weigh,
 };
-use crate::scalar::{Lanes, norm};
+use crate::methods::collocation::packs::{combine, largest_of, sum};
+use crate::scalar::Lanes;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::{Summation, left_out};
@@ -140,7 +141,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         for part in 0..y.len() {
             if part >= first {
                 for (increment, terms) in increment[part].iter_mut().zip(terms[part].iter()) {
-                    *increment = sum(*terms);
+                    *increment = sum(&terms.0);
                 }
             }
             let numbers = y[part].iter().zip(increment[part].iter()).zip(rest[part].iter());
@@ -170,23 +171,4 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
 #[inline(always)]
 pub(super) fn first_part<S: System<Kind: FirstOrder<S, T>>, T: Real>(equations: &EquationsOf<S, T>) -> usize {
     usize::from(S::Kind::reciprocal_masses(equations).is_some())
-}
-
-#[inline(always)]
-pub(super) fn sum<const STAGES: usize, T: Real>(pack: Lanes<STAGES, T>) -> T {
-    pack.0.iter().fold(T::lift(0.0), |sum, &number| sum + number)
-}
-
-/// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
-#[inline(always)]
-pub(super) fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
-    let mut count = N;
-    while count > 1 {
-        let half = count.div_ceil(2);
-        for i in 0..count - half {
-            numbers[i] = norm::larger(numbers[i], numbers[i + half]);
-        }
-        count = half;
-    }
-    numbers[0]
 }

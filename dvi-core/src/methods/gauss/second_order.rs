@@ -6,10 +6,10 @@
 //! It is the same method, a Nyström method (Hairer, Nørsett & Wanner 1993, section II.14), and one combination of stages in each sweep
 //! where that on (q, p) has two. With νᵢⱼ − νⱼᵢ = βⱼ − βᵢ exactly it is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025).
 
-use super::coefficients::combine;
-use super::memory::{GaussMemory, largest_of, sum};
+use super::memory::GaussMemory;
 use crate::error::StepFailure;
 use crate::mechanics::motion::{FirstOrder, StageEvaluation, weigh};
+use crate::methods::collocation::packs::{combine, sum};
 use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
 use crate::{Real, Scalar, System};
@@ -25,22 +25,14 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
             return None;
         };
         weigh(|k| Lanes::all(h * reciprocals[k]), momenta, displacements);
-        let nodes = coefficients.nystrom.nodes;
+        let nystrom = &coefficients.nystrom;
+        let nodes = nystrom.nodes;
         let from = |k: usize| {
             let by = h * reciprocals[k];
             let small = Lanes::all(rest[0][k]) + nodes * Lanes::all(by * rest[1][k]);
             (y[0][k], small + nodes * Lanes::all(by * y[1][k]))
         };
-        combine(&coefficients.nystrom.nu, displacements, from, renewed);
-        let mut changes = [T::lift(0.0); STAGES];
-        for (place, &renewed) in places.iter_mut().zip(renewed.iter()) {
-            for stage in 0..STAGES {
-                let change = Scalar::abs(renewed.0[stage] - place.0[stage]);
-                changes[stage] = norm::larger(changes[stage], change);
-            }
-            *place = renewed;
-        }
-        Some(largest_of(changes))
+        Some(nystrom.place(STAGES, displacements, from, places, renewed))
     }
 
     /// Evaluates the forces at all stages once and moves them, and returns the largest change of a position; `None` if the equations are
@@ -75,7 +67,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
         for (k, &reciprocal) in reciprocals.iter().enumerate() {
             let by = h * reciprocal;
-            let forced = sum(coefficients.nystrom.beta * terms[0][k]);
+            let forced = sum(&(coefficients.nystrom.beta * terms[0][k]).0);
             increment[0][k] = by * y[1][k] + (forced + by * rest[1][k]);
         }
     }

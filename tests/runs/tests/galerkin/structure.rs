@@ -3,6 +3,7 @@
 use dvi_core::discrete::FrequencyIn;
 use dvi_core::methods::{Method, PreservedForm};
 use dvi_core::prelude::*;
+use dvi_core::scalar::Lanes;
 use dvi_core::state::Statistics;
 use dvi_core::{Space, State};
 use dvi_tests::larger;
@@ -46,7 +47,11 @@ fn defect<S: RegularLagrangian<Dual64>, F: FrequencyIn<Dual64> + Copy, const NOD
     start: &S::State<f64>,
     method: Galerkin<NODES, F>,
 ) -> Result<f64, Box<dyn core::error::Error>> {
-    let [first, last] = tangents(system, start, method, |memory| memory.p())?;
+    Ok(change_of_form(tangents(system, start, method, |memory| memory.p())?))
+}
+
+/// The same of variations at the start and after some steps.
+fn change_of_form([first, last]: [Vec<Vec<f64>>; 2]) -> f64 {
     let two_form = |a: &[f64], b: &[f64]| {
         let n = a.len() / 2;
         (0..n).map(|i| a[i] * b[n + i] - a[n + i] * b[i]).sum::<f64>()
@@ -57,7 +62,7 @@ fn defect<S: RegularLagrangian<Dual64>, F: FrequencyIn<Dual64> + Copy, const NOD
             largest = larger(largest, (two_form(&last[i], &last[j]) - two_form(&first[i], &first[j])).abs());
         }
     }
-    Ok(largest)
+    largest
 }
 
 fn check_symplectic<S: RegularLagrangian<Dual64>>((system, start): (S, S::State<f64>)) -> Outcome {
@@ -66,6 +71,8 @@ fn check_symplectic<S: RegularLagrangian<Dual64>>((system, start): (S, S::State<
             defect(&system, &start, Galerkin { solver, ..Galerkin::<3>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<4>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<5>::new() })?,
+            defect(&system, &start, Galerkin { solver, ..Galerkin::<7>::new() })?,
+            defect(&system, &start, Galerkin { solver, ..Galerkin::<9>::new() })?,
             defect(&system, &start, Galerkin::<4>::new().phase_fitted(Constant(1.3)))?,
         ];
         assert!(
@@ -86,6 +93,38 @@ fn the_canonical_two_form_is_preserved() -> Outcome {
     check_symplectic(double_pendulum())?;
     check_symplectic(spherical())?;
     check_symplectic(magnetic())
+}
+
+/// By the fixed point too, one by one and in lanes, packs of dual numbers.
+#[test]
+fn lanes_preserve_the_two_form() -> Outcome {
+    fn check<S>(system: &S, start: &S::State<f64>, bound: f64) -> Outcome
+    where
+        S: RegularLagrangian<Dual64>
+            + RegularLagrangian<Lanes<2, Dual64>>
+            + RegularLagrangian<Lanes<4, Dual64>>
+            + RegularLagrangian<Lanes<8, Dual64>>,
+    {
+        macro_rules! check {
+            ($($nodes:literal)*) => {$(
+                for solver in [Solver::Automatic, Solver::FixedPoint] {
+                    let method = Galerkin { solver, ..Galerkin::<$nodes>::new() };
+                    let alone = tangents(system, start, method, |memory| memory.p())?;
+                    let in_lanes = tangents(system, start, method.in_lanes(), |memory| memory.p())?;
+                    assert_eq!(alone, in_lanes, "{} nodes, {solver:?}", $nodes);
+                    let found = change_of_form(in_lanes);
+                    assert!(found < bound, "{} nodes, {solver:?}: {found:e}", $nodes);
+                }
+            )*};
+        }
+        check!(4 5 6 7 8 9);
+        Ok(())
+    }
+    check(&KEPLER, &pericentre(0.3), 1e-13)?;
+    let (system, start) = driven();
+    check(&system, &start, 1e-14)?;
+    let (system, start) = chain();
+    check(&system, &start, 1e-13)
 }
 
 #[test]
@@ -128,7 +167,13 @@ fn a_step_back_undoes_a_step() -> Outcome {
     check_reversal(driven(), Galerkin::<4>::new().phase_fitted(Constant(1.3)))?;
     check_reversal(double_pendulum(), Galerkin::<3>::new())?;
     check_reversal(spherical(), Galerkin::<4>::new())?;
-    check_reversal(growing(), Galerkin::<5>::new())
+    check_reversal(growing(), Galerkin::<5>::new())?;
+    check_reversal((KEPLER, pericentre(0.3)), Galerkin::<6>::new())?;
+    check_reversal((KEPLER, pericentre(0.3)), Galerkin::<9>::new())?;
+    check_reversal((KEPLER, pericentre(0.3)), Galerkin::<9>::new().phase_fitted(Constant(1.3)))?;
+    check_reversal(driven(), Galerkin::<8>::new())?;
+    check_reversal(chain(), Galerkin::<9>::new())?;
+    check_reversal(double_pendulum(), Galerkin::<9>::new())
 }
 
 #[test]
@@ -150,12 +195,24 @@ fn momentum_maps_are_preserved() -> Outcome {
     check((KEPLER, pericentre(0.3)), Galerkin::<4>::new().phase_fitted(Constant(1.1)))?;
     check((KEPLER, pericentre(0.3)), Galerkin::<5>::new().phase_fitted(Radial(Reading::Averaged)))?;
     check(spherical(), Galerkin::<3>::new())?;
-    check(spherical(), Galerkin::<4>::new())
+    check(spherical(), Galerkin::<4>::new())?;
+    check((KEPLER, pericentre(0.3)), Galerkin::<6>::new())?;
+    check((KEPLER, pericentre(0.3)), Galerkin::<9>::new())?;
+    check((KEPLER, pericentre(0.3)), Galerkin::<9>::new().phase_fitted(Constant(1.1)))?;
+    check(spherical(), Galerkin::<9>::new())
 }
 
 /// Steps of these lengths there, and of their negatives back.
-fn check_variable_steps<S: RegularLagrangian>(system: &S, [q, v]: [&[f64]; 2]) -> Outcome {
-    let method = Galerkin::<4>::new();
+fn check_variable_steps<S: RegularLagrangian>(system: &S, point: [&[f64]; 2]) -> Outcome {
+    check_variable(system, Galerkin::<4>::new(), point)?;
+    check_variable(system, Galerkin::<9>::new(), point)
+}
+
+fn check_variable<S: RegularLagrangian, const NODES: usize>(
+    system: &S,
+    method: Galerkin<NODES>,
+    [q, v]: [&[f64]; 2],
+) -> Outcome {
     let mut point = Space::vector(system.space());
     point.copy_from_slice(q);
     let mut memory = method.begin(system, &point, v, 0.0, 0.1)?;

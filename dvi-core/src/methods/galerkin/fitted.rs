@@ -1,4 +1,4 @@
-//! L = ½ v·M v − V(q, t): the fixed point that needs forces only.
+//! L = ½ v·M v − V(q, t) with a frequency: the fixed point that needs forces only.
 //!
 //! rᵣ = h Gᵣ + M Σₖ Kᵣₖ xₖ/h      Gᵣ = wᵣ F(qʳ) for displacements,   G_{s−1} = p0/h + Σⱼ wⱼ bⱼ F(qʲ) for Δ
 //! x ← x − A⁻¹(h M⁻¹ r),   A = Σⱼ wⱼ (ψ̂ⱼ ψⱼᵀ − z φ̂ⱼ φⱼᵀ)
@@ -6,10 +6,11 @@
 //! A contains the oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0 at
 //! the end and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
 
-use super::Step;
+use super::interior::InteriorNodes;
 use super::memory::{Path, Work};
+use super::steps::Step;
+use crate::discrete::Rule;
 use crate::discrete::frequency::FrequencyIn;
-use crate::discrete::quadrature::Rule;
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, iterate};
@@ -18,13 +19,23 @@ use crate::{NondegenerateLagrangian, Real, Scalar, Vector};
 
 /// The unknowns.
 #[inline(always)]
-pub(super) fn fixed_point<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+pub(super) fn fixed_point<
+    const NODES: usize,
+    S: NondegenerateLagrangian<T>,
+    F: FrequencyIn<T>,
+    T: Real,
+    E,
+    I,
+>(
+    step: &Step<'_, NODES, S, F, T, E>,
+    path: &mut Path<NODES, S, T, I>,
     q: &[T],
     budget: usize,
     statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
+) -> Result<(), StepFailure>
+where
+    I: InteriorNodes<NODES, S, T>,
+{
     path.guess(step, q);
     let convergence = Convergence::fixed_point(step.method.stopping, path.scale(), q, budget);
     iterate(convergence, statistics, |statistics| {
@@ -36,11 +47,14 @@ pub(super) fn fixed_point<const NODES: usize, S: NondegenerateLagrangian<T>, F: 
 
 /// One iteration; returns the size of its correction.
 #[inline(always)]
-fn improve<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+fn improve<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
+    step: &Step<'_, NODES, S, F, T, E>,
+    path: &mut Path<NODES, S, T, I>,
     statistics: &mut Statistics,
-) -> T {
+) -> T
+where
+    I: InteriorNodes<NODES, S, T>,
+{
     let last = NODES - 1;
     let (weights, zero) = (path.coefficients.weights, T::lift(0.0));
     for i in 0..path.phase.p.len() {
@@ -81,12 +95,14 @@ fn improve<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>,
 
 /// Sets `work.gradient` to the force at interior node `j`.
 #[inline(always)]
-fn node_force<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+fn node_force<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
     j: usize,
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+    step: &Step<'_, NODES, S, F, T, E>,
+    path: &mut Path<NODES, S, T, I>,
     statistics: &mut Statistics,
-) {
+) where
+    I: InteriorNodes<NODES, S, T>,
+{
     let Work { unknowns, point, gradient, .. } = &mut path.work;
     let (row, last) = (&path.coefficients.point[j], NODES - 1);
     for i in 0..point.len() {
@@ -98,12 +114,15 @@ fn node_force<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<
 
 /// Moves to q1 = q0 + Δ and evaluates p1.
 #[inline(always)]
-pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
-    step: &Step<'_, NODES, S, F, T>,
-    path: &mut Path<NODES, S, T>,
+pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
+    step: &Step<'_, NODES, S, F, T, E>,
+    path: &mut Path<NODES, S, T, I>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
+) -> Result<(), StepFailure>
+where
+    I: InteriorNodes<NODES, S, T>,
+{
     path.read_frequency(step, statistics)?;
     let last = NODES - 1;
     let Work { unknowns, next, next_force, .. } = &mut path.work;
@@ -127,7 +146,7 @@ pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequ
     for (sum, &f) in sum.iter_mut().zip(next_force.iter()) {
         *sum += step.h * weights[last] * f;
     }
-    if let (false, Some(mass)) = (F::UNFITTED, path.inertial.constant()) {
+    if let Some(mass) = path.inertial.constant() {
         for i in 0..velocity.len() {
             let terms = path.coefficients.kinetic[0].iter().zip(unknowns.iter());
             velocity[i] = terms.fold(T::lift(0.0), |sum, (&k, x)| sum + k * x[i]);

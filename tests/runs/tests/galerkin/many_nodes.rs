@@ -1,0 +1,208 @@
+//! Six to nine nodes, of orders 10 to 16, and ∂L/∂q at the interior nodes in lanes.
+
+use core::f64::consts::TAU;
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_core::state::Statistics;
+use dvi_examples::models::{Bodies, BodiesState, Orbit, outer_solar_system};
+use dvi_tests::larger;
+use dvi_tests::zoo::regular::*;
+
+use crate::galerkin::systems::{KEPLER, Outcome, apart, chain, double_pendulum, driven, pericentre, run};
+
+type Failed = Box<dyn core::error::Error>;
+
+/// Compensated, as long steps ask for.
+fn compensated<const S: usize>() -> Galerkin<S> {
+    Galerkin { summation: Summation::Compensated, ..Galerkin::new() }
+}
+
+/// The phase error of a step on the oscillator, from that of many: the angle from the exact motion.
+fn phase_error<const S: usize>(u: f64) -> Result<f64, Failed> {
+    let steps = 400;
+    let (system, start) = (Spring { stiffness: 1.0 }, SpringState { x: 1.0, dot_x: 0.0 });
+    let mut run = Integrator::new(&system, compensated::<S>(), u, start)?;
+    run.take_steps(steps)?;
+    let SpringState { x, dot_x } = run.state();
+    let (sin, cos) = (u * steps as f64).sin_cos();
+    Ok((x * sin + dot_x * cos).atan2(x * cos - dot_x * sin).abs() / steps as f64)
+}
+
+/// Steps so long that rounding lets the errors be seen: the phase error of a step is of order h²ˢ⁻¹.
+#[test]
+fn orders_are_ten_to_sixteen_on_the_oscillator() -> Outcome {
+    fn check<const S: usize>(tenths: core::ops::RangeInclusive<u32>) -> Outcome {
+        let mut errors = Vec::new();
+        for u in tenths.map(|k| 0.1 * f64::from(k)) {
+            errors.push((u, phase_error::<S>(u)?));
+        }
+        let found = convergence_order(&errors).ok_or("no slope")?;
+        assert!((found - (2 * S - 1) as f64).abs() < 0.1, "{S} nodes: {found}, {errors:?}");
+        assert_eq!(Galerkin::<S>::new().order(), 2 * S - 2);
+        Ok(())
+    }
+    check::<6>(8..=26)?;
+    check::<7>(11..=26)?;
+    check::<8>(15..=26)?;
+    check::<9>(20..=28)
+}
+
+/// Most of one period of Kepler's orbit in 24 steps, against its closed form.
+#[test]
+fn each_node_gains_digits() -> Outcome {
+    fn error<const S: usize>() -> Result<f64, Failed> {
+        let found = run(&KEPLER, compensated::<S>(), pericentre(0.3), 6.0, 24)?;
+        Ok(apart(&found, &Orbit { e: 0.3 }.position(6.0)))
+    }
+    let errors = [
+        error::<3>()?,
+        error::<4>()?,
+        error::<5>()?,
+        error::<6>()?,
+        error::<7>()?,
+        error::<8>()?,
+        error::<9>()?,
+    ];
+    for (errors, bound) in errors.windows(2).zip([0.1, 0.1, 0.1, 0.1, 0.1, 1.0]) {
+        assert!(errors[1] < bound * errors[0], "{errors:?}");
+    }
+    assert!(errors[6] < 2e-14, "{errors:?}");
+    Ok(())
+}
+
+/// Against Gauss collocation of order sixteen, of a system whose steps are Newton's.
+#[test]
+fn nine_nodes_step_any_regular_system() -> Outcome {
+    let (system, start) = double_pendulum();
+    let gauss = run(&system, Gauss::<8>::new(), start, 1.0, 40)?;
+    let alone = run(&system, compensated::<9>(), start, 1.0, 30)?;
+    let in_lanes = run(&system, compensated::<9>().in_lanes(), start, 1.0, 30)?;
+    assert!(apart(&gauss, &alone) < 1e-12, "{gauss:?} {alone:?}");
+    assert_eq!(alone, in_lanes);
+    Ok(())
+}
+
+/// All that a run shows, in bits, after some steps.
+fn bits<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    start: &S::State<f64>,
+    h: f64,
+) -> Result<(Vec<u64>, Statistics), Failed> {
+    let mut run = Integrator::new(system, method, h, start.clone())?;
+    run.take_steps(50)?;
+    for _ in 0..20 {
+        run.advance()?;
+    }
+    let values: Vec<u64> = system.values(&run.state())?.map(f64::to_bits).collect();
+    Ok((values, run.statistics()))
+}
+
+#[test]
+fn lanes_give_the_same_numbers() -> Outcome {
+    macro_rules! check {
+        ($system:expr, $start:expr, $h:expr; $($nodes:literal)*) => {{
+            let (system, start, h) = ($system, $start, $h);
+            $(
+                for summation in [Summation::Plain, Summation::Compensated] {
+                    for solver in [Solver::Automatic, Solver::Newton] {
+                        let method = Galerkin { summation, solver, ..Galerkin::<$nodes>::new() };
+                        let one_by_one = bits(&system, method, &start, h)?;
+                        assert_eq!(one_by_one, bits(&system, method.in_lanes(), &start, h)?, "{method:?}");
+                        assert_ne!(one_by_one, bits(&system, method, &start, 0.9 * h)?);
+                    }
+                }
+            )*
+        }};
+        ($system:expr, $start:expr, $h:expr) => { check!($system, $start, $h; 4 5 6 7 8 9) };
+    }
+    check!(KEPLER, pericentre(0.3), 0.15);
+    let (system, start) = driven();
+    check!(system, start, 0.2);
+    // The masses are coupled.
+    let (system, start) = chain();
+    check!(system, start, 0.2);
+    let (system, start) = outer_solar_system();
+    check!(system, start, 150.0);
+    Ok(())
+}
+
+/// Both find the positions of a step where L_d is stationary, one by its derivatives, and the other by the matrices of the pair.
+#[test]
+fn newton_and_the_fixed_point_find_the_same_steps() -> Outcome {
+    fn check<const S: usize>() -> Outcome {
+        let by = |solver| run(&KEPLER, Galerkin { solver, ..compensated::<S>() }, pericentre(0.3), 6.0, 40);
+        let (newton, fixed_point) = (by(Solver::Newton)?, by(Solver::FixedPoint)?);
+        assert!(apart(&newton, &fixed_point) < 4e-14, "{S} nodes: {newton:?} {fixed_point:?}");
+        let (system, start) = chain();
+        let by = |solver| run(&system, Galerkin { solver, ..compensated::<S>() }, start.clone(), 6.0, 40);
+        let (newton, fixed_point) = (by(Solver::Newton)?, by(Solver::FixedPoint)?);
+        assert!(apart(&newton, &fixed_point) < 4e-14, "{S} nodes: {newton:?} {fixed_point:?}");
+        Ok(())
+    }
+    check::<3>()?;
+    check::<4>()?;
+    check::<5>()?;
+    check::<6>()?;
+    check::<7>()?;
+    check::<8>()?;
+    check::<9>()
+}
+
+#[test]
+fn a_step_needs_each_force_once_an_iteration_and_the_last_one_once() -> Outcome {
+    let mut nine = Integrator::new(&KEPLER, compensated::<9>().in_lanes(), TAU / 40.0, pericentre(0.3))?;
+    let mut gauss = Integrator::new(&KEPLER, Gauss::<8>::new().in_lanes(), TAU / 40.0, pericentre(0.3))?;
+    nine.take_steps(400)?;
+    gauss.take_steps(400)?;
+    let [nine, gauss] = [nine.statistics(), gauss.statistics()];
+    assert_eq!(nine.gradients, 7 * nine.iterations + nine.steps);
+    // The method of the same order has eight stages.
+    assert!(nine.iterations <= gauss.iterations && nine.gradients < gauss.gradients, "{nine:?} {gauss:?}");
+    assert_eq!((nine.linearizations, nine.factorisations), (0, 0));
+    Ok(())
+}
+
+/// The energy error of nine nodes is that of rounding, and has no slope that rounding does not explain.
+#[test]
+fn nine_nodes_keep_the_energy_to_rounding() -> Outcome {
+    let mut run = Integrator::new(&KEPLER, compensated::<9>().in_lanes(), 0.2, pericentre(0.3))?;
+    let (before, count) = (run.energy(), 600);
+    let (mut worst, mut moments) = (0.0, [0.0; 2]);
+    for k in 0..count {
+        run.take_steps(100)?;
+        let error = run.energy() - before;
+        worst = larger(worst, error.abs());
+        // The slope over the run, of error against time from −½ to ½.
+        let at = (f64::from(k) + 0.5) / f64::from(count) - 0.5;
+        moments = [moments[0] + at * error, moments[1] + at * at];
+    }
+    let drift = (moments[0] / moments[1]).abs();
+    assert!(worst < 1e-14 && drift < 1e-14, "{worst:e}, {drift:e}");
+    Ok(())
+}
+
+/// Bodies at rest, side by side.
+fn row<const N: usize>() -> (Bodies<N>, BodiesState<N>) {
+    let row = |scale: f64| core::array::from_fn(|j| scale * (j as f64 + 0.1 * ((j * j) as f64).sin()));
+    let (x, y, z, rest) = (row(1.0), row(0.2), row(-0.1), [0.0; N]);
+    (Bodies { g: 1e-3, mass: [1.0; N] }, BodiesState { x, y, z, dot_x: rest, dot_y: rest, dot_z: rest })
+}
+
+#[test]
+fn a_matrix_that_is_too_large_is_refused() -> Outcome {
+    let (system, start) = row::<32>();
+    for solver in [Solver::Automatic, Solver::Newton, Solver::NewtonKrylov] {
+        let method = Galerkin { solver, ..Galerkin::<9>::new() };
+        let found = Integrator::new(&system, method, 0.1, start).err();
+        let refused = matches!(found, Some(StartError::Unsupported { option: "Newton's method", .. }));
+        assert!(refused, "{solver:?}: {found:?}");
+    }
+    let method = Galerkin { solver: Solver::FixedPoint, ..Galerkin::<9>::new() }.in_lanes();
+    Integrator::new(&system, method, 0.1, start)?.take_steps(3)?;
+    // Of 36 coordinates it has a place.
+    let (system, start) = row::<12>();
+    let method = Galerkin { solver: Solver::Newton, ..Galerkin::<9>::new() };
+    Integrator::new(&system, method, 0.1, start)?.take_steps(1)?;
+    Ok(())
+}
