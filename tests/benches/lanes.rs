@@ -1,14 +1,15 @@
-//! Runs taken together in lanes beside the same runs alone, and the stages of Gauss collocation in lanes beside the stages one by
-//! one.
+//! Runs taken together in lanes beside the same runs alone, and the stages of Gauss collocation and interior nodes of `Galerkin` in lanes
+//! beside the same one by one.
 //!
-//! `cargo bench -p dvi-benches --bench lanes`. Times are those of 512 steps of eight runs, and of 64 steps of Gauss collocation. Ratios of
-//! neighbouring rows are what counts.
+//! `cargo bench -p dvi-benches --bench lanes`. Times are those of 512 steps of eight runs, and of 64 steps of Gauss collocation or
+//! `Galerkin`. Ratios of neighbouring rows are what counts.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dvi_core::Lagrangian;
 use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
 use dvi_core::run::Together;
+use dvi_examples::models::outer_solar_system;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 
@@ -60,21 +61,42 @@ fn runs_together(criterion: &mut Criterion) {
     beside(criterion, "Kepler, Verlet", &Kepler { mu: 1.0 }, &Variational::trapezoid(), 0.01, planet);
 }
 
-fn gauss<S: Lagrangian, M: Method<S, f64>>(
+fn long_steps<S: Lagrangian, M: Method<S, f64>>(
     criterion: &mut Criterion,
     name: &str,
-    method: M,
+    (method, h): (M, f64),
     (system, start): (S, S::State<f64>),
 ) {
-    let Ok(mut run) = Integrator::new(&system, method, 0.5, start) else { panic!("it starts") };
+    let Ok(mut run) = Integrator::new(&system, method, h, start) else { panic!("it starts") };
     criterion.bench_function(name, |bencher| bencher.iter(|| assert!(run.take_steps(64).is_ok())));
 }
 
 fn stages(criterion: &mut Criterion) {
-    gauss(criterion, "vortices, Gauss, 4 stages/one by one", Gauss::<4>::new(), quasi_periodic());
-    gauss(criterion, "vortices, Gauss, 4 stages/in lanes", Gauss::<4>::new().in_lanes(), quasi_periodic());
-    gauss(criterion, "vortices, Gauss, 8 stages/one by one", Gauss::<8>::new(), quasi_periodic());
-    gauss(criterion, "vortices, Gauss, 8 stages/in lanes", Gauss::<8>::new().in_lanes(), quasi_periodic());
+    macro_rules! gauss {
+        ($($stages:literal)*) => {$(
+            let name = |how: &str| format!("vortices, Gauss, {} stages/{how}", $stages);
+            let method = Gauss::<$stages>::new();
+            long_steps(criterion, &name("one by one"), (method, 0.5), quasi_periodic());
+            long_steps(criterion, &name("in lanes"), (method.in_lanes(), 0.5), quasi_periodic());
+        )*};
+    }
+    macro_rules! galerkin {
+        ($($nodes:literal)*) => {$(
+            let name = |how: &str| format!("outer solar system, Galerkin, {} nodes/{how}", $nodes);
+            let method = Galerkin { summation: Summation::Compensated, ..Galerkin::<$nodes>::new() };
+            long_steps(criterion, &name("one by one"), (method, 200.0), outer_solar_system());
+            long_steps(criterion, &name("in lanes"), (method.in_lanes(), 200.0), outer_solar_system());
+        )*};
+    }
+    gauss!(4 8);
+    galerkin!(4 5 6 7 8 9);
+    let gauss = Gauss::<8>::new().in_lanes();
+    long_steps(
+        criterion,
+        "outer solar system, Gauss, 8 stages/in lanes",
+        (gauss, 200.0),
+        outer_solar_system(),
+    );
 }
 
 criterion_group!(benches, runs_together, stages);

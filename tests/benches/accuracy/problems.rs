@@ -51,6 +51,19 @@ macro_rules! gauss {
     }};
 }
 
+/// Interior displacements with 5 and 9 nodes, up to these numbers of steps.
+macro_rules! galerkin {
+    ($on:ident, $eight:expr, $sixteen:expr) => {{
+        let eight = Galerkin { summation: Summation::Compensated, ..Galerkin::<5>::new() };
+        let sixteen = Galerkin { summation: Summation::Compensated, ..Galerkin::<9>::new() };
+        [
+            $on.method("Galerkin 8, in lanes", eight.in_lanes(), fine($eight)),
+            $on.method("Galerkin 16, one by one", sixteen, fine($sixteen)),
+            $on.method("Galerkin 16, in lanes", sixteen.in_lanes(), fine($sixteen)),
+        ]
+    }};
+}
+
 /// Verlet's steps and compositions of them, up to these numbers of steps.
 macro_rules! separable {
     ($on:ident, $two:expr, $composed:expr) => {{
@@ -98,6 +111,7 @@ pub(crate) fn kepler() -> Problem {
     let on = Setting { begin, end, scale };
     let mut methods = separable!(on, 8e6, 5e4);
     methods.extend(gauss!(on, 1e6, 1e5, 5e4, 1e4));
+    methods.extend(galerkin!(on, 5e4, 1e4));
     let start = [x, y, dot_x, dot_y];
     methods.push(rk4(fields::Kepler, start, end, scale, coarse(2e6)));
     methods.push(kahan_li(fields::Kepler, [[x, y], [dot_x, dot_y]], end, scale, fine(5e4)));
@@ -116,6 +130,7 @@ pub(crate) fn planets() -> Problem {
     let on = Setting { begin, end, scale };
     let mut methods = separable!(on, 4e6, 3e4);
     methods.extend(gauss!(on, 4e5, 4e4, 2e4, 5e3));
+    methods.extend(galerkin!(on, 2e4, 5e3));
     let flat = |x: [f64; 6], y: [f64; 6], z: [f64; 6]| -> [f64; 18] {
         std::array::from_fn(|i| [x, y, z][i / 6][i % 6])
     };
