@@ -182,8 +182,9 @@ impl<S: fmt::Debug, const D: usize> fmt::Debug for FastSum<'_, S, D> {
 impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
     /// Sums the pairs of `system` with forces of a relative error of about `tolerance`, ‖∇H̃ − ∇H‖/‖∇H‖ over all bodies. Tests find it
     /// below the tolerance for ln(r² + c²) with several c, with bodies in a square, near a line and in clusters, and for 1/√(r² + c²) in
-    /// space and two kernels more. It is larger where the forces on most bodies cancel, and where rounding is not far: at 1e-10 it was
-    /// found up to ten times the tolerance. For other systems, ask [`measured_error`](Self::measured_error).
+    /// space, r² and two kernels more. It is larger where the forces on most bodies cancel, and, by up to ten times, near rounding and where
+    /// bodies fill a thin strip. A kernel with a pole at a distance at which bodies are apart, or one that oscillates faster than
+    /// cubes are wide, gets wrong forces without an error. For other systems than these, ask [`measured_error`](Self::measured_error).
     ///
     /// # Errors
     /// [`ToleranceError`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`IndexError`] as of
