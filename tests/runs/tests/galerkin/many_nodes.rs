@@ -114,16 +114,16 @@ fn lanes_give_the_same_numbers() -> Outcome {
                 }
             )*
         }};
-        ($system:expr, $start:expr, $h:expr) => { check!($system, $start, $h; 4 5 6 7 8 9) };
     }
-    check!(KEPLER, pericentre(0.3), 0.15);
+    // Two lanes, four and eight, full and not.
+    check!(KEPLER, pericentre(0.3), 0.15; 4 5 6 7 9);
     let (system, start) = driven();
-    check!(system, start, 0.2);
+    check!(system, start, 0.2; 8);
     // The masses are coupled.
     let (system, start) = chain();
-    check!(system, start, 0.2);
+    check!(system, start, 0.2; 6);
     let (system, start) = outer_solar_system();
-    check!(system, start, 150.0);
+    check!(system, start, 150.0; 9);
     Ok(())
 }
 
@@ -141,11 +141,7 @@ fn newton_and_the_fixed_point_find_the_same_steps() -> Outcome {
         Ok(())
     }
     check::<3>()?;
-    check::<4>()?;
-    check::<5>()?;
     check::<6>()?;
-    check::<7>()?;
-    check::<8>()?;
     check::<9>()
 }
 

@@ -71,7 +71,6 @@ fn check_symplectic<S: RegularLagrangian<Dual64>>((system, start): (S, S::State<
             defect(&system, &start, Galerkin { solver, ..Galerkin::<3>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<4>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<5>::new() })?,
-            defect(&system, &start, Galerkin { solver, ..Galerkin::<7>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<9>::new() })?,
             defect(&system, &start, Galerkin::<4>::new().phase_fitted(Constant(1.3)))?,
         ];
@@ -117,12 +116,10 @@ fn lanes_preserve_the_two_form() -> Outcome {
                 }
             )*};
         }
-        check!(4 5 6 7 8 9);
+        check!(4 6 9);
         Ok(())
     }
     check(&KEPLER, &pericentre(0.3), 1e-13)?;
-    let (system, start) = driven();
-    check(&system, &start, 1e-14)?;
     let (system, start) = chain();
     check(&system, &start, 1e-13)
 }
