@@ -71,7 +71,6 @@ fn check_symplectic<S: RegularLagrangian<Dual64>>((system, start): (S, S::State<
             defect(&system, &start, Galerkin { solver, ..Galerkin::<3>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<4>::new() })?,
             defect(&system, &start, Galerkin { solver, ..Galerkin::<5>::new() })?,
-            defect(&system, &start, Galerkin { solver, ..Galerkin::<9>::new() })?,
             defect(&system, &start, Galerkin::<4>::new().phase_fitted(Constant(1.3)))?,
         ];
         assert!(
@@ -90,6 +89,10 @@ fn the_canonical_two_form_is_preserved() -> Outcome {
     check_symplectic(driven())?;
     check_symplectic(chain())?;
     check_symplectic(double_pendulum())?;
+    // Most nodes, by the matrix of all unknowns.
+    let (system, start) = double_pendulum();
+    let nine = defect(&system, &start, Galerkin::<9>::new())?;
+    assert!(nine < 1e-11, "{nine:e}");
     check_symplectic(spherical())?;
     check_symplectic(magnetic())
 }
