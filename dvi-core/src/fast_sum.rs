@@ -3,7 +3,7 @@
 //! The energy of n bodies that act on each other has n²/2 terms. [`FastSum`] is a system in the place of one with such a sum: near
 //! bodies are summed one by one, and what groups of bodies do to others far away is expanded in polynomials, so that the work
 //! grows like n where bodies fill a region, a curve or a surface with some density. It grows faster where there are clusters of less than
-//! a millionth of the extent of all bodies, which are not divided further.
+//! a ten-thousandth of the extent of all bodies, which are divided into few cubes or none: one body far away from all others makes it so.
 //!
 //! ```
 //! use dvi_core::fast_sum::FastSum;
