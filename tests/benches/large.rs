@@ -4,6 +4,8 @@
 //! `cargo bench -p dvi-benches --bench large`. Times are those of one step by Newton and of a hundred by Verlet; throughput
 //! counts masses times steps.
 
+mod fput_by_hand;
+
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dvi_core::prelude::*;
 use dvi_core::system::Regular;
@@ -91,11 +93,37 @@ fn fixed_point(criterion: &mut Criterion) {
         let toda = TodaState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
         beside_its_forces(criterion, "Toda", n, &Toda { n }, toda);
         let fput = FputState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
-        beside_its_forces(criterion, "FPUT", n, &Fput { n, alpha: ALPHA }, fput);
+        let evaluations = beside_its_forces(criterion, "FPUT", n, &Fput { n, alpha: ALPHA }, fput);
+        fput_by_hand(criterion, n, evaluations);
     }
 }
 
-fn beside_its_forces<S>(criterion: &mut Criterion, name: &str, n: usize, system: &S, start: S::State<f64>)
+/// The same by hand: what an iteration costs beside the force where a force is two additions and two products.
+fn fput_by_hand(criterion: &mut Criterion, n: usize, evaluations: u64) {
+    let (q, [mut force, mut expected]) = (wave(n, 0.0), [vec![0.0; n], vec![0.0; n]]);
+    Fput { n, alpha: ALPHA }.force(&q, &[], 0.0, &mut expected);
+    fput_by_hand::force(ALPHA, &q, &mut force);
+    assert!(force.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-15), "the forces differ");
+    let mut group = criterion.benchmark_group(format!("FPUT, midpoint, fixed point, h = {H}"));
+    group.throughput(Throughput::Elements(n as u64));
+    group.bench_function(BenchmarkId::new(format!("{evaluations} forces by hand"), n), |bencher| {
+        bencher.iter(|| (0..evaluations).for_each(|_| fput_by_hand::force(ALPHA, black_box(&q), &mut force)));
+    });
+    let mut midpoint = fput_by_hand::Midpoint::new(ALPHA, H, &q, &wave(n, 1.0));
+    group.bench_function(BenchmarkId::new(format!("{evaluations} iterations by hand"), n), |bencher| {
+        bencher.iter(|| (0..evaluations).map(|_| midpoint.improve()).fold(0.0, f64::max));
+    });
+    group.finish();
+}
+
+/// Returns how many forces a step takes.
+fn beside_its_forces<S>(
+    criterion: &mut Criterion,
+    name: &str,
+    n: usize,
+    system: &S,
+    start: S::State<f64>,
+) -> u64
 where
     S: RegularLagrangian + NondegenerateLagrangian + System<Kind = Regular>,
 {
@@ -115,6 +143,7 @@ where
         bencher.iter(|| (0..evaluations).for_each(|_| system.force(black_box(&q), &[], 0.0, &mut force)));
     });
     group.finish();
+    evaluations
 }
 
 /// Vortices on a disc, blurred.

@@ -3,9 +3,8 @@
 //! `cargo bench -p dvi-benches --bench steps`; the times of a pair are to be compared with each
 //! other, in one run.
 
-mod kernels;
-
 use criterion::{Criterion, criterion_group, criterion_main};
+use dvi_kernels as kernels;
 
 /// Steps per measured call, so that the call itself does not count.
 const STEPS: u64 = 1000;

@@ -7,17 +7,29 @@ use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
 
+/// Sweeps over all pairs. About ten are needed, and fewer for a low rank.
+const SWEEPS: usize = 60;
+
 /// The singular vectors of values above a bound, and these values.
 pub(super) fn singular(columns: &DMatrix<f64>, least: f64) -> (DMatrix<f64>, Vec<f64>) {
+    singular_within(SWEEPS, columns, least).unwrap_or_else(|| {
+        // Any orthonormal vectors are right that span all; an expansion in them is longer than it need be.
+        let size = columns.nrows();
+        (DMatrix::identity(size, size), alloc::vec![columns.norm(); size])
+    })
+}
+
+/// The same, if so many sweeps make columns orthogonal.
+fn singular_within(sweeps: usize, columns: &DMatrix<f64>, least: f64) -> Option<(DMatrix<f64>, Vec<f64>)> {
     let mut rotated = as_few(columns);
-    rotate(&mut rotated, least);
+    rotate(&mut rotated, sweeps, least)?;
     let norms: Vec<f64> = rotated.column_iter().map(|column| column.norm()).collect();
     let mut kept: Vec<usize> = (0..norms.len()).filter(|place| norms[*place] > least).collect();
     kept.sort_by(|one, other| norms[*other].total_cmp(&norms[*one]));
     let values: Vec<f64> = kept.iter().map(|place| norms[*place]).collect();
     let mut vectors = rotated.select_columns(&kept);
     vectors.column_iter_mut().zip(&values).for_each(|(mut vector, value)| vector /= *value);
-    (vectors, values)
+    Some((vectors, values))
 }
 
 /// No more columns than rows, with the same left singular vectors and values: A = P Rᵀ Qᵀ, of which P Rᵀ is returned. Its columns get
@@ -29,26 +41,20 @@ fn as_few(columns: &DMatrix<f64>) -> DMatrix<f64> {
     few
 }
 
-/// Sweeps over all pairs. About ten are needed, and fewer for a low rank.
-const SWEEPS: usize = 60;
-
-/// Makes columns orthogonal to each other, but for pairs that are too short to matter.
-fn rotate(columns: &mut DMatrix<f64>, least: f64) {
+/// Makes columns orthogonal to each other, but for pairs that are too short to matter; none if some are not after so many sweeps.
+fn rotate(columns: &mut DMatrix<f64>, sweeps: usize, least: f64) -> Option<()> {
     let (size, count) = columns.shape();
     let short = least / count as f64;
-    let mut is_done = false;
-    for _ in 0..SWEEPS {
-        if is_done {
-            return;
-        }
-        is_done = true;
+    (0..sweeps).find_map(|_| {
+        let mut is_done = true;
         for second in 1..count {
             let (before, after) = columns.as_mut_slice().split_at_mut(second * size);
             for first in before.chunks_exact_mut(size) {
                 is_done &= !rotate_pair(first, &mut after[..size], short);
             }
         }
-    }
+        is_done.then_some(())
+    })
 }
 
 /// Rotates two columns in their plane until they are orthogonal, and returns whether they were not.
@@ -78,7 +84,7 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
 mod tests {
     use nalgebra::DMatrix;
 
-    use super::singular;
+    use super::{singular, singular_within};
 
     /// Matrices of rank 3 with singular values far apart.
     #[test]
@@ -104,5 +110,14 @@ mod tests {
                 assert!(lost < 3.0 * least, "{rows}×{columns}: {lost:e}");
             }
         }
+    }
+
+    /// What rotations leave unfinished is not taken for singular vectors.
+    #[test]
+    fn all_directions_are_kept_where_rotations_do_not_end() {
+        let matrix = DMatrix::from_fn(4, 6, |i, j| ((i * i + 3 * j) as f64).sin());
+        assert!(singular_within(1, &matrix, 1e-9).is_none());
+        let (vectors, values) = singular(&DMatrix::from_element(4, 6, f64::NAN), 1e-9);
+        assert_eq!((vectors, values.len()), (DMatrix::identity(4, 4), 4));
     }
 }

@@ -157,7 +157,9 @@ fn range<const D: usize>(
     for t in offsets {
         let Some(matrix) = matrix(t) else { continue };
         let matrix = matrix / scale;
-        largest = larger(largest, (matrix.norm_squared() - matrix[(0, 0)].powi(2)).max(0.0).sqrt());
+        let mut varying = matrix.clone();
+        varying[(0, 0)] = 0.0;
+        largest = larger(largest, varying.norm());
         // As many times as it has reflections.
         let reflections = t.iter().filter(|steps| **steps != 0).fold(1.0, |count, _| 2.0 * count);
         let vectors = DMatrix::from_fn(size, SAMPLES.min(size), |_, _| f64::sqrt(reflections) * entry());

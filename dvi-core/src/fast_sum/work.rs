@@ -11,7 +11,8 @@ use super::matrix::padded;
 use super::moments::{Moments, Sources};
 use super::neighbours::{Nearby, Neighbours};
 use super::packs::{LANES, Pack};
-use super::quantity::Quantity;
+use super::quantity::{Gradient, Quantity};
+use super::spot_check;
 use super::transfer::{Transfer, offsets};
 use super::tree::{NotFinite, Tree};
 use crate::PairSum;
@@ -21,6 +22,9 @@ use crate::threads::share;
 const FEW: usize = 64;
 /// In space the matrices are larger. The same, for each function of the basis.
 const FEW_IN_SPACE: usize = 2;
+
+/// How far sums may be from those over all pairs, in units of the tolerance, as a part of the sum of the absolute values of terms.
+const ALLOWED: f64 = 10.0;
 
 /// Where to find what belongs to the cubes of one level.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +41,7 @@ struct Level {
 /// The numbers of one evaluation, kept from one to the next.
 #[derive(Clone, Debug)]
 pub(super) struct Work<const D: usize> {
+    tolerance: f64,
     tree: Tree<D>,
     lists: Lists,
     /// Places and weights in the order of the tree, with room behind them for the lanes of the last bodies.
@@ -54,8 +59,10 @@ pub(super) struct Work<const D: usize> {
 }
 
 impl<const D: usize> Work<D> {
-    pub(super) fn new() -> Self {
+    /// For forces with relative errors of about `tolerance`.
+    pub(super) fn new(tolerance: f64) -> Self {
         Self {
+            tolerance,
             tree: Tree::new(),
             lists: Lists::default(),
             places: core::array::from_fn(|_| Vec::new()),
@@ -82,25 +89,24 @@ impl<const D: usize> Work<D> {
         S: PairSum<f64, D>,
         Q: Quantity<D>,
     {
-        self.sort(expansion, system, places)?;
-        let expansion = &*expansion;
-        self.collect(expansion);
-        self.act(quantity);
-        self.distribute::<Q>(expansion);
+        self.sum_up(expansion, system, quantity, places)?;
         for (place, &(_, body)) in self.tree.order.iter().enumerate() {
             each(body as usize, core::array::from_fn(|axis| self.sums[axis][place]));
         }
         Ok(())
     }
 
-    /// What an evaluation takes for bodies at these places.
-    pub(super) fn operations<S: PairSum<f64, D>>(
+    /// What an evaluation of the forces takes for bodies at these places.
+    pub(super) fn operations<S>(
         &mut self,
         expansion: &mut Expansion<D>,
         system: &S,
         places: [&[f64]; D],
-    ) -> Result<Operations, NotFinite> {
-        self.sort(expansion, system, places)?;
+    ) -> Result<Operations, NotFinite>
+    where
+        S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
+    {
+        self.sum_up(expansion, system, &Gradient(system), places)?;
         let cube = |number: u32| &self.tree.cubes[number as usize];
         let near = self.lists.near.iter().map(|pair| pairs(cube(pair.target), cube(pair.source)) as u64);
         // A body is beside itself in the list of its own cube.
@@ -113,10 +119,31 @@ impl<const D: usize> Work<D> {
         Ok(Operations { pairs, products: products.sum() })
     }
 
-    /// Bodies in their order, the lists, and the matrices for them.
-    fn sort<S: PairSum<f64, D>>(
+    /// Sets the sums, in the order of the tree.
+    fn sum_up<S: PairSum<f64, D>, Q: Quantity<D>>(
         &mut self,
         expansion: &mut Expansion<D>,
+        system: &S,
+        quantity: &Q,
+        places: [&[f64]; D],
+    ) -> Result<(), NotFinite> {
+        self.sort(expansion, system, places)?;
+        self.plan(expansion, system);
+        self.pass(expansion, quantity);
+        let sorted = (&self.places, &*self.weights);
+        let has_expansions = self.levels.iter().any(|level| level.transfer.is_some());
+        let part = ALLOWED * self.tolerance;
+        if has_expansions && !spot_check::holds(quantity, sorted, &self.sums, self.tree.order.len(), part) {
+            self.plan_without_expansions();
+            self.pass(expansion, quantity);
+        }
+        Ok(())
+    }
+
+    /// Bodies in their order.
+    fn sort<S: PairSum<f64, D>>(
+        &mut self,
+        expansion: &Expansion<D>,
         system: &S,
         places: [&[f64]; D],
     ) -> Result<(), NotFinite> {
@@ -128,10 +155,14 @@ impl<const D: usize> Work<D> {
         for (place, &(_, body)) in self.tree.order.iter().enumerate() {
             for axis in 0..D {
                 self.places[axis][place] = places[axis][body as usize];
-                self.sums[axis][place] = 0.0;
             }
             self.weights[place] = system.weight(body as usize);
         }
+        Ok(())
+    }
+
+    /// Which cubes act as wholes, and the matrices for them.
+    fn plan<S: PairSum<f64, D>>(&mut self, expansion: &mut Expansion<D>, system: &S) {
         self.lists.fill(&self.tree, expansion.basis.len());
         let levels = self.tree.levels.len();
         expansion.keep(self.tree.edge(levels as u32)..self.tree.edge(0));
@@ -158,7 +189,23 @@ impl<const D: usize> Work<D> {
         let widest = self.tree.levels.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
         let size = if subspace.is_some() { padded(expansion.basis.len()) } else { 0 };
         self.room.resize(widest * size, 0.0);
-        Ok(())
+    }
+
+    /// All bodies act one by one.
+    fn plan_without_expansions(&mut self) {
+        for level in 0..self.levels.len() {
+            self.lists.approach::<D>(level);
+        }
+        self.lists.oppose(&self.tree);
+        self.levels.fill(Level { transfer: None, subspace: None, start: 0, past: 0 });
+    }
+
+    /// All passes, as they are planned.
+    fn pass<Q: Quantity<D>>(&mut self, expansion: &Expansion<D>, quantity: &Q) {
+        self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
+        self.collect(expansion);
+        self.act(quantity);
+        self.distribute::<Q>(expansion);
     }
 
     /// The moments of all cubes, level by level from below.

@@ -30,15 +30,15 @@ impl<T: Real> Combination<T> {
 pub(crate) enum Inverse<S: System, T: Real> {
     /// Entry j is one over the only entry of column j.
     Reciprocals(Vector<S, T>),
-    /// The factors of the matrix.
-    Factors(Square<S, T>),
+    /// The factors of the matrix, and work space.
+    Factors(Square<S, T>, Vector<S, T>),
 }
 
 impl<S: System, T: Real> Clone for Inverse<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
-            Self::Factors(matrix) => Self::Factors(matrix.clone()),
+            Self::Factors(matrix, work) => Self::Factors(matrix.clone(), work.clone()),
         }
     }
 }
@@ -51,10 +51,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             Self::Reciprocals(space.vector())
         } else {
             let Combination { a, b } = combination;
-            Self::Factors(space.square(|visit| {
+            let matrix = space.square(|visit| {
                 let mut places = Places(|row: usize, column: usize, _| visit(row, column));
                 system.one_form_jacobian(q, t, a, b, &mut places);
-            }))
+            });
+            Self::Factors(matrix, space.vector())
         }
     }
 
@@ -78,12 +79,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 }
                 Ok(())
             }
-            Self::Factors(matrix) => {
+            Self::Factors(matrix, work) => {
                 statistics.factorisations += 1;
                 system.one_form_jacobian(q, t, a, b, matrix.cleared());
                 matrix.factor().or_else(|_| {
                     system.one_form_jacobian(q, t, a, b, matrix.cleared());
-                    matrix.factor_in_any_units()
+                    matrix.factor_with_care([entries, work])
                 })
             }
         }
@@ -100,7 +101,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             }
             // Never built for such a system; saying so keeps elimination out of its steps.
             Self::Factors(..) if S::MATCHING => {}
-            Self::Factors(matrix) => {
+            Self::Factors(matrix, _) => {
                 x.copy_from_slice(rhs);
                 matrix.solve(x);
             }
@@ -114,7 +115,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     pub(crate) fn reciprocals(&self) -> Option<&[T]> {
         match self {
             Self::Reciprocals(reciprocals) => Some(reciprocals),
-            Self::Factors(_) => None,
+            Self::Factors(..) => None,
         }
     }
 

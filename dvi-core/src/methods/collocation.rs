@@ -12,6 +12,7 @@
 
 pub(super) mod lobatto;
 pub(super) mod packs;
+pub(super) mod steps;
 
 use crate::error::StepFailure;
 use crate::scalar::norm;

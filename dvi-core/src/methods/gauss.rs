@@ -21,8 +21,8 @@ use core::marker::PhantomData;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvaluation};
 use crate::methods::collocation::MOST;
+use crate::methods::collocation::steps::Steps;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, Tolerance, VariableStep};
-use crate::scalar::simd::Task;
 use crate::scalar::{Lanes, norm};
 use crate::solve::{Convergence, Iteration, Stopping, repeat};
 use crate::state::Statistics;
@@ -132,7 +132,7 @@ where
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        E::run(Steps { method: self, system, memory, q, clock: Clock::new(t, h), count: 1, statistics }).1
+        self.take_several::<S, T>(system, memory, q, Clock::new(t, h), 1, statistics).1
     }
 
     fn steps(
@@ -144,7 +144,7 @@ where
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let (taken, result) = E::run(Steps { method: self, system, memory, q, clock, count, statistics });
+        let (taken, result) = self.take_several::<S, T>(system, memory, q, clock, count, statistics);
         statistics.steps += taken;
         result
     }
@@ -183,45 +183,44 @@ where
     }
 }
 
-/// Up to `count` steps.
-struct Steps<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
-    method: &'a Gauss<STAGES, E>,
-    system: &'a S,
-    memory: &'a mut GaussMemory<STAGES, S, T>,
-    q: &'a mut Vector<S, T>,
-    clock: Clock<T>,
-    count: u64,
-    statistics: &'a mut Statistics,
-}
-
-impl<const STAGES: usize, E, S, T: Real> Task for Steps<'_, STAGES, E, S, T>
-where
-    S: System<Kind: FirstOrder<S, T>>,
-    E: StageEvaluation<STAGES, S, T>,
-{
-    /// How many have succeeded.
-    type Output = (u64, Result<(), StepFailure>);
-
-    #[inline(always)]
-    fn run(mut self) -> Self::Output {
-        for taken in 0..self.count {
-            if let Err(failure) = self.step(self.clock.after(taken).time(), self.clock.step_size()) {
-                return (taken, Err(failure));
-            }
-        }
-        (self.count, Ok(()))
+impl<const STAGES: usize, E> Gauss<STAGES, E> {
+    /// Takes up to `count` steps, and returns how many have succeeded.
+    fn take_several<S, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut GaussMemory<STAGES, S, T>,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> (u64, Result<(), StepFailure>)
+    where
+        S: System<Kind: FirstOrder<S, T>>,
+        E: StageEvaluation<STAGES, S, T>,
+    {
+        E::run(Steps::new(
+            clock,
+            count,
+            #[inline(always)]
+            |interval| self.take(system, memory, q, interval, statistics),
+        ))
     }
-}
 
-impl<const STAGES: usize, E, S, T: Real> Steps<'_, STAGES, E, S, T>
-where
-    S: System<Kind: FirstOrder<S, T>>,
-    E: StageEvaluation<STAGES, S, T>,
-{
+    /// Takes a step from t to t + h.
     #[inline(always)]
-    fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
-        let Self { method, system, memory, q, statistics, .. } = self;
-        let (stopping, summation) = (method.stopping, method.summation);
+    fn take<S, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut GaussMemory<STAGES, S, T>,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>
+    where
+        S: System<Kind: FirstOrder<S, T>>,
+        E: StageEvaluation<STAGES, S, T>,
+    {
+        let Self { stopping, summation, .. } = *self;
         S::Kind::gather(&mut memory.equations, q, &mut memory.y);
         memory.guess(h);
         // Where equations are of second order, this sets the positions that are guessed.

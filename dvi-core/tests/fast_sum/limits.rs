@@ -1,8 +1,9 @@
 //! Kernels, places and sizes at which a fast sum cannot be had in the usual way.
 
-use dvi_core::DegenerateLagrangian;
 use dvi_core::fast_sum::{FastSum, FastSumError};
 use dvi_core::prelude::*;
+use dvi_core::scalar::Lanes;
+use dvi_core::{DegenerateLagrangian, DegeneratePairSum, PairSum};
 
 use crate::{Blobs, Gravity, blobs, compare, numbers};
 
@@ -49,6 +50,40 @@ struct Harmonic {
 struct Gaussian {
     n: usize,
     length: f64,
+}
+
+/// A pole of one over the distance to a circle around each body.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| x[j] * d(y[j])),
+    hamiltonian = sum_pairs(0..n, |j, k| 1.0 / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - radius.powi(2))),
+)]
+struct Poles {
+    n: usize,
+    radius: f64,
+}
+
+/// A ring around each body, by the logarithm of the distance to it.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| x[j] * d(y[j])),
+    hamiltonian = sum_pairs(0..n, |j, k|
+        ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - radius.powi(2)).powi(2).ln()),
+)]
+struct Rings {
+    n: usize,
+    radius: f64,
+}
+
+/// Waves, shorter or longer than cubes are wide.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| x[j] * d(y[j])),
+    hamiltonian = sum_pairs(0..n, |j, k| (number * (1.0 + (x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).sqrt()).cos()),
+)]
+struct Waves {
+    n: usize,
+    number: f64,
 }
 
 /// Places that are at least 1.05 apart.
@@ -151,6 +186,35 @@ fn a_spiral_into_the_middle_of_a_gaussian() {
     for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
         let (force, energy) = compare::<_, 2>(&Gaussian { n, length: 0.3 }, &q, tolerance);
         assert!(force < tolerance && energy < tolerance, "tolerance {tolerance:e}: {force:e}, {energy:e}");
+    }
+}
+
+/// Forces and energies are those of all pairs there, at the cost of all pairs.
+#[test]
+fn kernels_that_interpolation_does_not_resolve() {
+    fn is_right<S>(system: &S, q: &[f64], tolerance: f64, name: &str)
+    where
+        S: DegeneratePairSum<f64, 2> + PairSum<Lanes<8>, 2> + Sync,
+    {
+        let (force, energy) = compare::<_, 2>(system, q, tolerance);
+        assert!(force < tolerance && energy < tolerance, "{name}, {tolerance:e}: {force:e}, {energy:e}");
+    }
+    let n = 2000;
+    let q: Vec<f64> = numbers(34).take(2 * n).collect();
+    for tolerance in [1e-3, 1e-6, 1e-8] {
+        for radius in [0.3, 0.7, 1.1, 2.0] {
+            is_right(&Poles { n, radius }, &q, tolerance, &format!("pole at {radius}"));
+            is_right(&Rings { n, radius }, &q, tolerance, &format!("ring at {radius}"));
+        }
+        for number in [1.0, 3.0, 10.0, 30.0, 100.0, 1000.0] {
+            let waves = Waves { n, number };
+            is_right(&waves, &q, tolerance, &format!("wave number {number}"));
+            let state = WavesState { x: q[..n].to_vec(), y: q[n..].to_vec() };
+            let operations = FastSum::<_, 2>::new(&waves, tolerance).unwrap().operations(&state).unwrap();
+            let (pairs, is_resolved) = ((n * (n - 1)) as u64, number < 20.0);
+            assert_eq!(operations.products > 0, is_resolved, "wave number {number}: {operations:?}");
+            assert_eq!(operations.pairs < pairs, is_resolved, "wave number {number}: {operations:?}");
+        }
     }
 }
 

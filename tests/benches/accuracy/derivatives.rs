@@ -8,7 +8,7 @@ use nalgebra::SVector;
 use num_dual::{DualNum, partial_hessian};
 
 use crate::alternatives::Alternatives;
-use crate::kernels;
+use dvi_kernels as kernels;
 
 const STEPS: u64 = 20_000;
 const ROUNDS: usize = 15;

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use crate::kernels::vortices_by_hand;
+use dvi_kernels::vortices_by_hand;
 
 /// y' = f(y), with its energy.
 pub(crate) trait Field<const N: usize>: Clone + 'static {

@@ -13,8 +13,6 @@ mod alternatives;
 mod by_hand;
 mod derivatives;
 mod fields;
-#[path = "../kernels/mod.rs"]
-mod kernels;
 mod measure;
 mod ours;
 mod problem;

@@ -50,15 +50,17 @@ pub(super) fn settle<const NODES: usize, S: NondegenerateLagrangian<T>, F, T: Re
     step: &Step<'_, NODES, S, F, T, E>,
     path: &mut Path<NODES, S, T, I>,
     statistics: &mut Statistics,
-) where
+) -> Result<(), StepFailure>
+where
     I: InteriorNodes<NODES, S, T>,
 {
     let Path { interior, work: Work { unknowns, residuals, .. }, .. } = path;
-    let Some(interior) = interior else { return };
+    let Some(interior) = interior else { return Err(NOTHING_SOLVED) };
     interior.visit(step.system, unknowns, [step.t, step.h], statistics);
     for (k, sum) in residuals[0].iter_mut().enumerate() {
         [_, *sum] = interior.increments(k);
     }
+    Ok(())
 }
 
 /// Moves to q1 = q0 + Δ and p1.

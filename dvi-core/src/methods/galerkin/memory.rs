@@ -158,8 +158,10 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     pub(super) fn guess<F, E>(&mut self, step: &Step<'_, NODES, S, F, T, E>, q: &[T]) {
         let Self { phase, inertial, interior, displacements, work, .. } = self;
         let similar = phase.extrapolates_to(step.h);
-        let [start, inside @ .., increment] = &mut work.unknowns[..] else { return };
-        start.copy_from_slice(q);
+        let (before, last) = work.unknowns.split_at_mut(NODES - 1);
+        let (start, inside) = before.split_at_mut(1);
+        let increment = &mut last[0];
+        start[0].copy_from_slice(q);
         if let (Some(interior), Some(mass)) = (interior, inertial.constant()) {
             interior.depart(&Departure { q, phase, mass, h: step.h });
             for k in 0..q.len() {

@@ -5,8 +5,8 @@ use super::memory::GalerkinMemory;
 use super::{Galerkin, NodeEvaluation, eliminated, fitted, general};
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
+use crate::methods::collocation::steps::Steps;
 use crate::methods::{Carries, Clock, FreeFlight, Method, PreservedForm, Scheme, VariableStep};
-use crate::scalar::simd::Task;
 use crate::solve::Solver;
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
@@ -73,6 +73,27 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         GalerkinMemory::new(&Step { system, method: self, t, h }, q, v)
     }
 
+    /// Takes up to `count` steps, and returns how many have succeeded.
+    fn take_several<S: NondegenerateLagrangian<T>, T: Real, I: InteriorNodes<NODES, S, T>>(
+        &self,
+        system: &S,
+        memory: &mut GalerkinMemory<NODES, S, T, I>,
+        q: &mut Vector<S, T>,
+        clock: Clock<T>,
+        count: u64,
+        statistics: &mut Statistics,
+    ) -> (u64, Result<(), StepFailure>)
+    where
+        F: FrequencyIn<T>,
+    {
+        I::run(Steps::new(
+            clock,
+            count,
+            #[inline(always)]
+            |interval| self.take(system, memory, q, interval, statistics),
+        ))
+    }
+
     /// Takes a step from t to t + h.
     #[inline(always)]
     fn take<S: NondegenerateLagrangian<T>, T: Real, I: InteriorNodes<NODES, S, T>>(
@@ -104,7 +125,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
             |path, newton, guess, statistics| {
                 general::newton(&step, path, q0, newton, guess, statistics)?;
                 if S::SEPARABLE && F::UNFITTED {
-                    eliminated::settle(&step, path, statistics);
+                    eliminated::settle(&step, path, statistics)?;
                 }
                 Ok(())
             },
@@ -140,39 +161,6 @@ impl<const NODES: usize, S: System, F, T: Real, E: NodeEvaluation<NODES, S, T>> 
     type Memory = GalerkinMemory<NODES, S, T, E::Interior>;
 }
 
-/// Up to `count` steps.
-struct Steps<'a, const NODES: usize, S: System, F, T: Real, E, I> {
-    method: &'a Galerkin<NODES, F, E>,
-    system: &'a S,
-    memory: &'a mut GalerkinMemory<NODES, S, T, I>,
-    q: &'a mut Vector<S, T>,
-    clock: Clock<T>,
-    count: u64,
-    statistics: &'a mut Statistics,
-}
-
-impl<const NODES: usize, S, F, T: Real, E, I> Task for Steps<'_, NODES, S, F, T, E, I>
-where
-    S: NondegenerateLagrangian<T>,
-    F: FrequencyIn<T>,
-    I: InteriorNodes<NODES, S, T>,
-{
-    /// How many have succeeded.
-    type Output = (u64, Result<(), StepFailure>);
-
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        let Self { method, system, memory, q, clock, count, statistics } = self;
-        for taken in 0..count {
-            let interval = [clock.after(taken).time(), clock.step_size()];
-            if let Err(failure) = method.take(system, memory, q, interval, statistics) {
-                return (taken, Err(failure));
-            }
-        }
-        (count, Ok(()))
-    }
-}
-
 impl<const NODES: usize, S, F, T: Real, E> Method<S, T> for Galerkin<NODES, F, E>
 where
     S: RegularLagrangian<T>,
@@ -193,8 +181,7 @@ where
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let clock = Clock::new(t, h);
-        E::Interior::run(Steps { method: self, system, memory, q, clock, count: 1, statistics }).1
+        self.take_several(system, memory, q, Clock::new(t, h), 1, statistics).1
     }
 
     fn steps(
@@ -206,8 +193,7 @@ where
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let (taken, result) =
-            E::Interior::run(Steps { method: self, system, memory, q, clock, count, statistics });
+        let (taken, result) = self.take_several(system, memory, q, clock, count, statistics);
         statistics.steps += taken;
         result
     }

@@ -1,14 +1,14 @@
 //! Instructions per step of the same kernels, counted under valgrind: these do not wobble.
 //!
-//! `cargo bench -p dvi-benches --bench instructions`. The program runs itself under
+//! `cargo bench -p dvi-kernels --bench instructions`. The program runs itself under
 //! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up. It fails if a generated
 //! step takes more instructions than `instructions.csv` allows.
 
 #![allow(clippy::print_stdout)]
 
-mod kernels;
 mod pinned;
 
+use dvi_kernels as kernels;
 use std::process::{Command, ExitCode};
 
 const STEPS: [u64; 2] = [1000, 2000];

@@ -4,7 +4,7 @@ mod kepler_by_hand;
 mod predators_by_hand;
 mod rattle_by_hand;
 mod top_by_hand;
-pub(crate) mod vortices_by_hand;
+pub mod vortices_by_hand;
 
 use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
@@ -18,7 +18,7 @@ use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
 
 /// The names, pairwise: generated, by hand.
-pub(crate) const KERNELS: [[&str; 2]; 12] = [
+pub const KERNELS: [[&str; 2]; 12] = [
     ["explicit/generated", "explicit/by hand"],
     ["explicit, each state read/generated", "explicit, each state read/by hand"],
     ["explicit, parasitic mode limited/generated", "explicit, parasitic mode limited/by hand"],
@@ -46,7 +46,7 @@ fn start() -> vortices_by_hand::State {
 /// Runs a kernel from its start for a number of steps and returns its first coordinate.
 ///
 /// Each call begins anew: the explicit scheme does not stay on an orbit for ever.
-pub(crate) fn run(name: &str, steps: u64) -> f64 {
+pub fn run(name: &str, steps: u64) -> f64 {
     let field = vortices_by_hand::Field::new(GAMMA);
     match name {
         "explicit/generated" => generated(explicit(), |run| run.take_steps(steps)),

@@ -15,7 +15,7 @@ pub(crate) struct Pinned {
 
 /// The rows of `instructions.csv`.
 pub(crate) fn rows() -> Vec<Pinned> {
-    let mut table = csv::Reader::from_reader(include_str!("../instructions.csv").as_bytes());
+    let mut table = csv::Reader::from_reader(include_str!("instructions.csv").as_bytes());
     let rows = table.deserialize().map(|row| {
         let (name, generated, by_hand) = row.expect("a name and two numbers");
         Pinned { name, generated, by_hand }

@@ -3,22 +3,25 @@
 
 use std::f64::consts::PI;
 
-pub(crate) type State = [f64; 8];
+/// The coordinates x0..x3, y0..y3.
+pub type State = [f64; 8];
 
-/// z' = f(z), with the coordinates x0..x3, y0..y3.
-#[derive(Clone)]
-pub(crate) struct Field {
+/// z' = f(z).
+#[derive(Clone, Debug)]
+pub struct Field {
     /// Γ/2π
     strength: [f64; 4],
 }
 
 impl Field {
-    pub(crate) fn new(gamma: [f64; 4]) -> Self {
+    /// The field of vortices with these circulations.
+    pub fn new(gamma: [f64; 4]) -> Self {
         Self { strength: gamma.map(|gamma| gamma / (2.0 * PI)) }
     }
 
+    /// f(z)
     #[inline(always)]
-    pub(crate) fn velocity(&self, z: &State) -> State {
+    pub fn velocity(&self, z: &State) -> State {
         let mut v = [0.0; 8];
         for j in 0..4 {
             for k in j + 1..4 {

@@ -20,7 +20,7 @@ fn no_step_takes_more_instructions_than_are_pinned() {
         eprintln!("not tested: valgrind is not installed");
         return;
     }
-    let bench = ["bench", "--locked", "-p", "dvi-benches", "--bench", "instructions"];
+    let bench = ["bench", "--locked", "-p", "dvi-kernels", "--bench", "instructions"];
     let output =
         Command::new(env!("CARGO")).args(bench).env("CARGO_INCREMENTAL", "0").output().expect("cargo starts");
     let [said, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
