@@ -23,8 +23,12 @@ impl Directions {
         Self { functions: DMatrix::zeros(size, 0), weights: Vec::new(), parities: Vec::new() }
     }
 
-    /// The singular vectors of columns and of their reflections, of values above a bound.
-    pub(super) fn of_parities<const D: usize>(basis: &Basis<D>, columns: &DMatrix<f64>, least: f64) -> Self {
+    /// The singular vectors of columns and of their reflections, of values above a bound; none if they are not found.
+    pub(super) fn of_parities<const D: usize>(
+        basis: &Basis<D>,
+        columns: &DMatrix<f64>,
+        least: f64,
+    ) -> Option<Self> {
         let mut found = Self::none(basis.len());
         for parity in 0..1_usize << D {
             let is_odd = |axis: usize| parity >> axis & 1 == 1;
@@ -33,7 +37,7 @@ impl Directions {
             if functions.is_empty() || columns.ncols() == 0 {
                 continue;
             }
-            let (vectors, weights) = singular(&columns.select_rows(&functions), least);
+            let (vectors, weights) = singular(&columns.select_rows(&functions), least)?;
             let mut all = DMatrix::zeros(basis.len(), weights.len());
             for (row, function) in functions.iter().enumerate() {
                 all.row_mut(*function).copy_from(&vectors.row(row));
@@ -41,7 +45,7 @@ impl Directions {
             let parities = alloc::vec![parity; weights.len()];
             found.extend(Self { functions: all, weights, parities });
         }
-        found
+        Some(found)
     }
 
     /// Adds others, which are orthogonal to these.

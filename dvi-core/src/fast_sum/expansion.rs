@@ -63,15 +63,20 @@ impl<const D: usize> Expansion<D> {
         self.transfers[position?].1.as_ref()
     }
 
-    /// Where the functions are for cubes with this edge, within others with those at `above`, and with the matrices at `own`.
-    pub(super) fn subspace_position(&mut self, above: Option<usize>, edge: i32, own: Option<usize>) -> usize {
+    /// Where the functions are for cubes with this edge, within others with those at `above`, and with the matrices at `own`; none if they
+    /// are not found.
+    pub(super) fn subspace_position(
+        &mut self,
+        above: Option<usize>,
+        edge: i32,
+        own: Option<usize>,
+    ) -> Option<usize> {
         let key = (above, edge, own.is_some());
-        let known = self.subspaces.iter().position(|(known, _)| *known == key);
-        known.unwrap_or_else(|| {
+        self.subspaces.iter().position(|(known, _)| *known == key).or_else(|| {
             let parts = (&self.basis, &*self.rows, &self.refinement);
-            let found = Subspace::new(parts, self.subspace(above), self.transfer(own), self.tolerance);
+            let found = Subspace::new(parts, self.subspace(above), self.transfer(own), self.tolerance)?;
             self.subspaces.push((key, found));
-            self.subspaces.len() - 1
+            Some(self.subspaces.len() - 1)
         })
     }
 

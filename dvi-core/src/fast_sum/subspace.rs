@@ -33,13 +33,14 @@ pub(super) struct Subspace {
 const SLACK: f64 = 0.1;
 
 impl Subspace {
-    /// For cubes in larger ones, if these have expansions, that act on others of their size by a matrix, if they do.
+    /// For cubes in larger ones, if these have expansions, that act on others of their size by a matrix, if they do. None if there are no
+    /// singular vectors.
     pub(super) fn new<const D: usize>(
         (basis, rows, refinement): (&Basis<D>, &[Row<D>], &Refinement),
         above: Option<&Self>,
         own: Option<&Transfer>,
         tolerance: f64,
-    ) -> Self {
+    ) -> Option<Self> {
         let size = basis.len();
         let mut directions = own.map_or_else(|| Directions::none(size), |own| own.directions.clone());
         // The functions of larger cubes in a part on some side.
@@ -64,20 +65,20 @@ impl Subspace {
                 let known = directions.functions.transpose() * &fields;
                 fields -= &directions.functions * known;
             }
-            directions.extend(Directions::of_parities(basis, &fields, SLACK * tolerance));
+            directions.extend(Directions::of_parities(basis, &fields, SLACK * tolerance)?);
         }
         let functions = &directions.functions;
         let sides = 0..above.map_or(0, |_| 1_usize << D);
         let links = sides.filter_map(|side| above.map(|above| functions.transpose() * narrowed(above, side)));
         let links: Vec<_> = links.collect();
-        Self {
+        Some(Self {
             stride: padded(functions.ncols()),
             compress: Matrix::new(&functions.transpose()),
             expand: Matrix::new(functions),
             widen: links.iter().map(|link| Matrix::new(&link.transpose())).collect(),
             narrow: links.iter().map(Matrix::new).collect(),
             directions,
-        }
+        })
     }
 }
 

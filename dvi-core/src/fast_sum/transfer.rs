@@ -166,7 +166,7 @@ fn range<const D: usize>(
         samples.push(matrix * vectors);
     }
     let all: Vec<_> = samples.iter().flat_map(|sample| sample.column_iter()).collect();
-    let mut directions = Directions::of_parities(basis, &DMatrix::from_columns(&all), tolerance * largest);
+    let mut directions = Directions::of_parities(basis, &DMatrix::from_columns(&all), tolerance * largest)?;
     directions.weights.iter_mut().for_each(|weight| *weight /= largest);
     (!directions.weights.is_empty()).then_some(directions)
 }

@@ -128,7 +128,9 @@ impl<const D: usize> Work<D> {
         places: [&[f64]; D],
     ) -> Result<(), NotFinite> {
         self.sort(expansion, system, places)?;
-        self.plan(expansion, system);
+        if self.plan(expansion, system).is_none() {
+            self.plan_without_expansions();
+        }
         self.pass(expansion, quantity);
         let sorted = (&self.places, &*self.weights);
         let has_expansions = self.levels.iter().any(|level| level.transfer.is_some());
@@ -161,8 +163,8 @@ impl<const D: usize> Work<D> {
         Ok(())
     }
 
-    /// Which cubes act as wholes, and the matrices for them.
-    fn plan<S: PairSum<f64, D>>(&mut self, expansion: &mut Expansion<D>, system: &S) {
+    /// Which cubes act as wholes, and the matrices for them; none if there are no functions for their expansions.
+    fn plan<S: PairSum<f64, D>>(&mut self, expansion: &mut Expansion<D>, system: &S) -> Option<()> {
         self.lists.fill(&self.tree, expansion.basis.len());
         let levels = self.tree.levels.len();
         expansion.keep(self.tree.edge(levels as u32)..self.tree.edge(0));
@@ -177,7 +179,7 @@ impl<const D: usize> Work<D> {
                 self.lists.approach::<D>(level);
             }
             if subspace.is_some() || transfer.is_some() {
-                subspace = Some(expansion.subspace_position(subspace, edge, transfer));
+                subspace = Some(expansion.subspace_position(subspace, edge, transfer)?);
             }
             let start = past;
             past +=
@@ -189,15 +191,16 @@ impl<const D: usize> Work<D> {
         let widest = self.tree.levels.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
         let size = if subspace.is_some() { padded(expansion.basis.len()) } else { 0 };
         self.room.resize(widest * size, 0.0);
+        Some(())
     }
 
     /// All bodies act one by one.
     fn plan_without_expansions(&mut self) {
-        for level in 0..self.levels.len() {
-            self.lists.approach::<D>(level);
-        }
+        let levels = self.tree.levels.len();
+        (0..levels).for_each(|level| self.lists.approach::<D>(level));
         self.lists.oppose(&self.tree);
-        self.levels.fill(Level { transfer: None, subspace: None, start: 0, past: 0 });
+        self.levels.clear();
+        self.levels.resize(levels, Level { transfer: None, subspace: None, start: 0, past: 0 });
     }
 
     /// All passes, as they are planned.

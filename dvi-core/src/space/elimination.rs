@@ -7,8 +7,8 @@
 //! matrix is multiplied by a constant, unless pivots become so small that their reciprocals overflow.
 //! [`factor_in_any_units`] holds it against those that were subtracted to form it alone, n ε Σⱼ |lₖⱼ uⱼₖ|, which does not change either
 //! when rows and columns are multiplied by constants of their own, as they are where coordinates have units; but it
-//! sees less of what rounding has left over of rows that depend on each other. [`factor_with_care`] sees that too, and takes several
-//! times as long: it holds each pivot against what errors of n ε in all entries make of it.
+//! sees less of what rounding has left over of rows that depend on each other. [`factor_with_care`] sees that too, and takes
+//! longer: it holds each pivot against what errors of n ε in all entries make of it.
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
