@@ -6,7 +6,8 @@ use dvi_examples::models::Orbit;
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+type Failed = Box<dyn core::error::Error>;
+type Outcome = Result<(), Failed>;
 
 fn last<S: Lagrangian, M: Method<S, f64>>(
     system: &S,
@@ -14,7 +15,7 @@ fn last<S: Lagrangian, M: Method<S, f64>>(
     start: S::State<f64>,
     time: f64,
     steps: u64,
-) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+) -> Result<Vec<f64>, Failed> {
     let mut run = Integrator::new(system, method, time / steps as f64, start)?;
     run.take_steps(steps)?;
     Ok(run.q().to_vec())
@@ -160,6 +161,39 @@ fn units_do_not_matter() -> Outcome {
         assert!(off < 1e-12, "{length:e}, {velocity:e}, {m:e}: {off:e}");
     }
     Ok(())
+}
+
+/// A pendulum as an arc of the circle of radius r.
+#[lagrangian(coordinates(arc), lagrangian = dot(arc).powi(2) / 2.0 + r * r * (arc / r).cos())]
+struct Arc {
+    r: f64,
+}
+
+/// The square of a correction is 0 long before the correction is. In units of any power of two a fixed point comes to the same
+/// numbers, and takes no fewer iterations.
+#[test]
+fn a_fixed_point_of_tiny_numbers_ends_no_sooner() -> Outcome {
+    fn check<M: Method<Arc, f64>>(method: impl Fn() -> M) -> Outcome {
+        let run = |power: i32| -> Result<(f64, u64), Failed> {
+            let unit = 2.0_f64.powi(power);
+            let start = ArcState { arc: unit, dot_arc: -0.2 * unit };
+            let system = Arc { r: unit };
+            let mut run = Integrator::new(&system, method(), 0.3, start)?;
+            run.take_steps(20)?;
+            Ok((run.state().arc / unit, run.statistics().iterations))
+        };
+        let (arc, iterations) = run(0)?;
+        for power in [-510, -500, -480, 480, 500] {
+            let found = run(power)?;
+            assert!(found.0 == arc && found.1 >= iterations, "{power}: {found:?} {arc} {iterations}");
+        }
+        Ok(())
+    }
+    let solver = Solver::FixedPoint;
+    check(Gauss::<3>::new)?;
+    check(|| Galerkin { solver, ..Galerkin::<5>::new() })?;
+    check(|| Galerkin { solver, ..Galerkin::<5>::new() }.in_lanes())?;
+    check(|| Variational { solver, ..Variational::midpoint() })
 }
 
 /// x'' = sin t.

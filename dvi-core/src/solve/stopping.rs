@@ -183,8 +183,9 @@ impl<T: Real> Convergence<T> {
         }
         if self.iterations == 1 {
             self.first = correction;
-        } else if correction * correction <= self.tolerance * shrunk {
-            // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow.
+        } else if correction * correction < self.tolerance * shrunk {
+            // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow. Where both sides are so
+            // small that they are 0, nothing is known.
             return Verdict::Accept;
         } else {
             let is_shrinking = shrunk > self.stalling * correction;

@@ -100,7 +100,7 @@ impl<const W: usize> Convergences<W> {
     #[inline(always)]
     fn are_small_later(&self, shrunk: Lanes<W>) -> Lanes<W> {
         let (square, most) = (self.correction * self.correction, self.tolerance * shrunk);
-        Lanes::choose(square, Comparison::LessOrEqual, most, Lanes::all(1.0), Lanes::all(0.0))
+        Lanes::choose(most, Comparison::Greater, square, Lanes::all(1.0), Lanes::all(0.0))
     }
 
     /// Whether the latest corrections no longer shrink, and are nothing but rounding errors.
