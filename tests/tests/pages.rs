@@ -9,11 +9,11 @@ use dvi_tests::larger;
 
 const README: &str = include_str!("../../README.md");
 
-/// What an example of `dvi-core` prints, started in `folder`.
+/// What an example of `dvi-core` prints, started in `folder`. It is built with the features of the workspace, as the tests are, and not
+/// again with its own.
 fn printed_by(example: &str, folder: &Path) -> String {
     let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
-    let arguments =
-        ["run", "--quiet", "--locked", "-p", "dvi-core", "--example", example, "--manifest-path", manifest];
+    let arguments = ["run", "--quiet", "--locked", "--example", example, "--manifest-path", manifest];
     let output =
         Command::new(env!("CARGO")).args(arguments).current_dir(folder).output().expect("cargo starts");
     assert!(output.status.success(), "{example}: {}", String::from_utf8_lossy(&output.stderr));
