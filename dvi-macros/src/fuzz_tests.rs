@@ -345,3 +345,15 @@ fn numbers_beyond_reason() {
         );
     }
 }
+
+/// A lifetime that is named as a generic type is not that type, whether it is declared or was forgotten.
+#[test]
+fn lifetimes_named_as_types() {
+    let attribute = quote!(coordinates(x), lagrangian = dot(x) * dot(x));
+    for generics in ["<a>", "<'a>", "<'a, a>", "<a, const N: usize>"] {
+        let item = format!("struct System{generics} {{ gamma: &'a [f64], }}");
+        let output = expand_text(Kind::Regular, attribute.to_string(), item);
+        let is_kept = output.replace("& '", "&'").contains("&'a [f64]");
+        assert!(is_kept && output.contains("Packable"), "{output}");
+    }
+}

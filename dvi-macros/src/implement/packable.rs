@@ -117,13 +117,14 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
     }
 }
 
-/// A type with `by` in place of `generic`, where that is no part of a path.
+/// A type with `by` in place of `generic`, where that is no part of a path and no lifetime.
 fn replaced(ty: TokenStream, generic: &Ident, by: &TokenStream) -> TokenStream {
-    let mut is_after_colon = false;
+    let mut is_next_part = false;
     ty.into_iter()
         .flat_map(|token| {
-            let is_part = is_after_colon;
-            is_after_colon = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ':');
+            let is_part = is_next_part;
+            is_next_part =
+                matches!(&token, TokenTree::Punct(punct) if [':', '\''].contains(&punct.as_char()));
             match token {
                 TokenTree::Ident(name) if name == *generic && !is_part => by.clone(),
                 TokenTree::Group(group) => {

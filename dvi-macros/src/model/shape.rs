@@ -138,13 +138,20 @@ pub(super) fn is_integer(ty: &Type) -> bool {
     }
 }
 
-/// Whether a generic type of the struct stands in a type.
+/// Whether a generic type of the struct stands in a type; a lifetime of the same name is another thing.
 pub(super) fn mentions_generic(ty: &Type, generics: &Generics) -> bool {
     fn any(tokens: TokenStream, generics: &Generics) -> bool {
-        tokens.into_iter().any(|token| match token {
-            TokenTree::Ident(name) => generics.type_params().any(|known| known.ident == name),
-            TokenTree::Group(group) => any(group.stream(), generics),
-            TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+        let mut is_next_lifetime = false;
+        tokens.into_iter().any(|token| {
+            let is_lifetime = is_next_lifetime;
+            is_next_lifetime = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == '\'');
+            match token {
+                TokenTree::Ident(name) => {
+                    !is_lifetime && generics.type_params().any(|known| known.ident == name)
+                }
+                TokenTree::Group(group) => any(group.stream(), generics),
+                TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+            }
         })
     }
     any(ty.to_token_stream(), generics)
