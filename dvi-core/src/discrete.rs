@@ -46,7 +46,7 @@ pub struct Interval<T = f64> {
 
 impl<T: Real> Interval<T> {
     /// t + ch.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn time(&self, c: T) -> T {
         self.t + c * self.h
     }
@@ -147,7 +147,7 @@ pub(crate) struct Equations<'a, 'b, S, T, L> {
 impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> LinearEquations<T>
     for Equations<'_, '_, S, T, L>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         b.copy_from_slice(self.p0);
         self.l_d.linearize(self.span, b, sink, self.statistics)

@@ -109,20 +109,20 @@ impl<T: Real> Clock<T> {
 
     /// The clock after `steps` steps.
     #[must_use]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn after(self, steps: u64) -> Self {
         Self { step: self.step.wrapping_add(steps), ..self }
     }
 
     /// The present time.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn time(self) -> T {
         // Signed integers convert in one instruction; no run takes 2⁶³ steps.
         self.start + T::lift(self.step as i64 as f64) * self.h
     }
 
     /// The step h.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn step_size(self) -> T {
         self.h
     }
@@ -212,7 +212,7 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn one_by_one<S: Lagrangian<T>, T: Real, M: Method<S, T> + ?Sized>(
     method: &M,
     system: &S,

@@ -75,7 +75,7 @@ macro_rules! scalar {
             /// `self` raised to an integer power.
             fn powi(self, exponent: i32) -> Self;
             /// −1, 0 or 1: the derivative of |`self`|, taken to be 0 at 0.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sign(self) -> Self {
                 let (zero, one) = (Self::lift(0.0), Self::lift(1.0));
                 let below = Self::choose(self, Comparison::Less, zero, -one, zero * self);
@@ -83,7 +83,7 @@ macro_rules! scalar {
             }
             /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a quotient
             /// where the term that it stands in has the limit 0.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn over_root(self, root: Self) -> Self {
                 let zero = Self::lift(0.0);
                 Self::choose(root, Comparison::LessOrEqual, zero, zero * self, self / root)
@@ -110,11 +110,11 @@ macro_rules! scalar {
         #[diagnostic::do_not_recommend]
         impl<T: RealField + Copy> Scalar for T {
             type Pack = Lanes<{ pack::CHUNK }, T>;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lift(value: f64) -> Self {
                 nalgebra::convert(value)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
                 let holds = match comparison {
                     Comparison::Less => a < b,
@@ -124,27 +124,27 @@ macro_rules! scalar {
                 };
                 if holds { then } else { otherwise }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {
                 Self::lift(of(norm::reported(self)))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {
                 RealField::atan2(self, x)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn hypot(self, y: Self) -> Self {
                 nalgebra::ComplexField::hypot(self, y)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powf(self, exponent: Self) -> Self {
                 nalgebra::ComplexField::powf(self, exponent)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powi(self, exponent: i32) -> Self {
                 nalgebra::ComplexField::powi(self, exponent)
             }
-            $(#[inline(always)]
+            $(#[cfg_attr(not(debug_assertions), inline(always))]
             fn $name(self) -> Self {
                 nalgebra::ComplexField::$name(self)
             })*
@@ -215,7 +215,7 @@ impl<T: RealField + Copy> Real for T {}
 
 /// Whether a number has parts that comparisons do not see, as the derivative of a dual number: it is larger than its digits
 /// need.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn carries_derivatives<T: Real>() -> bool {
     let is_single = T::default_epsilon() > T::lift(1e-10);
     size_of::<T>() > if is_single { size_of::<f32>() } else { size_of::<f64>() }

@@ -66,7 +66,7 @@ pub(crate) enum Guess {
 
 impl Guess {
     /// Sets `increment` to it, by what extrapolates.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn begin<V: DerefMut<Target = [T]>, T: Real>(
         self,
         increment: &mut V,
@@ -91,12 +91,12 @@ pub(crate) trait Iteration<T> {
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure>;
 
     /// Counts what `times` improvements have cost, if they have not counted it themselves.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self, _times: u64, _statistics: &mut Statistics) {}
 }
 
 impl<T, F: FnMut(&mut Statistics) -> Result<T, StepFailure>> Iteration<T> for F {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
         self(statistics)
     }
@@ -106,7 +106,7 @@ impl<T, F: FnMut(&mut Statistics) -> Result<T, StepFailure>> Iteration<T> for F 
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or that of an iteration.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn iterate<T: Real>(
     convergence: Convergence<T>,
     statistics: &mut Statistics,
@@ -119,7 +119,7 @@ pub(crate) fn iterate<T: Real>(
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or that of an iteration.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn repeat<T: Real>(
     mut convergence: Convergence<T>,
     statistics: &mut Statistics,
@@ -179,7 +179,7 @@ impl<N> Ladder<N> {
     ///
     /// # Errors
     /// That of the last attempt.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve<A>(
         &mut self,
         attempt: &mut A,
@@ -215,7 +215,7 @@ impl<N> Ladder<N> {
     }
 
     /// How many iterations the fixed point gets of at most `max`; fewer, `patience`, where Newton stands by.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn budget(&self, max: usize, patience: usize) -> usize {
         if self.newton.is_some() { max.min(patience) } else { max }
     }

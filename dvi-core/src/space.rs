@@ -134,7 +134,7 @@ impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
     for FixedVector<T, BLOCKS, N, SINGLES>
 {
     type Target = [T];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref(&self) -> &[T] {
         &self.0.as_flattened()[..Fixed::<BLOCKS, N, SINGLES>::DIMENSION]
     }
@@ -143,7 +143,7 @@ impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
 impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> DerefMut
     for FixedVector<T, BLOCKS, N, SINGLES>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref_mut(&mut self) -> &mut [T] {
         &mut self.0.as_flattened_mut()[..Fixed::<BLOCKS, N, SINGLES>::DIMENSION]
     }
@@ -153,7 +153,7 @@ impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
     for FixedMatrix<T, BLOCKS, N, SINGLES>
 {
     type Target = [T];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref(&self) -> &[T] {
         let dimension = Fixed::<BLOCKS, N, SINGLES>::DIMENSION;
         &self.0.as_flattened().as_flattened().as_flattened()[..dimension * dimension]
@@ -163,7 +163,7 @@ impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
 impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> DerefMut
     for FixedMatrix<T, BLOCKS, N, SINGLES>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref_mut(&mut self) -> &mut [T] {
         let dimension = Fixed::<BLOCKS, N, SINGLES>::DIMENSION;
         &mut self.0.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..dimension * dimension]
@@ -173,7 +173,7 @@ impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> DerefMut
 impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize> Sink<T>
     for FixedMatrix<T, BLOCKS, N, SINGLES>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self[row * Fixed::<BLOCKS, N, SINGLES>::DIMENSION + column] += entry;
     }
@@ -190,15 +190,15 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES>>>;
     type Permutation = FixedVector<usize, BLOCKS, N, SINGLES>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn dimension(self) -> usize {
         Self::DIMENSION
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
         FixedVector([[T::lift(0.0); N]; BLOCKS])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn array<E: Clone + Debug>(self, mut of: impl FnMut() -> E) -> FixedVector<E, BLOCKS, N, SINGLES> {
         FixedVector(core::array::from_fn(|_| core::array::from_fn(|_| of())))
     }
@@ -209,15 +209,15 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     ) -> Self::Rows<C, T> {
         FullRows(over.array(|| self.vector()))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
         FixedMatrix([[[[T::lift(0.0); N]; BLOCKS]; N]; BLOCKS])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
         FixedSquare::new(self)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn linear<T: Real>(
         self,
         _storing: Storing,
@@ -225,7 +225,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     ) -> Self::Linear<T> {
         FixedSquare::new(self)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn coupled<const NODES: usize, T: Real>(
         self,
         _storing: Storing,
@@ -233,7 +233,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     ) -> Self::Coupled<NODES, T> {
         FixedCoupled::new(self)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn permutation(self) -> Self::Permutation {
         FixedVector([[0; N]; BLOCKS])
     }
@@ -272,7 +272,7 @@ impl<T> DerefMut for RunTimeMatrix<T> {
 
 #[cfg(feature = "alloc")]
 impl<T: Scalar> Sink<T> for RunTimeMatrix<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.entries[row * self.dimension + column] += entry;
     }

@@ -20,6 +20,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
 use syn::{Ident, Path};
 
+use self::inlining::ForceInline;
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::model::Model;
 use crate::program::{Output, Place};
@@ -28,6 +29,7 @@ use crate::schedule::{Accumulated, Step};
 use crate::symbolic::{Coordinate, Fold, Graph};
 
 mod indices;
+pub(crate) mod inlining;
 mod packs;
 mod pairs;
 mod values;
@@ -117,7 +119,7 @@ impl Emitter<'_> {
         let body = function.steps(&routine.steps);
         if routine.has_packs(&function) {
             let krate = self.krate();
-            quote!(#krate::__private::widest::<__T, _>(__q.len(), #[inline(always)] || { #body }))
+            quote!(#krate::__private::widest::<__T, _>(__q.len(), #ForceInline || { #body }))
         } else {
             body
         }

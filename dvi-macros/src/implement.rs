@@ -16,6 +16,7 @@ use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Generics, Ident, Path, parse_quote};
 
+use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, local, output_block, own_function, scalar_field};
 use crate::program::{Output, Programs};
 use crate::routine::Routine;
@@ -167,7 +168,7 @@ fn functions(emitter: &Emitter<'_>) -> TokenStream {
             let name = own_function(number, order);
             let value = quote_spanned!(path.span()=> #path);
             quote! {
-                #[inline(always)]
+                #ForceInline
                 fn #name<__T: #krate::Scalar>(__x: __T) -> __T {
                     let __function: fn(__T) -> __T = #value;
                     __function(__x)
@@ -201,7 +202,7 @@ fn scalar_fields(emitter: &Emitter<'_>) -> impl Iterator<Item = TokenStream> {
         // That its type is no such function is reported where it is called.
         let value = quote_spanned!(field.span=> #krate::ScalarField::<#arity>::expansion(&#place, __at));
         quote! {
-            #[inline(always)]
+            #ForceInline
             fn #name<__T: #krate::Scalar>(
                 &self, __at: [__T; #arity],
             ) -> #krate::field::Expansion<#arity, __T> #bound { #value }
@@ -302,7 +303,7 @@ fn configuration(
             const FORCED: bool = #forced;
             const AUTONOMOUS: bool = #autonomous;
 
-            #[inline(always)]
+            #ForceInline
             fn space(&self) -> Self::Space { #space_value }
             #[inline]
             fn block_len(&self, __block: usize) -> usize {

@@ -115,14 +115,14 @@ fn vortices() {
                     _,
                 >(
                     __q.len(),
-                    #[inline(always)]
+                    #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         if __private::are_many(N) {
                             let __p0 = &self.gamma[..];
                             __private::halves(
                                 N,
                                 [&mut __vector0[..], &mut __vector1[..]],
-                                #[inline(always)]
+                                #[cfg_attr(not(debug_assertions), inline(always))]
                                 |
                                     __i0: usize,
                                     [__lower,
@@ -280,7 +280,7 @@ fn function_of_a_sum() {
                     _,
                 >(
                     __q.len(),
-                    #[inline(always)]
+                    #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         let mut __r6 = T::lift(-0.0);
                         let __whole = __private::whole(0usize, self.n);

@@ -46,7 +46,7 @@ const SERIES: [[f64; 8]; 2] = {
 };
 
 /// Σ cₖ zᵏ, by pairs of pairs, so that the terms do not wait for one another.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sum_series<T: Real>(c: &[f64; 8], z: T) -> T {
     let (square, c) = (z * z, |k: usize| T::lift(c[k]));
     let fourth = square * square;
@@ -57,7 +57,7 @@ fn sum_series<T: Real>(c: &[f64; 8], z: T) -> T {
 
 impl<T: Real> Pair<T> {
     /// κ(z) and σ(z), z = u².
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at(u: T) -> Self {
         let z = u * u;
         if z <= T::lift(SERIES_TO) {
@@ -67,13 +67,13 @@ impl<T: Real> Pair<T> {
         Self { cosine, sinc: sine / u }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn series(z: T) -> Self {
         Self { cosine: sum_series(&SERIES[0], z), sinc: sum_series(&SERIES[1], z) }
     }
 
     /// The pair at 2u.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubled(self, u: T) -> Self {
         let sine = u * self.sinc;
         Self { cosine: T::lift(1.0) - T::lift(2.0) * sine * sine, sinc: self.sinc * self.cosine }
@@ -92,7 +92,7 @@ pub(crate) struct Bases<T> {
 
 impl<T: Real> Bases<T> {
     /// For u = ωh.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(u: T) -> Self {
         let middle = u * T::lift(0.5);
         let half = Pair::at(middle);
@@ -101,19 +101,19 @@ impl<T: Real> Bases<T> {
     }
 
     /// σ = sin u/u.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn sinc(&self) -> T {
         self.whole.sinc
     }
 
     /// 1/σ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn reciprocal(&self) -> T {
         self.reciprocal
     }
 
     /// κ and σ at (1 − c)u and at cu.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn pairs(&self, c: f64) -> [Pair<T>; 2] {
         let one = Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) };
         if c == 0.5 {
@@ -128,7 +128,7 @@ impl<T: Real> Bases<T> {
     }
 
     /// The coefficients of a node with these pairs.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn basis(&self, c: f64, [left, right]: [Pair<T>; 2]) -> Basis<T> {
         Basis {
             b: T::lift(1.0 - c) * left.sinc * self.reciprocal,

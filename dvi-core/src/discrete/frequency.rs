@@ -95,7 +95,7 @@ impl Frequency for Unfitted {
 }
 
 impl<T: Real> FrequencyIn<T> for Unfitted {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fixed(&self, _coordinate: usize) -> T {
         T::lift(0.0)
     }
@@ -372,7 +372,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
 ///
 /// # Errors
 /// [`StepFailure::Frequency`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn defined<T: Real>(omega: T) -> Result<(), StepFailure> {
     if omega.is_finite() { Ok(()) } else { Err(StepFailure::Frequency { omega: norm::reported(omega) }) }
 }

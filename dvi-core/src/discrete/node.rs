@@ -30,7 +30,7 @@ pub(crate) struct NodeWork<S: System, T: Real> {
 }
 
 impl<S: Lagrangian<T>, T: Real> NodeWork<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self { point: vector(), velocity: vector(), gradient: vector(), momentum: vector() }
@@ -44,7 +44,7 @@ impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
     }
 
     /// Sets `point` to q_σ and `velocity` to Δ/h.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn place(&mut self, interval: Interval<T>, Ends { q0, delta }: Ends<'_, T>) {
         let NodeWork { point, velocity, .. } = &mut self.work;
         let per_h = T::lift(1.0) / interval.h;
@@ -55,7 +55,7 @@ impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
     }
 
     /// Adds D₁L_d, from the derivatives of L.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_first(&self, h: T, d1: &mut [T]) {
         let left_h = (T::lift(1.0) - self.sigma) * h;
         let NodeWork { gradient, momentum, .. } = &self.work;
@@ -66,7 +66,7 @@ impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
 }
 
 impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn derivatives(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,
@@ -85,7 +85,7 @@ impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
         Ok(())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn linearize<K: Sink<T>>(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,

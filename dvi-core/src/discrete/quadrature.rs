@@ -37,7 +37,7 @@ pub trait Rule: Copy + core::fmt::Debug {
     }
 
     /// Whether a node is neither 0 nor 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn has_interior_nodes(&self) -> bool {
         self.nodes().iter().any(|&c| c != 0.0 && c != 1.0)
     }
@@ -50,11 +50,11 @@ macro_rules! rules {
         pub struct $name;
 
         impl Rule for $name {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn nodes(&self) -> &[f64] {
                 &$nodes
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn weights(&self) -> &[f64] {
                 &$weights
             }
@@ -204,11 +204,11 @@ impl Quadrature {
 }
 
 impl Rule for Quadrature {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn nodes(&self) -> &[f64] {
         &self.nodes[..self.len]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weights(&self) -> &[f64] {
         &self.weights[..self.len]
     }

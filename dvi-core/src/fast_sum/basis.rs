@@ -16,7 +16,7 @@ pub(super) struct Chebyshev<T> {
 
 impl<T: Scalar> Chebyshev<T> {
     /// Not yet known.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn none() -> Self {
         let zero = T::lift(0.0);
         Self { value: [zero; MOST], slope: [zero; MOST] }
@@ -25,7 +25,7 @@ impl<T: Scalar> Chebyshev<T> {
 
 /// Sets the polynomials at u along each axis, and their derivatives, by the recurrence T_{m+1} = 2u T_m − T_{m−1} and its derivative, for
 /// m < `order`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn set_polynomials<T: Scalar, const D: usize>(
     at: &mut [Chebyshev<T>; D],
     u: &[T; D],

@@ -107,7 +107,7 @@ impl Transform {
         let inner = order.pow((axes - 1 - axis) as u32) * LANES;
         widest_if(
             true,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             || {
                 to.fill(0.0);
                 let blocks = from.chunks_exact(inner * order).zip(to.chunks_exact_mut(inner * order));

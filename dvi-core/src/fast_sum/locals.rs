@@ -148,7 +148,7 @@ impl<const D: usize> Locals<'_, D> {
             subspace.expand.add_products(&ends[..count], locals, room);
             widest_if(
                 true,
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 || {
                     for (cube, local) in some.iter().flatten().zip(room.chunks_exact(size)) {
                         let frame = by.tree.frame(cube);
@@ -179,7 +179,7 @@ impl<const D: usize> Locals<'_, D> {
 const TOGETHER: usize = 2;
 
 /// What a local expansion is at some bodies.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn evaluated<const D: usize, Q: Quantity<D>>(
     local: &[f64],
     rows: &[Row<D>],

@@ -55,7 +55,7 @@ impl Matrix {
         }
         widest_if(
             true,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             || {
                 let mut fours = ends.chunks_exact(VECTORS);
                 for four in &mut fours {
@@ -68,7 +68,7 @@ impl Matrix {
         );
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_four(&self, ends: [Ends; VECTORS], from: &[f64], to: &mut [f64]) {
         for Range { start, end } in parts(self.rows / LANES, ROWS) {
             match end - start {
@@ -81,7 +81,7 @@ impl Matrix {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_one(&self, ends: [Ends; 1], from: &[f64], to: &mut [f64]) {
         for Range { start, end } in parts(self.rows / LANES, ROWS_OF_ONE) {
             match end - start {
@@ -98,7 +98,7 @@ impl Matrix {
     }
 
     /// Adds `P` packs of the products, from `first` on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_rows<const V: usize, const P: usize>(
         &self,
         first: usize,
@@ -135,7 +135,7 @@ impl Matrix {
 }
 
 /// Cuts packs into as few parts as are not longer than `most`, all of about one length.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn parts(packs: usize, most: usize) -> impl Iterator<Item = Range<usize>> {
     let count = packs.div_ceil(most);
     (0..count).map(move |part| packs * part / count..packs * (part + 1) / count)

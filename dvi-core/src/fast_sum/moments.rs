@@ -72,7 +72,7 @@ impl<const D: usize> Moments<'_, D> {
             let mut count = 0;
             widest_if(
                 true,
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 || {
                     let rooms = room.chunks_exact_mut(size).take(VECTORS);
                     for (number, (room, (place, cube))) in rooms.zip(&mut leaves).enumerate() {
@@ -106,7 +106,7 @@ impl<const D: usize> Moments<'_, D> {
 type Values<const D: usize> = [[[Pack; TOGETHER]; MOST]; D];
 
 /// Adds the moments of the bodies of a cube.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn of_bodies<const D: usize>(from: &Sources<'_, D>, cube: &Cube<D>, at: &mut Values<D>, moments: &mut [f64]) {
     let frame = from.tree.frame(cube);
     for group in cube.bodies().step_by(TOGETHER * LANES) {
@@ -146,7 +146,7 @@ fn of_bodies<const D: usize>(from: &Sources<'_, D>, cube: &Cube<D>, at: &mut Val
 }
 
 /// Sets the polynomials of a pack of bodies at u.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn set_values(at: &mut [[Pack; TOGETHER]; MOST], pack: usize, u: Pack, order: usize) {
     let [mut before, mut last] = [Pack::all(1.0), u];
     (at[0][pack], at[1][pack]) = (before, last);

@@ -95,7 +95,7 @@ impl<Q: Quantity<D>, const D: usize> Neighbours<'_, Q, D> {
         let (origin, first_pack) = (by.tree.cubes[cubes.start].first, by.lists.packs[near.start]);
         widest_if(
             true,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             || {
                 let mut kept = [Q::none(); TOGETHER];
                 let mut number = near.start;
@@ -140,7 +140,7 @@ impl<Q: Quantity<D>, const D: usize> Neighbours<'_, Q, D> {
 const TOGETHER: usize = 64;
 
 /// Adds what the bodies of a cube do to each other.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn within<Q: Quantity<D>, const D: usize>(
     by: &Nearby<'_, Q, D>,
     cube: &Cube<D>,
@@ -169,13 +169,13 @@ fn within<Q: Quantity<D>, const D: usize>(
 }
 
 /// Numbers one after the other, and again from the first.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn repeated(numbers: &[f64]) -> [f64; 2 * LANES] {
     core::array::from_fn(|place| numbers[place % numbers.len()])
 }
 
 /// Adds what others, given by their places and weights, do to some bodies `at` their places.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_one<Q: Quantity<D>, const D: usize>(
     quantity: &Q,
     found: &mut Q::Sums,
@@ -193,7 +193,7 @@ fn add_one<Q: Quantity<D>, const D: usize>(
 
 /// Adds what some bodies of one cube and those of an `other` do to each other: to what is `kept` for the ones, and to the `reactions` on
 /// the others.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn between<Q: Quantity<D>, const D: usize>(
     by: &Nearby<'_, Q, D>,
     bodies: Range<usize>,
@@ -228,7 +228,7 @@ fn between<Q: Quantity<D>, const D: usize>(
 }
 
 /// Adds what one body and several do to each other, each given by its places and weights.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_both<Q: Quantity<D>, const D: usize>(
     quantity: &Q,
     found: &mut Q::Sums,

@@ -7,7 +7,7 @@ pub(super) const LANES: usize = 8;
 pub(super) type Pack = Lanes<LANES>;
 
 /// Some numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn load(from: &[f64], first: usize) -> Pack {
     let mut pack = [0.0; LANES];
     pack.copy_from_slice(&from[first..first + LANES]);
@@ -15,7 +15,7 @@ pub(super) fn load(from: &[f64], first: usize) -> Pack {
 }
 
 /// Some numbers, zero from `past` on.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
     let mut pack = load(from, first);
     for lane in 0..LANES {
@@ -27,7 +27,7 @@ pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
 }
 
 /// Adds the components of what was found for some bodies, those before `past`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn add_before<const D: usize>(
     past: usize,
     sums: &mut [&mut [f64]; D],

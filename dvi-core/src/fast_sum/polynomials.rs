@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::packs::{LANES, Pack, load};
 
 /// Where some bodies of a cube are in it, from −1 to 1 along each axis; those from `past` on count as in its middle.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn coordinates<const D: usize>(
     places: &[Vec<f64>; D],
     (middle, half): ([f64; D], f64),

@@ -39,15 +39,15 @@ pub(super) struct Gradient<'s, S>(pub(super) &'s S);
 
 impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Potential<'_, S> {
     type Sums = [Pack; 1];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn none() -> Self::Sums {
         [Pack::all(0.0)]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, _difference: &[Pack; D], r2: Pack) {
         sums[0] += weight * self.0.kernel(r2);
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_both(
         &self,
         sums: &mut Self::Sums,
@@ -60,7 +60,7 @@ impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Potential<'_, S
         sums[0] += weights[0] * kernel;
         reactions[0] += weights[1] * kernel;
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_row(
         sums: &mut Self::Sums,
         at: &[Chebyshev<Pack>; D],
@@ -78,18 +78,18 @@ impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Potential<'_, S
 
 impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Gradient<'_, S> {
     type Sums = [Pack; D];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn none() -> Self::Sums {
         [Pack::all(0.0); D]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: &[Pack; D], r2: Pack) {
         let slope = weight * self.0.kernel_slope(r2);
         for axis in 0..D {
             sums[axis] += slope * difference[axis];
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_both(
         &self,
         sums: &mut Self::Sums,
@@ -105,7 +105,7 @@ impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Gradient<'_, S>
             *reaction -= slopes[1] * difference[axis];
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_row(
         sums: &mut Self::Sums,
         at: &[Chebyshev<Pack>; D],

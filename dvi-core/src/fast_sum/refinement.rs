@@ -51,7 +51,7 @@ impl Refinement {
     }
 
     /// Makes the local expansion of a cube that of its part: Aᵀ times it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn narrow<const D: usize>(&self, rows: &[Row<D>], side: [bool; D], local: &mut [f64]) {
         along_rows(rows, &self.halves[usize::from(side[D - 1])], local);
         for Mixture { axis, degrees: [m, n], firsts: [from, to], len } in self.mixtures.iter().rev() {
@@ -68,7 +68,7 @@ impl Refinement {
 }
 
 /// Replaces each row by Σ_k (entry k) (vector k).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn along_rows<const D: usize>(rows: &[Row<D>], vectors: &[[f64; MOST]], coefficients: &mut [f64]) {
     for Row { first, len, .. } in rows {
         let row = &mut coefficients[*first..first + len];
@@ -80,7 +80,7 @@ fn along_rows<const D: usize>(rows: &[Row<D>], vectors: &[[f64; MOST]], coeffici
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_scaled(to: &mut [f64], factor: f64, from: &[f64]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to += factor * from;

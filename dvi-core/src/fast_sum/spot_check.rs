@@ -47,7 +47,7 @@ fn over_all<Q: Quantity<D>, const D: usize>(
     let [mut sums, mut sizes] = [Q::none(); 2];
     widest_if(
         true,
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         || {
             for others in [0..body, body + 1..places[0].len()] {
                 let last = others.end;
@@ -70,7 +70,7 @@ fn over_all<Q: Quantity<D>, const D: usize>(
 }
 
 /// Some numbers before `last`, and the last of them again.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn load_some(numbers: &[f64], first: usize, last: usize) -> Pack {
     if first + LANES <= last {
         return load(numbers, first);

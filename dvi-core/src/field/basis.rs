@@ -32,7 +32,7 @@ pub(super) struct Local<T> {
 
 impl<T: Scalar> Local<T> {
     /// Nothing yet.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn none() -> Self {
         let zero = T::lift(0.0);
         Self { cell: zero, reciprocal: zero, functions: [[zero; 3]; ORDER] }
@@ -100,7 +100,7 @@ impl<const P: usize> Basis<P> {
     }
 
     /// The number itself, or what it is in the first period; not a number outside of the domain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn position(&self, x: f64) -> f64 {
         let (first, last) = self.ends();
         if first <= x && x <= last { x } else { self.wrapped(x) }
@@ -116,7 +116,7 @@ impl<const P: usize> Basis<P> {
     }
 
     /// The cell of a position, and 0 of what is not a number.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cell(&self, x: f64) -> usize {
         let (last, ends) = (self.cells() - 1, &self.knots[P..]);
         match self.density {
@@ -131,7 +131,7 @@ impl<const P: usize> Basis<P> {
     }
 
     /// The B-splines at `x`, not numbers outside of the domain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn at<T: Scalar>(&self, x: T) -> Local<T> {
         let position = x.piecewise(|x| self.position(x));
         let cell = position.piecewise(|x| self.cell(x) as f64);
@@ -159,7 +159,7 @@ impl<const P: usize> Basis<P> {
 }
 
 /// An entry of a row of a table. One beyond its end is not a number: a wrong index is seen in what is computed from it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn entry(table: &[f64], start: usize, width: usize, at: usize) -> f64 {
     // All entries of a row ask the same question, and one answer serves them.
     match table.get(start..start.wrapping_add(width)) {
@@ -169,7 +169,7 @@ pub(super) fn entry(table: &[f64], start: usize, width: usize, at: usize) -> f64
 }
 
 /// A polynomial with its first two derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn horner<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, s: T) -> [T; 3] {
     let (mut value, mut first, mut half_second) = (coefficient(P), T::lift(0.0), T::lift(0.0));
     for power in (0..P).rev() {

@@ -143,7 +143,7 @@ impl<const D: usize, const DEGREE: usize> Spline<D, DEGREE> {
     }
 
     /// 0, or not a number where `T` cannot hold the place of each coefficient.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn if_countable<T: Scalar>(&self) -> T {
         // An odd number can be held if and only if all smaller ones can.
         let odd = (self.coefficients.len() | 1) as f64;
@@ -192,7 +192,7 @@ impl<const D: usize, const DEGREE: usize> ScalarField<D> for Spline<D, DEGREE> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
     let zero = T::lift(0.0);
     Expansion { value: T::lift(value), gradient: [zero; D], hessian: [[zero; D]; D] }
@@ -200,7 +200,7 @@ fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
 
 /// Multiplies a function of the variables before `axis` by one of that variable, given with its two derivatives. Of the
 /// matrix of second derivatives the lower half is computed.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn multiply<const D: usize, T: Scalar>(f: &mut Expansion<D, T>, axis: usize, [g, dg, ddg]: [T; 3]) {
     for i in 0..axis {
         for j in 0..=i {
@@ -215,7 +215,7 @@ fn multiply<const D: usize, T: Scalar>(f: &mut Expansion<D, T>, axis: usize, [g,
 }
 
 /// Σ cᵢ Bᵢ with its two derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn combination<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, functions: &[[T; 3]]) -> [T; 3] {
     let first = coefficient(0);
     let mut sum = functions[0].map(|f| first * f);
@@ -228,7 +228,7 @@ fn combination<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, func
     sum
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add<const D: usize, T: Scalar>(sum: &mut Expansion<D, T>, term: &Expansion<D, T>) {
     sum.value += term.value;
     for i in 0..D {

@@ -91,7 +91,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 
     /// Sets `x` to the solution of (a Dα + b (Dα)ᵀ) x = `rhs`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
         match self {
             Self::Reciprocals(reciprocals) => {
@@ -111,7 +111,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
 
 impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     /// One over the only entry of each column, if that is what the inverse is.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn reciprocals(&self) -> Option<&[T]> {
         match self {
             Self::Reciprocals(reciprocals) => Some(reciprocals),
@@ -124,7 +124,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     ///
     /// # Errors
     /// As [`prepare`](Self::prepare), of the first lane that fails.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_entries_in_lanes<const W: usize>(
         system: &S,
         entries: &[Lanes<W, T>],
@@ -195,7 +195,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
     }
 
     /// Sets `out` to (a Dα + b (Dα)ᵀ) x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn apply(&self, system: &S, x: &[T], out: &mut [T]) {
         match self {
             Self::Entries(entries) => {

@@ -37,7 +37,7 @@ impl Block {
     }
 
     /// The places of its velocities.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn velocities(self) -> Range<usize> {
         self.at..self.at + self.factor.velocities(self.coordinates)
     }
@@ -66,13 +66,13 @@ pub(crate) fn blocks<S: ManifoldSystem>(system: &S) -> impl Iterator<Item = Bloc
 }
 
 /// The three numbers at these places.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn vector<T: Real>(numbers: &[T], block: Block) -> Vector3<T> {
     Vector3::from_column_slice(&numbers[block.vector()])
 }
 
 /// Sets the three numbers at these places.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn set<T: Real>(numbers: &mut [T], block: Block, value: Vector3<T>) {
     numbers[block.vector()].copy_from_slice(value.as_slice());
 }

@@ -76,7 +76,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Orientation`]; the last is kept then.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn pass(
         &mut self,
         system: &S,
@@ -96,7 +96,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     }
 
     /// Compares Ω at points and times with the last, and keeps that at the `end`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compare_all(
         &mut self,
         system: &S,
@@ -139,7 +139,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
 }
 
 /// Sets `next` to the entries of Ω at (`q`, `t`), and compares them with the last.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
@@ -312,7 +312,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn compare<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
     if before * after > T::lift(0.0) { Ok(()) } else { compare_signs(before, after) }
 }

@@ -38,7 +38,7 @@ pub(crate) struct Arrival<'a, T> {
 }
 
 impl<T: Real> Arrival<'_, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn finite<S: NondegenerateLagrangian<T>>(&self) -> Result<(), StepFailure> {
         norm::finite(self.q).and(norm::finite(self.p))?;
         if S::SEPARABLE { norm::finite(self.force) } else { Ok(()) }
@@ -68,14 +68,14 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 
     /// Whether the last steps may be extrapolated to one of length `h`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn extrapolates_to(&self, h: T) -> bool {
         is_similar(h, self.last_step)
     }
 
     /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if they had about
     /// this length; else that of a free motion with `momentum`, where the mass matrix is known.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn guess(&self, mass: Option<&Mass<S, T>>, momentum: &[T], h: T, increment: &mut [T]) {
         match mass {
             Some(mass) if !self.extrapolates_to(h) => mass.solve(momentum, increment),
@@ -92,13 +92,13 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 
     /// What rounding has left out of coordinate `k`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn left_out_of_q(&self, k: usize) -> T {
         self.carried[0].left_out_of(k)
     }
 
     /// What rounding has left out of its momentum.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn left_out_of_p(&self, k: usize) -> T {
         self.carried[1].left_out_of(k)
     }
@@ -134,7 +134,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn arrive(
         &mut self,
         q: &mut [T],
@@ -157,7 +157,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         self.last_step = T::lift(0.0);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn remember(&mut self, increment: &[T], h: T) {
         if !self.extrapolates_to(h) {
             self.history.clear();
@@ -167,7 +167,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 
     /// Sets coordinates, momentum and force where sums are plain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>) {
         q.copy_from_slice(to.q);
         self.p.copy_from_slice(to.p);
@@ -205,7 +205,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
     }
 
     /// The matrix, if it is the same everywhere.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn constant(&self) -> Option<&Mass<S, T>> {
         match self {
             Self::Constant(mass) => Some(mass),
@@ -218,7 +218,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
     ///
     /// # Errors
     /// As [`MassOrientation::check`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn check(
         &mut self,
         system: &S,

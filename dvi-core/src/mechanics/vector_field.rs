@@ -85,7 +85,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     ///
     /// # Errors
     /// As there, of the first lane that fails.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate_in_lanes<const W: usize>(
         &mut self,
         system: &S,
@@ -169,7 +169,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, vector, statistics)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(
         &mut self,
         system: &S,

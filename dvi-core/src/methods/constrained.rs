@@ -137,7 +137,7 @@ struct Arrival<S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Impulses<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         Self { first: system.multipliers().vector(), last: system.multipliers().vector() }
     }

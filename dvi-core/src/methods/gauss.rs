@@ -85,7 +85,7 @@ impl<const S: usize> Default for Gauss<S> {
 }
 
 /// The largest of all numbers in `packs`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest<const STAGES: usize, T: Real>(packs: &[Lanes<STAGES, T>]) -> T {
     let mut largest = [T::lift(0.0); STAGES];
     for pack in packs {
@@ -201,13 +201,13 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         E::run(Steps::new(
             clock,
             count,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             |interval| self.take(system, memory, q, interval, statistics),
         ))
     }
 
     /// Takes a step from t to t + h.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<S, T: Real>(
         &self,
         system: &S,
@@ -265,7 +265,7 @@ where
 {
     /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity: the
     /// momenta follow from the velocities.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { system, memory, t, h, .. } = self;
         if let Some(change) = memory.improve_places::<E>(system, *t, *h, statistics)? {

@@ -220,7 +220,7 @@ impl OneStep {
 
     /// Sets `work.next` to q1, `work.stage.momentum` to p1, and `work.stage.rates` to the rates of change, if q1 is on the branch
     /// of ϑ(x, y) = p that q0 is on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn attempt<S: ProperlyDegenerate<T>, T: Real>(
         &self,
         step: &Step<'_, S, T>,
@@ -306,7 +306,7 @@ impl OneStep {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
         Self {
             stage: Stage::new(system, q, t),
@@ -317,7 +317,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     }
 
     /// Sets `next` to the end of a symmetric scheme's step, and the momentum and the rates.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn end(
         &mut self,
         step: &Step<'_, S, T>,
@@ -344,7 +344,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     }
 
     /// Sets `next` to the end of the step, with y from `again` times as far as to ȳ beyond it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve_y(
         &mut self,
         step: &Step<'_, S, T>,
@@ -366,7 +366,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     }
 
     /// Moves `q` and `point` to the end of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn leave(&self, q: &mut Vector<S, T>, point: &mut Point<S, T>, h: T) {
         let Self { stage, next, turn, .. } = self;
         q.copy_from_slice(next);
@@ -377,7 +377,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Point<S, T> {
     /// Sets `unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn guess(&self, step: &Step<'_, S, T>, guess: Guess, c: T, [unknown, turn]: [&mut Vector<S, T>; 2]) {
         let Step { system, q, h, .. } = *step;
         self.rates.guess(h, guess, [unknown, turn]);

@@ -229,18 +229,18 @@ struct Step<'a, S, T> {
 
 impl<S, T: Real> Step<'_, S, T> {
     /// The time at which the discrete Lagrangian is evaluated.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn node_time(&self) -> T {
         self.t + self.method.sigma * self.h
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn interval(&self) -> Interval<T> {
         Interval { t: self.t, h: self.h }
     }
 
     /// A slow contraction is given up as soon as Newton would be cheaper; its advantage shrinks with the dimension.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
         ladder.budget(self.method.stopping.max_iterations, 12 + dimension)
     }

@@ -97,7 +97,7 @@ pub(crate) fn of_lanes<'a, const W: usize, S>(systems: &[&'a S]) -> [&'a S; W] {
 }
 
 /// Whether all lanes of `packs` are finite.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn all_finite<const W: usize>(packs: &[Lanes<W>]) -> bool {
     let zero = Lanes::all(0.0);
     let mut sum = zero;

@@ -31,20 +31,20 @@ impl Tolerance {
     }
 
     /// What is allowed in a coordinate of this size.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_coordinate<T: Real>(self, size: T) -> T {
         T::lift(self.absolute) + T::lift(self.relative) * size
     }
 
     /// What is allowed in a momentum, where the largest has this size.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_momentum<T: Real>(self, size: T) -> T {
         T::lift(self.relative) * size
     }
 }
 
 /// max |xⱼ|/wⱼ, where `allowed`(j) = wⱼ; no error is within every tolerance, also that of zero.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn in_units_of<T: Real>(errors: &[T], allowed: impl Fn(usize) -> T) -> T {
     let zero = T::lift(0.0);
     errors.iter().enumerate().fold(zero, |largest, (j, &error)| {

@@ -149,17 +149,17 @@ struct Step<'a, S, F, R, T> {
 
 impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
     /// The time of a node.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn node_time(&self, c: f64) -> T {
         self.t + T::lift(c) * self.h
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn interval(&self) -> Interval<T> {
         Interval { t: self.t, h: self.h }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn span<'b>(&'b self, ends: Ends<'b, T>) -> Span<'b, S, T> {
         Span { system: self.system, interval: self.interval(), ends }
     }
@@ -174,7 +174,7 @@ struct Attempt<'a, S: System, F, R, T: Real> {
 }
 
 impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         if self.step.method.needs_forces_only::<S, T>() && self.step.method.summation == Summation::Plain {
             separable::step(&self.step, &mut self.parts, self.budget, statistics)
@@ -183,7 +183,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn newton(
         &mut self,
         solver: &mut Linear<S, T>,
@@ -196,19 +196,19 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
     /// Whether the step is Störmer–Verlet, for separable systems.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_verlet(&self) -> bool {
         F::UNFITTED && self.rule.nodes() == Trapezoid.nodes() && self.rule.weights() == Trapezoid.weights()
     }
 
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_explicit(&self) -> bool {
         !self.rule.has_interior_nodes() && !self.reads_both_ends()
     }
 
     /// Whether forces are all that a step needs: L is separable, and the interpolation does not mix with M.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn needs_forces_only<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
         let mixes = F::PER_COORDINATE && !S::DIAGONAL_MASS;
         S::SEPARABLE && !mixes && self.frequency.reading() != Some(Reading::Variational)
@@ -220,13 +220,13 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         self.needs_forces_only::<S, T>() || (S::CONSTANT_MASS && !F::PER_COORDINATE)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reads_both_ends(&self) -> bool {
         matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
     }
 
     /// Takes a step from t to t + h.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<S: NondegenerateLagrangian<T>, T: Real>(
         &self,
         system: &S,

@@ -42,7 +42,7 @@ pub(crate) trait Walk {
 
 /// Takes `count` steps after `before` steps of the run, or as many as succeed, and returns how many; the last good
 /// state has been kept. Blocks begin at the same steps, however many are taken at once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Result<(), StepFailure>) {
     let position = before & (state.block() - 1);
     if count == 1 && position != 0 && position + WATCHED < state.block() {

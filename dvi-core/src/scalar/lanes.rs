@@ -37,13 +37,13 @@ pub struct Lanes<const W: usize, T = f64>(
 
 impl<const W: usize, T: Real> Lanes<W, T> {
     /// `value` in all lanes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn all(value: T) -> Self {
         Self([value; W])
     }
 
     // Loops, and no closures in functions of the library: these are not always inlined.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(mut self, f: impl Fn(T) -> T) -> Self {
         for lane in 0..W {
             self.0[lane] = f(self.0[lane]);
@@ -51,7 +51,7 @@ impl<const W: usize, T: Real> Lanes<W, T> {
         self
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn with(mut self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         for lane in 0..W {
             self.0[lane] = f(self.0[lane], other.0[lane]);
@@ -64,7 +64,7 @@ macro_rules! operators {
     ($($name:ident $function:ident),*) => {$(
         impl<const W: usize, T: Real> $name for Lanes<W, T> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $function(self, other: Self) -> Self {
                 self.with(other, $name::$function)
             }
@@ -76,21 +76,21 @@ operators!(Add add, Sub sub, Mul mul, Div div);
 
 impl<const W: usize, T: Real> Neg for Lanes<W, T> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         self.each(Neg::neg)
     }
 }
 
 impl<const W: usize, T: Real> AddAssign for Lanes<W, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl<const W: usize, T: Real> SubAssign for Lanes<W, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
@@ -98,7 +98,7 @@ impl<const W: usize, T: Real> SubAssign for Lanes<W, T> {
 
 macro_rules! lane_by_lane {
     ($($function:ident),*) => {$(
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn $function(self) -> Self {
             self.each(Scalar::$function)
         }
@@ -108,11 +108,11 @@ macro_rules! lane_by_lane {
 #[diagnostic::do_not_recommend]
 impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
     type Pack = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lift(value: f64) -> Self {
         Self::all(T::lift(value))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
         let mut chosen = then;
         for lane in 0..W {
@@ -120,23 +120,23 @@ impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
         }
         chosen
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {
         self.each(|x| x.piecewise(&of))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn atan2(self, x: Self) -> Self {
         self.with(x, Scalar::atan2)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn hypot(self, y: Self) -> Self {
         self.with(y, Scalar::hypot)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn powf(self, exponent: Self) -> Self {
         self.with(exponent, Scalar::powf)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn powi(self, exponent: i32) -> Self {
         self.each(|x| Scalar::powi(x, exponent))
     }
@@ -147,7 +147,7 @@ impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
 }
 
 /// Sets `vector` to one lane of `packs`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn read_lane<const W: usize, T: Real>(lane: usize, packs: &[Lanes<W, T>], vector: &mut [T]) {
     for (number, pack) in vector.iter_mut().zip(packs) {
         *number = pack.0[lane];
@@ -155,7 +155,7 @@ pub(crate) fn read_lane<const W: usize, T: Real>(lane: usize, packs: &[Lanes<W, 
 }
 
 /// Sets one lane of `packs` to `vector`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn write_lane<const W: usize, T: Real>(lane: usize, vector: &[T], packs: &mut [Lanes<W, T>]) {
     for (pack, &number) in packs.iter_mut().zip(vector) {
         pack.0[lane] = number;

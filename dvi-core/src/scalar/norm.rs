@@ -12,14 +12,14 @@ pub(crate) fn reported<T: Real>(value: T) -> f64 {
 const MANY: usize = 32;
 
 /// maxᵢ |xᵢ|; an entry that is not a number does not count.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     fold(x.len(), T::lift(0.0), |largest, i| larger(largest, Scalar::abs(x[i])), larger)
 }
 
 /// Folds i = 0, …, n − 1 into `start`, by an operation for which neither the order matters nor whether `start` counts once or
 /// more often: eight that do not wait for one another if there are many, joined in the end.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn fold<T: Real>(
     n: usize,
     start: T,
@@ -41,7 +41,7 @@ pub(crate) fn fold<T: Real>(
 }
 
 /// The same of a few entries that are numbers; if one is not, some number or none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
     let mut sizes = x.iter().map(|&x| Scalar::abs(x));
     let first = sizes.next().unwrap_or(T::lift(0.0));
@@ -49,7 +49,7 @@ pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
 }
 
 /// Sets `mean` to (a + b)/2.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn mean<T: Real>(a: &[T], b: &[T], mean: &mut [T]) {
     for ((mean, &a), &b) in mean.iter_mut().zip(a).zip(b) {
         *mean = T::lift(0.5) * (a + b);
@@ -57,7 +57,7 @@ pub(crate) fn mean<T: Real>(a: &[T], b: &[T], mean: &mut [T]) {
 }
 
 /// 1/`pivot`, for a pivot of a matrix: an error if that is not a finite number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn reciprocal<T: Real>(pivot: T, column: usize) -> Result<T, StepFailure> {
     let reciprocal = T::lift(1.0) / pivot;
     if reciprocal.is_finite() { Ok(reciprocal) } else { Err(singular(pivot, column)) }
@@ -70,7 +70,7 @@ pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
 }
 
 /// The smallest |xᵢ| that is not zero, at most `bound`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {
     let smaller = |a, b| if b < a { b } else { a };
     let add = |smallest, i: usize| {
@@ -81,13 +81,13 @@ pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {
 }
 
 /// maxᵢ |xᵢ − yᵢ|; an entry that is not a number does not count.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn distance<T: Real>(x: &[T], y: &[T]) -> T {
     let n = x.len().min(y.len());
     fold(n, T::lift(0.0), |largest, i| larger(largest, Scalar::abs(x[i] - y[i])), larger)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
@@ -96,13 +96,13 @@ pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
 ///
 /// The sum of the entries is finite only if they all are, or overflows; so one comparison settles the
 /// usual case and only the unusual one looks at each entry.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
     if nothing(x) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
 }
 
 /// Zero if all entries are finite, and else, or if their sum overflows, not a number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
     // Four partial sums do not wait for one another. They begin at −0, which the compiler knows to add nothing.
     let (chunks, rest) = x.as_chunks::<4>();
@@ -112,7 +112,7 @@ pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
 }
 
 /// Whether a number that is not negative is finite, by one comparison.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_finite<T: Real>(size: T) -> bool {
     size <= T::max_value().unwrap_or(T::lift(f64::MAX))
 }
@@ -121,7 +121,7 @@ fn is_finite<T: Real>(size: T) -> bool {
 ///
 /// # Errors
 /// [`StepFailure::NotFinite`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn finite_size<T: Real>(x: &[T]) -> Result<T, StepFailure> {
     let sum = x.iter().fold(T::lift(-0.0), |sum, &x| sum + x);
     if !is_finite(Scalar::abs(sum)) {

@@ -31,17 +31,17 @@ pub trait Pack<T>: Scalar {
 
 impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
     const WIDTH: usize = CHUNK;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn all(value: T) -> Self {
         Lanes::all(value)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load(from: &[T], at: usize) -> Self {
         let mut terms = [T::lift(0.0); CHUNK];
         terms.copy_from_slice(&from[at..at + CHUNK]);
         Self(terms)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn parameters<P: Parameter<T>>(from: &[P], at: usize) -> Self {
         let (from, mut terms) = (&from[at..at + CHUNK], [T::lift(0.0); CHUNK]);
         for term in 0..CHUNK {
@@ -49,14 +49,14 @@ impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
         }
         Self(terms)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(to: &mut [T], at: usize, terms: Self) {
         let to = &mut to[at..at + CHUNK];
         for term in 0..CHUNK {
             to[term] += terms.0[term];
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn subtract(to: &mut [T], at: usize, terms: Self) {
         let to = &mut to[at..at + CHUNK];
         for term in 0..CHUNK {
@@ -67,54 +67,54 @@ impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
 
 impl<const W: usize, T: Real> Pack<Self> for Lanes<W, T> {
     const WIDTH: usize = 1;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn all(value: Self) -> Self {
         value
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load(from: &[Self], at: usize) -> Self {
         from[at]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn parameters<P: Parameter<Self>>(from: &[P], at: usize) -> Self {
         from[at].value()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(to: &mut [Self], at: usize, terms: Self) {
         to[at] += terms;
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn subtract(to: &mut [Self], at: usize, terms: Self) {
         to[at] -= terms;
     }
 }
 
 /// `value` in all terms.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn all<T: Scalar>(value: T) -> T::Pack {
     T::Pack::all(value)
 }
 
 /// The entries of `from` that begin at `at`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn load<T: Scalar>(from: &[T], at: usize) -> T::Pack {
     T::Pack::load(from, at)
 }
 
 /// The parameters `from` that begin at `at`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn parameters<T: Scalar, P: Parameter<T>>(from: &[P], at: usize) -> T::Pack {
     T::Pack::parameters(from, at)
 }
 
 /// Adds each term to its entry of `to`, beginning at `at`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn add_to<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
     T::Pack::add(to, at, terms);
 }
 
 /// Subtracts each term from its entry of `to`, beginning at `at`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn subtract_from<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
     T::Pack::subtract(to, at, terms);
 }
@@ -129,20 +129,20 @@ pub struct Sums<T> {
 
 impl<T: Scalar> Sums<T> {
     /// No terms yet: −0, which is neutral for every number.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn empty() -> Self {
         Self { partial: [T::lift(-0.0); CHUNK], next: 0 }
     }
 
     /// Adds terms, each to the partial sum of its place.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn add_terms(&mut self, terms: T::Pack) {
         T::Pack::add(&mut self.partial, self.next, terms);
         self.next = (self.next + T::Pack::WIDTH) % CHUNK;
     }
 
     /// The sum of all terms.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn total(self) -> T {
         let [mut sum, rest @ ..] = self.partial;
         for partial in rest {
@@ -153,13 +153,13 @@ impl<T: Scalar> Sums<T> {
 }
 
 /// The end of the last whole chunk of a range.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn whole(lower: usize, upper: usize) -> usize {
     upper - upper.saturating_sub(lower) % CHUNK
 }
 
 /// Where the packs of numbers `T` begin in a range of whole chunks.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn packs<T: Scalar>(lower: usize, upper: usize) -> Packs<T> {
     Packs { next: lower, upper, numbers: PhantomData }
 }
@@ -174,7 +174,7 @@ pub struct Packs<T> {
 
 impl<T: Scalar> Iterator for Packs<T> {
     type Item = usize;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn next(&mut self) -> Option<usize> {
         let here = self.next;
         (here < self.upper).then(|| {
@@ -188,7 +188,7 @@ impl<T: Scalar> Iterator for Packs<T> {
 const FEW: usize = 32;
 
 /// What `body` returns; where it takes many numbers at once, it runs compiled for the widest instructions of the processor.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn widest<T: Scalar, R>(size: usize, body: impl FnOnce() -> R) -> R {
     widest_if(T::Pack::WIDTH > 1 && size >= FEW, body)
 }

@@ -20,7 +20,7 @@ const LEAST: usize = 4096;
 const LEAST_FROM_OUTSIDE: usize = 300_000;
 
 /// Whether the pairs of `bodies` are taken in [`halves`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn are_many(bodies: usize) -> bool {
     bodies >= MANY
 }
@@ -41,7 +41,7 @@ pub fn halves<const B: usize, T: Scalar>(
     let pairs = |one: Option<&mut Bodies<'_, B, T>>, others: &mut Bodies<'_, B, T>| {
         widest_if(
             true,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             || rows(one, others, &row),
         );
     };
@@ -138,7 +138,7 @@ fn between<const B: usize, T: Scalar, P>(
 }
 
 /// The pairs of each of `one`, or of each of `others`, with those of `others` that come after it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn rows<const B: usize, T: Scalar>(
     mut one: Option<&mut Bodies<'_, B, T>>,
     others: &mut Bodies<'_, B, T>,
@@ -163,7 +163,7 @@ fn rows<const B: usize, T: Scalar>(
 }
 
 /// Adds to the entries at a place.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add<const B: usize, T: Scalar>(entries: &mut [&mut [T]; B], place: usize, sums: [T; B]) {
     for output in 0..B {
         entries[output][place] += sums[output];

@@ -4,7 +4,7 @@
 pub trait Task {
     /// What comes of it.
     type Output;
-    /// Does it. Implementations are `#[inline(always)]`.
+    /// Does it. Implementations are `#[cfg_attr(not(debug_assertions), inline(always))]`.
     fn run(self) -> Self::Output;
 }
 
@@ -12,13 +12,13 @@ pub trait Task {
 ///
 /// The results are the same on every processor: operations on packs are those on their lanes.
 #[cfg(feature = "simd")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     struct Dispatched<K>(K);
 
     impl<K: Task> pulp::WithSimd for Dispatched<K> {
         type Output = K::Output;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn with_simd<S: pulp::Simd>(self, _simd: S) -> K::Output {
             self.0.run()
         }
@@ -29,19 +29,19 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
 
 /// Runs `task`.
 #[cfg(not(feature = "simd"))]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     task.run()
 }
 
-/// Runs `body`, a closure that is `#[inline(always)]` where it is written; compiled as by [`widest`] if it is `worth_it`.
-#[inline(always)]
+/// Runs `body`, a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is written; compiled as by [`widest`] if it is `worth_it`.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     struct Body<F>(F);
 
     impl<R, F: FnOnce() -> R> Task for Body<F> {
         type Output = R;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn run(self) -> R {
             (self.0)()
         }

@@ -77,7 +77,7 @@ impl StepFailure {
     ///
     /// # Errors
     /// This failure, if it has not.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn unless_rounding<T: Real>(
         self,
         scale: impl FnOnce() -> Result<T, Self>,
@@ -122,20 +122,20 @@ const MORE_BY_NEWTON: usize = 2;
 const MORE_BY_FIXED_POINT: usize = 64;
 
 /// Whether less is asked for than the arithmetic gives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_below_rounding<T: Real>(stopping: Stopping) -> bool {
     T::lift(stopping.tolerance) < T::default_epsilon()
 }
 
 impl<T: Real> Convergence<T> {
     /// Of an iteration that may take `budget` iterations, from `q`, for numbers of size `scale`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(stopping: Stopping, scale: T, q: &[T], budget: usize) -> Self {
         let judged = if is_below_rounding::<T>(stopping) { smallest(q, scale) } else { scale };
         Self::of(stopping, scale, judged, budget)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(stopping: Stopping, scale: T, judged: T, budget: usize) -> Self {
         Self {
             tolerance: T::lift(stopping.tolerance) * judged,
@@ -151,19 +151,19 @@ impl<T: Real> Convergence<T> {
     }
 
     /// The same for a fixed point from `q`, which gains a constant factor in each iteration.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn fixed_point(stopping: Stopping, scale: T, q: &[T], budget: usize) -> Self {
         Self::new(stopping, scale, q, budget).slow(stopping)
     }
 
     /// The same from a point whose smallest coordinate that is not zero is `smallest`, at most `scale`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_fixed_point(stopping: Stopping, scale: T, smallest: T, budget: usize) -> Self {
         let judged = if is_below_rounding::<T>(stopping) { smallest } else { scale };
         Self::of(stopping, scale, judged, budget).slow(stopping)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slow(self, stopping: Stopping) -> Self {
         let mut new = self;
         if carries_derivatives::<T>() {
@@ -173,7 +173,7 @@ impl<T: Real> Convergence<T> {
     }
 
     /// Takes note of the size of the latest correction and decides.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn judge(&mut self, correction: T) -> Verdict {
         let shrunk = self.correction - correction;
         self.correction = correction;

@@ -92,7 +92,7 @@ pub(crate) fn factor_with_care<T: Real>(
 }
 
 /// With the row that `pivot_row` chooses in each column.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn factor_by<T: Real>(
     matrix: &mut [T],
     permutation: &mut [usize],
@@ -121,7 +121,7 @@ fn factor_by<T: Real>(
 }
 
 /// The row at or below `k` with the largest entry in column `k`, and its size.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest_below<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
     let mut best = (k, Scalar::abs(matrix[k * n + k]));
     for row in k + 1..n {
@@ -134,7 +134,7 @@ fn largest_below<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
 }
 
 /// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of those above.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize, rounding: T) -> Result<usize, StepFailure> {
     let (row, pivot) = largest_below(matrix, n, k);
     let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
@@ -180,7 +180,7 @@ const SHORT: usize = 8;
 ///
 /// # Errors
 /// As [`factor`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
     let n = x.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
@@ -229,7 +229,7 @@ pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), St
 ///
 /// # Errors
 /// As [`factor`]; [`StepFailure::NotFinite`] if A is singular and `x` is no number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn eliminate_two<T: Real>(matrix: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
     let (&[a, b, c, d], [x, y]) = (matrix, x) else { return None };
     let across = b * c;

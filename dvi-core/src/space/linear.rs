@@ -48,7 +48,7 @@ pub trait LinearSolver<T: Real>: Debug {
     fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure>;
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
     matrix: &mut M,
     equations: &mut E,
@@ -85,7 +85,7 @@ fn by_factors<T: Real, M: SquareMatrix<T>>(
 impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> LinearSolver<T>
     for FixedSquare<T, BLOCKS, N, SINGLES>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
         eliminate(self, equations, x)
     }

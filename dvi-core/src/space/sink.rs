@@ -30,7 +30,7 @@ impl<'a, T> Dense<'a, T> {
 impl<T: Scalar> Sink<T> for Dense<'_, T> {
     /// # Panics
     /// If the slice ends before this entry.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.entries[row * self.columns + column] += entry;
     }
@@ -48,7 +48,7 @@ pub struct Product<'a, T> {
 impl<T: Scalar> Sink<T> for Product<'_, T> {
     /// # Panics
     /// If one of the vectors ends before this row or column.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.sum[row] += entry * self.x[column];
     }
@@ -66,7 +66,7 @@ pub struct TransposedProduct<'a, T> {
 impl<T: Scalar> Sink<T> for TransposedProduct<'_, T> {
     /// # Panics
     /// If one of the vectors ends before this row or column.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.sum[column] += entry * self.x[row];
     }
@@ -80,7 +80,7 @@ pub struct Places<F>(
 );
 
 impl<T, F: FnMut(usize, usize, T)> Sink<T> for Places<F> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         (self.0)(row, column, entry);
     }
@@ -91,7 +91,7 @@ impl<T, F: FnMut(usize, usize, T)> Sink<T> for Places<F> {
 pub(crate) struct Transposed<'a, K>(pub(crate) &'a mut K);
 
 impl<T, K: Sink<T>> Sink<T> for Transposed<'_, K> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.0.add(column, row, entry);
     }
@@ -106,7 +106,7 @@ pub(crate) struct Scaled<'a, K, F> {
 }
 
 impl<T: Scalar, K: Sink<T>, F: Fn(usize, usize) -> T> Sink<T> for Scaled<'_, K, F> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.sink.add(row, column, (self.factor)(row, column) * entry);
     }

@@ -100,7 +100,7 @@ pub struct FixedSquare<T, const BLOCKS: usize, const N: usize, const SINGLES: us
 impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize>
     FixedSquare<T, BLOCKS, N, SINGLES>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(space: crate::Fixed<BLOCKS, N, SINGLES>) -> Self {
         Self { matrix: space.matrix(), permutation: space.permutation() }
     }
@@ -111,17 +111,17 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
 {
     type Entries = FixedMatrix<T, BLOCKS, N, SINGLES>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cleared(&mut self) -> &mut Self::Entries {
         // −0 is neutral for every number, so that the first addition to an entry may be dropped.
         self.matrix.fill(T::lift(-0.0));
         &mut self.matrix
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
         elimination::eliminate(&mut self.matrix, x)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>> {
         elimination::eliminate_two(&self.matrix, x)
     }

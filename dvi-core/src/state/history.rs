@@ -66,7 +66,7 @@ impl<S: System, T: Real> History<S, T> {
     }
 
     /// Sets `guess` to the extrapolated increment.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn extrapolate(&self, guess: &mut [T]) {
         // The full sum has a known length and makes straight code.
         match self.len {
@@ -93,14 +93,14 @@ impl<S: System, T: Real> History<S, T> {
     }
 
     /// Remembers the increment of a completed step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn push(&mut self, increment: &[T]) {
         self.ring[self.next].copy_from_slice(increment);
         self.advance();
     }
 
     /// The same, times `factor`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn push_scaled(&mut self, increment: &[T], factor: T) {
         for (kept, &x) in self.ring[self.next].iter_mut().zip(increment) {
             *kept = x * factor;
@@ -108,7 +108,7 @@ impl<S: System, T: Real> History<S, T> {
         self.advance();
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance(&mut self) {
         self.next = if self.next + 1 < DEPTH { self.next + 1 } else { 0 };
         if self.len < DEPTH {
@@ -118,7 +118,7 @@ impl<S: System, T: Real> History<S, T> {
 }
 
 /// Sets `guess` to the extrapolation of a full ring, of which the oldest increment is at `place`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn extrapolate<P: Scalar>(
     ring: &[impl Deref<Target = [P]>; DEPTH],
     place: usize,
@@ -127,7 +127,7 @@ pub(crate) fn extrapolate<P: Scalar>(
     combine(ring, place, DEPTH, guess);
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn combine<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], next: usize, len: usize, guess: &mut [P]) {
     guess.fill(P::lift(0.0));
     let mut place = next;

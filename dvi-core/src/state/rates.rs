@@ -37,7 +37,7 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
     }
 
     /// Sets `rates` to those of a step of length `h` to begin with.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn guess(&self, h: T, guess: Guess, rates: [&mut Vector<S, T>; KINDS]) {
         // The full sum has a known length and makes straight code, which is the first to be asked for.
         let len = match guess {
@@ -54,7 +54,7 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
     }
 
     /// Remembers those of a completed step of length `h`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn push(&mut self, h: T, rates: [&Vector<S, T>; KINDS]) {
         if h != self.last_step {
             if !is_similar(h, self.last_step) {
@@ -91,7 +91,7 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
 
 impl<S: System, T: Real> Kind<S, T> {
     /// Sets `rates` to what the last `len` lead to.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn extrapolate(&self, newest: usize, len: usize, rates: &mut [T]) {
         // The full sum has a known length and makes straight code.
         match len {
@@ -101,7 +101,7 @@ impl<S: System, T: Real> Kind<S, T> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn combine(&self, newest: usize, len: usize, rates: &mut [T]) {
         // −0 is neutral for every number.
         rates.fill(T::lift(-0.0));
@@ -124,7 +124,7 @@ impl<S: System, T: Real> Memory<T> for Kind<S, T> {
 
 /// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same
 /// sign, and neither is twice as long as the other.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
     let [size, last_size] = [h, last].map(Scalar::abs);
     h == last || h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size

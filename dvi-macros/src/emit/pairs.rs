@@ -28,6 +28,7 @@ use quote::{ToTokens as _, quote};
 use syn::Ident;
 
 use super::indices::open;
+use super::inlining::ForceInline;
 use super::values::parameter_slice;
 use super::{Element, Function, local, output_array};
 use crate::instructions::{Instruction, Register, Signed};
@@ -125,7 +126,7 @@ impl Function<'_> {
                 #krate::__private::halves(
                     #bodies,
                     [#(&mut #arrays[..]),*],
-                    #[inline(always)]
+                    #ForceInline
                     |
                         #body: usize,
                         [#lower, #upper, #first]: [usize; 3],

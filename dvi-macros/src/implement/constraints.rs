@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::state::space_of;
 use super::{allow, in_numbers};
+use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, constraint_members, first_constraint, local};
 use crate::program::Constraints;
 use crate::routine::Routine;
@@ -80,9 +81,9 @@ fn system(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
             type Multipliers = #multipliers;
             type Augmented = #augmented;
 
-            #[inline(always)]
+            #ForceInline
             fn multipliers(&self) -> Self::Multipliers { #multipliers_value }
-            #[inline(always)]
+            #ForceInline
             fn augmented(&self) -> Self::Augmented { #augmented_value }
         }
     }

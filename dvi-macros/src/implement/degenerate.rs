@@ -7,6 +7,7 @@ use super::document::{Account, beside_force, quantity};
 use super::pairs::degenerate_pairs;
 use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
+use crate::emit::inlining::ForceInline;
 use crate::errors::listed;
 use crate::program::{DegenerateFormulas, DegeneratePrograms, TimeTransform};
 use crate::routine::Routine;
@@ -140,13 +141,13 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
 
             #[inline]
             fn hamiltonian(&self, __q: &[__T], __t: __T) -> __T { #hamiltonian }
-            #[inline(always)]
+            #ForceInline
             fn hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
                 #hamiltonian_gradient
             }
             #[inline]
             fn one_form(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #one_form }
-            #[inline(always)]
+            #ForceInline
             fn flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
                 #flow_source
             }
@@ -156,13 +157,13 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             ) {
                 #read #offsets #jacobian
             }
-            #[inline(always)]
+            #ForceInline
             fn conjugate_entries(
                 &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __vector: &mut [__T],
             ) {
                 #conjugate_entries
             }
-            #[inline(always)]
+            #ForceInline
             fn conjugate(&self, __i: usize) -> usize { #conjugate }
             #[inline]
             fn momentum_gradient(
@@ -203,7 +204,7 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
     if class.is_proper {
         let place = place(emitter, class);
         let items = quote! {
-            #[inline(always)]
+            #ForceInline
             fn place(&self, __coordinate: usize) -> usize { #place }
         };
         return in_numbers(emitter, &quote!(ProperlyDegenerate), &items);

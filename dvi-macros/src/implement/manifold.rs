@@ -6,6 +6,7 @@ use quote::quote;
 use super::state::space_of;
 use super::{allow, in_numbers};
 use crate::emit::Emitter;
+use crate::emit::inlining::ForceInline;
 use crate::symbolic::Index;
 use crate::syntax::Factor;
 
@@ -27,7 +28,7 @@ pub(super) fn manifold(emitter: &Emitter<'_>) -> TokenStream {
         #allow
         impl #impl_generics #krate::ManifoldSystem for #name #type_generics #where_clause {
             type Tangent = #tangent;
-            #[inline(always)]
+            #ForceInline
             fn tangent(&self) -> Self::Tangent { #value }
         }
         #lagrangian

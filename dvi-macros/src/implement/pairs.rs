@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::in_numbers_with;
+use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, local};
 use crate::program::{DegeneratePairs, Output, PairPrograms, RegularPairs};
 use crate::symbolic::Index;
@@ -55,14 +56,14 @@ fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
         fn place(&self, __axis: usize) -> usize {
             match __axis { #(#places)* _ => 0usize }
         }
-        #[inline(always)]
+        #ForceInline
         fn weight(&self, __body: usize) -> __T { #weight }
-        #[inline(always)]
+        #ForceInline
         fn kernel(&self, __r2: __T) -> __T {
             let #square = [__r2];
             #kernel
         }
-        #[inline(always)]
+        #ForceInline
         fn kernel_slope(&self, __r2: __T) -> __T {
             let #square = [__r2];
             #kernel_slope

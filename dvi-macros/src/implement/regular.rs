@@ -9,6 +9,7 @@ use super::in_numbers;
 use super::manifold::manifold;
 use super::pairs::regular_pairs;
 use crate::emit::Emitter;
+use crate::emit::inlining::ForceInline;
 use crate::program::{Output, RegularFormulas, RegularPrograms};
 use crate::structure::MassMatrix;
 use crate::symbolic::{Expr, print_coordinate, print_velocity};
@@ -78,7 +79,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
         const DIAGONAL_MASS: bool = #diagonal;
         const QUADRATIC: bool = #quadratic;
 
-        #[inline(always)]
+        #ForceInline
         fn force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }
         #[inline]
         fn momentum_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #rate }

@@ -283,7 +283,7 @@ fn constraints_of_a_chain_along_a_motion() {
                     _,
                 >(
                     __q.len(),
-                    #[inline(always)]
+                    #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         let mut __r12 = T::lift(-0.0);
                         let __whole = __private::whole(0usize, self.n);

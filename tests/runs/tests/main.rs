@@ -2,11 +2,9 @@
 //!
 //! They are one program, so that what several of them run is compiled once, and the long ones run beside the others.
 
+mod angular_momentum;
 mod constrained;
-mod error_control;
-mod galerkin;
 mod impacts;
-mod langevin;
 mod loop_integrals;
 mod manifold;
 mod nonholonomic;
@@ -19,4 +17,3 @@ mod smooth_orbits;
 mod splines;
 mod step_control;
 mod time_transform;
-mod variational;

@@ -37,11 +37,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
             orientation: FormOrientation::new(system, q, t),
         })
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather(_equations: &mut FlowOnQ<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         y.0[0].copy_from_slice(q);
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
@@ -52,7 +52,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
@@ -65,7 +65,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         equations.field.evaluate(system, &y.0[0], t, out, statistics)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cancelling(
         _equations: &mut FlowOnQ<S, T>,
         _system: &S,
@@ -74,7 +74,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<T, StepFailure> {
         Ok(T::lift(0.0))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compare(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
@@ -83,7 +83,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         equations.orientation.compare(system, &y.0[0], t).map(drop)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn arrive(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
@@ -112,7 +112,7 @@ impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Degenerate
 where
     S: DegenerateLagrangian<T> + DegenerateLagrangian<Lanes<W, T>>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_in_lanes(
         equations: &mut FlowOnQ<S, T>,
         at: &AtStages<'_, W, S, T>,

@@ -53,7 +53,7 @@ struct Transform<S: System, T: Real> {
 
 impl<S: RegularLagrangian<T>, T: Real> Velocities<S, T> {
     /// Sets `v` to the velocity that belongs to `p`; where it is sought, from the one that stands there.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         match self {
             Self::Constant(mass) => mass.solve(p, v),
@@ -119,7 +119,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         };
         Ok(HamiltonsEquations { p, inverse })
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather(equations: &mut HamiltonsEquations<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         let [coordinates, momenta] = &mut y.0;
         coordinates.copy_from_slice(q);
@@ -128,7 +128,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             latest.copy_from_slice(velocity);
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
@@ -146,7 +146,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         statistics.gradients += 1;
         Ok(())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
@@ -169,14 +169,14 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn has_velocity_forces() -> bool {
         !S::SEPARABLE
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
         match &equations.inverse {
             Velocities::Constant(mass) if S::SEPARABLE => mass.reciprocals(),
             Velocities::Constant(_) | Velocities::Varying(_) => None,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cancelling(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
@@ -190,7 +190,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             }
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compare(
         _equations: &mut HamiltonsEquations<S, T>,
         _system: &S,
@@ -199,7 +199,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     ) -> Result<(), StepFailure> {
         Ok(())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn arrive(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
@@ -248,7 +248,7 @@ impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Regular
 where
     S: RegularLagrangian<T> + RegularLagrangian<Lanes<W, T>>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_in_lanes(
         equations: &mut HamiltonsEquations<S, T>,
         at: &AtStages<'_, W, S, T>,

@@ -38,7 +38,7 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> 
     }
 
     /// For the vector field of a degenerate system.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of_field(&mut self) -> LaneWork<'_, W, T> {
         let Self { vector, gradient, entries, .. } = self;
         LaneWork { gradient, entries, vector }
@@ -73,7 +73,7 @@ pub struct Slopes<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
 
 impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T> {
     /// Renews number `j`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn renew(&mut self, j: usize, renewed: Lanes<W, T>) {
         let slope = &mut self.slopes[self.part][j];
         for stage in 0..W {
@@ -85,12 +85,12 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T>
     }
 
     /// Takes over that the entry has been renewed in its place, where nothing is asked of its changes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn renewed(&mut self) {
         weigh(|_| self.weights, &self.slopes[self.part], self.terms);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn renew_all(&mut self, renewed: &[Lanes<W, T>]) {
         for (j, &renewed) in renewed.iter().enumerate() {
             self.renew(j, renewed);
@@ -100,7 +100,7 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T>
 
 /// Sets `terms`ₖ to `weights`(k) times `packs`ₖ. The loop is one over blocks, because over single packs the compiler would take lanes of
 /// several packs together, and load and store them one by one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn weigh<const W: usize, T: Real>(
     weights: impl Fn(usize) -> Lanes<W, T>,
     packs: &[Lanes<W, T>],
@@ -154,7 +154,7 @@ pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real
 }
 
 impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation<W, S, T> for OneByOne {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
         equations: &mut EquationsOf<S, T>,
         at: &AtStages<'_, W, S, T>,
@@ -165,7 +165,7 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation
         one_by_one(equations, at, work, slopes, statistics)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<K: Task>(step: K) -> K::Output {
         step.run()
     }
@@ -174,7 +174,7 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation
 impl<const W: usize, S: System<Kind: FirstOrderInLanes<W, S, T>>, T: Real> StageEvaluation<W, S, T>
     for InLanes
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
         equations: &mut EquationsOf<S, T>,
         at: &AtStages<'_, W, S, T>,
@@ -185,7 +185,7 @@ impl<const W: usize, S: System<Kind: FirstOrderInLanes<W, S, T>>, T: Real> Stage
         S::Kind::evaluate_in_lanes(equations, at, work, slopes, statistics)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<K: Task>(step: K) -> K::Output {
         widest(step)
     }
@@ -214,7 +214,7 @@ pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T
 }
 
 /// Evaluates the stages one by one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn one_by_one<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>(
     equations: &mut EquationsOf<S, T>,
     at: &AtStages<'_, W, S, T>,

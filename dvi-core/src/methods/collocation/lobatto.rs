@@ -43,11 +43,11 @@ pub(in crate::methods) struct Lobatto<const S: usize> {
 }
 
 impl<const S: usize> Rule for Lobatto<S> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn nodes(&self) -> &[f64] {
         &self.c
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weights(&self) -> &[f64] {
         &self.b
     }

@@ -11,7 +11,7 @@ const BLOCK: usize = 4;
 
 /// Sets pack k of `out` to y + (e + Σⱼ `columns`ⱼ xⱼ), for the numbers x in the first lanes of that pack of `packs` and `from`(k) = (y, e), where
 /// y is the same for all stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn combine<const STAGES: usize, T: Real>(
     columns: &[Lanes<STAGES, T>],
     packs: &[Lanes<STAGES, T>],
@@ -30,7 +30,7 @@ pub(in crate::methods) fn combine<const STAGES: usize, T: Real>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn combine_block<const STAGES: usize, const N: usize, T: Real>(
     columns: &[Lanes<STAGES, T>],
     packs: &[Lanes<STAGES, T>; N],
@@ -68,7 +68,7 @@ pub(in crate::methods) struct Nystrom<const STAGES: usize, T> {
 impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
     /// Sets the positions of the stages by the displacements x of the first `count`, and returns the largest change of one. For coordinate k,
     /// `from`(k) is q and what is added to the sum. `renewed` is storage.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in crate::methods) fn place(
         &self,
         count: usize,
@@ -91,13 +91,13 @@ impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
 }
 
 /// The sum over stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn sum<T: Real>(stages: &[T]) -> T {
     stages.iter().fold(T::lift(0.0), |sum, &number| sum + number)
 }
 
 /// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
     let mut count = N;
     while count > 1 {
@@ -116,7 +116,7 @@ const REACH: [f64; 2] = [-3.0, 2.0];
 
 /// The Lagrange polynomials through `N` stages, in columns: where the stages of the next step are whose nodes are `c` and whose length is `ratio`
 /// times that of the step before. Row k of `lagrange` is in terms of the Legendre polynomial of degree k.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn continuation<const STAGES: usize, const N: usize, T: Real>(
     lagrange: &[[T; N]; N],
     c: Lanes<STAGES, T>,
@@ -128,7 +128,7 @@ pub(in crate::methods) fn continuation<const STAGES: usize, const N: usize, T: R
 }
 
 /// The Lagrange polynomials at points `x` of the step, whose ends are 0 and 1, or beyond.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn lagrange_at<const STAGES: usize, const N: usize, T: Real>(
     lagrange: &[[T; N]; N],
     x: Lanes<STAGES, T>,

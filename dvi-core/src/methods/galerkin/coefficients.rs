@@ -89,13 +89,13 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
     }
 
     /// Whether these are the coefficients for u = ωh.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_for(&self, u: T) -> bool {
         self.u == u
     }
 
     /// φ̂ and ψ̂ of direction `r` at node `j`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn direction(&self, j: usize, r: usize) -> [T; 2] {
         if r == NODES - 1 { self.left[j] } else { [self.point[j][r], self.velocity[j][r]] }
     }

@@ -14,7 +14,7 @@ const NOTHING_SOLVED: StepFailure =
     StepFailure::NotConverged { iterations: 0, correction: f64::NAN, tolerance: 0.0 };
 
 /// The positions, and the increments that follow but for the second kick.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fixed_point<const NODES: usize, S: NondegenerateLagrangian<T>, F, T: Real, E, I>(
     step: &Step<'_, NODES, S, F, T, E>,
     path: &mut Path<NODES, S, T, I>,
@@ -35,7 +35,7 @@ where
     iterate(
         convergence,
         statistics,
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         |statistics| Ok(interior.improve(step.system, &departure, step.t, statistics)),
     )?;
     let Work { unknowns, residuals, .. } = work;
@@ -64,7 +64,7 @@ where
 }
 
 /// Moves to q1 = q0 + Δ and p1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F, T: Real, E, I>(
     step: &Step<'_, NODES, S, F, T, E>,
     path: &mut Path<NODES, S, T, I>,

@@ -51,7 +51,7 @@ pub trait NodeForces<const W: usize, S: System, T: Real>: Debug {
 }
 
 impl<const W: usize, S: NondegenerateLagrangian<T>, T: Real> NodeForces<W, S, T> for OneByOne {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(
         system: &S,
         count: usize,
@@ -67,14 +67,14 @@ impl<const W: usize, S: NondegenerateLagrangian<T>, T: Real> NodeForces<W, S, T>
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<K: Task>(steps: K) -> K::Output {
         steps.run()
     }
 }
 
 impl<const W: usize, S: NondegenerateLagrangian<Lanes<W, T>>, T: Real> NodeForces<W, S, T> for InLanes {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(
         system: &S,
         _count: usize,
@@ -86,7 +86,7 @@ impl<const W: usize, S: NondegenerateLagrangian<Lanes<W, T>>, T: Real> NodeForce
         system.force(places, &[], times, forces);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<K: Task>(steps: K) -> K::Output {
         widest(steps)
     }

@@ -18,7 +18,7 @@ use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Scalar, Vector};
 
 /// The unknowns.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fixed_point<
     const NODES: usize,
     S: NondegenerateLagrangian<T>,
@@ -46,7 +46,7 @@ where
 }
 
 /// One iteration; returns the size of its correction.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn improve<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
     step: &Step<'_, NODES, S, F, T, E>,
     path: &mut Path<NODES, S, T, I>,
@@ -94,7 +94,7 @@ where
 }
 
 /// Sets `work.gradient` to the force at interior node `j`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn node_force<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
     j: usize,
     step: &Step<'_, NODES, S, F, T, E>,
@@ -113,7 +113,7 @@ fn node_force<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<
 }
 
 /// Moves to q1 = q0 + Δ and evaluates p1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn finish<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, E, I>(
     step: &Step<'_, NODES, S, F, T, E>,
     path: &mut Path<NODES, S, T, I>,

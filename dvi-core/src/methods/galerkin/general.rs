@@ -129,7 +129,7 @@ struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real, E> {
 impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E> NodeSum<NODES, T>
     for Linearized<'_, '_, NODES, S, F, T, E>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, j: usize) {
         let Self { step, rule, coefficients, unknowns, node: [point, velocity, ..], .. } = self;
         place(j, step.h, coefficients, unknowns, [point, velocity]);
@@ -137,7 +137,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E
         self.t = step.node_time(rule.nodes()[j]);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
         let Self { step: Step { h, .. }, coefficients, j, .. } = *self;
         let [by_point, by_velocity] = coefficients.direction(j, r).map(|x| coefficients.weights[j] * x);

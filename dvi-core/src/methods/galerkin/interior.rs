@@ -147,7 +147,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn end_impulse(&self, h: T, force: T) -> T {
         h * self.end * force
     }
@@ -156,14 +156,14 @@ where
         self.last = T::lift(0.0);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn remember(&mut self, h: T, first: &[T]) {
         self.completed[0].copy_from_slice(&self.forces);
         self.first.copy_from_slice(first);
         self.last = h;
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn depart(&mut self, at: &Departure<'_, S, T>) -> T {
         let Departure { phase, mass, h, .. } = *at;
         self.continue_forces(&phase.force, h);
@@ -177,7 +177,7 @@ where
         norm::largest(&self.drift)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, system: &S, at: &Departure<'_, S, T>, t: T, statistics: &mut Statistics) -> T {
         self.evaluate(system, [t, at.h], statistics);
         self.place(at)
@@ -200,7 +200,7 @@ where
         self.evaluate(system, interval, statistics);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments(&self, k: usize) -> [T; 2] {
         let forced = self.nystrom.beta * self.displacements[k];
         let displaced = self.drift[k] + (sum(&forced.0[..Self::COUNT]) + self.kick[k]);
@@ -211,7 +211,7 @@ where
         (self.places[k].0[node - 1] - q) - self.nystrom.nodes.0[node - 1] * increment
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<K: Task>(steps: K) -> K::Output {
         E::run(steps)
     }
@@ -224,7 +224,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
     const COUNT: usize = NODES - 2;
 
     /// Evaluates the forces at the nodes of a step of length h from t.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(&mut self, system: &S, [t, h]: [T; 2], statistics: &mut Statistics)
     where
         E: NodeForces<W, S, T>,
@@ -239,7 +239,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
 
     /// Continues the polynomial through the forces of the step before into a step of length `h`, where the force is `force` at its start;
     /// before the first step, that force.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn continue_forces(&mut self, force: &[T], h: T) {
         let Self {
             lagrange,
@@ -276,7 +276,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
     }
 
     /// Moves the nodes by the forces, and returns the largest change of a position.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, at: &Departure<'_, S, T>) -> T {
         let Departure { q, phase, mass, h } = *at;
         let Self { nystrom, terms, displacements, places, renewed, drift, kick, work, .. } = self;

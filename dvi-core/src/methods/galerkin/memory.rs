@@ -154,7 +154,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     /// Sets the unknowns to their guess. Where there are interior nodes, the step before is continued. Else they are extrapolated from the
     /// steps before if these had about this length; if not, the path is straight, and its velocity is taken from the momentum if L is
     /// separable.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess<F, E>(&mut self, step: &Step<'_, NODES, S, F, T, E>, q: &[T]) {
         let Self { phase, inertial, interior, displacements, work, .. } = self;
         let similar = phase.extrapolates_to(step.h);
@@ -185,13 +185,13 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     }
 
     /// max|q0| + max|Δ|, by which errors are measured.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scale(&self) -> T {
         norm::largest(&self.work.unknowns[0]) + norm::largest(&self.work.unknowns[NODES - 1])
     }
 
     /// The coefficients for the frequency at the current unknowns.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn read_frequency<F: FrequencyIn<T>, E>(
         &mut self,
         step: &Step<'_, NODES, S, F, T, E>,
@@ -226,7 +226,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     }
 
     /// Makes the coefficients those for `u` = ωh, if they are not.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fit(&mut self, u: T) -> Result<(), StepFailure> {
         if !self.coefficients.is_for(u) {
             self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u)?;
@@ -236,7 +236,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
 
     /// Moves to `work.next`, `work.momentum` and `work.next_force` at the time `end`, if they are numbers and the mass
     /// matrix has kept its orientation. The increments are the last of the unknowns, and the first of the residuals.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn complete(
         &mut self,
         system: &S,
@@ -268,7 +268,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scale<T: Real>(x: &mut [T], factor: T) {
     for x in x {
         *x *= factor;

@@ -22,7 +22,7 @@ pub(super) struct Step<'a, const NODES: usize, S, F, T, E> {
 
 impl<const NODES: usize, S: NondegenerateLagrangian<T>, F, T: Real, E> Step<'_, NODES, S, F, T, E> {
     /// The time of a node.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn node_time(&self, c: f64) -> T {
         self.t + T::lift(c) * self.h
     }
@@ -89,13 +89,13 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         I::run(Steps::new(
             clock,
             count,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             |interval| self.take(system, memory, q, interval, statistics),
         ))
     }
 
     /// Takes a step from t to t + h.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<S: NondegenerateLagrangian<T>, T: Real, I: InteriorNodes<NODES, S, T>>(
         &self,
         system: &S,
@@ -114,7 +114,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         ladder.solve(
             path,
             statistics,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             |path, statistics| {
                 if S::SEPARABLE && F::UNFITTED {
                     eliminated::fixed_point(&step, path, q0, budget, statistics)

@@ -41,13 +41,13 @@ impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
     }
 
     /// Column j of the continuation into a step whose length is `ratio` times that of the one before.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn continuation_over(&self, ratio: T) -> [Lanes<STAGES, T>; STAGES] {
         continuation(&self.lagrange, self.c, ratio)
     }
 
     /// The Lagrange polynomials at the start of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn at_start(&self) -> [T; STAGES] {
         lagrange_at(&self.lagrange, Lanes::<STAGES, T>::all(T::lift(0.0))).map(|column| column.0[0])
     }

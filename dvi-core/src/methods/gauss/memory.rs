@@ -79,7 +79,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     }
 
     /// Continues the polynomial through the completed stages into the next step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess(&mut self, h: T) {
         let Self { equations, coefficients, completed, last, slopes, terms, y, .. } = self;
         let weights = Lanes::all(h) * coefficients.b;
@@ -98,7 +98,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     }
 
     /// Sets one part of the points of the stages by the slopes of that part.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn reach(&mut self, part: usize) {
         let Self { coefficients, terms, stages, y, rest, .. } = self;
         let from = |k: usize| (y[part][k], Lanes::all(rest[part][k]));
@@ -106,7 +106,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     }
 
     /// Evaluates one part of the slopes at the points of all stages, and returns the largest change of a velocity.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
         part: usize,
@@ -126,7 +126,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     }
 
     /// Moves to the end of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn arrive(
         &mut self,
         summation: Summation,
@@ -168,7 +168,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
 
 /// The first part whose slopes are carried from step to step. Of equations of second order, of which only forces are evaluated, that is the
 /// second.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_part<S: System<Kind: FirstOrder<S, T>>, T: Real>(equations: &EquationsOf<S, T>) -> usize {
     usize::from(S::Kind::reciprocal_masses(equations).is_some())
 }

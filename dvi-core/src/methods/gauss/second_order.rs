@@ -17,7 +17,7 @@ use crate::{Real, Scalar, System};
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
     /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the equations are not of second
     /// order.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place(&mut self, h: T) -> Option<T> {
         let Self { equations, coefficients, terms, stages, y, rest, .. } = self;
         let reciprocals = S::Kind::reciprocal_masses(equations)?;
@@ -37,7 +37,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
 
     /// Evaluates the forces at all stages once and moves them, and returns the largest change of a position; `None` if the equations are
     /// not of second order.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn improve_places<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
         system: &S,
@@ -53,7 +53,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     }
 
     /// The largest h q' where the step begins; `None` if the equations are not of second order.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn drift(&self, h: T) -> Option<T> {
         let reciprocals = S::Kind::reciprocal_masses(&self.equations)?;
         let rates = self.y[1].iter().zip(reciprocals).map(|(&p, &reciprocal)| h * reciprocal * p);
@@ -61,7 +61,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn displace(&mut self, h: T) {
         let Self { equations, coefficients, terms, y, rest, increment, .. } = self;
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };

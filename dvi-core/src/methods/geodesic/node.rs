@@ -75,7 +75,7 @@ pub(super) struct Path<'a, T> {
 
 impl<T: Real> Path<'_, T> {
     /// The great circle of a unit vector.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn circle(&self, block: Block) -> GreatCircle<T> {
         GreatCircle::new(vector(self.q, block), vector(self.displacement, block))
     }
@@ -125,7 +125,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// Δ/h
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn swing_on_line(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
         let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / h);
         for i in block.places() {
@@ -146,7 +146,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// ω = u/h. With R0 by η, where R1 is held, δu = −J(u)⁻¹η.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn swing_on_rotations(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
         let (u, per_h) = (vector(displacement, block), T::lift(1.0) / h);
         let inverse = Series::mean_inverse(u).matrix();
@@ -168,7 +168,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// γ'(c)/h, with tangent vectors along the circle and across.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn swing_on_sphere(&mut self, block: Block, path: Path<'_, T>, c: T) {
         let circle = path.circle(block);
         let (here, rest) = (circle.at(c), circle.at(T::lift(1.0) - c));

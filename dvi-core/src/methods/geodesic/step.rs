@@ -38,7 +38,7 @@ pub(super) fn nodes<R: Rule, T: Real>(rule: &R, h: T) -> impl Iterator<Item = [T
 
 impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
     /// Finds the end of a step from time t, of length h.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve<R: Rule>(
         &mut self,
         rule: &R,
@@ -85,7 +85,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
     }
 
     /// Moves to the end of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn keep(&mut self, q: &mut [T], h: T) {
         let Self { p, rates, lifted, carried, kicks, work, .. } = self;
         if let Some(Kicks { force, .. }) = kicks {
@@ -100,7 +100,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
 
 impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
     /// Improves the displacement until p0 = −D₁L_d, whose residual and derivative `linearize` sets.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve(
         &mut self,
         step: &Step<'_, S, T>,

@@ -19,13 +19,13 @@ pub(super) struct Split<S: System, T: Real> {
 }
 
 /// Whether α has a component along coordinate `i`: the compiler knows it where sizes are literals.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn is_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, i: usize) -> bool {
     2 * system.place(i) < system.space().dimension()
 }
 
 /// Sets `to` to `from` along x, and to zero along y.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn copy_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, from: &[T], to: &mut [T]) {
     for (i, (&from, to)) in from.iter().zip(to).enumerate() {
         *to = if is_x(system, i) { from } else { T::lift(0.0) };
@@ -33,7 +33,7 @@ pub(super) fn copy_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, from: &[T], 
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
         Self { block: space.matrix(), form: space.vector(), change: space.vector() }
@@ -43,7 +43,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where ∂ϑ/∂y is, [`StepFailure::NotConverged`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve_y(
         &mut self,
         system: &S,
@@ -66,7 +66,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     }
 
     /// Sets `change` to (∂ϑ/∂y)⁻¹`form`, and returns its size.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve_once(
         &mut self,
         system: &S,
@@ -83,7 +83,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     }
 
     /// The same where each row has one entry.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divide(&mut self, system: &S, q: &[T], t: T) -> Result<T, StepFailure> {
         let half = q.len() / 2;
         scratch!(entries = system, self.block[..q.len()]);
@@ -142,7 +142,7 @@ struct Newton<'a, S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { split, system, q, t, p } = self;
         system.one_form(q, *t, &mut split.form);

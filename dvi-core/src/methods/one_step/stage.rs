@@ -25,7 +25,7 @@ pub(super) enum Rule {
 }
 
 impl Rule {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn nodes(self) -> &'static [Node] {
         match self {
             Self::A => &[Node::END],
@@ -35,7 +35,7 @@ impl Rule {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_symmetric(self) -> bool {
         matches!(self, Self::Midpoint | Self::Trapezoid)
     }
@@ -85,7 +85,7 @@ pub(super) struct Stage<S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
         let vector = || system.space().vector();
         let rest: Vector<S, T> = vector();
@@ -106,7 +106,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve(
         &mut self,
         step: &Step<'_, S, T>,
@@ -150,7 +150,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     }
 
     /// The equations at the unknowns.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn equations<'a>(&'a mut self, step: &'a Step<'a, S, T>) -> Posed<'a, S, T> {
         let Self { unknown, momentum, gradient, one_form, solver, point, velocity, correction, .. } = self;
         (
@@ -161,7 +161,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     }
 
     /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`, and returns the time of `point`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn kick(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> T {
         if step.is_centred() {
             return self.kick_at_centre(step);
@@ -182,7 +182,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
 
     /// The same at the centre, from Newton's last iterate and its correction d, up to terms of the order d², as of the unknowns
     /// themselves: along x his equations are (Dα − ½h Df)d = r = ϑ − ½h f − p, and so the half of the kick is ½h f + r − Dα d.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick_at_centre(&mut self, step: &Step<'_, S, T>) -> T {
         let Self { momentum, gradient, one_form, point, velocity, correction, .. } = self;
         let Step { system, t, h, .. } = *step;
@@ -203,19 +203,19 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
     /// Whether the only node is the centre: its equations are solved for the point and not for Δ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_centred(&self) -> bool {
         self.nodes == [Node::CENTRE]
     }
 
     /// What an entry of the solution is multiplied by to give the change of the unknown.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stretch(&self, i: usize) -> T {
         T::lift(if self.is_centred() && is_x(self.system, i) { 2.0 } else { 1.0 })
     }
 
     /// Sets `point` and `velocity` to those of `node`, and returns its time.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(
         &self,
         unknown: &Vector<S, T>,
@@ -242,7 +242,7 @@ struct Newton<'a, S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { step, stage } = self;
         let (mut equations, solver, correction) = stage.equations(step);
@@ -256,7 +256,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
         Ok(size)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self, times: u64, statistics: &mut Statistics) {
         statistics.linearizations += times * self.step.nodes.len() as u64;
         statistics.factorisations += times;
@@ -277,7 +277,7 @@ struct Equations<'a, S: System, T: Real> {
 impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
     const IN_ANY_UNITS: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { step, unknown, momentum, work: [point, velocity, gradient, one_form] } = self;
         let Step { system, h, nodes, .. } = **step;

@@ -12,7 +12,7 @@ use crate::{Real, Scalar};
 pub(super) const NEUTRAL: f64 = -0.0;
 
 /// Adds Σ `factors`ₖ `rows`ₖ to `sum`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
     for (row, &factor) in rows.iter().zip(factors) {
         for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
@@ -22,7 +22,7 @@ pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T]
 }
 
 /// Takes Σ `factors`ₖ `rows`ₖ from `sum`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn reduce<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
     for (row, &factor) in rows.iter().zip(factors) {
         for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
@@ -32,13 +32,13 @@ pub(super) fn reduce<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T],
 }
 
 /// a·b, from the last entry to the first: of three entries the compiler then packs the first two, as it does elsewhere.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).rev().fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
 }
 
 /// Sets a matrix to A Bᵀ, where A and B have these rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(gram: &mut Q, [a, b]: [&[V]; 2]) {
     let entries = gram.cleared();
     for (k, a) in a.iter().enumerate() {
@@ -52,7 +52,7 @@ pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(gram: &m
 ///
 /// # Errors
 /// [`StepFailure::RedundantConstraint`] and [`StepFailure::UndefinedConstraint`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
     rows: [&[V]; 2],
@@ -69,7 +69,7 @@ pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
 }
 
 /// A pivot is larger.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn least<T: Real>() -> T {
     T::default_epsilon() * T::lift(LEAST)
 }
@@ -78,7 +78,7 @@ pub(super) fn least<T: Real>() -> T {
 ///
 /// # Errors
 /// As [`solve`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn admit<T: Real>(pivot: T) -> Result<(), StepFailure> {
     if Scalar::abs(pivot) > least() { Ok(()) } else { Err(named(norm::singular(pivot, 0))) }
 }

@@ -23,20 +23,20 @@ impl<S: ConstrainedSystem, T: Real> Memory<T> for Point<S, T> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Point<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         Self { here: Place::new(system), last_step: T::lift(0.0), impulses: Impulses::new(system) }
     }
 
     /// The impulse of a step of length `h` is guessed to be so many times that of the last one.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn ratio(&self, h: T) -> T {
         let zero = T::lift(0.0);
         if self.last_step == zero { zero } else { h / self.last_step }
     }
 
     /// Moves to the end of a step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn follow(&mut self, q: &mut Vector<S, T>, work: &Work<S, T>) {
         q.copy_from_slice(&work.q);
         self.here.restore(&work.place);
@@ -49,7 +49,7 @@ const SHORT: usize = 64;
 
 impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
     /// Whether steps may be taken on the stack. All but the last two questions are answered when compiled.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn strides(&self, system: &S) -> bool
     where
         S: HolonomicLagrangian<T>,
@@ -64,7 +64,7 @@ impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
 impl Rattle {
     /// Takes steps with a quick look at each as long as they succeed from the guess that the last one gives, at most `count`, and
     /// returns how many; none at all, if they lead to what is no number. What no other function sees may stay in registers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn stride<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
         &self,
         system: &S,

@@ -52,7 +52,7 @@ impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let rows = || system.multipliers().array(vector);
@@ -62,7 +62,7 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Work<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let m = system.multipliers().dimension();
@@ -80,7 +80,7 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
     }
 
     /// Sets the guess of ι0 to `ratio` times `last`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
         for (impulse, &last) in self.impulses.first.iter_mut().zip(last) {
             *impulse = ratio * last;
@@ -116,7 +116,7 @@ impl<S: ConstrainedSystem, T: Real> Step<'_, S, T> {
     /// Whether the pivots of Newton's method say enough of how far the gradient has turned. Such a pivot is the product of the gradients
     /// before and after the step, in the metric of M. It is held against half the square of the first, so that what the last
     /// correction changes of it does not matter.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn trusts_pivot(&self) -> bool {
         self.look == Look::Quick && self.is_metric && self.system.multipliers().dimension() == 1
     }
@@ -124,7 +124,7 @@ impl<S: ConstrainedSystem, T: Real> Step<'_, S, T> {
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Place<S, T> {
     /// Sets M⁻¹Gᵀ and the diagonal of G M⁻¹ Gᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn measure(&mut self, mass: &Mass<S, T>) {
         let Self { rows, solved, squares, .. } = self;
         for ((row, solved), square) in rows.iter().zip(solved.iter_mut()).zip(squares.iter_mut()) {
@@ -140,7 +140,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Place<S, T> {
 ///
 /// # Errors
 /// [`StepFailure::Turned`] and [`StepFailure::Branch`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
     step: &Step<'_, S, T>,
     gram: &mut Gram<S, T>,
@@ -173,7 +173,7 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
     /// Sets q1, which is on the constraints, ι0 and the momentum between both ends, from the guess of ι0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn shake(
         &mut self,
         step: &Step<'_, S, T>,
@@ -205,7 +205,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
     }
 
     /// Sets p1, with its velocity along the constraints, and ι1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn rattle(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
         let Step { system, mass, here, t, h, .. } = *step;
         let (t1, half) = (t + h, T::lift(0.5) * h);
@@ -219,7 +219,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
     }
 
     /// Makes the velocity of p at q one along the constraints, which have been measured.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn align(
         &mut self,
         (system, mass): (&S, &Mass<S, T>),
@@ -264,7 +264,7 @@ struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Step { system, here, t, h, .. } = *self.step;
         let Work { q, place: Place { rows, .. }, impulses, vector, values, gram } = &mut *self.work;
@@ -292,7 +292,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
 }
 
 /// Sets `g` and the rows of G at (`q`, `t`).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn constrain<S: HolonomicLagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
@@ -305,7 +305,7 @@ pub(super) fn constrain<S: HolonomicLagrangian<T>, T: Real>(
 }
 
 /// Sets `sum` to q + Δ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add<T: Real>(q: &[T], displacement: &[T], sum: &mut [T]) {
     for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(displacement) {
         *sum = q + delta;
@@ -313,7 +313,7 @@ fn add<T: Real>(q: &[T], displacement: &[T], sum: &mut [T]) {
 }
 
 /// Takes `change` from `x`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn reduce_all<T: Real>(x: &mut [T], change: &[T]) {
     for (x, &change) in x.iter_mut().zip(change) {
         *x -= change;

@@ -21,7 +21,7 @@ use crate::state::history::History;
 use crate::state::summation::{Carried, Summation};
 use crate::{DegenerateLagrangian, Linear, Real, Vector};
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut TwoStep<S, T>,
@@ -76,7 +76,7 @@ fn explicit_right<S: DegenerateLagrangian<T>, T: Real>(
 }
 
 /// Adds the increment to `q` if the result is finite.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn advance<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     q: &mut Vector<S, T>,
@@ -119,7 +119,7 @@ fn compensated<S: DegenerateLagrangian<T>, T: Real>(
 }
 
 /// An implicit step with this fixed point, to which is passed what rounding has left out of the coordinates.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn solve<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut TwoStep<S, T>,
@@ -158,7 +158,7 @@ struct Attempt<'a, S: DegenerateLagrangian<T>, T: Real> {
 
 impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     /// s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
         let (sigma, node_time) = (step.method.sigma, step.node_time());
@@ -276,7 +276,7 @@ fn add_to<T: Real>(sum: &mut [T], terms: &[T]) {
 }
 
 /// Moves to q1 = q0 + K⁻¹c0 + s and updates the defect.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn finish<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     memory: &mut TwoStep<S, T>,

@@ -18,7 +18,7 @@ use crate::scalar::norm;
 use crate::space::scratch;
 use crate::{DegenerateLagrangian, Real, System, Vector};
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
     for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(increment) {
         *sum = q + delta;
@@ -27,7 +27,7 @@ pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
 
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
 /// good point.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     memory: &mut TwoStep<S, T>,
@@ -80,7 +80,7 @@ struct Run<'a, S: System, T: Real> {
 
 impl<S: DegenerateLagrangian<T>, T: Real> Run<'_, S, T> {
     /// With the rule that sets the point ahead, its last argument, from q0 and q1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn steps(self, look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
         let Self { system, inverse, product, node, work, monitor, defect, q, clock, count } = self;
         scratch!(q0 = system, node.point);
@@ -137,7 +137,7 @@ struct Leapfrog<'a, S: System, T: Real, L> {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for Leapfrog<'_, S, T, L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) {
         let Points { q0, q1, q2, ahead, gradient, s } = &mut self.points;
         self.system.hamiltonian_gradient(q1, self.clock.after(number).time(), gradient);
@@ -148,22 +148,22 @@ impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk f
         (self.look_ahead)(q0, q1, ahead);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn block(&self) -> u64 {
         self.monitor.period()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn watch(&mut self, number: u64) {
         self.monitor.note(self.monitor.steps + number, self.points.q1);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn admit(&mut self, number: u64) -> Result<(), StepFailure> {
         self.monitor.examine(self.monitor.steps + number, self.q)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn examine(&mut self, steps: u64) -> Result<(), StepFailure> {
         // Copies: what is examined must live in memory.
         scratch!(examined = self.system, *self.spare);
@@ -176,7 +176,7 @@ impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk f
         norm::finite(examined)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self) {
         let Points { q0, q1, ahead, s, .. } = &mut self.points;
         self.q.copy_from_slice(q1);
@@ -187,7 +187,7 @@ impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk f
         self.product.apply(self.system, s, self.defect);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_back(&mut self) {
         self.points.q1.copy_from_slice(self.q);
         self.points.ahead.copy_from_slice(self.kept_ahead);

@@ -275,7 +275,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoStep<S, T> {
     }
 
     /// Takes one step from `q`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn step(
         &mut self,
         step: &Step<'_, S, T>,
@@ -290,7 +290,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoStep<S, T> {
     }
 
     /// Sets `work.shift` to K⁻¹c0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn shift_by_defect(&mut self, system: &S) {
         let Self { defect, inverse, scale, work, .. } = self;
         scratch!(scaled = system, work.trial);

@@ -188,7 +188,7 @@ impl<S: System, T: Real> Monitor<S, T> {
     }
 
     /// The number of steps from one examination to the next, a power of two.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn period(&self) -> u64 {
         self.period
     }
@@ -197,7 +197,7 @@ impl<S: System, T: Real> Monitor<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::ParasiticMode`] if the run is lost, or to be reinitialised.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn look(&mut self, q: &[T]) -> Result<(), StepFailure> {
         if (self.steps + KEPT as u64) & (self.period - 1) > KEPT as u64 {
             Ok(())
@@ -236,7 +236,7 @@ impl<S: System, T: Real> Monitor<S, T> {
     }
 
     /// Keeps point number `step`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn note(&mut self, step: u64, q: &[T]) {
         self.points[(step % KEPT as u64) as usize].copy_from_slice(q);
     }

@@ -111,7 +111,7 @@ pub(super) struct Uniform<T> {
 
 impl<T: Real> Uniform<T> {
     /// For u = 0, linear interpolation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn linear(rule: &impl Rule) -> Self {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let nodes = Bases::new(zero);
@@ -129,7 +129,7 @@ impl<T: Real> Uniform<T> {
     }
 
     /// Makes these the coefficients for u = ωh.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fit(&mut self, rule: &impl Rule, fitting: Fitting, u: T) -> Result<(), StepFailure> {
         let (zero, nodes) = (T::lift(0.0), Bases::new(u));
         // The sums times σ².
@@ -177,13 +177,13 @@ impl<T: Real> Uniform<T> {
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
         let u = step.method.frequency.fixed(0) * step.h;
         if self.u == u { Ok(()) } else { self.fit(&step.method.rule, step.method.fitting, u) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
         let u = omega * step.h;
         self.fit(&step.method.rule, step.method.fitting, u)?;
@@ -254,16 +254,16 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
 }
 
 impl<T: Real> Coefficients<T> for Uniform<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weight(&self, node: usize) -> T {
         self.weights[node]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T> {
         let basis = self.bases[node];
         move |_| basis
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sums(&self) -> impl Fn(usize) -> Sums<T> {
         let sums = self.sums;
         move |_| sums

@@ -61,7 +61,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> VariationalMemory<S, T> {
     }
 
     /// Sets `v` to the velocity at the present point.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         self.inertial.velocity(system, &self.phase, q, t, v)
     }
@@ -107,7 +107,7 @@ impl<S: System, T: Real> Memory<T> for VariationalMemory<S, T> {
 }
 
 impl<S: Lagrangian<T>, T: Real> Work<S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {

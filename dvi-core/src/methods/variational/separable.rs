@@ -23,7 +23,7 @@ use crate::solve::{Convergence, iterate};
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, Vector};
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
     Parts { interpolation, phase, inertial, work, q, .. }: &mut Parts<'_, S, T>,
@@ -43,7 +43,7 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
     };
     widest_if(
         !<S::Space as Space>::ON_STACK,
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         || match interpolation {
             // Coefficients that change in each iteration belong into registers.
             Interpolation::Uniform(_) if step.method.frequency.reading().is_some() => {
@@ -58,7 +58,7 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
     )
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[allow(clippy::too_many_arguments)]
 fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
     step: &Step<'_, S, F, R, T>,
@@ -96,7 +96,7 @@ struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
 impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
     Attempt<'_, S, F, R, C, T>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(&mut self, budget: usize, statistics: &mut Statistics) -> Result<(), StepFailure> {
         self.read_start()?;
         if self.step.method.is_explicit() {
@@ -108,7 +108,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// The coefficients, as far as the start of the step decides them.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn read_start(&mut self) -> Result<(), StepFailure> {
         let Some(reading) = self.step.method.frequency.reading() else {
             return self.coefficients.fix(self.step);
@@ -124,7 +124,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// Δ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(&mut self, budget: usize, statistics: &mut Statistics) -> Result<(), StepFailure> {
         self.phase.guess(Some(self.mass), &self.phase.p, self.step.h, &mut self.work.increment);
         let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
@@ -132,7 +132,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         iterate(
             convergence,
             statistics,
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             |_| {
                 if self.step.method.reads_both_ends() {
                     self.read_both_ends()?;
@@ -144,7 +144,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// q1 and F(q1).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reach(&mut self) {
         let Work { next, increment, node: NodeWork { gradient, .. }, .. } = &mut *self.work;
         for ((next, &q), &delta) in next.iter_mut().zip(self.q).zip(increment.iter()) {
@@ -155,7 +155,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// The coefficients for the mean of the frequencies at both ends.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn read_both_ends(&mut self) -> Result<(), StepFailure> {
         self.reach();
         let frequency = &self.step.method.frequency;
@@ -175,7 +175,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// One iteration; returns the size of its correction.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self) -> T {
         let h = self.step.h;
         self.work.node.momentum.copy_from_slice(&self.phase.p);
@@ -213,7 +213,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// Adds the impulse h w F(qʲ) of a node to `momentum`, times the factor that `share` picks.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick(&mut self, node: usize, c: f64, share: impl Fn(Basis<T>) -> T) {
         let weight = self.step.h * self.coefficients.weight(node);
         let Work { increment, node: work, trial, .. } = &mut *self.work;
@@ -239,7 +239,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// q1, F(q1) and p1 without iteration, where no node lies between the ends.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick_drift_kick(&mut self) {
         self.work.node.momentum.copy_from_slice(&self.phase.p);
         self.kick_at(0.0);
@@ -256,7 +256,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// What the end `c` of the step adds to `momentum`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick_at(&mut self, c: f64) {
         for node in 0..self.step.method.rule.nodes().len() {
             if self.step.method.rule.nodes()[node] == c {
@@ -277,7 +277,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 
     /// q1, F(q1) and p1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn finish(&mut self) -> Result<(), StepFailure> {
         if self.step.method.reads_both_ends() {
             self.read_both_ends()?;

@@ -110,7 +110,7 @@ struct Kicks<'a, const W: usize, S: System> {
 impl<const W: usize, S: NondegenerateLagrangian<Lanes<W>>> Task for Kicks<'_, W, S> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         let Self { system, reciprocals, clock, steps, packs: [q, p, force] } = self;
         let (h, half) = (Lanes::all(clock.step_size()), Lanes::all(0.5 * clock.step_size()));

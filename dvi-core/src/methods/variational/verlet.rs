@@ -21,7 +21,7 @@ use crate::{NondegenerateLagrangian, Real, Vector};
 
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
 /// good point.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
     mass: &Mass<S, T>,
@@ -88,7 +88,7 @@ struct Kicks<'a, S: NondegenerateLagrangian<T>, T: Real> {
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
     /// Kicks the momentum by (h/2)F, in the way that is given, and moves the point on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn move_on(&mut self, kick: impl Fn(T, T) -> T) {
         let Self { half, q1, p1, f1, v, .. } = self;
         if let Some(reciprocals) = self.mass.reciprocals() {
@@ -111,7 +111,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
     }
 
     /// Ends the last step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn complete(&mut self) {
         if core::mem::take(&mut self.owed) {
             for (p, &f) in self.p1.iter_mut().zip(self.f1.iter()) {
@@ -122,7 +122,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) {
         if self.owed {
             self.move_on(|p, impulse| (p + impulse) + impulse);
@@ -134,7 +134,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
         self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn examine(&mut self, _steps: u64) -> Result<(), StepFailure> {
         self.complete();
         scratch!(examined = self.system, *self.v);
@@ -145,12 +145,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
         norm::finite(examined)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self) {
         self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 });
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_back(&mut self) {
         self.owed = false;
         self.q1.copy_from_slice(self.q);

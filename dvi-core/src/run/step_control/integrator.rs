@@ -279,7 +279,7 @@ impl<T: Real> VariableClock<T> {
         Self { sum: start, rest: T::lift(0.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance(&mut self, h: T) {
         let sum = self.sum + h;
         self.rest +=
@@ -287,7 +287,7 @@ impl<T: Real> VariableClock<T> {
         self.sum = sum;
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> T {
         self.sum + self.rest
     }

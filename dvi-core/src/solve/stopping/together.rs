@@ -25,7 +25,7 @@ pub(crate) struct Convergences<const W: usize> {
 
 impl<const W: usize> Convergences<W> {
     /// As [`Convergence::of_fixed_point`] in each lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_fixed_point(
         stopping: Stopping,
         scale: Lanes<W>,
@@ -54,13 +54,13 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// 1 in the lanes that go on, and 0 in the others.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn active(&self) -> Lanes<W> {
         self.active
     }
 
     /// How many iterations each lane has taken.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn iterations(&self) -> [u64; W] {
         let mut iterations = [0; W];
         for lane in 0..W {
@@ -70,7 +70,7 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// [`Convergence::judge`] in the active lanes: gives up if one of them does, and goes on as long as one does.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn judge(&mut self, corrections: Lanes<W>) -> Verdict {
         let first = self.latest == 0;
         self.latest += 1;
@@ -97,14 +97,14 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// Whether all corrections that follow are within the tolerances.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_small_later(&self, shrunk: Lanes<W>) -> Lanes<W> {
         let (square, most) = (self.correction * self.correction, self.tolerance * shrunk);
         Lanes::choose(most, Comparison::Greater, square, Lanes::all(1.0), Lanes::all(0.0))
     }
 
     /// Whether the latest corrections no longer shrink, and are nothing but rounding errors.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_noise(&self, shrunk: Lanes<W>) -> Lanes<W> {
         let (no, yes) = (Lanes::all(0.0), Lanes::all(1.0));
         let largest = Lanes::choose(self.first, Comparison::Greater, self.scale, self.first, self.scale);

@@ -102,7 +102,7 @@ struct Leaps<'a, const W: usize, S: System> {
 impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Leaps<'_, W, S> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         let Self { system, reciprocals, factors, clock, steps, q, ahead, before, gradient } = self;
         for step in 0..steps {

@@ -123,7 +123,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Midpoints<'_, W
     /// How many steps all runs have taken, and the iterations of each in these.
     type Output = (u64, [u64; W]);
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(mut self) -> (u64, [u64; W]) {
         let mut iterations = [0; W];
         for step in 0..self.steps {
@@ -138,7 +138,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Midpoints<'_, W
 
 impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     /// Takes a step and returns the iterations; nothing has moved if there is none that all runs agree on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) -> Option<[u64; W]> {
         let half = Lanes::all(0.5);
         extrapolate(self.history, *self.place, self.increment);
@@ -179,7 +179,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     }
 
     /// Applies a correction in the lanes that are `active`, and returns its size.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn iterate(&mut self, time: Lanes<W>, active: Lanes<W>) -> Lanes<W> {
         let half = Lanes::all(0.5);
         for ((point, &origin), &s) in self.point.iter_mut().zip(self.origin.iter()).zip(self.increment.iter())
@@ -201,13 +201,13 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
 }
 
 /// As [`norm::larger`](crate::scalar::norm::larger).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn larger<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
     Lanes::choose(b, Comparison::Greater, a, b, a)
 }
 
 /// As [`norm::largest`](crate::scalar::norm::largest).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest<const W: usize>(x: &[Lanes<W>]) -> Lanes<W> {
     let mut largest = Lanes::all(0.0);
     for &x in x {
@@ -217,7 +217,7 @@ fn largest<const W: usize>(x: &[Lanes<W>]) -> Lanes<W> {
 }
 
 /// As [`norm::smallest`](crate::scalar::norm::smallest).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn smallest<const W: usize>(x: &[Lanes<W>], bound: Lanes<W>) -> Lanes<W> {
     let mut smallest = bound;
     for &x in x {

@@ -136,34 +136,6 @@ fn a_radial_frequency_has_order_three_if_frozen_and_else_four() -> Outcome {
 }
 
 #[test]
-fn angular_momentum_is_conserved_by_every_reading() -> Outcome {
-    fn drift<F: FrequencyIn<f64>, R: Rule>(
-        method: Variational<F, R>,
-    ) -> Result<f64, Box<dyn core::error::Error>> {
-        let mut run = Integrator::new(&SYSTEM, method, TAU / 4000.0, pericentre(0.5))?;
-        let initial = run.momentum(0).ok_or("declared")?;
-        let mut largest: f64 = 0.0;
-        for _ in 0..100 {
-            run.take_steps(4000)?;
-            largest = larger(largest, (run.momentum(0).ok_or("declared")? - initial).abs());
-        }
-        Ok(largest)
-    }
-    let simpson = Variational::simpson();
-    for found in [
-        drift(Variational::trapezoid())?,
-        drift(simpson)?,
-        drift(simpson.phase_fitted(Constant(1.0)))?,
-        drift(simpson.phase_fitted(Curvature(Reading::LeftFrozen)))?,
-        drift(simpson.phase_fitted(Radial(Reading::Averaged)))?,
-        drift(simpson.phase_fitted(Radial(Reading::Variational)))?,
-    ] {
-        assert!(found < 2e-10, "{found:e}");
-    }
-    Ok(())
-}
-
-#[test]
 fn compositions_of_verlet_have_orders_four_six_and_eight() -> Outcome {
     let verlet = Variational::trapezoid();
     for (method, steps, expected) in [

@@ -1,0 +1,14 @@
+//! The attribute of functions that are a part of each step that calls them.
+
+use proc_macro2::TokenStream;
+use quote::{ToTokens, quote};
+
+/// Not in builds with debug assertions: there a copy for each caller is not optimised, and the compiler took ten times as long for the
+/// tests that run for many steps.
+pub(crate) struct ForceInline;
+
+impl ToTokens for ForceInline {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.extend(quote!(#[cfg_attr(not(debug_assertions), inline(always))]));
+    }
+}
