@@ -1,5 +1,8 @@
 //! Systems shared by the tests.
 
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+
 pub mod steps;
 pub mod systems;
 pub mod zoo;
@@ -7,6 +10,27 @@ pub mod zoo;
 /// The larger of two numbers; not a number if one of them is not, so that no bound holds for it.
 pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
+}
+
+/// The largest difference of two vectors, entry by entry.
+pub fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
+}
+
+/// The coordinates at `time`.
+///
+/// # Errors
+/// Those of the run.
+pub fn run<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    start: S::State<f64>,
+    time: f64,
+    steps: u64,
+) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
+    run.take_steps(steps)?;
+    Ok(run.q().to_vec())
 }
 
 /// The vortex configurations of the literature.

@@ -6,8 +6,8 @@ use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::state::Statistics;
 use dvi_core::{Scalar, Separable, Space, Weights};
-use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
+use dvi_tests::{apart, larger, run};
 use nalgebra::{DMatrix, DVector};
 use num_dual::{Dual64, HyperDual64};
 
@@ -22,23 +22,6 @@ fn planet() -> KeplerState {
 
 fn driven() -> (DrivenOscillator, DrivenOscillatorState) {
     (DrivenOscillator { depth: 0.3, omega: 1.7 }, DrivenOscillatorState { x: 0.8, dot_x: 0.3 })
-}
-
-fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
-}
-
-/// The coordinates at `time`.
-fn run<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    start: S::State<f64>,
-    time: f64,
-    steps: u64,
-) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
-    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
-    run.take_steps(steps)?;
-    Ok(run.q().to_vec())
 }
 
 fn check_order<S: Separable + RegularLagrangian>(system: &S, start: S::State<f64>) -> Outcome {

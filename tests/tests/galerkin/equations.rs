@@ -3,14 +3,14 @@
 
 use dvi_core::discrete::{FrequencyIn, Unfitted};
 use dvi_core::prelude::*;
-use dvi_tests::larger;
 use dvi_tests::oracle::displaced_lagrangian;
 use dvi_tests::zoo::regular::*;
+use dvi_tests::{apart, larger, run};
 use num_dual::Dual64;
 
 use crate::systems::{
-    KEPLER, Outcome, apart, chain, double_pendulum, driven, dual, growing, magnetic, pericentre,
-    relativistic, run, spherical,
+    KEPLER, Outcome, chain, double_pendulum, driven, dual, growing, magnetic, pericentre, relativistic,
+    spherical,
 };
 
 /// The displacements of the interior nodes that make L_d(q0, q1) stationary, by Newton with differences of

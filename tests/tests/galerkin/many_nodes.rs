@@ -5,10 +5,10 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
 use dvi_examples::models::{Bodies, BodiesState, Orbit, outer_solar_system};
-use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
+use dvi_tests::{apart, larger, run};
 
-use crate::systems::{KEPLER, Outcome, apart, chain, double_pendulum, driven, pericentre, run};
+use crate::systems::{KEPLER, Outcome, chain, double_pendulum, driven, pericentre};
 
 type Failed = Box<dyn core::error::Error>;
 

@@ -3,8 +3,9 @@
 use core::f64::consts::TAU;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::{apart, run};
 
-use crate::systems::{KEPLER, Outcome, apart, double_pendulum, pericentre, run};
+use crate::systems::{KEPLER, Outcome, double_pendulum, pericentre};
 
 fn observed<S: Lagrangian, M: Method<S, f64> + Copy>(
     (system, start): (&S, &S::State<f64>),

@@ -5,11 +5,11 @@ use dvi_core::methods::{Method, PreservedForm};
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
 use dvi_core::{Space, State};
-use dvi_tests::larger;
+use dvi_tests::{apart, larger};
 use num_dual::Dual64;
 
 use crate::systems::{
-    KEPLER, Outcome, apart, chain, double_pendulum, driven, dual, growing, magnetic, pericentre, spherical,
+    KEPLER, Outcome, chain, double_pendulum, driven, dual, growing, magnetic, pericentre, spherical,
 };
 
 /// Entry by entry, (q, p) and its derivative in the direction of entry `direction` of (q, v), at the start and

@@ -1,8 +1,5 @@
 //! The systems and starts of these tests, and runs of them.
 
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
-use dvi_tests::larger;
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
 
@@ -49,23 +46,6 @@ pub(crate) fn chain() -> (RunTimeChain, RunTimeChainState) {
     let start =
         RunTimeChainState { q: vec![0.1, -0.2, 0.4], wall: 0.3, dot_q: vec![0.5, 0.0, -0.1], dot_wall: 0.2 };
     (system, start)
-}
-
-pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
-}
-
-/// The coordinates at `time`.
-pub(crate) fn run<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    start: S::State<f64>,
-    time: f64,
-    steps: u64,
-) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
-    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
-    run.take_steps(steps)?;
-    Ok(run.q().to_vec())
 }
 
 pub(crate) fn dual(x: &[f64], direction: Option<usize>) -> Vec<Dual64> {
