@@ -1,9 +1,13 @@
 //! One system of each kind that the macro supports, small enough to be differentiated by an oracle.
 
+pub mod constrained;
 pub mod functions;
 pub mod gauges;
+pub mod impacts;
 pub mod language;
 pub mod lattices;
+pub mod manifold;
+pub mod nonholonomic;
 pub mod particles;
 pub mod regular;
 pub mod shapes;

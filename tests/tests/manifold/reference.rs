@@ -1,5 +1,7 @@
 //! Motion by hand: the equations of motion as they stand in textbooks, by the classical method of Runge and Kutta with short steps.
 
+use dvi_tests::zoo::manifold::cross;
+
 /// The state after `time`, by `steps` steps.
 pub(crate) fn motion<const N: usize>(
     rates: impl Fn(&[f64; N]) -> [f64; N],
@@ -17,10 +19,6 @@ pub(crate) fn motion<const N: usize>(
         let d = rates(&moved(&y, &c, h));
         core::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
     })
-}
-
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Euler's equations of a heavy body for (R, ω): Ṙ = R ω̂ and 𝕀ω̇ = 𝕀ω × ω + tip × (−weight Rᵀe₃).

@@ -1,6 +1,10 @@
-//! The systems, by declaration.
+//! Rotations and unit vectors as coordinates.
+
+// Rotations are called R.
+#![allow(non_snake_case)]
 
 use dvi_core::prelude::*;
+use dvi_core::rotations;
 
 /// A rigid body with principal moments of inertia, in a field along the third axis of space that pulls at a point of the body.
 #[lagrangian(
@@ -14,16 +18,22 @@ use dvi_core::prelude::*;
         spin = inertia[2] * omega(R)[2],
     ),
 )]
-#[derive(Clone, Copy)]
-pub(crate) struct Body {
-    pub(crate) inertia: [f64; 3],
-    pub(crate) tip: [f64; 3],
-    pub(crate) weight: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct Body {
+    /// Principal moments of inertia.
+    pub inertia: [f64; 3],
+    /// The point that the field pulls at.
+    pub tip: [f64; 3],
+    /// Strength of the field.
+    pub weight: f64,
 }
 
-pub(crate) const FREE: Body = Body { inertia: [1.0, 2.0, 3.5], tip: [0.0; 3], weight: 0.0 };
-pub(crate) const TOP: Body = Body { inertia: [1.0, 1.0, 0.6], tip: [0.0, 0.0, 1.0], weight: 1.2 };
-pub(crate) const UNEVEN: Body = Body { inertia: [1.0, 2.0, 2.4], tip: [0.3, -0.2, 0.5], weight: 1.5 };
+/// A body that nothing pulls at.
+pub const FREE: Body = Body { inertia: [1.0, 2.0, 3.5], tip: [0.0; 3], weight: 0.0 };
+/// A symmetric top.
+pub const TOP: Body = Body { inertia: [1.0, 1.0, 0.6], tip: [0.0, 0.0, 1.0], weight: 1.2 };
+/// A body without symmetry in a field.
+pub const UNEVEN: Body = Body { inertia: [1.0, 2.0, 2.4], tip: [0.3, -0.2, 0.5], weight: 1.5 };
 
 /// A mass on a sphere, in gravity.
 #[lagrangian(
@@ -31,9 +41,10 @@ pub(crate) const UNEVEN: Body = Body { inertia: [1.0, 2.0, 2.4], tip: [0.3, -0.2
     lagrangian = (dot(s[0]).powi(2) + dot(s[1]).powi(2) + dot(s[2]).powi(2)) / 2.0 - gravity * s[2],
     momenta(vertical = s[0] * dot(s[1]) - s[1] * dot(s[0])),
 )]
-#[derive(Clone, Copy)]
-pub(crate) struct Pendulum {
-    pub(crate) gravity: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct Pendulum {
+    /// Acceleration of gravity.
+    pub gravity: f64,
 }
 
 /// A body with a mass at its point a, on a spring at its centre x, from which a rod leads to another mass at x + ℓ s. A spring
@@ -54,14 +65,18 @@ pub(crate) struct Pendulum {
         inside + (v0 * v0 + v1 * v1 + v2 * v2) / 2.0 + rod - spring - 0.8 * coupling - gravity * x[2]
     },
 )]
-#[derive(Clone, Copy)]
-pub(crate) struct Coupled {
-    pub(crate) a: [f64; 3],
-    pub(crate) length: f64,
-    pub(crate) gravity: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct Coupled {
+    /// Where the mass on the body is.
+    pub a: [f64; 3],
+    /// Length of the rod.
+    pub length: f64,
+    /// Acceleration of gravity.
+    pub gravity: f64,
 }
 
-pub(crate) const COUPLED: Coupled = Coupled { a: [0.3, 0.5, -0.2], length: 0.7, gravity: 0.4 };
+/// A coupled system with numbers.
+pub const COUPLED: Coupled = Coupled { a: [0.3, 0.5, -0.2], length: 0.7, gravity: 0.4 };
 
 /// The same in numbers and constraints: the kinetic energy of the body is ½ tr(Ṙ J Ṙᵀ), Jₖ = ½ tr 𝕀 − Iₖ.
 #[lagrangian(
@@ -82,11 +97,14 @@ pub(crate) const COUPLED: Coupled = Coupled { a: [0.3, 0.5, -0.2], length: 0.7, 
         sum(0..3, |i| s[i].powi(2)) - 1.0,
     ],
 )]
-#[derive(Clone, Copy)]
-pub(crate) struct ByConstraints {
-    pub(crate) a: [f64; 3],
-    pub(crate) length: f64,
-    pub(crate) gravity: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct ByConstraints {
+    /// Where the mass on the body is.
+    pub a: [f64; 3],
+    /// Length of the rod.
+    pub length: f64,
+    /// Acceleration of gravity.
+    pub gravity: f64,
 }
 
 /// A body and a mass on a sphere beside a number, as L = ½ v·M v − V(q, t) if `mixed` stands in front of nothing else.
@@ -98,12 +116,35 @@ macro_rules! beside {
                 + 0.3 * omega(R)[0] * omega(R)[2] + sum(0..3, |i| dot(s[i]).powi(2)) + dot(x).powi(2) + 0.4 * dot(x) * omega(R)[1]
                 - s[0] * R[0][2] - s[1] * R[1][2] - 0.7 * s[2] - x * x * (1.0 + R[2][0]) - t.cos() * R[1][1] + $mixed,
         )]
-        #[derive(Clone, Copy)]
-        pub(crate) struct $name {
-            pub(crate) zero: f64,
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name {
+            /// Zero.
+            pub zero: f64,
         }
     };
 }
 
 beside!(Separable, zero * x);
 beside!(NotSeparable, zero * omega(R)[0] * R[0][0]);
+
+/// A body that is tilted, with an angular velocity in its frame.
+pub fn tilted(omega: [f64; 3]) -> BodyState {
+    BodyState { R: rotations::exp([0.4, -0.3, 0.2]), omega_R: omega }
+}
+
+/// A state of the coupled system in which everything moves.
+pub fn coupled() -> CoupledState {
+    CoupledState {
+        R: rotations::exp([0.4, -0.3, 0.2]),
+        s: [0.48, -0.6, 0.64],
+        x: [0.1, 0.2, -0.1],
+        omega_R: [0.5, -0.8, 0.9],
+        dot_s: [0.8, 0.64, 0.0],
+        dot_x: [0.3, -0.2, 0.1],
+    }
+}
+
+/// a × b
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

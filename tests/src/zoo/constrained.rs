@@ -9,10 +9,13 @@ use dvi_core::prelude::*;
     constraint = x * x + y * y - length * length,
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pendulum {
-    pub(crate) m: f64,
-    pub(crate) g: f64,
-    pub(crate) length: f64,
+pub struct Pendulum {
+    /// Mass, or masses.
+    pub m: f64,
+    /// Acceleration of gravity.
+    pub g: f64,
+    /// Length of the rod.
+    pub length: f64,
 }
 
 /// Two masses, the first on a rod and the second on a rod at the first.
@@ -25,9 +28,11 @@ pub(crate) struct Pendulum {
     ],
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Double {
-    pub(crate) m: [f64; 2],
-    pub(crate) rod: f64,
+pub struct Double {
+    /// Mass, or masses.
+    pub m: [f64; 2],
+    /// Length of a rod, or of all.
+    pub rod: f64,
 }
 
 /// The same in the angles of the rods.
@@ -38,14 +43,16 @@ pub(crate) struct Double {
         + (m[0] + m[1]) * a.cos() + m[1] * rod * b.cos(),
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DoubleAngles {
-    pub(crate) m: [f64; 2],
-    pub(crate) rod: f64,
+pub struct DoubleAngles {
+    /// Mass, or masses.
+    pub m: [f64; 2],
+    /// Length of a rod, or of all.
+    pub rod: f64,
 }
 
 impl DoubleAngles {
     /// Where the masses are.
-    pub(crate) fn masses(&self, state: &DoubleAnglesState) -> DoubleState {
+    pub fn masses(&self, state: &DoubleAnglesState) -> DoubleState {
         let DoubleAnglesState { a, b, dot_a, dot_b } = *state;
         let Self { rod, .. } = *self;
         DoubleState {
@@ -66,8 +73,9 @@ impl DoubleAngles {
     constraint = ((x - 0.3 * (2.0 * t).sin()).powi(2) + y * y - 1.0) * (2.0 + t.cos()),
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Swing {
-    pub(crate) gamma: f64,
+pub struct Swing {
+    /// Friction.
+    pub gamma: f64,
 }
 
 /// The same by the angle.
@@ -77,12 +85,13 @@ pub(crate) struct Swing {
     force(a) = -gamma * (dot(a) + 0.6 * (2.0 * t).cos() * a.cos()),
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SwingAngle {
-    pub(crate) gamma: f64,
+pub struct SwingAngle {
+    /// Friction.
+    pub gamma: f64,
 }
 
 /// Where the mass of a swing is at time `t`.
-pub(crate) fn swinging(state: &SwingAngleState, t: f64) -> SwingState {
+pub fn swinging(state: &SwingAngleState, t: f64) -> SwingState {
     let SwingAngleState { a, dot_a } = *state;
     SwingState {
         x: 0.3 * (2.0 * t).sin() + a.sin(),
@@ -99,7 +108,7 @@ pub(crate) fn swinging(state: &SwingAngleState, t: f64) -> SwingState {
     constraint = x * x + 2.0 * y * y - 1.0,
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bead;
+pub struct Bead;
 
 /// The same by the parameter of the ellipse.
 #[lagrangian(
@@ -108,10 +117,10 @@ pub(crate) struct Bead;
         - s.sin() / 2.0_f64.sqrt(),
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BeadParameter;
+pub struct BeadParameter;
 
 /// Where a bead is.
-pub(crate) fn on_ring(state: &BeadParameterState) -> BeadState {
+pub fn on_ring(state: &BeadParameterState) -> BeadState {
     let BeadParameterState { s, dot_s } = *state;
     let half = 0.5_f64.sqrt();
     BeadState { x: s.cos(), y: half * s.sin(), dot_x: -dot_s * s.sin(), dot_y: half * dot_s * s.cos() }
@@ -125,8 +134,9 @@ pub(crate) fn on_ring(state: &BeadParameterState) -> BeadState {
     momenta(axial = r[0] * dot(r[1]) - r[1] * dot(r[0]) + b * (r[0] * r[0] + r[1] * r[1]) / 2.0),
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Charge {
-    pub(crate) b: f64,
+pub struct Charge {
+    /// Magnetic field.
+    pub b: f64,
 }
 
 /// The same without the field: separable.
@@ -137,7 +147,7 @@ pub(crate) struct Charge {
     momenta(axial = r[0] * dot(r[1]) - r[1] * dot(r[0])),
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spherical;
+pub struct Spherical;
 
 /// Masses on rods, one below the other, and as many as there are.
 #[lagrangian(
@@ -147,8 +157,9 @@ pub(crate) struct Spherical;
     constraint(i in 1..rod.len()) = (x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) - rod[i] * rod[i],
 )]
 #[derive(Clone, Debug)]
-pub(crate) struct Links {
-    pub(crate) rod: Vec<f64>,
+pub struct Links {
+    /// Length of a rod, or of all.
+    pub rod: Vec<f64>,
 }
 
 /// A closed chain of rods, whose joints may be at any place.
@@ -158,6 +169,7 @@ pub(crate) struct Links {
     constraint(i in 0..N) = (x[(i + 1) % N] - x[i]).powi(2) + (y[(i + 1) % N] - y[i]).powi(2) - 1.0,
 )]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ring<const N: usize> {
-    pub(crate) mass: [f64; N],
+pub struct Ring<const N: usize> {
+    /// Masses of the joints.
+    pub mass: [f64; N],
 }

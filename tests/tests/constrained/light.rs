@@ -2,10 +2,9 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::larger;
+use dvi_tests::{Numbers, larger};
 
 use super::Outcome;
-use super::branches::Numbers;
 
 /// A light joint between two masses, of which the first is on a rod: x₀, y₀ and x₁, y₁.
 #[lagrangian(

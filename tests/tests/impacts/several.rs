@@ -1,9 +1,9 @@
 //! Several impacts in a step, and several surfaces.
 
 use dvi_core::prelude::*;
+use dvi_tests::zoo::impacts::*;
 
 use super::Outcome;
-use super::systems::*;
 
 /// The place of a free particle between walls at 0 and 1 that would be at x without them.
 fn folded(x: f64) -> f64 {

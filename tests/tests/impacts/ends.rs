@@ -1,9 +1,9 @@
 //! How runs with impacts end, and what they do not begin with.
 
 use dvi_core::prelude::*;
+use dvi_tests::zoo::impacts::*;
 
 use super::Outcome;
-use super::systems::*;
 
 /// The last bounces of a ball take 2v e^k/g each, so that they end after √2 (1 + 2e/(1 − e)) when it falls from a height of one.
 #[test]

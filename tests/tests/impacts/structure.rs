@@ -1,13 +1,12 @@
 //! What runs with impacts preserve: the symplectic form, momenta, energy at impacts, the way back.
 
 use dvi_core::State;
-use dvi_core::methods::FreeFlight;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
+use dvi_tests::zoo::impacts::*;
 use num_dual::Dual64;
 
 use super::Outcome;
-use super::systems::*;
 
 /// The derivatives of (q, p) by each entry of a state.
 type Columns = [[f64; 4]; 4];
@@ -131,27 +130,6 @@ fn the_discrete_equations_by_hand() -> Outcome {
     Ok(())
 }
 
-fn angular_momentum<M: FreeFlight<Circle, f64>>(method: Impacts<M>) -> Outcome {
-    let start: CircleState = CircleState { x: 0.3, y: -0.2, dot_x: 1.1, dot_y: 1.6 };
-    let mut run = Integrator::new(&Circle, method, 0.05, start)?;
-    let begin = run.momentum(0).ok_or("declared")?;
-    let mut largest = 0.0;
-    while run.memory().total() < 5000 {
-        run.advance()?;
-        largest = larger(largest, (run.momentum(0).ok_or("declared")? - begin).abs());
-    }
-    assert!(largest < 1e-12, "{largest:e}");
-    Ok(())
-}
-
-#[test]
-fn the_angular_momentum_in_a_circle_is_kept() -> Outcome {
-    angular_momentum(Impacts::new(Variational::trapezoid()))?;
-    angular_momentum(Impacts::new(Variational::midpoint()))?;
-    angular_momentum(Impacts::reflecting(Variational::trapezoid()))?;
-    angular_momentum(Impacts::reflecting(Galerkin::<3>::new()))
-}
-
 #[test]
 fn a_run_goes_back_the_way_it_came() -> Outcome {
     macro_rules! goes_back {
@@ -183,30 +161,5 @@ fn a_run_goes_back_the_way_it_came() -> Outcome {
     goes_back! { Ball { m: 2.0 }, BallState { y: 1.0, dot_y: 0.0 }, 0.07 =>
         Impacts::reflecting(Variational::midpoint()).with_restitution(0.95),
     }
-    Ok(())
-}
-
-/// The energy at the point of impact is kept by one, the discrete energies by the other, whose steps change the energy by an amount
-/// of order h² at each impact.
-#[test]
-fn reflections_keep_the_energy_for_many_bounces() -> Outcome {
-    let start: WavyState = WavyState { x: 0.3, y: 1.5, dot_x: 0.4, dot_y: 0.0 };
-    let [mut early, mut late] = [[0.0_f64; 2]; 2];
-    let system = Wavy { a: 0.6 };
-    for (k, method) in [Impacts::reflecting(Variational::trapezoid()), Impacts::new(Variational::trapezoid())]
-        .into_iter()
-        .enumerate()
-    {
-        let mut run = Integrator::new(&system, method, 0.02, start)?;
-        let begin = run.energy();
-        while run.memory().total() < 50_000 {
-            run.advance()?;
-            let change = f64::abs(run.energy() - begin);
-            let of = if run.memory().total() < 5000 { &mut early } else { &mut late };
-            of[k] = larger(of[k], change);
-        }
-    }
-    assert!(late[0] < 1.5 * early[0] && late[0] < 2e-4, "{early:?} {late:?}");
-    assert!(late[1] > 10.0 * late[0] && late[1] < 2e-2, "{early:?} {late:?}");
     Ok(())
 }

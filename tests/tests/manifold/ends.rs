@@ -6,7 +6,7 @@ use dvi_core::space::sink::Dense;
 use dvi_core::{Weights, rotations};
 use num_dual::Dual64;
 
-use crate::manifold::systems::{Body, BodyState, FREE, Pendulum, PendulumState, UNEVEN};
+use dvi_tests::zoo::manifold::{Body, BodyState, FREE, Pendulum, PendulumState, UNEVEN};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 

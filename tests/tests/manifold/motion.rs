@@ -1,18 +1,12 @@
 //! Convergence to the motion.
 
 use dvi_core::prelude::*;
-use dvi_core::rotations;
 
-use crate::manifold::reference;
-use crate::manifold::reference::cross;
-use crate::manifold::systems::{
+use crate::reference;
+use dvi_tests::zoo::manifold::{
     Body, BodyState, ByConstraints, ByConstraintsState, COUPLED, Coupled, CoupledState, FREE, Pendulum,
-    PendulumState, TOP, UNEVEN,
+    PendulumState, TOP, UNEVEN, coupled, cross, tilted,
 };
-
-pub(crate) fn tilted(omega: [f64; 3]) -> BodyState {
-    BodyState { R: rotations::exp([0.4, -0.3, 0.2]), omega_R: omega }
-}
 
 /// The largest difference of two states, in R and ω.
 fn distance(a: &BodyState, b: &[f64; 12]) -> f64 {
@@ -71,17 +65,6 @@ fn a_spherical_pendulum_converges() {
     };
     for rule in [Quadrature::trapezoid(), Quadrature::midpoint(), Quadrature::simpson()] {
         check_order(errors(rule), 2);
-    }
-}
-
-pub(crate) fn coupled() -> CoupledState {
-    CoupledState {
-        R: rotations::exp([0.4, -0.3, 0.2]),
-        s: [0.48, -0.6, 0.64],
-        x: [0.1, 0.2, -0.1],
-        omega_R: [0.5, -0.8, 0.9],
-        dot_s: [0.8, 0.64, 0.0],
-        dot_x: [0.3, -0.2, 0.1],
     }
 }
 

@@ -1,11 +1,9 @@
 //! Impacts that are hard to see: within a step, at its end, behind other surfaces, near the end of the domain of L.
 
 use dvi_core::prelude::*;
-
-use dvi_examples::models::{EllipseBilliard, EllipseBilliardState};
+use dvi_tests::zoo::impacts::{Ball, BallState};
 
 use super::Outcome;
-use super::systems::{Ball, BallState};
 
 /// A free particle beside a round post, whose gap is the distance from it, with a wall behind.
 #[lagrangian(
@@ -226,28 +224,6 @@ fn long_steps_have_the_impacts_of_short_ones() -> Outcome {
             assert_eq!(long.memory().total(), short.memory().total(), "from {start:?} by {h}");
             let apart = (long.q()[0] - short.q()[0]).hypot(long.q()[1] - short.q()[1]);
             assert!(apart < 1e-6, "{apart:e} from {start:?} by {h}");
-        }
-    }
-    Ok(())
-}
-
-/// A body that has left a surface is on it but for rounding.
-#[test]
-fn no_impact_is_followed_by_one_at_the_same_place() -> Outcome {
-    let ellipse = EllipseBilliard { a: 1.25, b: 0.8 };
-    for part in [0.75, 0.9] {
-        let angle: f64 = 1.57 * (1.0 - 0.6 * part);
-        let start = EllipseBilliardState { x: 1.18 * part, y: 0.0, dot_x: angle.cos(), dot_y: angle.sin() };
-        let method = Impacts::reflecting(Variational::trapezoid());
-        let mut run = Integrator::new(&ellipse, method, 5.0, start)?;
-        let mut last = -1.0;
-        for _ in 0..30_000 {
-            run.advance()?;
-            for impact in run.memory().impacts() {
-                assert!(impact.impulse() > 0.1, "{} at {}", impact.impulse(), impact.time());
-                assert!(impact.time() > last + 0.05, "{} after {last}", impact.time());
-                last = impact.time();
-            }
         }
     }
     Ok(())

@@ -4,10 +4,10 @@ use dvi_core::discrete::Midpoint;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
+use dvi_tests::zoo::impacts::*;
 
 use super::Outcome;
 use super::reference::{ByHand, motion};
-use super::systems::*;
 
 const TIME: f64 = 4.0;
 

@@ -4,9 +4,9 @@ use dvi_core::discrete::Constant;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
+use dvi_tests::zoo::constrained::*;
 
 use super::Outcome;
-use super::systems::*;
 
 const TIME: f64 = 2.0;
 

@@ -2,8 +2,7 @@
 
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
-
-use super::branches::Numbers;
+use dvi_tests::Numbers;
 
 /// Three linear constraints in four coordinates.
 #[lagrangian(

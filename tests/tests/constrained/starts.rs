@@ -4,10 +4,10 @@ use dvi_core::error::StartError;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
+use dvi_tests::zoo::constrained::*;
 
 use super::Outcome;
 use super::equations::links;
-use super::systems::*;
 
 const PENDULUM: Pendulum = Pendulum { m: 1.0, g: 1.0, length: 1.0 };
 

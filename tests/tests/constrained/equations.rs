@@ -3,9 +3,9 @@
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
+use dvi_tests::zoo::constrained::*;
 
 use super::Outcome;
-use super::systems::*;
 
 /// RATTLE for a mass on a rod, from its textbook equations.
 struct ByHand {

@@ -2,10 +2,10 @@
 
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
-use dvi_tests::larger;
+use dvi_tests::zoo::nonholonomic::{Bundle, BundleState};
+use dvi_tests::{Numbers, larger};
 
 use super::Outcome;
-use super::branches::{Bundle, BundleState, Numbers};
 
 /// Two constraints that a light coordinate dominates.
 #[lagrangian(
