@@ -137,6 +137,16 @@ pub mod oracle {
     }
 }
 
+/// The examples of the attributes run. Here they are, as the crate of the attributes cannot depend on what it generates code for
+/// without having it built once more, for the machine that compiles.
+#[cfg(doctest)]
+pub mod attributes {
+    #[doc = include_str!("../../dvi-macros/docs/degenerate_lagrangian.md")]
+    pub struct DegenerateLagrangian;
+    #[doc = include_str!("../../dvi-macros/docs/lagrangian.md")]
+    pub struct Lagrangian;
+}
+
 /// The README's example runs.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
