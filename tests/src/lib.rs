@@ -137,8 +137,8 @@ pub mod oracle {
     }
 }
 
-/// The examples of the attributes run. Here they are, as the crate of the attributes cannot depend on what it generates code for
-/// without having it built once more, for the machine that compiles.
+/// The examples in the documentation of the attributes run. They are tested here because they need `dvi-core`: with that as a dependency of
+/// the attributes' own tests, cargo builds it once more, as code for the compiler.
 #[cfg(doctest)]
 pub mod attributes {
     #[doc = include_str!("../../dvi-macros/docs/degenerate_lagrangian.md")]

@@ -6,14 +6,10 @@
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
-use dvi_tests::zoo::manifold::{COUPLED, Coupled, CoupledState, FREE, TOP, coupled, cross, tilted};
+use dvi_tests::zoo::manifold::{COUPLED, Coupled, CoupledState, FREE, TOP, coupled, cross, dot, tilted};
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[test]

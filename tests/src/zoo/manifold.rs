@@ -35,18 +35,6 @@ pub const TOP: Body = Body { inertia: [1.0, 1.0, 0.6], tip: [0.0, 0.0, 1.0], wei
 /// A body without symmetry in a field.
 pub const UNEVEN: Body = Body { inertia: [1.0, 2.0, 2.4], tip: [0.3, -0.2, 0.5], weight: 1.5 };
 
-/// A mass on a sphere, in gravity.
-#[lagrangian(
-    coordinates(s: S2),
-    lagrangian = (dot(s[0]).powi(2) + dot(s[1]).powi(2) + dot(s[2]).powi(2)) / 2.0 - gravity * s[2],
-    momenta(vertical = s[0] * dot(s[1]) - s[1] * dot(s[0])),
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Pendulum {
-    /// Acceleration of gravity.
-    pub gravity: f64,
-}
-
 /// A body with a mass at its point a, on a spring at its centre x, from which a rod leads to another mass at x + ℓ s. A spring
 /// between the rod and the first axis of the body turns both.
 #[lagrangian(
@@ -147,4 +135,9 @@ pub fn coupled() -> CoupledState {
 /// a × b
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// a·b
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

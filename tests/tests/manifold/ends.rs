@@ -4,9 +4,9 @@ use dvi_core::error::{StartError, StepFailure};
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{Weights, rotations};
+use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
+use dvi_tests::zoo::manifold::{Body, BodyState, FREE, UNEVEN};
 use num_dual::Dual64;
-
-use dvi_tests::zoo::manifold::{Body, BodyState, FREE, Pendulum, PendulumState, UNEVEN};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -27,10 +27,11 @@ fn starts_off_the_manifold_are_named_with_their_defect() {
     assert!(block == "R" && (defect - 2e-9).abs() < 1e-12, "{block} {defect:e}");
     let mirror = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0];
     assert_eq!(refused(&FREE, BodyState { R: mirror, omega_R }), ("R", 2.0));
-    let pendulum = Pendulum { gravity: 1.0 };
-    let (block, defect) = refused(&pendulum, PendulumState { s: [0.0, 0.6, 0.9], dot_s: [0.0; 3] });
+    let pendulum = SphericalPendulum { gravity: 1.0 };
+    let (block, defect) = refused(&pendulum, SphericalPendulumState { s: [0.0, 0.6, 0.9], dot_s: [0.0; 3] });
     assert!(block == "s" && (defect - 0.17).abs() < 1e-12, "{block} {defect:e}");
-    let (_, defect) = refused(&pendulum, PendulumState { s: [0.0, 0.6, 0.8], dot_s: [0.3, 0.1, 0.0] });
+    let (_, defect) =
+        refused(&pendulum, SphericalPendulumState { s: [0.0, 0.6, 0.8], dot_s: [0.3, 0.1, 0.0] });
     assert!((defect - 0.06 / 0.1_f64.sqrt()).abs() < 1e-12, "{defect:e}");
 }
 
@@ -50,14 +51,14 @@ fn a_step_by_half_a_turn_is_an_error_that_says_by_how_much() {
 /// At rest, where a great circle has no direction.
 #[test]
 fn what_rests_begins_to_move() -> Outcome {
-    let pendulum = Pendulum { gravity: 2.0 };
-    let start: PendulumState = PendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.0; 3] };
+    let pendulum = SphericalPendulum { gravity: 2.0 };
+    let start: SphericalPendulumState = SphericalPendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.0; 3] };
     let mut run = Integrator::new(&pendulum, Geodesic::trapezoid(), 0.01, start)?;
     run.take_steps(1000)?;
     assert!((run.energy() + 1.6).abs() < 1e-4);
     // The hanging pendulum and the standing one stay where they are.
     for z in [-1.0, 1.0] {
-        let still: PendulumState = PendulumState { s: [0.0, 0.0, z], dot_s: [0.0; 3] };
+        let still: SphericalPendulumState = SphericalPendulumState { s: [0.0, 0.0, z], dot_s: [0.0; 3] };
         let mut run = Integrator::new(&pendulum, Geodesic::midpoint(), 0.1, still)?;
         run.take_steps(100)?;
         assert_eq!(run.state(), still);
@@ -123,8 +124,8 @@ mod singular {
 #[test]
 fn a_unit_vector_at_rest_has_no_derivatives_and_a_body_has() -> Outcome {
     let dual = |re: f64| Dual64::new(re, 0.0);
-    let still = PendulumState { s: [0.6, 0.0, -0.8].map(dual), dot_s: [0.0; 3].map(dual) };
-    let pendulum = Pendulum { gravity: 2.0 };
+    let still = SphericalPendulumState { s: [0.6, 0.0, -0.8].map(dual), dot_s: [0.0; 3].map(dual) };
+    let pendulum = SphericalPendulum { gravity: 2.0 };
     let refused = Integrator::new(&pendulum, Geodesic::trapezoid(), dual(0.1), still);
     assert!(matches!(refused, Err(StartError::Unsupported { .. })));
     // A standing top whose axis begins to fall: to first order θ'' = (weight/inertia) θ.

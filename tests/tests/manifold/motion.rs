@@ -3,9 +3,10 @@
 use dvi_core::prelude::*;
 
 use crate::reference;
+use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
 use dvi_tests::zoo::manifold::{
-    Body, BodyState, ByConstraints, ByConstraintsState, COUPLED, Coupled, CoupledState, FREE, Pendulum,
-    PendulumState, TOP, UNEVEN, coupled, cross, tilted,
+    Body, BodyState, ByConstraints, ByConstraintsState, COUPLED, Coupled, CoupledState, FREE, TOP, UNEVEN,
+    coupled, cross, tilted,
 };
 
 /// The largest difference of two states, in R and ω.
@@ -51,15 +52,16 @@ fn bodies_converge_with_the_order_of_the_rule() {
 
 #[test]
 fn a_spherical_pendulum_converges() {
-    let (pendulum, start) = (Pendulum { gravity: 2.0 }, [0.6, 0.0, -0.8, 0.4, 0.9, 0.3]);
+    let (pendulum, start) = (SphericalPendulum { gravity: 2.0 }, [0.6, 0.0, -0.8, 0.4, 0.9, 0.3]);
     let exact = reference::motion(reference::pendulum(2.0), start, 5.0, 20_000);
-    let state: PendulumState = PendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.4, 0.9, 0.3] };
+    let state: SphericalPendulumState =
+        SphericalPendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.4, 0.9, 0.3] };
     let errors = |rule: Quadrature| {
         [100, 200, 400].map(|steps| {
             let mut run = Integrator::new(&pendulum, Geodesic::new(rule), 5.0 / f64::from(steps), state)
                 .expect("a step that is short enough");
             run.take_steps(steps as u64).expect("a step that is short enough");
-            let PendulumState { s, dot_s } = run.state();
+            let SphericalPendulumState { s, dot_s } = run.state();
             s.iter().chain(&dot_s).zip(exact).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()))
         })
     };

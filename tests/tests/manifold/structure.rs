@@ -3,16 +3,12 @@
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
-use num_dual::Dual64;
-
+use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
 use dvi_tests::zoo::manifold::{
-    Body, BodyState, COUPLED, FREE, NotSeparable, NotSeparableState, Pendulum, PendulumState, Separable,
-    SeparableState, UNEVEN, coupled, cross, tilted,
+    Body, BodyState, COUPLED, FREE, NotSeparable, NotSeparableState, Separable, SeparableState, UNEVEN,
+    coupled, cross, dot, tilted,
 };
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
+use num_dual::Dual64;
 
 #[test]
 fn symmetric_steps_can_be_taken_back() {
@@ -92,7 +88,7 @@ fn steps_of_bodies_preserve_the_canonical_form() {
 
 #[test]
 fn steps_on_the_sphere_preserve_the_canonical_form() {
-    let pendulum = Pendulum { gravity: 2.0 };
+    let pendulum = SphericalPendulum { gravity: 2.0 };
     let (s, v) = ([0.48, -0.6, 0.64], [0.8, 0.64, 0.0]);
     // Tangent vectors of the space of states: δs along s × w, and δv with s·δv = −v·δs.
     let tangents: Vec<[[f64; 3]; 2]> = [[1.0, 0.0, 0.2], [0.0, 1.0, -0.4]]
@@ -110,7 +106,7 @@ fn steps_on_the_sphere_preserve_the_canonical_form() {
         let after: Vec<[[f64; 3]; 2]> = tangents
             .iter()
             .map(|&[along, change]| {
-                let start = PendulumState {
+                let start = SphericalPendulumState {
                     s: [0, 1, 2].map(|k| Dual64::new(s[k], along[k])),
                     dot_s: [0, 1, 2].map(|k| Dual64::new(v[k], change[k])),
                 };
