@@ -16,7 +16,7 @@ type Outcome = Result<(), Box<dyn core::error::Error>>;
     hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
 )]
 #[derive(Debug)]
-pub struct LotkaVolterra {}
+pub(crate) struct LotkaVolterra {}
 
 fn compositions<const S: usize>() -> [Composition<Gauss<S>>; 6] {
     let method = Gauss::<S>::new();
@@ -176,7 +176,7 @@ fn a_failure_on_the_way_leaves_no_trace() -> Outcome {
     hamiltonian = 0.5 * (x * x + y * y) * t.cos(),
 )]
 #[derive(Debug)]
-pub struct Swing {}
+pub(crate) struct Swing {}
 
 #[test]
 fn every_part_of_a_step_begins_at_its_own_time() -> Outcome {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use dvi_tests::zoo::functions::{Branches, Driven, EveryFunction, OwnFunction};
 
-use crate::oracle::{ByHand, Number, Random};
+use crate::derivatives::oracle::{ByHand, Number, Random};
 
 impl ByHand for EveryFunction {
     fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {

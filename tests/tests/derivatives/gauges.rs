@@ -3,7 +3,7 @@
 use dvi_tests::systems::LotkaVolterra;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedShifted, SymmetricShifted};
 
-use crate::oracle::{ByHand, Number, Random};
+use crate::derivatives::oracle::{ByHand, Number, Random};
 
 macro_rules! lotka_volterra {
     ($($system:ident: |$x:ident, $y:ident| $alpha:expr;)*) => {$(

@@ -2,7 +2,7 @@
 
 use dvi_tests::zoo::language::{Corners, Neighbours, Nested, Toeplitz};
 
-use crate::oracle::{ByHand, Number};
+use crate::derivatives::oracle::{ByHand, Number};
 
 impl ByHand for Toeplitz {
     fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {

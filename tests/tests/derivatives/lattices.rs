@@ -2,7 +2,7 @@
 
 use dvi_tests::zoo::lattices::{AblowitzLadik, Schroedinger};
 
-use crate::oracle::{ByHand, Number, Random};
+use crate::derivatives::oracle::{ByHand, Number, Random};
 
 /// Re Σ ψⱼ ψ*ⱼ₊ₛ
 fn hopping<D: Number>(q: &[D], apart: usize) -> D {

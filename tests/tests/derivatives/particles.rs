@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use dvi_tests::systems::PointVortices;
 use dvi_tests::zoo::particles::{GuidingCentre, PlaneParticle, SphereVortices};
 
-use crate::oracle::{ByHand, Number, Random};
+use crate::derivatives::oracle::{ByHand, Number, Random};
 
 impl<const N: usize> ByHand for PointVortices<N> {
     fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {

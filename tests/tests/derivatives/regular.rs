@@ -4,7 +4,7 @@ mod compare;
 
 use dvi_tests::zoo::regular::*;
 
-use crate::oracle::{Action, Number, Random};
+use crate::derivatives::oracle::{Action, Number, Random};
 use compare::{Sampled, agrees};
 
 /// SEPARABLE, DIAGONAL_MASS and QUADRATIC.

@@ -2,7 +2,7 @@
 
 use dvi_tests::zoo::shapes::{Borrowing, Chain, FullLagrangian};
 
-use crate::oracle::{ByHand, Number};
+use crate::derivatives::oracle::{ByHand, Number};
 
 impl ByHand for Chain {
     fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {

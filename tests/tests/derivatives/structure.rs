@@ -2,7 +2,7 @@
 
 use dvi_core::Space;
 
-use crate::oracle::{ByHand, Random, differentiated};
+use crate::derivatives::oracle::{ByHand, Random, differentiated};
 
 const POINTS: usize = 8;
 

@@ -2,7 +2,7 @@
 
 use dvi_tests::zoo::sums::{FunctionsOfSums, NestedSums, OrderedPairs, Staircase};
 
-use crate::oracle::{ByHand, Number};
+use crate::derivatives::oracle::{ByHand, Number};
 
 fn sum<D: Number>(n: usize, f: impl Fn(usize) -> D) -> D {
     (0..n).map(f).sum()
@@ -92,7 +92,7 @@ impl<const N: usize> ByHand for OrderedPairs<N> {
         }
         forces + inner.ln() + pairs
     }
-    fn point(&self, random: &mut crate::oracle::Random) -> Vec<f64> {
+    fn point(&self, random: &mut crate::derivatives::oracle::Random) -> Vec<f64> {
         self.within(random, -0.5, 0.8)
     }
 }

@@ -7,7 +7,7 @@ use dvi_core::ensemble::Ensemble;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
-use crate::{Checked, HenonHeiles, HenonHeilesState, bytes, file, wells};
+use crate::ensemble::{Checked, HenonHeiles, HenonHeilesState, bytes, file, wells};
 
 /// The second half of the states leads to failures, or is meant to.
 fn check<S, M>(name: &str, system: &S, method: M, h: f64, states: &[S::State<f64>]) -> Checked

@@ -5,7 +5,7 @@ use std::time::Duration;
 use dvi_core::ensemble::{Ensemble, EnsembleError, MergeError, Results, Shard};
 use dvi_core::prelude::*;
 
-use crate::{Checked, HenonHeiles, Kepler, Verlet, file, left, planets, said, wells};
+use crate::ensemble::{Checked, HenonHeiles, Kepler, Verlet, file, left, planets, said, wells};
 
 fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
     Ensemble::new(system, Variational::trapezoid(), 0.05, wells(3))

@@ -9,7 +9,7 @@ use dvi_core::prelude::*;
 use dvi_core::state::{Memory, Reader, Record, Statistics};
 use dvi_core::{Lagrangian, System, Vector};
 
-use crate::{Checked, HenonHeiles, bytes, file, wells};
+use crate::ensemble::{Checked, HenonHeiles, bytes, file, wells};
 
 /// Another method, with a number that is infinite at most steps, which no checkpoint may have.
 #[derive(Clone, Copy, Debug)]

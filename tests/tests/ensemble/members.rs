@@ -3,7 +3,7 @@
 use dvi_core::ensemble::{Draws, Ensemble, Outcome};
 use dvi_core::prelude::*;
 
-use crate::{Checked, HenonHeiles, HenonHeilesState, Kepler, KeplerState, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, HenonHeilesState, Kepler, KeplerState, left, planets, wells};
 
 #[test]
 fn a_record_is_that_of_the_run() -> Checked {

@@ -3,7 +3,7 @@
 use dvi_core::ensemble::{Ensemble, EnsembleError, Outcome, Shard};
 use dvi_core::prelude::*;
 
-use crate::{Checked, HenonHeiles, bytes, planets, said, wells};
+use crate::ensemble::{Checked, HenonHeiles, bytes, planets, said, wells};
 
 #[test]
 fn no_steps_and_no_members() -> Checked {

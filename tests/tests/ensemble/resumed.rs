@@ -8,7 +8,9 @@ use std::time::Duration;
 use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
 use dvi_core::prelude::*;
 
-use crate::{Checked, HenonHeiles, Verlet, Vortices, VorticesState, bytes, file, left, planets, wells};
+use crate::ensemble::{
+    Checked, HenonHeiles, Verlet, Vortices, VorticesState, bytes, file, left, planets, wells,
+};
 
 const STEPS: u64 = 2000;
 
@@ -32,7 +34,7 @@ fn child() -> Checked {
 /// Runs the child until it has said `lines` times how far it is, and kills it. Returns how far it was at the first and at the last.
 fn killed_after(lines: usize, path: &Path) -> Result<Option<[u128; 2]>, Box<dyn std::error::Error>> {
     let mut child = Command::new(std::env::current_exe()?)
-        .args(["--exact", "resumed::child", "--nocapture"])
+        .args(["--exact", "ensemble::resumed::child", "--nocapture"])
         .env(CHILD, path)
         .stdout(Stdio::piped())
         .spawn()?;

@@ -3,7 +3,7 @@
 use dvi_core::ensemble::{Ensemble, Results, Shard};
 use dvi_core::prelude::*;
 
-use crate::{Checked, HenonHeiles, Verlet, Vortices, VorticesState, bytes, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, Verlet, Vortices, VorticesState, bytes, left, planets, wells};
 
 const STEPS: u64 = 1500;
 

@@ -3,7 +3,7 @@
 use dvi_core::ensemble::{Ensemble, Outcome, Table};
 use dvi_core::prelude::*;
 
-use crate::{Checked, HenonHeiles, Kepler, KeplerState, bytes, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, Kepler, KeplerState, bytes, left, planets, wells};
 
 fn said<T>(result: Result<T, dvi_core::ensemble::TableError>) -> String {
     result.map_or_else(|error| error.to_string(), |_| "no error".into())

@@ -8,7 +8,7 @@ use dvi_tests::zoo::regular::*;
 use dvi_tests::{apart, larger, run};
 use num_dual::Dual64;
 
-use crate::systems::{
+use crate::galerkin::systems::{
     KEPLER, Outcome, chain, double_pendulum, driven, dual, growing, magnetic, pericentre, relativistic,
     spherical,
 };

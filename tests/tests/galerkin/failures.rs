@@ -5,7 +5,7 @@ use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 
-use crate::systems::{KEPLER, Outcome, double_pendulum, pericentre, relativistic};
+use crate::galerkin::systems::{KEPLER, Outcome, double_pendulum, pericentre, relativistic};
 
 #[test]
 fn what_cannot_be_done_is_refused() {

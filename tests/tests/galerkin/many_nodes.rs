@@ -8,7 +8,7 @@ use dvi_examples::models::{Bodies, BodiesState, Orbit, outer_solar_system};
 use dvi_tests::zoo::regular::*;
 use dvi_tests::{apart, larger, run};
 
-use crate::systems::{KEPLER, Outcome, chain, double_pendulum, driven, pericentre};
+use crate::galerkin::systems::{KEPLER, Outcome, chain, double_pendulum, driven, pericentre};
 
 type Failed = Box<dyn core::error::Error>;
 

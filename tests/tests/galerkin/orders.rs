@@ -5,7 +5,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::{apart, run};
 
-use crate::systems::{KEPLER, Outcome, double_pendulum, pericentre};
+use crate::galerkin::systems::{KEPLER, Outcome, double_pendulum, pericentre};
 
 fn observed<S: Lagrangian, M: Method<S, f64> + Copy>(
     (system, start): (&S, &S::State<f64>),

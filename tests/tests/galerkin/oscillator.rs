@@ -4,7 +4,7 @@ use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 
-use crate::systems::Outcome;
+use crate::galerkin::systems::Outcome;
 
 #[test]
 fn on_the_fitted_oscillator_three_nodes_have_their_closed_form() -> Outcome {

@@ -2,7 +2,7 @@
 
 use dvi_core::prelude::*;
 
-use crate::reference;
+use crate::manifold::reference;
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
 use dvi_tests::zoo::manifold::{
     Body, BodyState, ByConstraints, ByConstraintsState, COUPLED, Coupled, CoupledState, FREE, TOP, UNEVEN,

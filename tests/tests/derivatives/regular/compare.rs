@@ -5,7 +5,7 @@ use dvi_core::{RegularLagrangian, Space};
 use dvi_tests::larger;
 use num_dual::{Dual64, HyperDual64};
 
-use crate::oracle::{
+use crate::derivatives::oracle::{
     Action, Expansion, Number, Place, Random, expanded, lagrangian, largest, single_precision,
 };
 

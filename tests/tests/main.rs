@@ -1,0 +1,51 @@
+//! What is taken in few steps, or in none, without optimisation.
+//!
+//! It is one program, so that what several tests run is compiled once, and the long tests run beside the others. Apart from it
+//! are the tests that are programs of their own: one counts allocations, the other is compiled under other lints.
+
+mod at_state;
+mod baselines;
+mod checkpoints;
+mod compositions;
+mod constrained;
+mod constraints;
+mod derivatives;
+mod discrete_equations;
+mod energy_momentum;
+mod ensemble;
+mod error_control;
+mod failures;
+mod forces;
+mod galerkin;
+mod gauges;
+mod general_step;
+mod impacts;
+mod lanes;
+mod langevin;
+mod manifold;
+mod many_coordinates;
+mod many_steps;
+mod networks;
+mod newmark;
+mod nonholonomic;
+mod one_step;
+mod orders;
+mod packs;
+mod pages;
+mod parameters;
+mod projected;
+mod reference_values;
+mod restoring;
+mod scalar_fields;
+mod schemes_against_equations;
+mod sections;
+mod singular_forms;
+mod singular_masses;
+mod smooth_orbits;
+mod splines;
+mod structure;
+mod tables;
+mod time_transform;
+mod together;
+mod together_parameters;
+mod variational;
