@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::{BinOp, Expr, FnArg, ImplItem, Item, Lit, Pat, RangeLimits, Stmt, UnOp};
+use syn::{BinOp, Expr, FnArg, ImplItem, ItemImpl, Lit, Pat, RangeLimits, Stmt, UnOp};
 
 use super::code::{Code, Function, Operator, Pattern};
 use super::functions::{Callee, callee, comparison};
@@ -41,35 +41,50 @@ pub(super) fn unknown(what: &str, tokens: &impl ToTokens) -> ! {
 
 impl Expansion {
     pub(crate) fn new(tokens: TokenStream) -> Self {
-        let file: syn::File = syn::parse2(tokens).expect("the expansion is Rust");
         let mut expansion = Self::default();
-        expansion.items(&file.items);
+        expansion.items(tokens);
         expansion
     }
 
-    fn items(&mut self, items: &[Item]) {
-        for item in items {
-            match item {
-                // `const _: () = { … };`
-                Item::Const(constant) => {
-                    if let Expr::Block(block) = &*constant.expr {
-                        let inside = block.block.stmts.iter().map(|statement| match statement {
-                            Stmt::Item(item) => item.clone(),
-                            other => unknown("statement", other),
-                        });
-                        self.items(&inside.collect::<Vec<_>>());
-                    }
-                }
-                Item::Impl(implementation) => {
-                    let name = implementation.trait_.as_ref().and_then(|(path, _)| path.segments.last());
-                    if name.is_some_and(|name| TRAITS.iter().any(|known| name.ident == known)) {
-                        implementation.items.iter().for_each(|item| self.member(item));
-                    } else if name.is_none() {
-                        implementation.items.iter().for_each(|item| self.own_function(item));
-                    }
-                }
-                _ => {}
+    /// Reads the items of one level. Where they end is seen before they are parsed, because most of them are not read.
+    fn items(&mut self, tokens: TokenStream) {
+        let mut item = Vec::new();
+        for token in tokens {
+            let ends = match &token {
+                TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+                TokenTree::Punct(punct) => punct.as_char() == ';',
+                TokenTree::Ident(_) | TokenTree::Literal(_) => false,
+            };
+            item.push(token);
+            if ends {
+                self.item(std::mem::take(&mut item));
             }
+        }
+        assert!(item.is_empty(), "the expansion ends within an item: {}", TokenStream::from_iter(item));
+    }
+
+    fn item(&mut self, item: Vec<TokenTree>) {
+        let has =
+            |name: &str| item.iter().any(|token| matches!(token, TokenTree::Ident(ident) if ident == name));
+        if has("impl") {
+            if !has("for") || TRAITS.iter().any(|name| has(name)) {
+                let implementation = syn::parse2(item.into_iter().collect());
+                self.implementation(&implementation.expect("the expansion is Rust"));
+            }
+        } else if let Some(TokenTree::Group(inside)) = item.last()
+            && has("_")
+        {
+            // `const _: () = { … };`
+            self.items(inside.stream());
+        }
+    }
+
+    fn implementation(&mut self, implementation: &ItemImpl) {
+        let name = implementation.trait_.as_ref().and_then(|(path, _)| path.segments.last());
+        if name.is_some_and(|name| TRAITS.iter().any(|known| name.ident == known)) {
+            implementation.items.iter().for_each(|item| self.member(item));
+        } else if name.is_none() {
+            implementation.items.iter().for_each(|item| self.own_function(item));
         }
     }
 
