@@ -8,6 +8,8 @@
 //!
 //! The Pfaffian comes from skew elimination, A = P L T Lᵀ Pᵀ (Wimmer 2012, ACM TOMS 38, algorithm 923).
 
+use core::slice;
+
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::StepFailure;
@@ -162,30 +164,36 @@ fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
     Ok(())
 }
 
+impl<S: System, T: Real> FormOrientation<S, T> {
+    /// What is compared with the next Ω.
+    fn kept(&self) -> &[T] {
+        match self {
+            Self::Constant => &[],
+            Self::Pairs([entries, _]) => entries,
+            Self::Pfaffian(sign, _) => slice::from_ref(sign),
+        }
+    }
+
+    fn kept_mut(&mut self) -> &mut [T] {
+        match self {
+            Self::Constant => &mut [],
+            Self::Pairs([entries, _]) => entries,
+            Self::Pfaffian(sign, _) => slice::from_mut(sign),
+        }
+    }
+}
+
 impl<S: System, T: Real> Memory<T> for FormOrientation<S, T> {
     fn restore(&mut self, from: &Self) {
-        match (self, from) {
-            (Self::Pairs([entries, _]), Self::Pairs([from, _])) => entries.copy_from_slice(from),
-            (Self::Pfaffian(sign, _), Self::Pfaffian(from, _)) => *sign = *from,
-            // Both are of one system.
-            _ => {}
-        }
+        self.kept_mut().copy_from_slice(from.kept());
     }
     #[cfg(feature = "alloc")]
     fn save(&self, record: &mut Record<T>) {
-        match self {
-            Self::Constant => {}
-            Self::Pairs([entries, _]) => record.numbers(entries),
-            Self::Pfaffian(sign, _) => record.numbers(&[*sign]),
-        }
+        record.numbers(self.kept());
     }
     #[cfg(feature = "alloc")]
     fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        match self {
-            Self::Constant => Ok(()),
-            Self::Pairs([entries, _]) => reader.numbers(entries),
-            Self::Pfaffian(sign, _) => reader.numbers(core::slice::from_mut(sign)),
-        }
+        reader.numbers(self.kept_mut())
     }
 }
 

@@ -10,6 +10,7 @@ mod energy_momentum;
 mod error_control;
 mod integrator;
 mod osculating;
+mod rejection;
 mod reversible;
 
 use core::fmt::Debug;

@@ -6,6 +6,7 @@
 //! with the safety factor f, and e₋ is that of the step before. This is the proportional–integral controller of Gustafsson 1991, with the
 //! constants of Hairer & Wanner 1996, section IV.2. Steps settle at e = 1. After a step that is taken back h' = h/e.
 
+use super::rejection::{Accepted, Verdict, step_of_at_most};
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::methods::{Tolerance, VariableStep};
@@ -148,55 +149,31 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl {
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
-        run.keep();
+        let one = T::lift(1.0);
         let order = (run.stepper.method.order() + 1) as f64;
         let excess = |error: T| Scalar::powf(error, T::lift(1.0 / order)) / T::lift(SAFETY);
         let left = memory.end.map(|end| end - t);
         let is_last = |left: &T| Scalar::abs(*left) <= T::lift(STRETCH) * Scalar::abs(memory.h);
-        let mut h = left.filter(is_last).unwrap_or(memory.h);
-        let mut failed = None;
-        loop {
-            match self.attempt(run, t, h) {
-                Ok(error) if error <= T::lift(1.0) => {
-                    let (e, [now, before]) = (excess(error), EXPONENTS.map(T::lift));
-                    let most = if failed.is_none() { FACTORS[1] } else { 1.0 };
-                    let factor = Scalar::powf(e, now) * Scalar::powf(memory.excess, before);
-                    let next = h * within(factor, FACTORS[0], most);
-                    // A step that is cut short by the end of the run says little of the next one.
-                    let is_cut = left == Some(h) && Scalar::abs(next) < Scalar::abs(memory.h);
-                    memory.h = if is_cut { memory.h } else { next };
-                    (memory.error, memory.excess) = (error, larger(T::lift(LEAST_BEFORE), e));
-                    return Ok(h);
+        let first = left.filter(is_last).unwrap_or(memory.h);
+        let Accepted { h, found: error, is_first } =
+            step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
+                let error = run.local_error(t, h, self.tolerance)?;
+                // A method without an estimate has not been admitted.
+                let error = error.unwrap_or(T::lift(f64::NAN));
+                if error <= one {
+                    return Ok(Verdict::Accepted(error));
                 }
-                Ok(error) => {
-                    run.go_back();
-                    run.stepper.statistics.rejected += 1;
-                    failed = Some(StepFailure::Tolerance { h: reported(h), error: reported(error) });
-                    h *= within(T::lift(1.0) / excess(error), FACTORS[0], SAFETY);
-                }
-                // The failure of a longer step tells more than that the steps became too short.
-                Err(failure @ StepFailure::StepLength { .. }) => return Err(failed.unwrap_or(failure)),
-                Err(failure) => {
-                    run.stepper.statistics.rejected += 1;
-                    failed = Some(failure);
-                    h *= T::lift(AFTER_FAILURE);
-                }
-            }
-        }
-    }
-}
-
-impl ErrorControl {
-    /// Takes a step of length `h` and returns its estimated error, in units of the tolerance; goes back if there is none.
-    fn attempt<S: Lagrangian<T>, M: VariableStep<S, T>, T: Real>(
-        &self,
-        run: &mut ControlledRun<'_, S, M, T>,
-        t: T,
-        h: T,
-    ) -> Result<T, StepFailure> {
-        run.step(t, h)?;
-        let error = run.local_error(t, h, self.tolerance).inspect_err(|_| run.go_back())?;
-        // A method without an estimate has not been admitted.
-        Ok(error.unwrap_or(T::lift(f64::NAN)))
+                let factor = within(one / excess(error), FACTORS[0], SAFETY);
+                let failure = StepFailure::Tolerance { h: reported(h), error: reported(error) };
+                Ok(Verdict::TooLong { factor, failure: Some(failure) })
+            })?;
+        let (e, [now, before]) = (excess(error), EXPONENTS.map(T::lift));
+        let factor = Scalar::powf(e, now) * Scalar::powf(memory.excess, before);
+        let next = h * within(factor, FACTORS[0], if is_first { FACTORS[1] } else { 1.0 });
+        // A step that is cut short by the end of the run says little of the next one.
+        let is_cut = left == Some(h) && Scalar::abs(next) < Scalar::abs(memory.h);
+        memory.h = if is_cut { memory.h } else { next };
+        (memory.error, memory.excess) = (error, larger(T::lift(LEAST_BEFORE), e));
+        Ok(h)
     }
 }

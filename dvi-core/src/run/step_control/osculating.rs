@@ -9,6 +9,7 @@
 //! moves is v_o |v| h; with d = |v| h, e is the remainder of a Taylor series, of second order. Neither bounds the
 //! error of a step: on a circle e = 0 whatever the method does.
 
+use super::rejection::{Accepted, Verdict, step_of_at_most};
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
@@ -65,6 +66,9 @@ impl Osculating {
         Self { tolerance, first_step, centre: CentreSpeed::default() }
     }
 }
+
+/// The smallest factor from the length of a step to that of the next; after a step that failed too.
+const AFTER_FAILURE: f64 = 0.2;
 
 /// The radius of the osculating circle, its rate of change Ṙ, and the speed |v|.
 #[derive(Clone, Copy, Debug)]
@@ -146,7 +150,7 @@ impl Osculating {
         let ratio = Scalar::powf(T::lift(self.tolerance) / e, T::lift(1.0 / self.centre.order()));
         let (wanted, most) = (T::lift(0.9) * ratio, T::lift(5.0));
         // Also where the estimate is not a number, the step becomes smaller.
-        if wanted > most { most } else { larger(T::lift(0.2), wanted) }
+        if wanted > most { most } else { larger(T::lift(AFTER_FAILURE), wanted) }
     }
 }
 
@@ -187,47 +191,22 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
-        run.keep();
-        let (mut h, mut failed) = (memory.h, None);
-        loop {
-            match attempt(memory, run, t, h) {
-                Ok(circle) => {
-                    let e = self.estimate(h, memory.circle, circle);
-                    let factor = self.factor(e);
-                    if e <= T::lift(self.tolerance) {
-                        memory.circle = circle;
-                        memory.h = h * factor;
-                        return Ok(h);
-                    }
-                    run.go_back();
-                    run.stepper.statistics.rejected += 1;
-                    h *= factor;
-                }
-                // The failure of a longer step tells more than that the steps became too short.
-                Err(failure @ StepFailure::StepLength { .. }) => return Err(failed.unwrap_or(failure)),
-                Err(failure) => {
-                    run.stepper.statistics.rejected += 1;
-                    failed = Some(failure);
-                    h *= T::lift(0.2);
-                }
-            }
-        }
+        let OsculatingMemory { h, circle: start, mass, v, work } = memory;
+        let Accepted { h: taken, found: (circle, factor), .. } =
+            step_of_at_most(run, t, *h, AFTER_FAILURE, |run, h| {
+                run.velocity(t + h, v)?;
+                run.stepper.statistics.linearizations += 1;
+                let circle = work.circle(run.system(), mass, run.q(), v, t + h);
+                let e = self.estimate(h, *start, circle);
+                let factor = self.factor(e);
+                Ok(if e <= T::lift(self.tolerance) {
+                    Verdict::Accepted((circle, factor))
+                } else {
+                    Verdict::TooLong { factor, failure: None }
+                })
+            })?;
+        *start = circle;
+        *h = taken * factor;
+        Ok(taken)
     }
-}
-
-/// Takes a step of length `h` and returns the circle at its end; goes back if there is none.
-fn attempt<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real>(
-    memory: &mut OsculatingMemory<S, T>,
-    run: &mut ControlledRun<'_, S, M, T>,
-    t: T,
-    h: T,
-) -> Result<Circle<T>, StepFailure> {
-    run.step(t, h)?;
-    let OsculatingMemory { mass, work, v, .. } = memory;
-    if let Err(failure) = run.velocity(t + h, v) {
-        run.go_back();
-        return Err(failure);
-    }
-    run.stepper.statistics.linearizations += 1;
-    Ok(work.circle(run.system(), mass, run.q(), v, t + h))
 }
