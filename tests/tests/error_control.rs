@@ -266,6 +266,40 @@ fn options_and_methods_out_of_range_are_refused() {
     assert!(matches!(error, Some(StartError::Unsupported { option: "ErrorControl", .. })), "{error:?}");
 }
 
+/// A checkpoint has a direction, and the first step of a control is none of the run that goes on.
+#[test]
+fn a_run_goes_on_in_the_direction_of_its_checkpoint() -> Outcome {
+    let control = |first_step| ErrorControl::new(1e-9, first_step);
+    for direction in [1.0, -1.0] {
+        let run = |control| ControlledIntegrator::new(&KEPLER, Gauss::<5>::new(), control, pericentre(0.5));
+        let mut whole = run(control(0.3 * direction))?;
+        whole.advance_to(3.0 * direction)?;
+        let (method, other) = (Gauss::<5>::new(), control(-0.3 * direction));
+        let mut resumed = ControlledIntegrator::resume(&KEPLER, method, other, &whole.checkpoint())?;
+        resumed.advance_to(2.0 * direction)?;
+        assert_eq!(resumed.steps(), whole.steps());
+        whole.advance_to(9.0 * direction)?;
+        resumed.advance_to(9.0 * direction)?;
+        assert_eq!((whole.steps(), whole.state()), (resumed.steps(), resumed.state()));
+        assert!((resumed.time() - 9.0 * direction).abs() < 1e-14);
+    }
+    Ok(())
+}
+
+/// Steps without an error become twice as long each time.
+#[test]
+fn a_run_ends_before_the_end_of_the_numbers() -> Outcome {
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0)]
+    struct Free;
+    let start: FreeState = FreeState { x: 1.0, dot_x: 1.0 };
+    let mut run = ControlledIntegrator::new(&Free, Gauss::<3>::new(), ErrorControl::new(1e-10, 0.1), start)?;
+    let error = run.take_steps(3000).err().ok_or("it ends")?;
+    assert!(matches!(error.failure, StepFailure::StepLength { .. }), "{error}");
+    assert!(run.time().is_finite() && run.state().x.is_finite() && run.time() > 1e300, "{}", run.time());
+    assert_eq!((error.step, error.time), (run.steps(), run.time()));
+    Ok(())
+}
+
 #[test]
 fn an_energy_limit_lets_the_estimate_through() -> Outcome {
     let control = ErrorControl::new(1e-3, 0.1);

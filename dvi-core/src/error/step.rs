@@ -245,9 +245,9 @@ pub enum StepFailure {
         /// Its estimated error, in units of what the tolerance allows.
         error: f64,
     },
-    /// A step control asks for a step that does not advance the time.
+    /// A step control asks for a step that does not advance the time, or leads to none that is finite.
     #[error(
-        "the step control asks for h = {h:e}, which does not advance the time: a collision, or a demand out of reach"
+        "the step control asks for h = {h:e}, which does not advance the time, or to none that is finite: a collision, or a demand out of reach"
     )]
     StepLength {
         /// The step, perhaps not finite.

@@ -158,3 +158,20 @@ fn without_an_impact_a_run_is_that_of_the_method_bit_by_bit() -> Outcome {
     same!(Variational::trapezoid(), Variational::midpoint(), Galerkin::<4>::new());
     Ok(())
 }
+
+#[test]
+fn lanes_bounce_as_one_node_after_the_other_bit_by_bit() -> Outcome {
+    let (system, start) = (Wavy { a: 0.5 }, WavyState { x: 0.3, y: 1.0, dot_x: 0.4, dot_y: 0.0 });
+    let one_by_one = Impacts::reflecting(Galerkin::<5>::new());
+    let in_lanes = Impacts::reflecting(Galerkin::<5>::new().in_lanes());
+    let mut alone = Integrator::new(&system, one_by_one, 0.05, start)?;
+    let mut lanes = Integrator::new(&system, in_lanes, 0.05, start)?;
+    for _ in 0..300 {
+        alone.advance()?;
+        lanes.advance()?;
+        assert_eq!(alone.state(), lanes.state());
+    }
+    assert!(alone.memory().total() > 3);
+    assert_eq!(alone.memory().total(), lanes.memory().total());
+    Ok(())
+}

@@ -218,8 +218,10 @@ where
 {
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real> FreeFlight<S, T>
-    for Galerkin<NODES, Unfitted>
+impl<const NODES: usize, S, T: Real, E> FreeFlight<S, T> for Galerkin<NODES, Unfitted, E>
+where
+    S: NondegenerateLagrangian<T>,
+    E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.start(system, q, v, [t, h])

@@ -53,11 +53,12 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
     /// Takes a step from time `t` to `t + h`, without allocation.
     ///
     /// # Errors
-    /// [`StepFailure::StepLength`] if `h` is not finite or `t + h` is `t`; else as
+    /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite; else as
     /// [`Method::step`](crate::methods::Method::step). Nothing has moved then.
     #[inline]
     pub fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
-        if !h.is_finite() || t + h == t {
+        let end = t + h;
+        if end == t || !end.is_finite() {
             return Err(StepFailure::StepLength { h: reported(h) });
         }
         let Stepper { system, method, memory, q, statistics, .. } = &mut self.stepper;

@@ -68,7 +68,8 @@ where
         Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
     }
 
-    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped.
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped: the next step has the length and the direction
+    /// of the checkpoint, not those that `control` has for a first one.
     ///
     /// # Errors
     /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and control carry on
@@ -186,7 +187,8 @@ where
     M: VariableStep<S, T>,
 {
     /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the rounding of the time. Nothing is
-    /// allocated. A time that the run has reached or passed, or that is not finite, takes no step.
+    /// allocated. A time that the run has reached or passed, in the direction of [its next step](super::ErrorControlMemory::next_step), or that
+    /// is not finite, takes no step.
     ///
     /// # Errors
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
@@ -201,7 +203,7 @@ where
     }
 
     fn steps_to(&mut self, t: T) -> Result<(), StepError> {
-        let forward = T::lift(self.control.first_step) > T::lift(0.0);
+        let forward = self.control_memory.next_step() > T::lift(0.0);
         loop {
             let now = self.time();
             let is_ahead = if forward { now < t } else { now > t };
