@@ -79,6 +79,28 @@ fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjust
     phase.arrive(q, &Arrival { q: next, p: &node.momentum, force: &node.gradient }, increment, step.h)
 }
 
+/// How much of the impulse of a node is meant. A value and no function: the loop of a node is compiled once for all.
+#[derive(Clone, Copy)]
+enum Share {
+    /// What belongs to the left end: b.
+    Left,
+    /// What belongs to both ends: b + b̄.
+    Both,
+    /// All of it: the node is an end.
+    Whole,
+}
+
+impl Share {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of<T: Real>(self, Basis { b, b_bar, .. }: Basis<T>) -> T {
+        match self {
+            Self::Left => b,
+            Self::Both => b + b_bar,
+            Self::Whole => T::lift(1.0),
+        }
+    }
+}
+
 /// A step as it is being solved. In `work`: `increment` is Δ, `next` is q1 and `node.gradient` is F(q1) once they have
 /// been asked for, `node.momentum` is p1 in the end.
 struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
@@ -182,7 +204,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
             // At the end of the step b = 0.
             if c != 1.0 {
-                self.kick(node, c, |basis| basis.b);
+                self.kick(node, c, Share::Left);
             }
         }
         let Work { increment, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
@@ -212,9 +234,9 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         norm::largest(velocity)
     }
 
-    /// Adds the impulse h w F(qʲ) of a node to `momentum`, times the factor that `share` picks.
+    /// Adds the impulse h w F(qʲ) of a node to `momentum`, as far as it belongs to `share`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn kick(&mut self, node: usize, c: f64, share: impl Fn(Basis<T>) -> T) {
+    fn kick(&mut self, node: usize, c: f64, share: Share) {
         let weight = self.step.h * self.coefficients.weight(node);
         let Work { increment, node: work, trial, .. } = &mut *self.work;
         let NodeWork { momentum, point, gradient, .. } = work;
@@ -234,7 +256,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         };
         let basis = self.coefficients.bases(node);
         for (i, (p, &f)) in momentum.iter_mut().zip(force).enumerate() {
-            *p += weight * share(basis(i)) * f;
+            *p += weight * share.of(basis(i)) * f;
         }
     }
 
@@ -260,7 +282,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     fn kick_at(&mut self, c: f64) {
         for node in 0..self.step.method.rule.nodes().len() {
             if self.step.method.rule.nodes()[node] == c {
-                self.kick(node, c, |_| T::lift(1.0));
+                self.kick(node, c, Share::Whole);
             }
         }
         if F::UNFITTED {
@@ -286,7 +308,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         }
         self.work.node.momentum.copy_from_slice(&self.phase.p);
         for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
-            self.kick(node, c, |basis| basis.b + basis.b_bar);
+            self.kick(node, c, Share::Both);
         }
         if !F::UNFITTED {
             let Work { next, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
