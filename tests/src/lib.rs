@@ -76,6 +76,30 @@ pub mod configurations {
 pub mod oracle {
     use dvi_core::discrete::Rule;
     use dvi_core::{Lagrangian, Real};
+    use nalgebra::{DMatrix, DVector};
+
+    /// A point at which a gradient vanishes, from zero by Newton's method with its differences, up to rounding; nothing where
+    /// its matrix is singular.
+    pub fn stationary(size: usize, gradient: impl Fn(&DVector<f64>) -> DVector<f64>) -> Option<Vec<f64>> {
+        let mut x = DVector::zeros(size);
+        for _ in 0..20 {
+            let column = |j: usize| {
+                let shifted = |by: f64| {
+                    let mut x = x.clone();
+                    x[j] += by;
+                    gradient(&x)
+                };
+                (shifted(1e-4) - shifted(-1e-4)) / 2e-4
+            };
+            let columns: Vec<DVector<f64>> = (0..size).map(column).collect();
+            let change = DMatrix::from_columns(&columns).lu().solve(&gradient(&x))?;
+            x -= &change;
+            if change.amax() < 1e-16 * x.amax() {
+                break;
+            }
+        }
+        Some(x.as_slice().to_vec())
+    }
 
     /// L_d(q0, q1) = h L(q_σ, (q1 − q0)/h, t + σh).
     pub fn discrete_lagrangian<S: Lagrangian<T>, T: Real>(
@@ -123,8 +147,9 @@ pub mod oracle {
             let (mut point, mut velocity): (Vec<T>, Vec<T>) =
                 (0..n).map(|i| (combine(b, b_bar, i), combine(d, d_bar, i))).unzip();
             for (k, displacement) in displacements.chunks(n).enumerate().map(|(k, x)| (k + 1, x)) {
+                let derivative = T::lift(derivative(k, c));
                 for i in 0..n {
-                    velocity[i] += T::lift(derivative(k, c)) * displacement[i];
+                    velocity[i] += derivative * displacement[i];
                     if k == j {
                         point[i] += displacement[i];
                     }

@@ -3,9 +3,10 @@
 
 use dvi_core::discrete::{FrequencyIn, Unfitted};
 use dvi_core::prelude::*;
-use dvi_tests::oracle::displaced_lagrangian;
+use dvi_tests::oracle::{self, displaced_lagrangian};
 use dvi_tests::zoo::regular::*;
 use dvi_tests::{apart, larger, run};
+use nalgebra::DVector;
 use num_dual::Dual64;
 
 use crate::galerkin::systems::{
@@ -13,8 +14,7 @@ use crate::galerkin::systems::{
     spherical,
 };
 
-/// The displacements of the interior nodes that make L_d(q0, q1) stationary, by Newton with differences of
-/// derivatives that dual numbers give.
+/// The displacements of the interior nodes that make L_d(q0, q1) stationary.
 fn stationary<S: Lagrangian<Dual64>, const NODES: usize>(
     system: &S,
     u: f64,
@@ -23,25 +23,19 @@ fn stationary<S: Lagrangian<Dual64>, const NODES: usize>(
 ) -> Vec<f64> {
     let [q0, q1] = ends.map(|q| dual(q, None));
     let size = q0.len() * (NODES - 2);
-    let gradient = |x: &[f64]| -> nalgebra::DVector<f64> {
-        nalgebra::DVector::from_fn(size, |i, _| {
-            displaced_lagrangian::<S, Dual64, NODES>(system, u, [t, h], [&q0, &q1], &dual(x, Some(i))).eps
-        })
+    let gradient = |x: &DVector<f64>| {
+        let of = |i| {
+            displaced_lagrangian::<S, Dual64, NODES>(
+                system,
+                u,
+                [t, h],
+                [&q0, &q1],
+                &dual(x.as_slice(), Some(i)),
+            )
+        };
+        DVector::from_fn(size, |i, _| of(i).eps)
     };
-    let mut x = vec![0.0; size];
-    for _ in 0..20 {
-        let jacobian = nalgebra::DMatrix::from_fn(size, size, |i, j| {
-            let shifted = |by: f64| {
-                let mut x = x.clone();
-                x[j] += by;
-                gradient(&x)[i]
-            };
-            (shifted(1e-4) - shifted(-1e-4)) / 2e-4
-        });
-        let Some(change) = jacobian.lu().solve(&gradient(&x)) else { return x };
-        x.iter_mut().zip(change.iter()).for_each(|(x, change)| *x -= change);
-    }
-    x
+    oracle::stationary(size, gradient).expect("a regular matrix")
 }
 
 /// The largest residual of p0 = −D₁L_d and p1 = D₂L_d, from the value of L alone.

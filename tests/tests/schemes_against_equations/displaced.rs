@@ -3,8 +3,8 @@
 use dvi_core::State;
 use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
-use dvi_tests::larger;
-use nalgebra::{DMatrix, DVector, RealField, convert};
+use dvi_tests::{larger, oracle};
+use nalgebra::{DVector, RealField, convert};
 
 use super::equations::{Formula, defect, dual, interpolation, size};
 use super::systems::{Coupled, Fast, Magnetic, Shaken};
@@ -48,59 +48,66 @@ fn lagrange_derivative(nodes: &[f64], k: usize, at: f64) -> f64 {
     others().map(|m| others().filter(|&l| l != m).map(factor).product::<f64>() / (nodes[k] - nodes[m])).sum()
 }
 
+/// Lobatto nodes and weights, the derivatives of the Lagrange polynomials at the nodes, and the frequency of the interpolation.
+struct Nodes {
+    c: Vec<f64>,
+    w: Vec<f64>,
+    /// Of the polynomial of node k at node j.
+    derivatives: Vec<Vec<f64>>,
+    omega: f64,
+}
+
+impl Nodes {
+    fn new(nodes: usize, omega: f64) -> Self {
+        let (c, w) = lobatto(nodes);
+        let of = |k| c.iter().map(|&at| lagrange_derivative(&c, k, at)).collect();
+        Self { derivatives: (0..nodes).map(of).collect(), c, w, omega }
+    }
+
+    fn interior(&self) -> core::ops::Range<usize> {
+        1..self.c.len() - 1
+    }
+}
+
 /// L_d(q0, q1, δ), the displacements of one interior node after the other.
 fn discrete_lagrangian<F: Formula, T: RealField + Copy>(
     formula: &F,
-    (nodes, omega): (usize, f64),
+    nodes: &Nodes,
     [t, h]: [f64; 2],
     [q0, q1, displacements]: [&[T]; 3],
 ) -> T {
-    let (c, w) = lobatto(nodes);
     let n = q0.len();
     let mut sum = T::zero();
-    for j in 0..nodes {
-        let [b0, b1, d0, d1] = interpolation(c[j], omega * h).map(convert::<f64, T>);
+    for (j, (&c, &w)) in nodes.c.iter().zip(&nodes.w).enumerate() {
+        let [b0, b1, d0, d1] = interpolation(c, nodes.omega * h).map(convert::<f64, T>);
         let mut point: Vec<T> = (0..n).map(|i| b0 * q0[i] + b1 * q1[i]).collect();
         let mut velocity: Vec<T> = (0..n).map(|i| d0 * q0[i] + d1 * q1[i]).collect();
-        for k in 1..nodes - 1 {
+        for k in nodes.interior() {
+            let derivative: T = convert(nodes.derivatives[k][j]);
             for i in 0..n {
                 let displacement = displacements[(k - 1) * n + i];
-                velocity[i] += convert::<f64, T>(lagrange_derivative(&c, k, c[j])) * displacement;
+                velocity[i] += derivative * displacement;
                 if j == k {
                     point[i] += displacement;
                 }
             }
         }
         velocity.iter_mut().for_each(|v| *v /= convert(h));
-        sum += convert::<f64, T>(h * w[j]) * formula.lagrangian(&point, &velocity, convert(t + c[j] * h));
+        sum += convert::<f64, T>(h * w) * formula.lagrangian(&point, &velocity, convert(t + c * h));
     }
     sum
 }
 
-/// The displacements at which L_d is stationary: Newton with the differences of exact derivatives.
-fn stationary<F: Formula>(formula: &F, rule: (usize, f64), th: [f64; 2], [q0, q1]: [&[f64]; 2]) -> Vec<f64> {
-    let size = q0.len() * (rule.0 - 2);
+/// The displacements at which L_d is stationary.
+fn stationary<F: Formula>(formula: &F, nodes: &Nodes, th: [f64; 2], [q0, q1]: [&[f64]; 2]) -> Vec<f64> {
+    let size = q0.len() * nodes.interior().len();
     let (q0, q1) = (dual(q0, None), dual(q1, None));
     let gradient = |x: &DVector<f64>| {
         let entry =
-            |i, _| discrete_lagrangian(formula, rule, th, [&q0, &q1, &dual(x.as_slice(), Some(i))]).eps;
+            |i, _| discrete_lagrangian(formula, nodes, th, [&q0, &q1, &dual(x.as_slice(), Some(i))]).eps;
         DVector::from_fn(size, entry)
     };
-    let mut x = DVector::zeros(size);
-    for _ in 0..12 {
-        let column = |j: usize| {
-            let shifted = |by: f64| {
-                let mut x = x.clone();
-                x[j] += by;
-                gradient(&x)
-            };
-            (shifted(1e-4) - shifted(-1e-4)) / 2e-4
-        };
-        let columns: Vec<DVector<f64>> = (0..size).map(column).collect();
-        let change = DMatrix::from_columns(&columns).lu().solve(&gradient(&x));
-        x -= change.expect("a regular matrix");
-    }
-    x.as_slice().to_vec()
+    oracle::stationary(size, gradient).expect("a regular matrix")
 }
 
 fn check<S, F, const NODES: usize>(
@@ -113,7 +120,7 @@ where
     S: RegularLagrangian + Formula,
     F: FrequencyIn<f64> + Copy,
 {
-    let name = S::REPORT.system;
+    let (name, nodes) = (S::REPORT.system, Nodes::new(NODES, omega));
     let mut solvers = vec![Solver::Automatic, Solver::Newton];
     if S::SEPARABLE {
         solvers.push(Solver::FixedPoint);
@@ -126,10 +133,9 @@ where
             let (t, q0, p0) = (run.time(), run.q().to_vec(), run.memory().p().to_vec());
             run.advance().map_err(|error| format!("{name}, {method:?}: {error}"))?;
             let (q1, p1) = (run.q(), run.memory().p());
-            let rule = (NODES, omega);
-            let x = dual(&stationary(system, rule, [t, h], [&q0, q1]), None);
+            let x = dual(&stationary(system, &nodes, [t, h], [&q0, q1]), None);
             let value =
-                |a, b| discrete_lagrangian(system, rule, [t, h], [&dual(&q0, a), &dual(q1, b), &x]).eps;
+                |a, b| discrete_lagrangian(system, &nodes, [t, h], [&dual(&q0, a), &dual(q1, b), &x]).eps;
             let left: Vec<f64> = (0..q0.len()).map(|i| value(Some(i), None)).collect();
             let right: Vec<f64> = (0..q0.len()).map(|i| value(None, Some(i))).collect();
             let scale = 1.0 + size(&p0) + size(p1) + size(q1) / h.abs();
