@@ -28,10 +28,14 @@ fn listed() -> Vec<String> {
     list.lines().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
 }
 
+/// What it writes stays in `target/tmp/short-run`.
 #[test]
 fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = run(&["--short"], folder.path());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("short-run");
+    if folder.exists() {
+        fs::remove_dir_all(&folder).expect("removed");
+    }
+    let output = run(&["--short"], &folder);
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     assert_eq!(output.status.code(), Some(0), "{printed}{}", String::from_utf8_lossy(&output.stderr));
     let experiments = listed();
@@ -39,9 +43,9 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     let files = |name: &String| ["svg", "png", "csv"].map(|extension| format!("{name}.{extension}"));
     let expected: BTreeSet<String> =
         experiments.iter().flat_map(files).chain(["summary.csv", "summary.md"].map(str::to_owned)).collect();
-    assert_eq!(names(folder.path()), expected);
+    assert_eq!(names(&folder), expected);
     for name in &experiments {
-        let read = |extension| fs::read(folder.path().join(format!("{name}.{extension}"))).expect("readable");
+        let read = |extension| fs::read(folder.join(format!("{name}.{extension}"))).expect("readable");
         let svg = String::from_utf8(read("svg")).expect("UTF-8");
         let document = roxmltree::Document::parse(&svg).expect("well-formed");
         assert_eq!(document.root_element().tag_name().name(), "svg", "{name}");
@@ -49,10 +53,10 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
         assert!(read("png").starts_with(b"\x89PNG") && read("png").ends_with(b"IEND\xaeB`\x82"), "{name}");
         assert!(read("csv").iter().filter(|&&byte| byte == b'\n').count() > 3, "{name}");
     }
-    let figure = fs::read(folder.path().join("fig3-leapfrogging.svg")).expect("readable");
+    let figure = fs::read(folder.join("fig3-leapfrogging.svg")).expect("readable");
     let shown = include_bytes!("../figures/leapfrogging.svg");
     assert!(figure == shown, "the README shows another figure than this program draws: copy it to figures/");
-    let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
+    let summary = fs::read_to_string(folder.join("summary.md")).expect("readable");
     assert!(experiments.iter().all(|name| summary.contains(&format!("## {name}:"))), "{summary}");
     assert!(
         !summary.contains("not reproduced")
@@ -62,7 +66,7 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
         "{summary}"
     );
     assert!(printed.contains("reproduced"), "{printed}");
-    same_claims(&fs::read_to_string(folder.path().join("summary.csv")).expect("readable"));
+    same_claims(&fs::read_to_string(folder.join("summary.csv")).expect("readable"));
 }
 
 /// The verdicts of a summary: "undecided" or how a claim was decided.

@@ -62,7 +62,7 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(SHOWN[2]);
     let measured = Measured {
         operations: operations(job.choose(&[10, 20, 40, 80], &[5, 10]))?,
-        rate: rate()?,
+        rate: rate(job.choose(10, 6))?,
         ..roll_up(job, rows)?
     };
     job.publish(EXPERIMENT.name, picture::figure(&measured), picture::table(&measured)?)?;
@@ -133,11 +133,10 @@ fn operations(rows: &[usize]) -> Result<Vec<(u64, u64, u64)>> {
 }
 
 /// ln(a(2)/a(1)), where a is the amplitude of small waves on the edges of the layer, in its middle.
-fn rate() -> Result<f64> {
+fn rate(rows: usize) -> Result<f64> {
     const SMALL: f64 = 1e-4;
-    const ROWS: usize = 10;
     let states = |amplitude: f64| -> Result<[VortexBlobsState; 2]> {
-        let layer = ShearLayer { rows: ROWS, amplitude };
+        let layer = ShearLayer { rows, amplitude };
         let (system, start) = (layer.system(), layer.state());
         let fast = FastSum::<_, 2>::new(&system, TOLERANCE)?;
         let mut run = Integrator::new(&fast, method(), H, start)?;
@@ -152,14 +151,14 @@ fn rate() -> Result<f64> {
     let amplitude = |time: usize| {
         let (up, down) = (&up[time], &down[time]);
         let edge = |row: usize| {
-            let blobs = (row..up.x.len()).step_by(ROWS).filter(|&blob| up.x[blob].abs() < 1.0);
+            let blobs = (row..up.x.len()).step_by(rows).filter(|&blob| up.x[blob].abs() < 1.0);
             let parts = blobs.fold([0.0; 2], |[sine, cosine], blob| {
                 let ((sin, cos), apart) = ((TAU * up.x[blob]).sin_cos(), up.y[blob] - down.y[blob]);
                 [sine + sin * apart, cosine + cos * apart]
             });
             parts[0].hypot(parts[1])
         };
-        edge(0) + edge(ROWS - 1)
+        edge(0) + edge(rows - 1)
     };
     Ok((amplitude(1) / amplitude(0)).ln())
 }
