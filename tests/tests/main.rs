@@ -18,6 +18,7 @@ mod failures;
 mod forces;
 mod galerkin;
 mod gauges;
+mod gauss_guesses;
 mod general_step;
 mod impacts;
 mod lanes;

@@ -29,6 +29,8 @@ use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, Scalar, System, Vector};
 
+use memory::Guess;
+
 pub use memory::GaussMemory;
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 8, of order 2`S`, on the equations of motion y' = X(y, t).
@@ -42,7 +44,8 @@ pub use memory::GaussMemory;
 /// It is symmetric. On Hamilton's equations of a regular system it preserves dq ∧ dp, and all momenta that are bilinear in q
 /// and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all quadratic momenta. The stages are found
 /// by a fixed point, which contracts if h is small against the fastest time scale only:
-/// [`StepFailure::NotConverged`] where it does not.
+/// [`StepFailure::NotConverged`] where it does not. It begins on the polynomial through the stages of the last step and, where that
+/// does not lead to a step, once more from the slope at the start.
 ///
 /// Where L = ½ v·M v − V(q, t) with a constant diagonal M, and forces have no velocities in them, the velocities of the stages are
 /// eliminated, and only positions are iterated (Antoñana, Makazaga & Murua 2025): it is the same method, in fewer operations.
@@ -175,11 +178,11 @@ where
         system: &S,
         memory: &mut Self::Memory,
         t: T,
-        h: T,
+        lengths: [T; 2],
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<Option<T>, StepFailure> {
-        memory.local_error(system, t, h, tolerance, statistics).map(Some)
+        memory.local_error(system, t, lengths, tolerance, statistics).map(Some)
     }
 }
 
@@ -220,9 +223,36 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         S: System<Kind: FirstOrder<S, T>>,
         E: StageEvaluation<STAGES, S, T>,
     {
+        let mut guess = Guess::Continued;
+        loop {
+            match self.attempt(system, memory, q, [t, h], guess, statistics) {
+                Err(_) if guess == Guess::Continued && !memory.is_first() => guess = Guess::Constant,
+                result => return result,
+            }
+        }
+    }
+
+    /// The same, with stages that begin at a guess.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn attempt<S, T: Real>(
+        &self,
+        system: &S,
+        memory: &mut GaussMemory<STAGES, S, T>,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        guess: Guess,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>
+    where
+        S: System<Kind: FirstOrder<S, T>>,
+        E: StageEvaluation<STAGES, S, T>,
+    {
         let Self { stopping, summation, .. } = *self;
         S::Kind::gather(&mut memory.equations, q, &mut memory.y);
-        memory.guess(h);
+        match guess {
+            Guess::Continued => memory.guess_continued(h),
+            Guess::Constant => memory.guess_constant(system, t, h, statistics)?,
+        }
         // Where equations are of second order, this sets the positions that are guessed.
         let increment = match memory.place(h).and(memory.drift(h)) {
             Some(drift) => drift,

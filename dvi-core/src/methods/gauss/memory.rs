@@ -14,6 +14,15 @@ use crate::state::memory::{Memory, lasting};
 use crate::state::summation::{Summation, left_out};
 use crate::{Real, System, Vector};
 
+/// The slopes of all stages before the first iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Guess {
+    /// On the polynomial through those of the last step. Where they have a kink it leads far away, out of the domain of L too.
+    Continued,
+    /// That at the start of the step.
+    Constant,
+}
+
 /// The stages of a Gauss step, and those of the step before.
 pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     pub(super) equations: EquationsOf<S, T>,
@@ -58,9 +67,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         S::Kind::evaluate(&mut equations, system, &y, t, &mut slope, &mut Statistics::default())
             .map_err(StartError::Starter)?;
         for (packs, numbers) in completed.iter_mut().zip(slope.iter()) {
-            for (pack, &number) in packs.iter_mut().zip(numbers.iter()) {
-                *pack = Lanes::all(number);
-            }
+            set_all(packs, numbers);
         }
         Ok(Self {
             equations,
@@ -78,9 +85,35 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         })
     }
 
+    /// Whether there is no step that could be continued: the slopes of all its stages are that at the start.
+    pub(super) fn is_first(&self) -> bool {
+        self.last == T::lift(0.0)
+    }
+
+    /// The slope at the start of the step for all stages.
+    ///
+    /// # Errors
+    /// [`StepFailure`] where there is none.
+    pub(super) fn guess_constant(
+        &mut self,
+        system: &S,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { equations, coefficients, slopes, terms, y, next, .. } = self;
+        S::Kind::evaluate(equations, system, y, t, next, statistics)?;
+        let weights = Lanes::all(h) * coefficients.b;
+        for part in first_part::<S, T>(equations)..y.len() {
+            set_all(&mut slopes[part], &next[part]);
+            weigh(|_| weights, &slopes[part], &mut terms[part]);
+        }
+        Ok(())
+    }
+
     /// Continues the polynomial through the completed stages into the next step.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn guess(&mut self, h: T) {
+    pub(super) fn guess_continued(&mut self, h: T) {
         let Self { equations, coefficients, completed, last, slopes, terms, y, .. } = self;
         let weights = Lanes::all(h) * coefficients.b;
         let continued;
@@ -163,6 +196,13 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         }
         *last = h;
         Ok(())
+    }
+}
+
+/// Sets each pack to its number in all lanes.
+fn set_all<const W: usize, T: Real>(packs: &mut [Lanes<W, T>], numbers: &[T]) {
+    for (pack, &number) in packs.iter_mut().zip(numbers) {
+        *pack = Lanes::all(number);
     }
 }
 

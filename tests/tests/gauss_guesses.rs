@@ -1,0 +1,79 @@
+//! Where forces have a kink, the polynomial through the stages of a Gauss step leads far away in the next one, out of tables too. The
+//! stages then begin once more from where the step begins.
+
+use dvi_core::field::{Axis, Spline};
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_tests::larger;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// A mass in a potential that is known in a table alone.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - psi(x))]
+struct Tabulated {
+    psi: Spline<1>,
+}
+
+/// On [−1, 1]: 2x², with deviations of a hundredth that jump from point to point.
+fn rough() -> Result<Spline<1>, Box<dyn core::error::Error>> {
+    let mut point = 0.0;
+    let value = |[x]: [f64; 1]| {
+        point += 1.0;
+        2.0 * x * x + 0.01 * f64::sin(point * point)
+    };
+    Ok(Spline::sample([Axis::uniform([-1.0, 1.0], 21)?], value)?)
+}
+
+/// The same motion of a degenerate system.
+#[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = y * y / 2.0 + psi(x))]
+struct TabulatedFlow {
+    psi: Spline<1>,
+}
+
+/// How far a run is from one in short steps of order four, as the largest difference of a coordinate at the end of a step. Stages in
+/// lanes have the same numbers.
+fn error<S: Lagrangian, M: Method<S, f64>, L: Method<S, f64>, F: Method<S, f64>>(
+    system: &S,
+    (one_by_one, in_lanes, fine): (M, L, F),
+    start: S::State<f64>,
+    h: f64,
+    steps: u64,
+) -> Result<f64, Box<dyn core::error::Error>> {
+    const PARTS: u64 = 400;
+    let mut one_by_one = Integrator::new(system, one_by_one, h, start.clone())?;
+    let mut in_lanes = Integrator::new(system, in_lanes, h, start.clone())?;
+    let mut fine = Integrator::new(system, fine, h / PARTS as f64, start)?;
+    let mut largest = 0.0;
+    for _ in 0..steps {
+        one_by_one.advance()?;
+        in_lanes.advance()?;
+        assert_eq!(one_by_one.q()[0].to_bits(), in_lanes.q()[0].to_bits());
+        fine.take_steps(PARTS)?;
+        largest = larger(largest, (one_by_one.q()[0] - fine.q()[0]).abs());
+    }
+    Ok(largest)
+}
+
+/// With so many stages, one by one and in lanes, and a fine run.
+macro_rules! methods {
+    ($stages:expr) => {
+        (Gauss::<{ $stages }>::new(), Gauss::<{ $stages }>::new().in_lanes(), Gauss::<2>::new())
+    };
+}
+
+#[test]
+fn steps_of_many_stages_stay_in_a_rough_table() -> Outcome {
+    let (regular, degenerate) = (Tabulated { psi: rough()? }, TabulatedFlow { psi: rough()? });
+    macro_rules! check {
+        ($($stages:literal)*) => {$(
+            let start = TabulatedState { x: -0.9, dot_x: 0.0 };
+            let of_regular = error(&regular, methods!($stages), start, 0.2, 200)?;
+            let start = TabulatedFlowState { x: -0.9, y: 0.0 };
+            let of_degenerate = error(&degenerate, methods!($stages), start, 0.2, 200)?;
+            println!("{} stages: {of_regular:e} {of_degenerate:e}", $stages);
+            assert!(larger(of_regular, of_degenerate) < 2e-3, "{} stages: {of_regular:e} {of_degenerate:e}", $stages);
+        )*};
+    }
+    check!(4 5 6 7 8);
+    Ok(())
+}
