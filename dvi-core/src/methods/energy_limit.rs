@@ -133,11 +133,11 @@ impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for En
         system: &S,
         memory: &mut Self::Memory,
         t: T,
-        h: T,
+        lengths: [T; 2],
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<Option<T>, StepFailure> {
-        self.method.local_error(system, &mut memory.inner, t, h, tolerance, statistics)
+        self.method.local_error(system, &mut memory.inner, t, lengths, tolerance, statistics)
     }
 }
 

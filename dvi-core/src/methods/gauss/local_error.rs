@@ -27,12 +27,14 @@ use crate::state::Statistics;
 use crate::{Real, Scalar, System};
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
-    /// The estimated error of the step that has been taken last, from time `t`, in units of `tolerance`.
+    /// The estimated error of the step that has been taken last, from time `t` with length `h`, in units of `tolerance`. A step that begins at
+    /// rest makes all of its momentum, and is as wrong in it however short it is, where a force begins as a power of the time: so the
+    /// momentum is meant that this force makes in a step of the usual length.
     pub(super) fn local_error(
         &mut self,
         system: &S,
         t: T,
-        h: T,
+        [h, usual]: [T; 2],
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
@@ -57,7 +59,13 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
                 in_units_of(&defect[part], |j| tolerance.of_coordinate(size(j)))
             } else {
                 let most = norm::larger(norm::largest(&y[part]), norm::largest(&next[part]));
-                let allowed = tolerance.of_momentum(most + increment);
+                let is_at_rest = norm::largest(&y[part]) == zero;
+                let made = if is_at_rest {
+                    norm::larger(Scalar::abs(h), Scalar::abs(usual)) * speed
+                } else {
+                    increment
+                };
+                let allowed = tolerance.of_momentum(most + made);
                 in_units_of(&defect[part], |_| allowed)
             };
             largest = norm::larger(largest, error);

@@ -65,14 +65,19 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
         method.step(system, memory, q, t, h, statistics)
     }
 
-    /// An estimate of the error of the last step, from time `t` of length `h`, in units of `tolerance`, without allocation; `None` if the method
-    /// has none.
+    /// An estimate of the error of the last step, from time `t` of length `h` where steps usually have another, in units of `tolerance`, without
+    /// allocation; `None` if the method has none.
     ///
     /// # Errors
     /// As [`VariableStep::local_error`].
-    pub fn local_error(&mut self, t: T, h: T, tolerance: Tolerance) -> Result<Option<T>, StepFailure> {
+    pub fn local_error(
+        &mut self,
+        t: T,
+        [h, usual]: [T; 2],
+        tolerance: Tolerance,
+    ) -> Result<Option<T>, StepFailure> {
         let Stepper { system, method, memory, statistics, .. } = &mut self.stepper;
-        method.local_error(system, memory, t, h, tolerance, statistics)
+        method.local_error(system, memory, t, [h, usual], tolerance, statistics)
     }
 
     /// Keeps the present point, to [go back](Self::go_back) to it. Nothing happens if the control does not

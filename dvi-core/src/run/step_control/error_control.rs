@@ -24,6 +24,8 @@ const AFTER_FAILURE: f64 = 0.25;
 const EXPONENTS: [f64; 2] = [-0.7, 0.4];
 /// e₋ counts as at least this: what was far too short does not keep the next steps short.
 const LEAST_BEFORE: f64 = 0.5;
+/// What steps usually are becomes shorter by no more than this from step to step.
+const FORGETTING: f64 = 0.9;
 /// Steps that are no more than this longer than what is left to a given time lead there.
 const STRETCH: f64 = 1.01;
 
@@ -41,6 +43,9 @@ const STRETCH: f64 = 1.01;
 /// run ends with [`StepFailure::Tolerance`]. The tolerance is that of a step. The error of a run is the sum of what its steps contribute, and
 /// goes like the power p/(p + 1) of the tolerance for a method of order p: with few stages it is hundreds or thousands of times as large,
 /// with eight some ten times on regular motion. Below a tolerance of some 10⁻¹⁴ it is rounding.
+///
+/// The estimate presumes that forces are smooth within a step. Where one is switched on or off at a known time,
+/// [`advance_to`](super::ControlledIntegrator::advance_to) that time, so that no step leads over it.
 ///
 /// ```
 /// use core::f64::consts::TAU;
@@ -86,12 +91,14 @@ pub struct ErrorControlMemory<T> {
     error: T,
     /// e of the last step, at least [`LEAST_BEFORE`].
     excess: T,
+    /// How long steps were of late, also where they have become much shorter at once.
+    usual: T,
     /// A time that no step goes beyond, if there is one.
     end: Option<T>,
 }
 
 impl<T: Real> Memory<T> for ErrorControlMemory<T> {
-    lasting!(T; number h, number error, number excess; is_sound);
+    lasting!(T; number h, number error, number excess, number usual; is_sound);
 }
 
 impl<T: Real> ErrorControlMemory<T> {
@@ -131,8 +138,8 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl {
         if !self.first_step.is_finite() || self.first_step == 0.0 {
             return Err(StartError::Step { h: self.first_step });
         }
-        let h = T::lift(self.first_step);
-        Ok((ErrorControlMemory { h, error: T::lift(1.0), excess: T::lift(1.0), end: None }, h))
+        let (h, one) = (T::lift(self.first_step), T::lift(1.0));
+        Ok((ErrorControlMemory { h, error: one, excess: one, usual: h, end: None }, h))
     }
 
     fn admit<M: VariableStep<S, T>>(&self, method: &M) -> Result<(), StartError> {
@@ -152,12 +159,13 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl {
         let one = T::lift(1.0);
         let order = (run.stepper.method.order() + 1) as f64;
         let excess = |error: T| Scalar::powf(error, T::lift(1.0 / order)) / T::lift(SAFETY);
+        let usual = larger(Scalar::abs(memory.h), T::lift(FORGETTING) * Scalar::abs(memory.usual));
         let left = memory.end.map(|end| end - t);
         let is_last = |left: &T| Scalar::abs(*left) <= T::lift(STRETCH) * Scalar::abs(memory.h);
         let first = left.filter(is_last).unwrap_or(memory.h);
         let Accepted { h, found: error, is_first } =
             step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
-                let error = run.local_error(t, h, self.tolerance)?;
+                let error = run.local_error(t, [h, usual], self.tolerance)?;
                 // A method without an estimate has not been admitted.
                 let error = error.unwrap_or(T::lift(f64::NAN));
                 if error <= one {
@@ -173,7 +181,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl {
         // A step that is cut short by the end of the run says little of the next one.
         let is_cut = left == Some(h) && Scalar::abs(next) < Scalar::abs(memory.h);
         memory.h = if is_cut { memory.h } else { next };
-        (memory.error, memory.excess) = (error, larger(T::lift(LEAST_BEFORE), e));
+        (memory.error, memory.excess, memory.usual) = (error, larger(T::lift(LEAST_BEFORE), e), usual);
         Ok(h)
     }
 }

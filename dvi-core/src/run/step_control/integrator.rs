@@ -68,8 +68,8 @@ where
         Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
     }
 
-    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped: the next step has the length and the direction
-    /// of the checkpoint, not those that `control` has for a first one.
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control carries from step to step, the
+    /// length and the direction of the next step among it, is that of the checkpoint.
     ///
     /// # Errors
     /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and control carry on
