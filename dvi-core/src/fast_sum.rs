@@ -54,6 +54,9 @@
 //! beyond b; and where K changes so little between cubes that rounding errors of K would be seen in the forces, as that of ln(r² + c²) deep
 //! in a core.
 //!
+//! Places are to lie within 2⁵⁰⁰, some 3 · 10¹⁵⁰, of each other, so that their distances can be squared: elsewhere energy and forces are no
+//! numbers, and nothing is summed.
+//!
 //! A kernel may have a pole at a distance of far cubes, or oscillate faster than cubes are wide. So each evaluation holds the sums of
 //! eight bodies from all regions against sums over all others. Where they differ by more than ten times the tolerance, as a part of the
 //! largest sum of the absolute values of terms, all bodies are summed one by one: the forces are right, and take as long as all

@@ -265,7 +265,8 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     }
 
     /// An estimate of the error of the last step, which was taken from time `t` with length `h`, in units of `tolerance`, without allocation;
-    /// `None` if the method has none. It is of the order h<sup>p+1</sup> of the error, with the [order](Scheme::order) p.
+    /// `None` if the method has none. It is of the order h<sup>p+1</sup> of the error, with the [order](Scheme::order) p. `usual` is the
+    /// length that steps had before: a step that begins at rest may have the error that is allowed in what its force makes in that time.
     ///
     /// # Errors
     /// [`StepFailure`] if the equations of motion cannot be evaluated where the step began.
@@ -274,7 +275,7 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
         _system: &S,
         _memory: &mut Self::Memory,
         _t: T,
-        _h: T,
+        [_h, _usual]: [T; 2],
         _tolerance: Tolerance,
         _statistics: &mut Statistics,
     ) -> Result<Option<T>, StepFailure> {
