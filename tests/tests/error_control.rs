@@ -319,7 +319,7 @@ fn forces_are_switched_on_at_rest() -> Outcome {
             {
                 let mut run =
                     ControlledIntegrator::new(&system, method, ErrorControl::new(tolerance, h), start)?;
-                // From anywhere the step over that time ends somewhere; how wrong it is, nobody knows.
+                // A step over that time may be wrong, but it does not end the run.
                 run.advance_to(t0 + 2.0)?;
                 let mut run =
                     ControlledIntegrator::new(&system, method, ErrorControl::new(tolerance, h), start)?;
