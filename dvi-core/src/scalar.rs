@@ -5,6 +5,7 @@
 //! numbers), and so is a pack of several ([`Lanes`]), because nothing here orders or tests a value.
 //! The solvers, which must decide, ask for [`Real`].
 
+pub(crate) mod blocks;
 mod error_function;
 pub(crate) mod lanes;
 pub(crate) mod norm;

@@ -144,7 +144,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
             let orientation = TangentMass::new(system, &mut memory.work.node, [q, v], t);
             memory.orientation = Some(orientation.map_err(StartError::Starter)?);
         }
-        if S::SEPARABLE && !self.rule.has_interior_nodes() {
+        if S::SEPARABLE && self.rule.interior_nodes() == 0 {
             let mut force = system.space().vector();
             kicks::force(system, q, t, &mut force);
             memory.kicks = Some(Kicks { mass: kicks::mass(system, q, v, t), force });

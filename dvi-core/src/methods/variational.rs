@@ -204,7 +204,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_explicit(&self) -> bool {
-        !self.rule.has_interior_nodes() && !self.reads_both_ends()
+        self.rule.interior_nodes() == 0 && !self.reads_both_ends()
     }
 
     /// Whether forces are all that a step needs: L is separable, and the interpolation does not mix with M.
@@ -218,6 +218,12 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     /// of its own.
     fn has_fixed_point<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
         self.needs_forces_only::<S, T>() || (S::CONSTANT_MASS && !F::PER_COORDINATE)
+    }
+
+    /// Whether one node is all that lies between the ends, and Δ all that moves it.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn has_one_node_to_follow(&self) -> bool {
+        self.rule.interior_nodes() == 1 && !self.reads_both_ends()
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

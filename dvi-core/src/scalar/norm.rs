@@ -14,30 +14,25 @@ const MANY: usize = 32;
 /// maxᵢ |xᵢ|; an entry that is not a number does not count.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
-    fold(x.len(), T::lift(0.0), |largest, i| larger(largest, Scalar::abs(x[i])), larger)
+    fold(x, T::lift(0.0), Scalar::abs, larger)
 }
 
-/// Folds i = 0, …, n − 1 into `start`, by an operation for which neither the order matters nor whether `start` counts once or
-/// more often: eight that do not wait for one another if there are many, joined in the end.
+/// Joins `start` and what `value` makes of each entry, by an operation for which neither the order matters nor whether `start`
+/// counts once or more often: eight that do not wait for one another if there are many, joined in the end.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn fold<T: Real>(
-    n: usize,
-    start: T,
-    mut add: impl FnMut(T, usize) -> T,
-    join: impl Fn(T, T) -> T,
-) -> T {
-    if n < MANY {
-        return (0..n).fold(start, add);
+fn fold<T: Real>(x: &[T], start: T, value: impl Fn(T) -> T, join: impl Fn(T, T) -> T) -> T {
+    let one_by_one = |x: &[T]| x.iter().fold(start, |joined, &x| join(joined, value(x)));
+    if x.len() < MANY {
+        return one_by_one(x);
     }
+    let (chunks, rest) = x.as_chunks::<8>();
     let mut partial = [start; 8];
-    let chunks = n / 8;
-    for chunk in 0..chunks {
-        for (lane, partial) in partial.iter_mut().enumerate() {
-            *partial = add(*partial, 8 * chunk + lane);
+    for chunk in chunks {
+        for (partial, &x) in partial.iter_mut().zip(chunk) {
+            *partial = join(*partial, value(x));
         }
     }
-    let rest = (8 * chunks..n).fold(start, add);
-    partial.into_iter().fold(rest, join)
+    partial.into_iter().fold(one_by_one(rest), join)
 }
 
 /// The same of a few entries that are numbers; if one is not, some number or none.
@@ -72,19 +67,35 @@ pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
 /// The smallest |xᵢ| that is not zero, at most `bound`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {
-    let smaller = |a, b| if b < a { b } else { a };
-    let add = |smallest, i: usize| {
-        let size = Scalar::abs(x[i]);
-        if size < smallest && size > T::lift(0.0) { size } else { smallest }
+    let value = |x| {
+        let size = Scalar::abs(x);
+        if size > T::lift(0.0) { size } else { bound }
     };
-    fold(x.len(), bound, add, smaller)
+    fold(x, bound, value, |a, b| if b < a { b } else { a })
 }
 
-/// maxᵢ |xᵢ − yᵢ|; an entry that is not a number does not count.
+/// Sets `x` to `new`, and returns the largest change; one that is not a number does not count.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn distance<T: Real>(x: &[T], y: &[T]) -> T {
-    let n = x.len().min(y.len());
-    fold(n, T::lift(0.0), |largest, i| larger(largest, Scalar::abs(x[i] - y[i])), larger)
+pub(crate) fn renew<T: Real>(x: &mut [T], new: &[T]) -> T {
+    let one_by_one = |x: &mut [T], new: &[T]| {
+        x.iter_mut().zip(new).fold(T::lift(0.0), |largest, (x, &new)| {
+            let change = Scalar::abs(new - *x);
+            *x = new;
+            larger(largest, change)
+        })
+    };
+    if x.len() < MANY {
+        return one_by_one(x, new);
+    }
+    let ((chunks, rest), (new_chunks, new_rest)) = (x.as_chunks_mut::<8>(), new.as_chunks::<8>());
+    let mut partial = [T::lift(0.0); 8];
+    for (chunk, new) in chunks.iter_mut().zip(new_chunks) {
+        for ((partial, x), &new) in partial.iter_mut().zip(chunk).zip(new) {
+            *partial = larger(*partial, Scalar::abs(new - *x));
+            *x = new;
+        }
+    }
+    partial.into_iter().fold(one_by_one(rest, new_rest), larger)
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -5,6 +5,7 @@
 
 use core::ops::Deref;
 
+use crate::scalar::blocks::blocks;
 use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
 
@@ -129,12 +130,15 @@ pub(crate) fn extrapolate<P: Scalar>(
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn combine<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], next: usize, len: usize, guess: &mut [P]) {
-    guess.fill(P::lift(0.0));
-    let mut place = next;
-    for &coefficient in &COEFFICIENTS[len][..len] {
-        place = if place == 0 { DEPTH - 1 } else { place - 1 };
-        for (guess, &s) in guess.iter_mut().zip(ring[place].iter()) {
-            *guess += P::lift(coefficient) * s;
+    for block in blocks(guess.len()) {
+        let guess = &mut guess[block.clone()];
+        guess.fill(P::lift(0.0));
+        let mut place = next;
+        for &coefficient in &COEFFICIENTS[len][..len] {
+            place = if place == 0 { DEPTH - 1 } else { place - 1 };
+            for (guess, &s) in guess.iter_mut().zip(&ring[place][block.clone()]) {
+                *guess += P::lift(coefficient) * s;
+            }
         }
     }
 }

@@ -187,9 +187,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             step.system.hamiltonian_gradient(point, node_time, gradient);
             statistics.gradients += 1;
             inverse.solve(step.system, gradient, trial);
-            let correction = norm::distance(trial, increment);
-            increment.copy_from_slice(trial);
-            Ok(correction)
+            Ok(norm::renew(increment, trial))
         })?;
         work.increment.copy_from_slice(increment);
         node.gradient.copy_from_slice(gradient);
@@ -218,9 +216,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             step.system.hamiltonian_gradient(&l_d.work.point, step.node_time(), &mut l_d.work.gradient);
             statistics.gradients += 1;
             inverse.solve(step.system, &l_d.work.gradient, trial);
-            let correction = norm::distance(trial, increment);
-            increment.copy_from_slice(trial);
-            Ok(correction)
+            Ok(norm::renew(increment, trial))
         })?;
         norm::finite(increment)
     }

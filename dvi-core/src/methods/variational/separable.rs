@@ -16,7 +16,8 @@ use crate::discrete::frequency::{FrequencyIn, Reading};
 use crate::discrete::quadrature::Rule;
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
-use crate::mechanics::phase::{Arrival, PhasePoint};
+use crate::mechanics::phase::PhasePoint;
+use crate::scalar::blocks::blocks;
 use crate::scalar::norm;
 use crate::scalar::simd::widest_if;
 use crate::solve::{Convergence, iterate};
@@ -71,16 +72,17 @@ fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjust
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let start = T::lift(0.0);
-    let mut attempt = Attempt { step, coefficients, mass, phase, q, work, start, gradients: 0 };
+    let is_placed = false;
+    let mut attempt = Attempt { step, coefficients, mass, phase, q, work, start, is_placed, gradients: 0 };
     let result = attempt.run(budget, statistics);
     statistics.gradients += attempt.gradients;
     result?;
-    let Work { node, next, increment, .. } = work;
-    phase.arrive(q, &Arrival { q: next, p: &node.momentum, force: &node.gradient }, increment, step.h)
+    let Work { node: NodeWork { momentum, gradient, .. }, next, increment, .. } = work;
+    phase.arrive(q, [next, momentum, gradient], increment, step.h)
 }
 
 /// How much of the impulse of a node is meant. A value and no function: the loop of a node is compiled once for all.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Share {
     /// What belongs to the left end: b.
     Left,
@@ -112,6 +114,8 @@ struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
     work: &'a mut Work<S, T>,
     /// The frequency at the start of the step.
     start: T,
+    /// Whether `point` is where the only node between the ends is for the present Δ.
+    is_placed: bool,
     gradients: u64,
 }
 
@@ -199,59 +203,109 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     /// One iteration; returns the size of its correction.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self) -> T {
-        let h = self.step.h;
-        self.work.node.momentum.copy_from_slice(&self.phase.p);
-        for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
-            // At the end of the step b = 0.
-            if c != 1.0 {
-                self.kick(node, c, Share::Left);
+        let nodes = self.step.method.rule.nodes();
+        // At the end of the step b = 0.
+        let mut left = nodes.iter().enumerate().filter(|(_, c)| **c != 1.0);
+        match (self.mass.reciprocals(), left.next_back()) {
+            (Some(reciprocals), Some((last, &c))) => {
+                let is_only = left.next().is_none();
+                if !is_only {
+                    self.gather(last, Share::Left);
+                }
+                self.correct_by_last(reciprocals, last, c, is_only)
+            }
+            _ => {
+                self.gather(nodes.len(), Share::Left);
+                let NodeWork { momentum, velocity, .. } = &mut self.work.node;
+                self.mass.solve(momentum, velocity);
+                self.correct()
             }
         }
-        let Work { increment, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
+    }
+
+    /// Corrects Δ by the velocity that belongs to the impulses of the left end, and returns the size of the correction.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn correct(&mut self) -> T {
+        let Work { increment, node: NodeWork { velocity, .. }, .. } = &mut *self.work;
         let sums = self.coefficients.sums();
-        let correct = |i: usize, velocity: T, q: T, delta: &mut T| {
-            let sums = sums(i);
-            let correction = (h * velocity + sums.left * q - sums.mixed * *delta) * sums.inverse_kappa;
-            *delta += correction;
-            correction
-        };
         // Corrections take the place of velocities, which are of no use any more.
-        if let Some(reciprocals) = self.mass.reciprocals() {
-            let unknowns = velocity.iter_mut().zip(increment.iter_mut()).zip(self.q);
-            for (i, (((velocity, delta), &q), (&p, &reciprocal))) in
-                unknowns.zip(momentum.iter().zip(reciprocals)).enumerate()
-            {
-                *velocity = correct(i, p * reciprocal, q, delta);
-            }
-        } else {
-            self.mass.solve(momentum, velocity);
-            for (i, ((velocity, delta), &q)) in
-                velocity.iter_mut().zip(increment.iter_mut()).zip(self.q).enumerate()
-            {
-                *velocity = correct(i, *velocity, q, delta);
-            }
+        for (i, ((velocity, delta), &q)) in
+            velocity.iter_mut().zip(increment.iter_mut()).zip(self.q).enumerate()
+        {
+            *velocity = sums(i).correction(self.step.h * *velocity, q, *delta);
+            *delta += *velocity;
         }
         norm::largest(velocity)
+    }
+
+    /// The same, with the impulse of the last node that has one at the left end, which is not in `momentum` yet; if it is the
+    /// only one, nothing is in `momentum`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn correct_by_last(&mut self, reciprocals: &[T], node: usize, c: f64, is_only: bool) -> T {
+        self.evaluate(node, c);
+        let (h, basis, sums) = (self.step.h, self.coefficients.bases(node), self.coefficients.sums());
+        let weight = h * self.coefficients.weight(node);
+        let Work { increment, trial, node: NodeWork { momentum, velocity, point, .. }, .. } = &mut *self.work;
+        let p = if is_only { &self.phase.p } else { &*momentum };
+        let force = if c == 0.0 { &self.phase.force } else { &*trial };
+        // Where nothing but Δ moves it, the node is followed.
+        self.is_placed = c != 0.0 && self.step.method.has_one_node_to_follow();
+        let mut largest = T::lift(0.0);
+        for block in blocks(self.q.len()) {
+            let [q, p, force, reciprocals] = [self.q, p, force, reciprocals].map(|x| &x[block.clone()]);
+            let corrections = &mut velocity[..block.len()];
+            let increment = &mut increment[block.clone()];
+            for i in 0..block.len() {
+                let at = block.start + i;
+                let velocity = (p[i] + weight * Share::Left.of(basis(at)) * force[i]) * reciprocals[i];
+                corrections[i] = sums(at).correction(h * velocity, q[i], increment[i]);
+                increment[i] += corrections[i];
+            }
+            largest = norm::larger(largest, norm::largest(corrections));
+            if self.is_placed {
+                place(&basis, block.start, [q, increment], &mut point[block]);
+            }
+        }
+        largest
+    }
+
+    /// Sets `momentum` to p0 and the impulses that the first nodes give to `share`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn gather(&mut self, nodes: usize, share: Share) {
+        self.work.node.momentum.copy_from_slice(&self.phase.p);
+        for (node, &c) in self.step.method.rule.nodes()[..nodes].iter().enumerate() {
+            // The end of the step gives nothing to the left one.
+            if share == Share::Both || c != 1.0 {
+                self.kick(node, c, share);
+            }
+        }
+    }
+
+    /// Sets `trial` to the force at a node between the ends.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluate(&mut self, node: usize, c: f64) {
+        if c == 0.0 || c == 1.0 {
+            return;
+        }
+        let Work { increment, node: NodeWork { point, .. }, trial, .. } = &mut *self.work;
+        if !self.is_placed {
+            place(&self.coefficients.bases(node), 0, [self.q, increment], point);
+        }
+        self.step.system.force(point, &[], self.step.node_time(c), trial);
+        self.gradients += 1;
     }
 
     /// Adds the impulse h w F(qʲ) of a node to `momentum`, as far as it belongs to `share`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick(&mut self, node: usize, c: f64, share: Share) {
+        self.evaluate(node, c);
         let weight = self.step.h * self.coefficients.weight(node);
-        let Work { increment, node: work, trial, .. } = &mut *self.work;
-        let NodeWork { momentum, point, gradient, .. } = work;
+        let Work { node: NodeWork { momentum, gradient, .. }, trial, .. } = &mut *self.work;
         let force: &[T] = if c == 0.0 {
             &self.phase.force
         } else if c == 1.0 {
             gradient
         } else {
-            let basis = self.coefficients.bases(node);
-            for (i, ((point, &q), &delta)) in point.iter_mut().zip(self.q).zip(increment.iter()).enumerate() {
-                let Basis { b, b_bar, .. } = basis(i);
-                *point = (b + b_bar) * q + b_bar * delta;
-            }
-            self.step.system.force(point, &[], self.step.node_time(c), trial);
-            self.gradients += 1;
             trial
         };
         let basis = self.coefficients.bases(node);
@@ -306,10 +360,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         } else {
             self.reach();
         }
-        self.work.node.momentum.copy_from_slice(&self.phase.p);
-        for (node, &c) in self.step.method.rule.nodes().iter().enumerate() {
-            self.kick(node, c, Share::Both);
-        }
+        self.gather(self.step.method.rule.nodes().len(), Share::Both);
         if !F::UNFITTED {
             let Work { next, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
             let sums = self.coefficients.sums();
@@ -320,5 +371,14 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
             self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
         }
         Ok(())
+    }
+}
+
+/// Sets `point` to b q0 + b̄ q1 for the coordinates from `first` on.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn place<T: Real>(basis: &impl Fn(usize) -> Basis<T>, first: usize, [q, delta]: [&[T]; 2], point: &mut [T]) {
+    for (i, ((point, &q), &delta)) in point.iter_mut().zip(q).zip(delta).enumerate() {
+        let Basis { b, b_bar, .. } = basis(first + i);
+        *point = (b + b_bar) * q + b_bar * delta;
     }
 }
