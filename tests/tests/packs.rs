@@ -3,7 +3,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
-use dvi_core::{DegenerateLagrangian, Lagrangian, Varied};
+use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian, Varied};
 
 const SIZES: core::ops::Range<usize> = 1..45;
 const W: usize = 3;
@@ -229,6 +229,59 @@ fn sums_with_neighbours() {
             &q,
             |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
             |q, out| system.hamiltonian_gradient(q, 0.0, out),
+        );
+    }
+}
+
+/// Terms that add to several entries of one array, which lie beside one another.
+#[lagrangian(
+    coordinates(x[n], y[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0
+        + sum(1..n, |j| x[j] * x[j - 1] + y[j - 1].powi(2) * y[j])
+        - sum(0..n - 2, |j| k[j] * (x[j + 2] - 2.0 * x[j + 1] + x[j]).powi(2)) / 2.0
+        - sum(stride..n, |j| x[j - stride] * y[j] * x[j]),
+)]
+struct Neighbours {
+    n: usize,
+    stride: usize,
+    k: Vec<f64>,
+}
+
+fn neighbours_by_hand(system: &Neighbours, q: &[f64]) -> Vec<Sum> {
+    let (n, stride) = (system.n, system.stride);
+    let mut force = vec![Sum::default(); 2 * n];
+    for j in 1..n {
+        force[j].add(q[j - 1]);
+        force[j - 1].add(q[j]);
+        force[n + j].add(q[n + j - 1].powi(2));
+        force[n + j - 1].add(2.0 * q[n + j - 1] * q[n + j]);
+    }
+    for j in 0..n - 2 {
+        let bent = system.k[j] * (q[j + 2] - 2.0 * q[j + 1] + q[j]);
+        for (index, factor) in [(j, -1.0), (j + 1, 2.0), (j + 2, -1.0)] {
+            force[index].add(factor * bent);
+            force[index].size += 4.0 * system.k[j].abs();
+        }
+    }
+    for j in stride..n {
+        force[j - stride].add(-q[n + j] * q[j]);
+        force[n + j].add(-q[j - stride] * q[j]);
+        force[j].add(-q[j - stride] * q[n + j]);
+    }
+    force
+}
+
+#[test]
+fn entries_beside_one_another() {
+    for (n, stride) in (2..45).flat_map(|n| [1, 2, 9].map(|stride| (n, stride))) {
+        let system = Neighbours { n, stride, k: numbers(n, 11) };
+        let (q, mut force) = (numbers(2 * n, 12), vec![0.0; 2 * n]);
+        system.force(&q, &[], 0.0, &mut force);
+        agree(&force, &neighbours_by_hand(&system, &q), &format!("{n} masses, {stride} apart"));
+        lanes_agree(
+            &q,
+            |q, out| system.force(q, &[], Lanes::all(0.0), out),
+            |q, out| system.force(q, &[], 0.0, out),
         );
     }
 }

@@ -21,16 +21,18 @@
 //! ```
 //! and the function around it is compiled for the widest instructions of the processor.
 
+use std::cmp::Reverse;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::indices::open;
 use super::{Element, Function, local, name};
 use crate::instructions::{Instruction, Register, Signed};
-use crate::program::Place;
+use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
-use crate::symbolic::{Fold, Loop, Node, Parameter, Unary};
+use crate::symbolic::{Coordinate, Fold, Loop, Node, Parameter, Unary};
 
 /// A range whose bounds are literals and that has fewer terms is not worth it.
 const FEWEST: i64 = 16;
@@ -56,17 +58,19 @@ impl Function<'_> {
         let lower = over.range.lower.as_literal().unwrap_or(0);
         let is_short = over.range.upper.as_literal().is_some_and(|upper| upper - lower < FEWEST);
         let sums = folds.iter().all(|fold| fold.fold == Fold::Sum);
-        let mut blocks = Vec::new();
+        let mut entries: Vec<(Output, &Coordinate)> = Vec::new();
         let steps = body.iter().all(|step| match step {
             Step::Let(register) => self.is_packed(*register, over.depth),
             Step::Loop { .. } => false,
             Step::Write(statement, _) => match &self.routine.statements[*statement].place {
-                // Where two statements add to the same entries, packs would add in another order.
                 Place::Entry(output, entry) => {
-                    let block = (*output, entry.block);
-                    let is_new = !blocks.contains(&block);
-                    blocks.push(block);
-                    is_new && entry.index.follows(over.depth)
+                    let mut others =
+                        entries.iter().filter(|(of, other)| of == output && other.block == entry.block);
+                    // Else nobody knows which of two statements adds first to an entry: see `by_entry`.
+                    let are_ordered =
+                        others.all(|(_, other)| other.index.plus(&entry.index, -1).as_literal().is_some());
+                    entries.push((*output, entry));
+                    are_ordered && entry.index.follows(over.depth)
                 }
                 Place::Result
                 | Place::MatrixEntry(..)
@@ -132,7 +136,7 @@ impl Function<'_> {
         let sums: Vec<_> = folds.iter().map(|fold| local(format_args!("sum{}", fold.result.0))).collect();
         let terms = folds.iter().map(|fold| packed.signed(fold.body));
         let results = folds.iter().map(|fold| name(fold.result));
-        let steps = packed.steps(body);
+        let steps: TokenStream = self.by_entry(body).into_iter().map(|step| packed.step(step)).collect();
         let rest = self.terms(folds, body);
         quote! {
             let #whole = #krate::__private::whole(#lower, #upper);
@@ -147,6 +151,23 @@ impl Function<'_> {
             }
             for #index in #whole..#upper { #rest }
         }
+    }
+
+    /// The steps of a term in an order in which packs add to each entry as the terms do one by one. What adds to the entry j + 1
+    /// comes before what adds to the entry j: so does, one by one, the earlier of the two terms that add to the same entry.
+    fn by_entry<'a>(&self, body: &'a [Step]) -> Vec<&'a Step> {
+        let mut steps: Vec<&Step> = body.iter().collect();
+        steps.sort_by_key(|step| match step {
+            Step::Let(_) | Step::Loop { .. } => None,
+            Step::Write(statement, _) => match &self.routine.statements[*statement].place {
+                Place::Entry(_, entry) => Some(Reverse(entry.index.constant)),
+                Place::Result
+                | Place::MatrixEntry(..)
+                | Place::Constraint(_)
+                | Place::ConstraintDerivative(..) => None,
+            },
+        });
+        steps
     }
 
     /// The registers that the body of a loop reads and does not compute.

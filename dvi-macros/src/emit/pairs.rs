@@ -84,6 +84,12 @@ struct Nest<'a> {
 }
 
 impl Nest<'_> {
+    fn add_output(&mut self, entries: (Output, u32)) {
+        if !self.outputs.contains(&entries) {
+            self.outputs.push(entries);
+        }
+    }
+
     fn dependence(&self, register: Register) -> Dependence {
         let known = self.known.iter().find(|(known, _)| *known == register);
         known.map_or(Dependence::Free, |(_, dependence)| dependence.clone())
@@ -155,9 +161,7 @@ impl Function<'_> {
         for step in terms {
             match step {
                 Step::Let(register) => self.is_of_slices(*register).then_some(())?,
-                Step::Write(statement, _) => {
-                    nest.outputs.push(self.entry_of(*statement, inner.depth)?);
-                }
+                Step::Write(statement, _) => nest.add_output(self.entry_of(*statement, inner.depth)?),
                 Step::Loop { .. } => return None,
             }
         }
@@ -170,8 +174,8 @@ impl Function<'_> {
                 Step::Write(statement, value) => {
                     let (output, block) = self.entry_of(*statement, over.depth)?;
                     let dependence = nest.dependence(value.register);
-                    if dependence != Dependence::Free && !nest.outputs.contains(&(output, block)) {
-                        nest.outputs.push((output, block));
+                    if dependence != Dependence::Free {
+                        nest.add_output((output, block));
                     }
                     nest.own.push(Own { output, block, value: *value, dependence });
                 }
