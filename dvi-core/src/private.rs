@@ -2,7 +2,9 @@
 
 pub use crate::Number;
 pub use crate::error::Argument;
-pub use crate::scalar::pack::{Sums, add_to, all, load, packs, parameters, subtract_from, whole, widest};
+pub use crate::scalar::pack::{
+    Sums, add_to, all, first_unturned, load, packs, parameters, past_unturned, subtract_from, whole, widest,
+};
 pub use crate::scalar::pairs::{are_many, halves};
 pub use crate::system::packable::{Packing, Shared};
 pub use crate::system::stand_in::StandIn;

@@ -286,6 +286,60 @@ fn entries_beside_one_another() {
     }
 }
 
+/// A ring: neighbours on both sides, also beyond its end.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |j| y[j] * d(x[j])),
+    hamiltonian = sum(0..n, |j| k[(j + 1) % n] * x[j] * x[(j + 1) % n] * y[(j + n - 2) % n])
+        * sum(0..n, |j| x[j] * y[(j + 3) % n]) + sum(2..n, |j| x[(j + 1) % n] * y[(j - 1) % n].powi(2)),
+)]
+struct Ring {
+    n: usize,
+    k: Vec<f64>,
+}
+
+fn ring_by_hand(system: &Ring, q: &[f64]) -> Vec<Sum> {
+    let (n, k) = (system.n, &system.k);
+    let (x, y) = q.split_at(n);
+    let at = |j: usize, steps: usize| (j + steps) % n;
+    // Two steps back.
+    let back = |j: usize| (j + 2 * n - 2) % n;
+    let cubic: f64 = (0..n).map(|j| k[at(j, 1)] * x[j] * x[at(j, 1)] * y[back(j)]).sum();
+    let square: f64 = (0..n).map(|j| x[j] * y[at(j, 3)]).sum();
+    let mut gradient = vec![Sum::default(); 2 * n];
+    for j in 0..n {
+        gradient[j].add(square * k[at(j, 1)] * x[at(j, 1)] * y[back(j)]);
+        gradient[at(j, 1)].add(square * k[at(j, 1)] * x[j] * y[back(j)]);
+        gradient[n + back(j)].add(square * k[at(j, 1)] * x[j] * x[at(j, 1)]);
+        gradient[j].add(cubic * y[at(j, 3)]);
+        gradient[n + at(j, 3)].add(cubic * x[j]);
+        if j > 1 {
+            gradient[at(j, 1)].add(y[j - 1].powi(2));
+            gradient[n + j - 1].add(2.0 * x[at(j, 1)] * y[j - 1]);
+        }
+    }
+    // The sums are known to rounding errors of their terms only.
+    for entry in &mut gradient {
+        entry.size += (2 * n) as f64;
+    }
+    gradient
+}
+
+#[test]
+fn entries_around_the_end_of_a_ring() {
+    for n in SIZES {
+        let (system, q) = (Ring { n, k: numbers(n, 13) }, numbers(2 * n, 14));
+        let mut gradient = vec![0.0; 2 * n];
+        system.hamiltonian_gradient(&q, 0.0, &mut gradient);
+        agree(&gradient, &ring_by_hand(&system, &q), &format!("a ring of {n}"));
+        lanes_agree(
+            &q,
+            |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
+            |q, out| system.hamiltonian_gradient(q, 0.0, out),
+        );
+    }
+}
+
 /// A number of terms that the compiler knows.
 #[degenerate_lagrangian(
     coordinates(x[N], y[N]),

@@ -158,6 +158,18 @@ pub fn whole(lower: usize, upper: usize) -> usize {
     upper - upper.saturating_sub(lower) % CHUNK
 }
 
+/// The first place of a range for which none of the `before` places before it is beyond the end of a ring.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn first_unturned(lower: usize, upper: usize, before: usize) -> usize {
+    lower.max(before).min(upper)
+}
+
+/// The end of the places, from `first` on, for which none of the `behind` places behind them is beyond the end, `length`, of a ring.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn past_unturned(first: usize, length: usize, behind: usize) -> usize {
+    length.saturating_sub(behind).max(first)
+}
+
 /// Where the packs of numbers `T` begin in a range of whole chunks.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn packs<T: Scalar>(lower: usize, upper: usize) -> Packs<T> {

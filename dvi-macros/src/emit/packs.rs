@@ -19,12 +19,13 @@
 //!     …
 //! }
 //! ```
-//! and the function around it is compiled for the widest instructions of the processor.
+//! and the function around it is compiled for the widest instructions of the processor. Terms whose places lie on both sides of the end of
+//! a ring, as x[(j + 1) % n] for the last j, are taken one by one before and behind the packs.
 
 use std::cmp::Reverse;
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens as _, quote};
 
 use super::indices::open;
 use super::{Element, Function, local, name};
@@ -32,7 +33,7 @@ use crate::instructions::{Instruction, Register, Signed};
 use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
-use crate::symbolic::{Coordinate, Fold, Loop, Node, Parameter, Unary};
+use crate::symbolic::{Coordinate, Fold, Index, Loop, Node, Parameter, Unary};
 
 /// A range whose bounds are literals and that has fewer terms is not worth it.
 const FEWEST: i64 = 16;
@@ -60,17 +61,18 @@ impl Function<'_> {
         let sums = folds.iter().all(|fold| fold.fold == Fold::Sum);
         let mut entries: Vec<(Output, &Coordinate)> = Vec::new();
         let steps = body.iter().all(|step| match step {
-            Step::Let(register) => self.is_packed(*register, over.depth),
+            Step::Let(register) => self.is_packed(*register, over),
             Step::Loop { .. } => false,
             Step::Write(statement, _) => match &self.routine.statements[*statement].place {
                 Place::Entry(output, entry) => {
                     let mut others =
                         entries.iter().filter(|(of, other)| of == output && other.block == entry.block);
                     // Else nobody knows which of two statements adds first to an entry: see `by_entry`.
-                    let are_ordered =
-                        others.all(|(_, other)| other.index.plus(&entry.index, -1).as_literal().is_some());
+                    let are_ordered = others.all(|(_, other)| {
+                        other.index.unturned().plus(&entry.index.unturned(), -1).as_literal().is_some()
+                    });
                     entries.push((*output, entry));
-                    are_ordered && entry.index.follows(over.depth)
+                    are_ordered && follows(&entry.index, over)
                 }
                 Place::Result
                 | Place::MatrixEntry(..)
@@ -82,7 +84,7 @@ impl Function<'_> {
     }
 
     /// Whether a register can be computed for several terms at once.
-    fn is_packed(&self, register: Register, depth: u32) -> bool {
+    fn is_packed(&self, register: Register, over: &Loop) -> bool {
         match self.routine.code.get(register) {
             Instruction::Literal(_)
             | Instruction::Multiply(..)
@@ -90,8 +92,8 @@ impl Function<'_> {
             | Instruction::Sum(_)
             | Instruction::Unary(Unary::Sqrt, _) => true,
             Instruction::Leaf(id) => match self.emitter.graph.node(*id) {
-                Node::Coordinate(entry) | Node::Velocity(entry) => entry.index.follows(depth),
-                Node::Parameter(parameter) => self.is_packed_parameter(parameter, depth),
+                Node::Coordinate(entry) | Node::Velocity(entry) => follows(&entry.index, over),
+                Node::Parameter(parameter) => self.is_packed_parameter(parameter, over),
                 // Those that depend on the index are numbers of their own.
                 _ => false,
             },
@@ -106,10 +108,44 @@ impl Function<'_> {
         }
     }
 
-    fn is_packed_parameter(&self, parameter: &Parameter, depth: u32) -> bool {
+    fn is_packed_parameter(&self, parameter: &Parameter, over: &Loop) -> bool {
         let known = &self.emitter.model.parameters[parameter.field as usize];
         let [index] = parameter.indices.as_slice() else { return false };
-        known.is_slice && index.follows(depth)
+        known.is_slice && follows(index, over)
+    }
+
+    /// The index of an entry in packs, which take no place beyond the end of a ring.
+    pub(super) fn index(&self, index: &Index) -> TokenStream {
+        match self.element {
+            Element::Number => self.emitter.index(index),
+            Element::Pack => self.emitter.index(&index.unturned()),
+        }
+    }
+
+    /// How far before and behind a term are the places on rings that it needs.
+    fn reach(&self, body: &[Step]) -> [u64; 2] {
+        let indices = body.iter().filter_map(|step| match step {
+            Step::Let(register) => match self.routine.code.get(*register) {
+                Instruction::Leaf(id) => match self.emitter.graph.node(*id) {
+                    Node::Coordinate(entry) | Node::Velocity(entry) => Some(&entry.index),
+                    Node::Parameter(parameter) => parameter.indices.first(),
+                    _ => None,
+                },
+                _ => None,
+            },
+            Step::Write(statement, _) => match &self.routine.statements[*statement].place {
+                Place::Entry(_, entry) => Some(&entry.index),
+                Place::Result
+                | Place::MatrixEntry(..)
+                | Place::Constraint(_)
+                | Place::ConstraintDerivative(..) => None,
+            },
+            Step::Loop { .. } => None,
+        });
+        indices.filter_map(Index::on_ring).fold([0, 0], |[before, behind], ring| {
+            let steps = ring.shift.unsigned_abs();
+            if ring.shift < 0 { [before.max(steps), behind] } else { [before, behind.max(steps)] }
+        })
     }
 
     /// A loop, as packs and then what is left. Its sums have begun.
@@ -138,8 +174,22 @@ impl Function<'_> {
         let results = folds.iter().map(|fold| name(fold.result));
         let steps: TokenStream = self.by_entry(body).into_iter().map(|step| packed.step(step)).collect();
         let rest = self.terms(folds, body);
+        let (lower, past, turned) = match self.reach(body) {
+            [0, 0] => (lower.clone(), upper.clone(), TokenStream::new()),
+            reach => {
+                let begin = local("begin");
+                let [before, behind] = reach.map(Literal::u64_unsuffixed);
+                let turned = quote! {
+                    let #begin = #krate::__private::first_unturned(#lower, #upper, #before);
+                    for #index in #lower..#begin { #rest }
+                };
+                let past = quote!(#krate::__private::past_unturned(#begin, #upper, #behind));
+                (begin.into_token_stream(), past, turned)
+            }
+        };
         quote! {
-            let #whole = #krate::__private::whole(#lower, #upper);
+            #turned
+            let #whole = #krate::__private::whole(#lower, #past);
             {
                 #(#outside)*
                 #(let mut #sums = #krate::__private::Sums::<__T>::empty();)*
@@ -160,7 +210,7 @@ impl Function<'_> {
         steps.sort_by_key(|step| match step {
             Step::Let(_) | Step::Loop { .. } => None,
             Step::Write(statement, _) => match &self.routine.statements[*statement].place {
-                Place::Entry(_, entry) => Some(Reverse(entry.index.constant)),
+                Place::Entry(_, entry) => Some(Reverse(entry.index.unturned().constant)),
                 Place::Result
                 | Place::MatrixEntry(..)
                 | Place::Constraint(_)
@@ -192,4 +242,12 @@ impl Function<'_> {
         });
         used
     }
+}
+
+/// Whether an index goes on by one with that of the loop, around the end of a ring at most.
+fn follows(index: &Index, over: &Loop) -> bool {
+    index.on_ring().map_or_else(
+        || index.follows(over.depth),
+        |ring| ring.unturned.follows(over.depth) && *ring.length == over.range.upper,
+    )
 }

@@ -99,7 +99,7 @@ impl Nest<'_> {
 impl Function<'_> {
     /// The index of an entry of an output.
     pub(super) fn entry(&self, index: &Index) -> TokenStream {
-        let index = self.emitter.index(index);
+        let index = self.index(index);
         if self.is_part {
             let first = local("first");
             quote!(#index - #first)

@@ -138,7 +138,7 @@ impl Function<'_> {
 
     fn gather(&self, array: &str, coordinate: &Coordinate) -> TokenStream {
         let array = local(format_args!("{array}{}", coordinate.block));
-        let index = self.emitter.index(&coordinate.index);
+        let index = self.index(&coordinate.index);
         match self.element {
             Element::Number => quote!(#array[#index]),
             Element::Pack => {
@@ -150,7 +150,7 @@ impl Function<'_> {
 
     fn parameter(&self, parameter: &Parameter) -> TokenStream {
         let krate = self.emitter.krate();
-        let indices = parameter.indices.iter().map(|index| self.emitter.index(index));
+        let indices = parameter.indices.iter().map(|index| self.index(index));
         let place = if self.is_part {
             parameter_slice(parameter.field).into_token_stream()
         } else {

@@ -34,6 +34,15 @@ pub(crate) struct Index {
     pub(crate) terms: Vec<(Atom, i64)>,
 }
 
+/// A place some steps away from that of a loop on a ring.
+#[derive(Debug)]
+pub(crate) struct OnRing<'a> {
+    /// The index where the steps do not lead around the end.
+    pub(crate) unturned: Index,
+    pub(crate) shift: i64,
+    pub(crate) length: &'a Index,
+}
+
 /// The values `lower <= index < upper` without some.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Range {
@@ -167,6 +176,23 @@ impl Index {
         let mut with_it =
             self.terms.iter().filter(|(atom, _)| Self::atom(atom.clone()).free().open & (1 << depth) != 0);
         matches!((with_it.next(), with_it.next()), (Some((Atom::Open(_), 1)), None))
+    }
+
+    /// The place on a ring, if this index is (j + c) % n with that of a loop, j.
+    pub(crate) fn on_ring(&self) -> Option<OnRing<'_>> {
+        let (0, [(Atom::Remainder(value, length), 1)]) = (self.constant, self.terms.as_slice()) else {
+            return None;
+        };
+        let mut opens = value.terms.iter().filter(|(atom, _)| matches!(atom, Atom::Open(_)));
+        let (Some((open, 1)), None) = (opens.next(), opens.next()) else { return None };
+        let beside = value.plus(&Self::atom(open.clone()), -1);
+        let shift = [0, 1, -1].into_iter().find_map(|turns| beside.plus(length, -turns).as_literal())?;
+        Some(OnRing { unturned: Self::atom(open.clone()).plus(&Self::literal(shift), 1), shift, length })
+    }
+
+    /// The index without the turns around a ring: j + c for (j + c) % n.
+    pub(crate) fn unturned(&self) -> Self {
+        self.on_ring().map_or_else(|| self.clone(), |ring| ring.unturned)
     }
 
     /// Whether no value of this index is negative, because nothing is subtracted in it.

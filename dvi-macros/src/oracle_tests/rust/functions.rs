@@ -19,6 +19,9 @@ pub(super) enum Callee {
     CheckIndices,
     /// `__private::whole`
     Whole,
+    /// `__private::first_unturned` and `__private::past_unturned`
+    FirstUnturned,
+    PastUnturned,
     /// `__private::are_many`
     AreMany,
     /// `Sink::add`, of a dense matrix.
@@ -81,6 +84,8 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "__private", "check_index"] => Callee::CheckIndex,
         [.., "__private", "check_indices"] => Callee::CheckIndices,
         [.., "__private", "whole"] => Callee::Whole,
+        [.., "__private", "first_unturned"] => Callee::FirstUnturned,
+        [.., "__private", "past_unturned"] => Callee::PastUnturned,
         [.., "__private", "are_many"] => Callee::AreMany,
         [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,

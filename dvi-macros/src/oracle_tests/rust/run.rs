@@ -311,6 +311,12 @@ impl Machine<'_> {
                 let left_over = (integer(1) - integer(0)).max(0) % 2;
                 Ok(Value::Integer(integer(1) - left_over, Kind::Usize))
             }
+            Callee::FirstUnturned => {
+                Ok(Value::Integer(integer(0).max(integer(2)).min(integer(1)), Kind::Usize))
+            }
+            Callee::PastUnturned => {
+                Ok(Value::Integer((integer(1) - integer(2)).max(integer(0)), Kind::Usize))
+            }
             // Few enough that both ways are taken.
             Callee::AreMany => Ok(Value::Bool(integer(0) >= 3)),
             Callee::CheckIndex | Callee::CheckIndices => {
