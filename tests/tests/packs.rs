@@ -3,7 +3,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
-use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian, Varied};
+use dvi_core::{DegenerateLagrangian, Lagrangian, Varied};
 
 const SIZES: core::ops::Range<usize> = 1..45;
 const W: usize = 3;
