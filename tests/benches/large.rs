@@ -1,5 +1,5 @@
 //! Chains of many masses: Newton's method on Toda's chain, and Verlet's steps on the chain of Fermi, Pasta, Ulam and Tsingou
-//! beside the same steps by hand; and Newton's method on vortices, each of which moves all others.
+//! beside the same steps by hand; the gradient of rings; and Newton's method on vortices, each of which moves all others.
 //!
 //! `cargo bench -p dvi-benches --bench large`. Times are those of one step by Newton and of a hundred by Verlet; throughput
 //! counts masses times steps.
@@ -9,7 +9,7 @@ mod fput_by_hand;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dvi_core::prelude::*;
 use dvi_core::system::Regular;
-use dvi_core::{NondegenerateLagrangian, RegularLagrangian, System};
+use dvi_core::{DegenerateLagrangian, NondegenerateLagrangian, RegularLagrangian, System};
 use std::hint::black_box;
 
 /// Toda's chain between walls.
@@ -255,5 +255,48 @@ fn verlet(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, newton, lattice, fixed_point, many_bodies, verlet);
+/// A ring of oscillators with amplitudes q + ip, as of light in an array of waveguides.
+#[degenerate_lagrangian(
+    coordinates(q[n], p[n]),
+    one_form = sum(0..n, |j| (p[j] * d(q[j]) - q[j] * d(p[j])) / 2.0),
+    hamiltonian = sum(0..n, |j| (q[j].powi(2) + p[j].powi(2)).powi(2)) / 4.0
+        - sum(0..n, |j| q[j] * q[(j + 1) % n] + p[j] * p[(j + 1) % n]),
+)]
+struct Ring {
+    n: usize,
+}
+
+/// ∇H of a ring, site by site.
+fn ring_by_hand(n: usize, z: &[f64], gradient: &mut [f64]) {
+    let (q, p) = z.split_at(n);
+    let (of_q, of_p) = gradient.split_at_mut(n);
+    for j in 0..n {
+        let [before, after] = [if j == 0 { n - 1 } else { j - 1 }, if j + 1 == n { 0 } else { j + 1 }];
+        let density = q[j] * q[j] + p[j] * p[j];
+        of_q[j] = density * q[j] - q[before] - q[after];
+        of_p[j] = density * p[j] - p[before] - p[after];
+    }
+}
+
+/// ∇H of rings, generated and by hand.
+fn rings(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("a ring, ∇H");
+    for n in [1000, 10_000] {
+        let (system, z) = (black_box(Ring { n }), [wave(n, 0.0), wave(n, 1.0)].concat());
+        let [mut gradient, mut expected] = [vec![0.0; 2 * n], vec![0.0; 2 * n]];
+        system.hamiltonian_gradient(&z, 0.0, &mut gradient);
+        ring_by_hand(n, &z, &mut expected);
+        assert!(gradient.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-15), "the gradients differ");
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(BenchmarkId::new("generated", n), |bencher| {
+            bencher.iter(|| system.hamiltonian_gradient(black_box(&z), 0.0, &mut gradient));
+        });
+        group.bench_function(BenchmarkId::new("by hand", n), |bencher| {
+            bencher.iter(|| ring_by_hand(system.n, black_box(&z), &mut expected));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, rings, newton, lattice, fixed_point, many_bodies, verlet);
 criterion_main!(benches);
