@@ -186,7 +186,9 @@ impl Index {
         let mut opens = value.terms.iter().filter(|(atom, _)| matches!(atom, Atom::Open(_)));
         let (Some((open, 1)), None) = (opens.next(), opens.next()) else { return None };
         let beside = value.plus(&Self::atom(open.clone()), -1);
-        let shift = [0, 1, -1].into_iter().find_map(|turns| beside.plus(length, -turns).as_literal())?;
+        // Which are several where the length is a number: the shorter way.
+        let shifts = [0, 1, -1].into_iter().filter_map(|turns| beside.plus(length, -turns).as_literal());
+        let shift = shifts.min_by_key(|shift| shift.unsigned_abs())?;
         Some(OnRing { unturned: Self::atom(open.clone()).plus(&Self::literal(shift), 1), shift, length })
     }
 
