@@ -100,14 +100,6 @@ pub(super) struct Sums<T> {
     pub(super) inverse_kappa: T,
 }
 
-impl<T: Real> Sums<T> {
-    /// What is missing in Δ = `delta` where h M⁻¹(p0 + h Σ w b F) is `displacement`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn correction(self, displacement: T, q: T, delta: T) -> T {
-        (displacement + self.left * q - self.mixed * delta) * self.inverse_kappa
-    }
-}
-
 /// One frequency for all coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Uniform<T> {

@@ -8,7 +8,7 @@
 //! p½ = p0 + h Σ w F(q0) + M(A − K)q0/h,   q1 = q0 + (h/K) M⁻¹p½,   p1 = p½ + h Σ w F(q1) + M(C − K)q1/h.
 
 use super::Step;
-use super::coefficients::{Adjustable, Uniform};
+use super::coefficients::{Adjustable, Sums, Uniform};
 use super::memory::{Interpolation, Parts, Work};
 use crate::discrete::NodeWork;
 use crate::discrete::basis::Basis;
@@ -100,6 +100,14 @@ impl Share {
             Self::Both => b + b_bar,
             Self::Whole => T::lift(1.0),
         }
+    }
+}
+
+impl<T: Real> Sums<T> {
+    /// What is missing in Δ = `delta` where h M⁻¹(p0 + h Σ w b F) is `displacement`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn correction(self, displacement: T, q: T, delta: T) -> T {
+        (displacement + self.left * q - self.mixed * delta) * self.inverse_kappa
     }
 }
 
