@@ -3,7 +3,8 @@
 pub use crate::Number;
 pub use crate::error::Argument;
 pub use crate::scalar::pack::{
-    Sums, add_to, all, first_unturned, load, packs, parameters, past_unturned, subtract_from, whole, widest,
+    Sums, Waiting, add_to, all, first_unturned, load, packs, parameters, past_unturned, subtract_from, whole,
+    widest,
 };
 pub use crate::scalar::pairs::{are_many, halves};
 pub use crate::system::packable::{Packing, Shared};

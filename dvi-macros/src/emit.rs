@@ -220,11 +220,6 @@ impl Function<'_> {
             Place::Entry(output, coordinate) => {
                 let array = output_array(*output, coordinate.block);
                 let index = self.entry(&coordinate.index);
-                if let Element::Pack = self.element {
-                    let (krate, terms) = (self.emitter.krate(), self.register(value.register));
-                    let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
-                    return quote!(#krate::__private::#add(#array, #index, #terms););
-                }
                 quote!(#array[#index])
             }
             Place::MatrixEntry(row, column) => {

@@ -27,6 +27,8 @@ pub trait Pack<T>: Scalar {
     fn add(to: &mut [T], at: usize, terms: Self);
     /// See [`subtract_from`].
     fn subtract(to: &mut [T], at: usize, terms: Self);
+    /// See [`Waiting::exchange`].
+    fn exchange<const K: usize>(self, waiting: &mut [T; K]) -> Self;
 }
 
 impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
@@ -63,6 +65,18 @@ impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
             to[term] -= terms.0[term];
         }
     }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn exchange<const K: usize>(self, waiting: &mut [T; K]) -> Self {
+        const { assert!(K <= CHUNK) };
+        let mut terms = self;
+        for term in 0..CHUNK {
+            terms.0[term] = if term < K { waiting[term] } else { self.0[term - K] };
+        }
+        for term in 0..K {
+            waiting[term] = self.0[CHUNK - K + term];
+        }
+        terms
+    }
 }
 
 impl<const W: usize, T: Real> Pack<Self> for Lanes<W, T> {
@@ -86,6 +100,11 @@ impl<const W: usize, T: Real> Pack<Self> for Lanes<W, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn subtract(to: &mut [Self], at: usize, terms: Self) {
         to[at] -= terms;
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn exchange<const K: usize>(self, waiting: &mut [Self; K]) -> Self {
+        waiting.rotate_left(1);
+        waiting.last_mut().map_or(self, |last| core::mem::replace(last, self))
     }
 }
 
@@ -117,6 +136,35 @@ pub fn add_to<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn subtract_from<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
     T::Pack::subtract(to, at, terms);
+}
+
+/// The last terms of a pack, where each term is added `K` places behind the first entry that the pack adds to: they wait for the next
+/// pack, which adds to their entries.
+#[derive(Clone, Copy, Debug)]
+pub struct Waiting<const K: usize, T>(pub [T; K]);
+
+impl<const K: usize, T: Scalar> Waiting<K, T> {
+    /// The terms that belong to the entries of a pack: those that have waited, and then the first of `terms`. The others wait.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn exchange(&mut self, terms: T::Pack) -> T::Pack {
+        terms.exchange(&mut self.0)
+    }
+
+    /// Adds what waits to its entries of `to`, beginning at `at`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn add_to(self, to: &mut [T], at: usize) {
+        for (entry, term) in to[at..].iter_mut().zip(self.0) {
+            *entry += term;
+        }
+    }
+
+    /// Subtracts what waits from its entries of `to`, beginning at `at`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn subtract_from(self, to: &mut [T], at: usize) {
+        for (entry, term) in to[at..].iter_mut().zip(self.0) {
+            *entry -= term;
+        }
+    }
 }
 
 /// The partial sums of a sum over packs.

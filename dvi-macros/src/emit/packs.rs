@@ -4,32 +4,40 @@
 //! ```text
 //! let mut __r9 = __T::lift(-0.0);
 //! let __whole = whole(lower, upper);
-//! {
+//! if lower < __whole {
 //!     let __r1 = all(__r1);
 //!     let mut __sum9 = Sums::<__T>::empty();
+//!     let mut __waiting1 = Waiting([__T::lift(-0.0)]);
 //!     for __i1 in packs::<__T>(lower, __whole) {
 //!         let __r2 = __r1 - load(__q0, __i1);
 //!         …
+//!         add_to(__vector0, __i1, __waiting1.exchange(…));
 //!         subtract_from(__vector0, __i1, …);
 //!         __sum9.add_terms(…);
 //!     }
+//!     let __i1 = __whole;
+//!     __waiting1.add_to(__vector0, __i1);
 //!     __r9 += __sum9.total();
 //! }
 //! for __i1 in __whole..upper {
 //!     …
 //! }
 //! ```
-//! and the function around it is compiled for the widest instructions of the processor. Terms whose places lie on both sides of the end of
+//! and the function around it is compiled for the widest instructions of the processor. Where a term adds to several entries of one
+//! array that lie beside one another, each pack loads and stores the first of them only. What belongs to entries behind them waits for
+//! the packs of these: no pack loads what the one before has just stored in other parts. Terms whose places lie on both sides of the end of
 //! a ring, as x[(j + 1) % n] for the last j, are taken one by one before and behind the packs.
 
 use std::cmp::Reverse;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens as _, quote};
+use syn::Ident;
 
 use super::indices::open;
-use super::{Element, Function, local, name};
+use super::{Element, Function, local, name, output_array};
 use crate::instructions::{Instruction, Register, Signed};
+use crate::internal::internal;
 use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
@@ -37,6 +45,18 @@ use crate::symbolic::{Coordinate, Fold, Index, Loop, Node, Parameter, Unary};
 
 /// A range whose bounds are literals and that has fewer terms is not worth it.
 const FEWEST: i64 = 16;
+/// Entries as far apart, the terms of a pack, do not wait.
+const APART: i64 = 8;
+
+/// What a statement adds to the entries of an array, in packs.
+struct Addition<'a> {
+    array: (Output, u32),
+    index: Index,
+    value: &'a Signed,
+    /// So many places before are the first entries of the array that a term adds to; those of this statement wait for their packs.
+    behind: u64,
+    waiting: Ident,
+}
 
 impl Routine {
     /// Whether one of its loops runs over packs.
@@ -172,7 +192,12 @@ impl Function<'_> {
         let sums: Vec<_> = folds.iter().map(|fold| local(format_args!("sum{}", fold.result.0))).collect();
         let terms = folds.iter().map(|fold| packed.signed(fold.body));
         let results = folds.iter().map(|fold| name(fold.result));
-        let steps: TokenStream = self.by_entry(body).into_iter().map(|step| packed.step(step)).collect();
+        let lets = body.iter().filter(|step| matches!(step, Step::Let(_))).map(|step| packed.step(step));
+        let additions = self.additions(body);
+        let wait = additions.iter().map(|addition| self.wait(addition));
+        let add = additions.iter().map(|addition| packed.add(addition));
+        let arrive: TokenStream = additions.iter().map(|addition| packed.arrive(addition)).collect();
+        let arrive = if arrive.is_empty() { arrive } else { quote!(let #index = #whole; #arrive) };
         let rest = self.terms(folds, body);
         let (lower, past, turned) = match self.reach(body) {
             [0, 0] => (lower.clone(), upper.clone(), TokenStream::new()),
@@ -190,36 +215,76 @@ impl Function<'_> {
         quote! {
             #turned
             let #whole = #krate::__private::whole(#lower, #past);
-            {
+            if #lower < #whole {
                 #(#outside)*
                 #(let mut #sums = #krate::__private::Sums::<__T>::empty();)*
+                #(#wait)*
                 for #index in #krate::__private::packs::<__T>(#lower, #whole) {
-                    #steps
+                    #(#lets)*
+                    #(#add)*
                     #(#sums.add_terms(#terms);)*
                 }
+                #arrive
                 #(#results += #sums.total();)*
             }
             for #index in #whole..#upper { #rest }
         }
     }
 
-    /// The steps of a term in an order in which packs add to each entry as the terms do one by one. What adds to the entry j + 1
-    /// comes before what adds to the entry j: so does, one by one, the earlier of the two terms that add to the same entry.
-    fn by_entry<'a>(&self, body: &'a [Step]) -> Vec<&'a Step> {
-        let mut steps: Vec<&Step> = body.iter().collect();
-        steps.sort_by_key(|step| match step {
-            Step::Let(_) | Step::Loop { .. } => None,
-            Step::Write(statement, _) => match &self.routine.statements[*statement].place {
-                Place::Entry(_, entry) => Some(Reverse(entry.index.unturned().constant)),
-                Place::Result
-                | Place::MatrixEntry(..)
-                | Place::Constraint(_)
-                | Place::ConstraintDerivative(..) => None,
-            },
-        });
-        steps
+    /// What a body adds to entries, in an order in which packs add to each of them as the terms do one by one. What adds to the entry
+    /// j + 1 comes before what adds to the entry j: so does, one by one, the earlier of the two terms that add to the same entry.
+    fn additions<'a>(&self, body: &'a [Step]) -> Vec<Addition<'a>> {
+        let mut additions: Vec<Addition<'a>> = Vec::new();
+        for step in body {
+            let Step::Write(statement, value) = step else { continue };
+            let Place::Entry(output, entry) = &self.routine.statements[*statement].place else {
+                internal("packs add to entries alone")
+            };
+            let waiting = local(format_args!("waiting{statement}"));
+            let (array, index) = ((*output, entry.block), entry.index.unturned());
+            additions.push(Addition { array, index, value, behind: 0, waiting });
+        }
+        additions.sort_by_key(|addition| Reverse(addition.index.constant));
+        let mut first: Vec<((Output, u32), i64)> = Vec::new();
+        for Addition { array, index, behind, .. } in additions.iter_mut().rev() {
+            match first.iter().find(|(known, _)| known == array) {
+                None => first.push((*array, index.constant)),
+                Some((_, constant)) if index.constant - constant < APART => {
+                    *behind = index.constant.abs_diff(*constant);
+                    index.constant = *constant;
+                }
+                Some(_) => {}
+            }
+        }
+        additions
     }
 
+    /// What waits before the first pack: nothing, which is zero with the sign that changes no number.
+    fn wait(&self, Addition { behind, waiting, value, .. }: &Addition<'_>) -> TokenStream {
+        let krate = self.emitter.krate();
+        let nothing = if value.negative { quote!(0.0) } else { quote!(-0.0) };
+        let nothing = (0..*behind).map(|_| quote!(<__T as #krate::Scalar>::lift(#nothing)));
+        if *behind == 0 {
+            return TokenStream::new();
+        }
+        quote!(let mut #waiting = #krate::__private::Waiting([#(#nothing),*]);)
+    }
+
+    /// Adds the terms of a pack.
+    fn add(&self, Addition { array, index, value, behind, waiting }: &Addition<'_>) -> TokenStream {
+        let (array, index) = (output_array(array.0, array.1), self.entry(index));
+        let (krate, terms) = (self.emitter.krate(), self.register(value.register));
+        let terms = if *behind == 0 { terms } else { quote!(#waiting.exchange(#terms)) };
+        let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
+        quote!(#krate::__private::#add(#array, #index, #terms);)
+    }
+
+    /// Adds what waits after the last pack.
+    fn arrive(&self, Addition { array, index, value, behind, waiting }: &Addition<'_>) -> TokenStream {
+        let (array, index) = (output_array(array.0, array.1), self.entry(index));
+        let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
+        if *behind == 0 { TokenStream::new() } else { quote!(#waiting.#add(#array, #index);) }
+    }
     /// The registers that the body of a loop reads and does not compute.
     fn read_from_outside(&self, folds: &[Accumulated], body: &[Step]) -> Vec<Register> {
         let code = &self.routine.code;

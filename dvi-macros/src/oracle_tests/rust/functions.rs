@@ -22,6 +22,8 @@ pub(super) enum Callee {
     /// `__private::first_unturned` and `__private::past_unturned`
     FirstUnturned,
     PastUnturned,
+    /// `__private::Waiting`
+    Waiting,
     /// `__private::are_many`
     AreMany,
     /// `Sink::add`, of a dense matrix.
@@ -86,6 +88,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "__private", "whole"] => Callee::Whole,
         [.., "__private", "first_unturned"] => Callee::FirstUnturned,
         [.., "__private", "past_unturned"] => Callee::PastUnturned,
+        [.., "__private", "Waiting"] => Callee::Waiting,
         [.., "__private", "are_many"] => Callee::AreMany,
         [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,

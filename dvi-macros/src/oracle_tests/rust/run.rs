@@ -270,14 +270,20 @@ impl Machine<'_> {
             Code::Slot(slot) => slots[*slot] = value,
             Code::Index(base, index) => {
                 let (base, index) = (self.run(base, slots)?, self.run(index, slots)?);
-                self.indexed(&base, &index)?;
-                let (Value::View { array, start, .. }, Value::Real(value)) = (base, value) else {
-                    panic!("the interpreter assigns numbers to entries of slices")
-                };
-                self.arrays[array][start + index.integer() as usize] = value;
+                let Value::Real(value) = value else { panic!("the interpreter assigns numbers") };
+                self.assign_entry(&base, &index, value)?;
             }
             other => panic!("the interpreter does not assign to {other:?}"),
         }
+        Ok(Value::Unit)
+    }
+
+    fn assign_entry(&mut self, base: &Value, index: &Value, value: f64) -> Step {
+        self.indexed(base, index)?;
+        let Value::View { array, start, .. } = base else {
+            panic!("the interpreter assigns to entries of slices")
+        };
+        self.arrays[*array][start + index.integer() as usize] = value;
         Ok(Value::Unit)
     }
 
@@ -316,6 +322,10 @@ impl Machine<'_> {
             }
             Callee::PastUnturned => {
                 Ok(Value::Integer((integer(1) - integer(2)).max(integer(0)), Kind::Usize))
+            }
+            Callee::Waiting => {
+                let Value::Tuple(terms) = &arguments[0] else { panic!("a list of terms") };
+                Ok(self.array(terms.iter().map(Value::real).collect()))
             }
             // Few enough that both ways are taken.
             Callee::AreMany => Ok(Value::Bool(integer(0) >= 3)),
@@ -370,6 +380,21 @@ impl Machine<'_> {
             }
             (Value::View { array, start, length }, "fill") => {
                 self.arrays[*array][*start..start + length].fill(arguments[0].real());
+                Ok(Value::Unit)
+            }
+            // Packs of one: the first of what waits is exchanged for the term.
+            (Value::View { array, .. }, "exchange") => {
+                let waiting = &mut self.arrays[*array];
+                waiting.push(arguments[0].real());
+                Ok(Value::Real(waiting.remove(0)))
+            }
+            (Value::View { array, .. }, "add_to" | "subtract_from") => {
+                let sign = if name == "add_to" { 1.0 } else { -1.0 };
+                for (place, term) in self.arrays[*array].clone().into_iter().enumerate() {
+                    let index = Value::Integer(arguments[1].integer() + place as i128, Kind::Usize);
+                    let sum = self.indexed(&arguments[0], &index)?.real() + sign * term;
+                    self.assign_entry(&arguments[0], &index, sum)?;
+                }
                 Ok(Value::Unit)
             }
             (Value::View { length, .. }, "len") => Ok(Value::Integer(*length as i128, Kind::Usize)),
