@@ -144,7 +144,7 @@ fn vortices() {
                                     let mut __r16 = T::lift(-0.0);
                                     let mut __r18 = T::lift(-0.0);
                                     let __whole = __private::whole(__lower, __upper);
-                                    if __lower < __whole {
+                                    {
                                         let __r0 = __private::all(__r0);
                                         let __r6 = __private::all(__r6);
                                         let __r9 = __private::all(__r9);
@@ -205,7 +205,7 @@ fn vortices() {
                                 let mut __r16 = T::lift(-0.0);
                                 let mut __r18 = T::lift(-0.0);
                                 let __whole = __private::whole(__i0 + 1usize, N);
-                                if __i0 + 1usize < __whole {
+                                {
                                     let __r0 = __private::all(__r0);
                                     let __r6 = __private::all(__r6);
                                     let __r9 = __private::all(__r9);
@@ -284,7 +284,7 @@ fn function_of_a_sum() {
                     || {
                         let mut __r6 = T::lift(-0.0);
                         let __whole = __private::whole(0usize, self.n);
-                        if 0usize < __whole {
+                        {
                             let mut __sum6 = __private::Sums::<T>::empty();
                             for __i0 in __private::packs::<T>(0usize, __whole) {
                                 let __r1 = __private::load(__q0, __i0);
@@ -303,7 +303,7 @@ fn function_of_a_sum() {
                         let __r8 = T::lift(1f64)
                             / (T::sqrt(__r6));
                         let __whole = __private::whole(0usize, self.n);
-                        if 0usize < __whole {
+                        {
                             let __r8 = __private::all(__r8);
                             for __i0 in __private::packs::<T>(0usize, __whole) {
                                 let __r1 = __private::load(__q0, __i0);

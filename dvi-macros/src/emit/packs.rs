@@ -197,7 +197,6 @@ impl Function<'_> {
         let wait = additions.iter().map(|addition| self.wait(addition));
         let add = additions.iter().map(|addition| packed.add(addition));
         let arrive: TokenStream = additions.iter().map(|addition| packed.arrive(addition)).collect();
-        let arrive = if arrive.is_empty() { arrive } else { quote!(let #index = #whole; #arrive) };
         let rest = self.terms(folds, body);
         let (lower, past, turned) = match self.reach(body) {
             [0, 0] => (lower.clone(), upper.clone(), TokenStream::new()),
@@ -212,10 +211,16 @@ impl Function<'_> {
                 (begin.into_token_stream(), past, turned)
             }
         };
+        let (is_any, arrive) = if arrive.is_empty() {
+            (TokenStream::new(), arrive)
+        } else {
+            // Where there is no pack, the entries may not be there either.
+            (quote!(if #lower < #whole), quote!(let #index = #whole; #arrive))
+        };
         quote! {
             #turned
             let #whole = #krate::__private::whole(#lower, #past);
-            if #lower < #whole {
+            #is_any {
                 #(#outside)*
                 #(let mut #sums = #krate::__private::Sums::<__T>::empty();)*
                 #(#wait)*

@@ -287,7 +287,7 @@ fn constraints_of_a_chain_along_a_motion() {
                     || {
                         let mut __r12 = T::lift(-0.0);
                         let __whole = __private::whole(0usize, self.n);
-                        if 0usize < __whole {
+                        {
                             let mut __sum12 = __private::Sums::<T>::empty();
                             for __i0 in __private::packs::<T>(0usize, __whole) {
                                 let __r0 = __private::load(__v0, __i0);
