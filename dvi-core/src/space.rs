@@ -62,6 +62,11 @@ pub trait Space: Copy + Debug + PartialEq {
     fn dimension(self) -> usize;
     /// A vector of zeros.
     fn vector<T: Scalar>(self) -> Self::Vector<T>;
+    /// So many of them.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn vectors<T: Scalar, const COUNT: usize>(self) -> [Self::Vector<T>; COUNT] {
+        core::array::from_fn(|_| self.vector())
+    }
     /// What `of` makes, for each coordinate.
     fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Array<E>;
     /// Rows of zeros, one for each dimension of `over`, with room for the entries that `entries` visits.

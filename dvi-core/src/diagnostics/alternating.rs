@@ -20,8 +20,8 @@ pub struct AlternatingComponent<S: System, T: Real = f64> {
 impl<S: Lagrangian<T>, T: Real> AlternatingComponent<S, T> {
     /// A filter for the points of `system` that has seen none.
     pub fn new(system: &S) -> Self {
-        let vector = || system.space().vector();
-        Self { ring: core::array::from_fn(|_| vector()), filtered: vector(), seen: 0 }
+        let space = system.space();
+        Self { ring: space.vectors(), filtered: space.vector(), seen: 0 }
     }
 
     /// Takes the next point, as [`Run::q`](crate::run::Run::q) gives it, and returns the

@@ -58,7 +58,7 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S
     /// By how much p = ∂L/∂v = α(q) changes with q.
     fn along(system: &S, q: &[T], t: T, dq: &[T]) -> Vector<S, T> {
         let space = system.space();
-        let [rest, mut l_q, mut l_v, mut dp]: [Vector<S, T>; 4] = core::array::from_fn(|_| space.vector());
+        let [rest, mut l_q, mut l_v, mut dp]: [Vector<S, T>; 4] = space.vectors();
         let zero = T::lift(0.0);
         let weights = Weights { qq: zero, qv: zero, vq: T::lift(1.0), vv: zero };
         let mut product = Product { x: dq, sum: &mut dp };

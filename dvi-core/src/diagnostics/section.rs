@@ -100,7 +100,7 @@ impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
         Self {
             g,
             direction,
-            points: core::array::from_fn(|_| space.vector()),
+            points: space.vectors(),
             values: [R::Scalar::lift(0.0); WINDOW],
             steps: [R::Scalar::lift(0.0); WINDOW],
             oldest: 0,

@@ -34,7 +34,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     /// [`StepFailure::Singular`].
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Result<Self, StepFailure> {
         let space = system.space();
-        let [mut v, mut l_q, mut l_v]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
+        let [mut v, mut l_q, mut l_v]: [Vector<S, T>; 3] = space.vectors();
         if S::DIAGONAL_MASS {
             v.fill(T::lift(1.0));
             system.gradient(q, &v, t, &mut l_q, &mut l_v);

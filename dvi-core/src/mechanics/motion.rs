@@ -91,6 +91,10 @@ pub trait Motion<S: System, T: Real>: Kind {
 
     /// A point of zeros.
     fn point<P: Scalar>(system: &S) -> Self::Point<P>;
+    /// So many of them.
+    fn points<P: Scalar, const COUNT: usize>(system: &S) -> [Self::Point<P>; COUNT] {
+        core::array::from_fn(|_| Self::point(system))
+    }
 }
 
 /// The equations of motion of `S` with their storage.

@@ -59,7 +59,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     /// [`StartError::Starter`] if momentum or force is no number.
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T, summation: Summation) -> Result<Self, StartError> {
         let space = system.space();
-        let [mut force, mut p, mut mean]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
+        let [mut force, mut p, mut mean]: [Vector<S, T>; 3] = space.vectors();
         system.gradient(q, v, t, &mut force, &mut p);
         norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
         mean.copy_from_slice(v);

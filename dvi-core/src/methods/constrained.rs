@@ -311,7 +311,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
         evaluate(system, q, v, t)?;
         consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
         let vector = || system.space().vector();
-        let [mut p, mut velocity, mut work]: [Vector<S, T>; 3] = core::array::from_fn(|_| vector());
+        let [mut p, mut velocity, mut work]: [Vector<S, T>; 3] = system.space().vectors();
         system.gradient(q, v, t, &mut work, &mut p);
         velocity.copy_from_slice(v);
         let (mut solver, mut impulses) = (ConstraintSolver::new(system, q, v, t), Impulses::new(system));

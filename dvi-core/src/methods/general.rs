@@ -96,7 +96,7 @@ impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: InnerScheme<S, 
         self.admit(system)?;
         self.scheme.admit_inside()?;
         let space = system.space();
-        let [mut p, mut seed, mut l_q]: [Vector<S, T>; 3] = core::array::from_fn(|_| space.vector());
+        let [mut p, mut seed, mut l_q]: [Vector<S, T>; 3] = space.vectors();
         seed[..v.len()].copy_from_slice(v);
         evaluate(system, q, &seed, t)?;
         system.gradient(q, &seed, t, &mut l_q, &mut p);

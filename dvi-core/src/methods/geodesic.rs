@@ -129,8 +129,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         evaluate(system, q, v, t)?;
         manifold::check(system, [q, v])?;
         manifold::admit_numbers(system, v)?;
-        let [mut seed, mut l_q, mut l_v]: [Vector<S, T>; 3] =
-            core::array::from_fn(|_| system.space().vector());
+        let [mut seed, mut l_q, mut l_v]: [Vector<S, T>; 3] = system.space().vectors();
         rates(system, q, v, &mut seed);
         system.gradient(q, v, t, &mut l_q, &mut l_v);
         let mut memory = GeodesicMemory::new(system, seed);

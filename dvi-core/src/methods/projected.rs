@@ -149,8 +149,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
             rates: Rates::new(system, [rates]),
             orientation: FormOrientation::new(system, q, t),
             solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
-            unknowns: core::array::from_fn(|_| vector()),
-            residuals: core::array::from_fn(|_| vector()),
+            unknowns: system.space().vectors(),
+            residuals: system.space().vectors(),
             work: Work {
                 middle: vector(),
                 velocity: vector(),

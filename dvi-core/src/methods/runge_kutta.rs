@@ -134,7 +134,7 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         Ok(RungeKuttaMemory {
             equations: S::Kind::begin(system, q, v, t)?,
-            slopes: core::array::from_fn(|_| S::Kind::point(system)),
+            slopes: S::Kind::points(system),
             y: S::Kind::point(system),
             stage: S::Kind::point(system),
         })

@@ -42,8 +42,8 @@ pub(crate) struct History<S: System, T: Real> {
 impl<S: System, T: Real> History<S, T> {
     /// No increments yet; the first guess is `seed`, or zero.
     pub(crate) fn new(system: &S, seed: Option<Vector<S, T>>) -> Self {
-        let vector = || system.space().vector();
-        Self { ring: core::array::from_fn(|_| vector()), len: 0, next: 0, seed: seed.unwrap_or_else(vector) }
+        let space = system.space();
+        Self { ring: space.vectors(), len: 0, next: 0, seed: seed.unwrap_or_else(|| space.vector()) }
     }
 
     /// Where the next increment goes, if as many are kept as can be.

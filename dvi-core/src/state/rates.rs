@@ -32,7 +32,7 @@ struct Kind<S: System, T: Real> {
 impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
     /// No step yet; the first guesses are `seeds`.
     pub(crate) fn new(system: &S, seeds: [Vector<S, T>; KINDS]) -> Self {
-        let kind = |seed| Kind { last: core::array::from_fn(|_| system.space().vector()), seed };
+        let kind = |seed| Kind { last: system.space().vectors(), seed };
         Self { kinds: seeds.map(kind), len: 0, newest: 0, last_step: T::lift(0.0) }
     }
 

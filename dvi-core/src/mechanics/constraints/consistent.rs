@@ -38,7 +38,7 @@ struct Projection<'a, S: ConstrainedLagrangian<T>, T: Real> {
 
 impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
     fn new(system: &'a S, q: &[T], v: &[T], t: T) -> Self {
-        let work = [0, 1].map(|_| system.space().vector());
+        let work = system.space().vectors();
         let solver = ConstraintSolver::new(system, q, v, t);
         Self { system, t, solver, none: system.multipliers().vector(), work }
     }
@@ -87,7 +87,7 @@ fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     mut of: impl LinearEquations<T>,
     error: impl Fn(usize) -> T,
 ) -> Result<Option<(usize, f64)>, StepFailure> {
-    let [mut values, mut sizes]: [Multipliers<S, T>; 2] = [0, 1].map(|_| system.multipliers().vector());
+    let [mut values, mut sizes]: [Multipliers<S, T>; 2] = system.multipliers().vectors();
     of.evaluate(
         &mut values,
         &mut Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j)),
@@ -154,8 +154,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
             None => {}
         }
     }
-    let [mut sizes, mut force, mut momentum]: [Vector<S, T>; 3] =
-        core::array::from_fn(|_| system.space().vector());
+    let [mut sizes, mut force, mut momentum]: [Vector<S, T>; 3] = system.space().vectors();
     scale_coordinates(system, [q, v], t, &mut sizes);
     system.gradient(q, v, t, &mut force, &mut momentum);
     for ((scale, &force), (&q, &v)) in sizes.iter_mut().zip(force.iter()).zip(q.iter().zip(v)) {

@@ -35,8 +35,8 @@ const KEPT: f64 = 16.0;
 impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
     /// In units D of the coordinates.
     pub(crate) fn new(system: &S, units: &[T]) -> Self {
-        let [values, sizes, others] = [0, 1, 2].map(|_| system.multipliers().vector());
-        let [point, mut kept]: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+        let [values, sizes, others] = system.multipliers().vectors();
+        let [point, mut kept]: [Vector<S, T>; 2] = system.space().vectors();
         kept.copy_from_slice(units);
         Self { values, sizes, others, point, units: kept, before: None }
     }

@@ -38,7 +38,7 @@ pub(crate) fn balance<S: ConstrainedLagrangian<T>, T: Real>(
     S::Kind::forces(system, q, t, &mut values, &mut squares);
     of_constraints.iter_mut().for_each(|square| *square = scale(*square));
     // In units in which the mass is one.
-    let [mut unit, mut sums]: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+    let [mut unit, mut sums]: [Vector<S, T>; 2] = system.space().vectors();
     unit.copy_from_slice(of_coordinates);
     let mut totals: Multipliers<S, T> = system.multipliers().vector();
     for _ in 0..ROUNDS {
@@ -85,7 +85,7 @@ pub(crate) fn scale_coordinates<S: ConstrainedLagrangian<T>, T: Real>(
     t: T,
     scales: &mut [T],
 ) {
-    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
     let mut diagonal = Places(|i: usize, j: usize, entry: T| {
         if i == j {
             scales[i] += entry;

@@ -44,7 +44,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         let mut values: Multipliers<S, T> = system.multipliers().vector();
         let matrix = space.square(|visit| {
             visit_second_derivatives(system, [q, v], t, visit);
-            let mut work: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+            let mut work: [Vector<S, T>; 2] = system.space().vectors();
             let [point, velocity] = &mut work;
             let interval = Interval { t, h: T::lift(1.0) };
             let span = Span { system, interval, ends: Ends { q0: q, delta: v } };

@@ -19,7 +19,7 @@ pub(crate) fn acceleration<S: ConstrainedLagrangian<T>, T: Real>(
     t: T,
     multipliers: &mut [T],
 ) -> Result<Vector<S, T>, StepFailure> {
-    let [mut acceleration, mut l_v]: [Vector<S, T>; 2] = [0, 1].map(|_| system.space().vector());
+    let [mut acceleration, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
     let mut solver = ConstraintSolver::new(system, q, v, t);
     multipliers.fill(T::lift(0.0));
     let upper = SecondOrder { system, q, v, t, l_v: &mut l_v };

@@ -127,7 +127,7 @@ where
 
 impl<S: DegenerateLagrangian<T>, T: Real> Rates<S, T> for Degenerate {
     fn rates(system: &S, q: &Vector<S, T>, _v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
-        let [mut velocity, none] = [0, 1].map(|_| system.space().vector());
+        let [mut velocity, none] = system.space().vectors();
         let mut field = VectorField::new(system, q, t)?;
         field.evaluate(system, q, t, &mut velocity, &mut Statistics::default())?;
         Ok([velocity, none])

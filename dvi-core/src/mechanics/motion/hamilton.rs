@@ -100,14 +100,13 @@ impl<S: System, T: Real> Motion<S, T> for Regular {
     type Equations = HamiltonsEquations<S, T>;
 
     fn point<P: Scalar>(system: &S) -> Self::Point<P> {
-        Point([0, 1].map(|_| system.space().vector()))
+        Point(system.space().vectors())
     }
 }
 
 impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<HamiltonsEquations<S, T>, StartError> {
-        let [mut force, mut p, mut velocity, latest, between]: [Vector<S, T>; 5] =
-            core::array::from_fn(|_| system.space().vector());
+        let [mut force, mut p, mut velocity, latest, between]: [Vector<S, T>; 5] = system.space().vectors();
         system.gradient(q, v, t, &mut force, &mut p);
         velocity.copy_from_slice(v);
         let inverse = if S::CONSTANT_MASS {
@@ -295,8 +294,7 @@ fn rates<S: NondegenerateLagrangian<T>, T: Real>(
     v: &[T],
     t: T,
 ) -> Result<[Vector<S, T>; 2], StepFailure> {
-    let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] =
-        core::array::from_fn(|_| system.space().vector());
+    let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] = system.space().vectors();
     velocity.copy_from_slice(v);
     if S::SEPARABLE {
         system.force(q, &[], t, &mut l_v);

@@ -33,7 +33,7 @@ pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
 impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> {
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
-        let [point, slope] = [0, 1].map(|_| S::Kind::point(system));
+        let [point, slope] = S::Kind::points(system);
         Self { point, slope, vector: space.vector(), gradient: space.vector(), entries: space.vector() }
     }
 

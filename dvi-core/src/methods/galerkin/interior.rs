@@ -142,7 +142,7 @@ where
             renewed: packs(),
             drift: system.space().vector(),
             kick: system.space().vector(),
-            work: [0, 1].map(|_| system.space().vector()),
+            work: system.space().vectors(),
             evaluation: PhantomData,
         }
     }

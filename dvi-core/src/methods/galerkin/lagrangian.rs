@@ -283,10 +283,9 @@ where
 
     fn discrete_lagrangian(&self, system: &S) -> GalerkinLagrangian<NODES, S, F, T> {
         let (space, rule) = (system.space(), Lobatto::new());
-        let vectors = || core::array::from_fn(|_| space.vector());
         let storage = Storage {
-            displacements: vectors(),
-            residuals: vectors(),
+            displacements: space.vectors(),
+            residuals: space.vectors(),
             blocks: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
             permutation: space.permutation(),
             node: NodeWork::new(system),

@@ -279,8 +279,8 @@ impl<const NODES: usize, S: Lagrangian<T>, T: Real> Work<NODES, S, T> {
     fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {
-            unknowns: core::array::from_fn(|_| vector()),
-            residuals: core::array::from_fn(|_| vector()),
+            unknowns: system.space().vectors(),
+            residuals: system.space().vectors(),
             point: vector(),
             velocity: vector(),
             gradient: vector(),

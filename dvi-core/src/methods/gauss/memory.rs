@@ -59,10 +59,8 @@ impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
     pub(super) fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self, StartError> {
         let mut equations = S::Kind::begin(system, q, v, t)?;
-        let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] =
-            core::array::from_fn(|_| S::Kind::point(system));
-        let [mut completed, slopes, terms, stages]: [StagesOf<STAGES, S, T>; 4] =
-            core::array::from_fn(|_| S::Kind::point(system));
+        let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] = S::Kind::points(system);
+        let [mut completed, slopes, terms, stages]: [StagesOf<STAGES, S, T>; 4] = S::Kind::points(system);
         S::Kind::gather(&mut equations, q, &mut y);
         S::Kind::evaluate(&mut equations, system, &y, t, &mut slope, &mut Statistics::default())
             .map_err(StartError::Starter)?;

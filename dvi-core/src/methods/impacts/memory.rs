@@ -258,7 +258,7 @@ pub(super) fn admit<S: UnilateralLagrangian<T>, T: Real>(
     t: T,
     h: T,
 ) -> Result<(), StartError> {
-    let [mut gap, mut size]: [Multipliers<S, T>; 2] = [0, 1].map(|_| system.multipliers().vector());
+    let [mut gap, mut size]: [Multipliers<S, T>; 2] = system.multipliers().vectors();
     terms(system, [q, v], [t, h], &mut gap, |surface, term| size[surface] += term);
     let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
     for (surface, (&gap, &size)) in gap.iter().zip(size.iter()).enumerate() {

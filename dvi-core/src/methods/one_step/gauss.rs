@@ -129,9 +129,9 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             continuation: tableau.continuation(),
             split: Split::new(system),
             solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
-            increments: core::array::from_fn(|_| space.vector()),
-            forces: core::array::from_fn(|_| space.vector()),
-            residuals: core::array::from_fn(|_| space.vector()),
+            increments: space.vectors(),
+            forces: space.vectors(),
+            residuals: space.vectors(),
             work: Work {
                 point: space.vector(),
                 velocity: space.vector(),

@@ -140,7 +140,7 @@ impl<S: System, T: Real> Monitor<S, T> {
     pub(super) fn new(system: &S, limit: Option<f64>, threshold: Option<f64>, pace: Pace) -> Self {
         let vector = || system.space().vector();
         Self {
-            points: core::array::from_fn(|_| vector()),
+            points: system.space().vectors(),
             sizes: vector(),
             together: T::lift(0.0),
             steps: 0,

@@ -289,14 +289,13 @@ pub(super) struct Each<S: System, T: Real> {
 impl<S: NondegenerateLagrangian<T>, T: Real> Each<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
-        let vectors = || core::array::from_fn(|_| space.vector());
         Self {
             h: T::lift(0.0),
             weights: [T::lift(0.0); NODES],
-            b: vectors(),
-            b_bar: vectors(),
-            d: vectors(),
-            d_bar: vectors(),
+            b: space.vectors(),
+            b_bar: space.vectors(),
+            d: space.vectors(),
+            d_bar: space.vectors(),
             mixed: space.vector(),
             left: space.vector(),
             right: space.vector(),

@@ -260,7 +260,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         self.is_placed = c != 0.0 && self.step.method.has_one_node_to_follow();
         let mut largest = T::lift(0.0);
         for block in blocks(self.q.len()) {
-            let [q, p, force, reciprocals] = [self.q, p, force, reciprocals].map(|x| &x[block.clone()]);
+            let (q, p) = (&self.q[block.clone()], &p[block.clone()]);
+            let (force, reciprocals) = (&force[block.clone()], &reciprocals[block.clone()]);
             let corrections = &mut velocity[..block.len()];
             let increment = &mut increment[block.clone()];
             for i in 0..block.len() {

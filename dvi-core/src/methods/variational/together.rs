@@ -34,9 +34,8 @@ where
 
     fn packs(&self, system: &S) -> Packs<W, S> {
         let space = system.space();
-        let vectors = || core::array::from_fn(|_| space.vector());
-        let one = core::array::from_fn(|_| space.vector());
-        Packs { now: vectors(), kept: vectors(), reciprocals: space.vector(), one }
+        let one = space.vectors();
+        Packs { now: space.vectors(), kept: space.vectors(), reciprocals: space.vector(), one }
     }
 
     fn fit(a: &S, b: &S) -> Option<bool> {
