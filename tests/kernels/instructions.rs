@@ -2,14 +2,17 @@
 //!
 //! `cargo bench -p dvi-kernels --bench instructions`. The program runs itself under
 //! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up. It fails if a generated
-//! step takes more instructions than `instructions.csv` allows.
+//! step takes more instructions than `instructions.csv` allows. It also prints the bits of runs that use the widest instructions of
+//! the processor.
 
 #![allow(clippy::print_stdout)]
 
 mod pinned;
+mod printed;
 
 use dvi_kernels as kernels;
-use std::process::{Command, ExitCode};
+use printed::{WIDE, text_of};
+use std::process::{Child, Command, ExitCode, Stdio};
 
 const STEPS: [u64; 2] = [1000, 2000];
 
@@ -21,11 +24,18 @@ fn main() -> ExitCode {
         std::hint::black_box(kernels::run(kernel, steps));
         return ExitCode::SUCCESS;
     }
+    match kernels::wide::runs() {
+        Ok(bits) => println!("{WIDE}{}", text_of(&bits)),
+        Err(error) => {
+            println!("{error}");
+            return ExitCode::FAILURE;
+        }
+    }
     let pinned = pinned::rows();
     let mut exceeded = Vec::new();
     println!("{:<36} {:>10} {:>10} {:>7} {:>10}", "step", "generated", "by hand", "ratio", "pinned");
     for [generated, by_hand] in kernels::KERNELS {
-        let (Some(ours), Some(theirs)) = (count(generated), count(by_hand)) else {
+        let Some([ours, theirs]) = count([generated, by_hand]) else {
             println!("valgrind is needed to count instructions");
             return ExitCode::SUCCESS;
         };
@@ -46,19 +56,25 @@ fn main() -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// Instructions per step.
-fn count(kernel: &str) -> Option<f64> {
-    let [few, many] = STEPS.map(|steps| total(kernel, steps));
-    Some((many? - few?) / (STEPS[1] - STEPS[0]) as f64)
+/// Instructions per step of each kernel, or `None` without valgrind. All runs are started at once.
+fn count<const KERNELS: usize>(kernels: [&str; KERNELS]) -> Option<[f64; KERNELS]> {
+    let runs = kernels.map(|kernel| STEPS.map(|steps| start(kernel, steps)));
+    let mut counts = [0.0; KERNELS];
+    for (count, runs) in counts.iter_mut().zip(runs) {
+        let [few, many] = runs.map(|run| total(run?));
+        *count = (many? - few?) / (STEPS[1] - STEPS[0]) as f64;
+    }
+    Some(counts)
 }
 
-fn total(kernel: &str, steps: u64) -> Option<f64> {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(std::env::current_exe().ok()?)
-        .args([kernel, &steps.to_string()])
-        .output()
-        .ok()?;
-    let text = String::from_utf8(output.stderr).ok()?;
+fn start(kernel: &str, steps: u64) -> Option<Child> {
+    let mut valgrind = Command::new("valgrind");
+    valgrind.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);
+    valgrind.arg(std::env::current_exe().ok()?).args([kernel, &steps.to_string()]);
+    valgrind.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().ok()
+}
+
+fn total(run: Child) -> Option<f64> {
+    let text = String::from_utf8(run.wait_with_output().ok()?.stderr).ok()?;
     text.split("Collected :").nth(1)?.split_whitespace().next()?.parse().ok()
 }

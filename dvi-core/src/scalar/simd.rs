@@ -10,8 +10,9 @@ pub trait Task {
 
 /// Runs `task`, compiled for the widest instructions that this processor has, as far as it is inlined.
 ///
-/// The results are the same on every processor: operations on packs are those on their lanes.
-#[cfg(feature = "simd")]
+/// The results are the same on every processor: operations on packs are those on their lanes. Where there are debug assertions, nothing
+/// is forced inline, and all instructions are those of every processor: there code is compiled once, and not for each of them.
+#[cfg(all(feature = "simd", not(debug_assertions)))]
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     struct Dispatched<K>(K);
@@ -28,7 +29,7 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
 }
 
 /// Runs `task`.
-#[cfg(not(feature = "simd"))]
+#[cfg(not(all(feature = "simd", not(debug_assertions))))]
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     task.run()

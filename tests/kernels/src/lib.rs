@@ -5,6 +5,7 @@ mod predators_by_hand;
 mod rattle_by_hand;
 mod top_by_hand;
 pub mod vortices_by_hand;
+pub mod wide;
 
 use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
