@@ -255,6 +255,8 @@ pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = D
     /// Where [`CANONICAL`](Self::CANONICAL) holds: the conjugate of coordinate `i`, of any index below the
     /// dimension. Elsewhere `i` itself.
     fn conjugate(&self, i: usize) -> usize;
+    /// The end of the coordinates from `i` on whose conjugates lie beside one another, in the same order.
+    fn conjugates_end(&self, i: usize) -> usize;
     /// Sets `out` to the gradient ∂J/∂q of declared momentum `index`.
     fn momentum_gradient(&self, index: usize, q: &[T], t: T, out: &mut [T]);
 }

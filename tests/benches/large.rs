@@ -7,9 +7,9 @@
 mod fput_by_hand;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::system::Regular;
-use dvi_core::{DegenerateLagrangian, NondegenerateLagrangian, RegularLagrangian, System};
+use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
 use std::hint::black_box;
 
 /// Toda's chain between walls.
@@ -87,14 +87,25 @@ fn lattice(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A step of the midpoint rule by the fixed point, and as many evaluations of the force alone as it takes on average, rounded.
+/// A step of the midpoint rule by the fixed point, and as many evaluations of the force, or of ∇H, alone as it takes on average, rounded.
 fn fixed_point(criterion: &mut Criterion) {
+    let method = Variational { solver: Solver::FixedPoint, ..Variational::midpoint() };
     for n in [1000, 10_000, 100_000] {
-        let toda = TodaState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
-        beside_its_forces(criterion, "Toda", n, &Toda { n }, toda);
-        let fput = FputState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
-        let evaluations = beside_its_forces(criterion, "FPUT", n, &Fput { n, alpha: ALPHA }, fput);
+        let (q, mut force) = (wave(n, 0.0), vec![0.0; n]);
+        let (toda, start) = (Toda { n }, TodaState { q: wave(n, 0.0), dot_q: wave(n, 1.0) });
+        let Ok(run) = Integrator::new(&toda, method, H, start) else { panic!("it starts") };
+        beside_gradients(criterion, "Toda", n, run, || toda.force(black_box(&q), &[], 0.0, &mut force));
+        let (fput, start) = (Fput { n, alpha: ALPHA }, FputState { q: wave(n, 0.0), dot_q: wave(n, 1.0) });
+        let Ok(run) = Integrator::new(&fput, method, H, start) else { panic!("it starts") };
+        let force = || fput.force(black_box(&q), &[], 0.0, &mut force);
+        let evaluations = beside_gradients(criterion, "FPUT", n, run, force);
         fput_by_hand(criterion, n, evaluations);
+        let (ring, start) = (Ring { n }, RingState { q: wave(n, 0.0), p: wave(n, 1.0) });
+        let method = Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() };
+        let Ok(run) = Integrator::new(&ring, method, H, start) else { panic!("it starts") };
+        let (z, mut gradient) = ([wave(n, 0.0), wave(n, 1.0)].concat(), vec![0.0; 2 * n]);
+        let gradient = || ring.hamiltonian_gradient(black_box(&z), 0.0, &mut gradient);
+        beside_gradients(criterion, "a ring", n, run, gradient);
     }
 }
 
@@ -116,19 +127,14 @@ fn fput_by_hand(criterion: &mut Criterion, n: usize, evaluations: u64) {
     group.finish();
 }
 
-/// Returns how many forces a step takes.
-fn beside_its_forces<S>(
+/// Returns how many gradients a step takes.
+fn beside_gradients<S: Lagrangian, M: Method<S, f64>>(
     criterion: &mut Criterion,
     name: &str,
     n: usize,
-    system: &S,
-    start: S::State<f64>,
-) -> u64
-where
-    S: RegularLagrangian + NondegenerateLagrangian + System<Kind = Regular>,
-{
-    let method = Variational { solver: Solver::FixedPoint, ..Variational::midpoint() };
-    let Ok(mut run) = Integrator::new(system, method, H, start) else { panic!("it starts") };
+    mut run: Integrator<'_, S, M>,
+    mut gradient: impl FnMut(),
+) -> u64 {
     assert!(run.take_steps(20).is_ok());
     let begin = run.statistics().gradients;
     assert!(run.take_steps(100).is_ok());
@@ -138,9 +144,8 @@ where
     group.bench_function(BenchmarkId::new("a step", n), |bencher| {
         bencher.iter(|| assert!(run.advance().is_ok()));
     });
-    let (q, mut force) = (wave(n, 0.0), vec![0.0; n]);
-    group.bench_function(BenchmarkId::new(format!("{evaluations} forces"), n), |bencher| {
-        bencher.iter(|| (0..evaluations).for_each(|_| system.force(black_box(&q), &[], 0.0, &mut force)));
+    group.bench_function(BenchmarkId::new(format!("{evaluations} gradients"), n), |bencher| {
+        bencher.iter(|| (0..evaluations).for_each(|_| gradient()));
     });
     group.finish();
     evaluations

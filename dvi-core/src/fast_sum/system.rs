@@ -127,6 +127,9 @@ where
     fn conjugate_entries(&self, q: &[f64], t: f64, a: f64, b: f64, out: &mut [f64]) {
         self.system.conjugate_entries(q, t, a, b, out);
     }
+    fn conjugates_end(&self, i: usize) -> usize {
+        DegenerateLagrangian::<f64>::conjugates_end(self.system, i)
+    }
     fn conjugate(&self, i: usize) -> usize {
         DegenerateLagrangian::<f64>::conjugate(self.system, i)
     }

@@ -5,7 +5,10 @@
 //! a = −b, which are multiples of Ω, have it already if the system is `CANONICAL`. Any other matrix is
 //! factored.
 
+use core::ops::Range;
+
 use crate::error::StepFailure;
+use crate::scalar::blocks::blocks;
 use crate::scalar::{Lanes, norm};
 use crate::space::sink::{Places, Product as ProductSink};
 use crate::space::square::SquareMatrix;
@@ -94,11 +97,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
         match self {
-            Self::Reciprocals(reciprocals) => {
-                for (j, (x, &reciprocal)) in x.iter_mut().zip(reciprocals.iter()).enumerate() {
-                    *x = rhs[system.conjugate(j)] * reciprocal;
-                }
-            }
+            Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
             // Never built for such a system; saying so keeps elimination out of its steps.
             Self::Factors(..) if S::MATCHING => {}
             Self::Factors(matrix, _) => {
@@ -109,7 +108,56 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 }
 
+/// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of the conjugates.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn divide<S: DegenerateLagrangian<T>, T: Real>(
+    system: &S,
+    reciprocals: &[T],
+    rhs: &[T],
+    (first, x): (usize, &mut [T]),
+) {
+    if <S::Space as Space>::ON_STACK {
+        for (j, (x, &reciprocal)) in (first..).zip(x.iter_mut().zip(&reciprocals[first..])) {
+            *x = rhs[system.conjugate(j)] * reciprocal;
+        }
+        return;
+    }
+    let (mut j, past) = (first, first + x.len());
+    while j < past {
+        let (end, conjugate) = (system.conjugates_end(j).min(past), system.conjugate(j));
+        let x = &mut x[j - first..end - first];
+        let conjugates = &rhs[conjugate..conjugate + x.len()];
+        for ((x, &entry), &reciprocal) in x.iter_mut().zip(conjugates).zip(&reciprocals[j..end]) {
+            *x = entry * reciprocal;
+        }
+        j = end;
+    }
+}
+
 impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
+    /// Gives the solution x, as of [`solve`](Self::solve), to `take`, block by block.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn solve_in_blocks(
+        &self,
+        system: &S,
+        rhs: &[T],
+        x: &mut [T],
+        mut take: impl FnMut(Range<usize>, &[T]),
+    ) {
+        let reciprocals = match self {
+            Self::Reciprocals(reciprocals) if !<S::Space as Space>::ON_STACK => reciprocals,
+            Self::Reciprocals(_) | Self::Factors(..) => {
+                self.solve(system, rhs, x);
+                return take(0..x.len(), x);
+            }
+        };
+        for block in blocks(x.len()) {
+            let x = &mut x[..block.len()];
+            divide(system, reciprocals, rhs, (block.start, x));
+            take(block, x);
+        }
+    }
+
     /// One over the only entry of each column, if that is what the inverse is.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn reciprocals(&self) -> Option<&[T]> {

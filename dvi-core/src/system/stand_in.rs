@@ -50,6 +50,9 @@ impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> DegenerateLagrangian<T> 
     fn one_form(&self, _: &[T], _: T, _: &mut [T]) {}
     fn one_form_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: T, _: T, _: &mut K) {}
     fn conjugate_entries(&self, _: &[T], _: T, _: T, _: T, _: &mut [T]) {}
+    fn conjugates_end(&self, i: usize) -> usize {
+        i + 1
+    }
     fn conjugate(&self, i: usize) -> usize {
         i
     }

@@ -130,7 +130,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let (read, offsets) = (emitter.read(&programs.one_form_jacobian), emitter.offsets());
     let jacobian = emitter.body(&programs.one_form_jacobian);
     let conjugate_entries = emitter.vector(&programs.conjugate_entries);
-    let conjugate = conjugate(emitter, structure);
+    let [conjugate, conjugates_end] = conjugates(emitter, structure);
     let indices = 0..programs.momentum_gradients.len();
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
     let affine = linear.then(|| in_numbers(emitter, &quote!(AffineOneForm), &TokenStream::new()));
@@ -165,6 +165,8 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             }
             #ForceInline
             fn conjugate(&self, __i: usize) -> usize { #conjugate }
+            #ForceInline
+            fn conjugates_end(&self, __i: usize) -> usize { #conjugates_end }
             #[inline]
             fn momentum_gradient(
                 &self, __index: usize, __q: &[__T], __t: __T, __vector: &mut [__T],
@@ -278,17 +280,21 @@ fn place(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
     quote!(#(#cases)* __coordinate)
 }
 
-/// Block by block: `if i < end { return i − offset + conjugate's offset }`.
-fn conjugate(emitter: &Emitter<'_>, structure: &OneForm) -> TokenStream {
+/// Block by block: `if i < end { return i − offset + conjugate's offset }` and `if i < end { return end }`.
+fn conjugates(emitter: &Emitter<'_>, structure: &OneForm) -> [TokenStream; 2] {
     let model = emitter.model;
     let mut offsets = vec![Index::default()];
     for block in 0..model.blocks.len() {
         offsets.push(offsets[block].plus(&model.block_size(block), 1));
     }
+    let ends = (0..model.blocks.len()).map(|block| {
+        let end = emitter.index(&offsets[block + 1]);
+        quote!(if __i < #end { return #end; })
+    });
     let cases = structure.conjugates.iter().enumerate().map(|(block, conjugate)| {
         let end = emitter.index(&offsets[block + 1]);
         let (from, to) = (emitter.index(&offsets[block]), emitter.index(&offsets[*conjugate]));
         quote!(if __i < #end { return __i - (#from) + (#to); })
     });
-    quote!(#(#cases)* __i)
+    [quote!(#(#cases)* __i), quote!(#(#ends)* __i + 1)]
 }

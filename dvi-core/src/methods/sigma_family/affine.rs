@@ -14,12 +14,13 @@ use crate::error::StepFailure;
 use crate::mechanics::combination::Inverse;
 use crate::methods::Clock;
 use crate::scalar::norm;
+use crate::scalar::simd::widest_if;
 use crate::solve::{Convergence, Guess, iterate};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
 use crate::state::summation::{Carried, Summation};
-use crate::{DegenerateLagrangian, Linear, Real, Vector};
+use crate::{DegenerateLagrangian, Linear, Real, Space, Vector};
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
@@ -160,6 +161,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     /// s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        widest_if(
+            !<S::Space as Space>::ON_STACK,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            || self.repeat(statistics),
+        )
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn repeat(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
         let (sigma, node_time) = (step.method.sigma, step.node_time());
         let node = &mut l_d.work;
@@ -180,15 +190,32 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             &work.next
         };
         let convergence = Convergence::fixed_point(step.method.stopping, scale, q, *budget);
-        iterate(convergence, statistics, |statistics| {
-            for ((point, &origin), &s) in point.iter_mut().zip(origin.iter()).zip(increment.iter()) {
-                *point = origin + sigma * s;
-            }
-            step.system.hamiltonian_gradient(point, node_time, gradient);
-            statistics.gradients += 1;
-            inverse.solve(step.system, gradient, trial);
-            Ok(norm::renew(increment, trial))
-        })?;
+        // Long vectors are passed over once: each block of the next point is placed as soon as its s is known.
+        let is_long = !<S::Space as Space>::ON_STACK;
+        if is_long {
+            place([origin, increment], sigma, point);
+        }
+        iterate(
+            convergence,
+            statistics,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |statistics| {
+                if !is_long {
+                    place([origin, increment], sigma, point);
+                }
+                step.system.hamiltonian_gradient(point, node_time, gradient);
+                statistics.gradients += 1;
+                let mut largest = T::lift(0.0);
+                inverse.solve_in_blocks(step.system, gradient, trial, |block, s| {
+                    let (origin, increment) = (&origin[block.clone()], &mut increment[block.clone()]);
+                    largest = norm::larger(largest, norm::renew(increment, s));
+                    if is_long {
+                        place([origin, increment], sigma, &mut point[block]);
+                    }
+                });
+                Ok(largest)
+            },
+        )?;
         work.increment.copy_from_slice(increment);
         node.gradient.copy_from_slice(gradient);
         norm::finite(increment)
@@ -262,6 +289,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             }
         }
         Ok(())
+    }
+}
+
+/// Sets `point` to `origin` + σs.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn place<T: Real>([origin, s]: [&[T]; 2], sigma: T, point: &mut [T]) {
+    for ((point, &origin), &s) in point.iter_mut().zip(origin).zip(s) {
+        *point = origin + sigma * s;
     }
 }
 
