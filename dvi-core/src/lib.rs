@@ -101,7 +101,7 @@
 //! - `mpi`: ensembles over the processes of an MPI program; needs MPI on the system, and libclang to build. Implies `ensembles`.
 //! - `random` (default): methods with noise.
 //! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when
-//!   the program runs. Without it, those that the program is compiled for.
+//!   the program runs. Without it, and in builds with debug assertions, those that the program is compiled for.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -206,13 +206,19 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
                 step.system.hamiltonian_gradient(point, node_time, gradient);
                 statistics.gradients += 1;
                 let mut largest = T::lift(0.0);
-                inverse.solve_in_blocks(step.system, gradient, trial, |block, s| {
-                    let (origin, increment) = (&origin[block.clone()], &mut increment[block.clone()]);
-                    largest = norm::larger(largest, norm::renew(increment, s));
-                    if is_long {
-                        place([origin, increment], sigma, &mut point[block]);
-                    }
-                });
+                inverse.solve_in_blocks(
+                    step.system,
+                    gradient,
+                    trial,
+                    #[cfg_attr(not(debug_assertions), inline(always))]
+                    |block, s| {
+                        let (origin, increment) = (&origin[block.clone()], &mut increment[block.clone()]);
+                        largest = norm::larger(largest, norm::renew(increment, s));
+                        if is_long {
+                            place([origin, increment], sigma, &mut point[block]);
+                        }
+                    },
+                );
                 Ok(largest)
             },
         )?;
