@@ -9,7 +9,7 @@ mod fput_by_hand;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
+use dvi_core::{DegenerateLagrangian, Lagrangian};
 use std::hint::black_box;
 
 /// Toda's chain between walls.

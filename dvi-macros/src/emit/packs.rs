@@ -46,7 +46,7 @@ use crate::symbolic::{Coordinate, Fold, Index, Loop, Node, Parameter, Unary};
 /// A range whose bounds are literals and that has fewer terms is not worth it.
 const FEWEST: i64 = 16;
 /// Entries as far apart, the terms of a pack, do not wait.
-const APART: i64 = 8;
+const APART: u64 = 8;
 
 /// What a statement adds to the entries of an array, in packs.
 struct Addition<'a> {
@@ -252,13 +252,13 @@ impl Function<'_> {
         additions.sort_by_key(|addition| Reverse(addition.index.constant));
         let mut first: Vec<((Output, u32), i64)> = Vec::new();
         for Addition { array, index, behind, .. } in additions.iter_mut().rev() {
-            match first.iter().find(|(known, _)| known == array) {
-                None => first.push((*array, index.constant)),
-                Some((_, constant)) if index.constant - constant < APART => {
-                    *behind = index.constant.abs_diff(*constant);
-                    index.constant = *constant;
-                }
-                Some(_) => {}
+            let Some((_, constant)) = first.iter().find(|(known, _)| known == array) else {
+                first.push((*array, index.constant));
+                continue;
+            };
+            let apart = index.constant.abs_diff(*constant);
+            if apart < APART {
+                (*behind, index.constant) = (apart, *constant);
             }
         }
         additions
@@ -290,6 +290,7 @@ impl Function<'_> {
         let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
         if *behind == 0 { TokenStream::new() } else { quote!(#waiting.#add(#array, #index);) }
     }
+
     /// The registers that the body of a loop reads and does not compute.
     fn read_from_outside(&self, folds: &[Accumulated], body: &[Step]) -> Vec<Register> {
         let code = &self.routine.code;
