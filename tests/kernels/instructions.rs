@@ -2,8 +2,8 @@
 //!
 //! `cargo bench -p dvi-kernels --bench instructions`. The program runs itself under
 //! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up. It fails if a generated
-//! step takes more instructions than `instructions.csv` allows. It also prints the bits of runs that use the widest instructions of
-//! the processor.
+//! step takes more instructions than `instructions.csv` allows. It also prints the bits of gradients that use the widest
+//! instructions of the processor.
 
 #![allow(clippy::print_stdout)]
 
@@ -24,13 +24,7 @@ fn main() -> ExitCode {
         std::hint::black_box(kernels::run(kernel, steps));
         return ExitCode::SUCCESS;
     }
-    match kernels::wide::runs() {
-        Ok(bits) => println!("{WIDE}{}", text_of(&bits)),
-        Err(error) => {
-            println!("{error}");
-            return ExitCode::FAILURE;
-        }
-    }
+    println!("{WIDE}{}", text_of(&kernels::wide::bits()));
     let pinned = pinned::rows();
     let mut exceeded = Vec::new();
     println!("{:<36} {:>10} {:>10} {:>7} {:>10}", "step", "generated", "by hand", "ratio", "pinned");
