@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p dvi-kernels --bench instructions`. The program runs itself under
 //! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up. It fails if a generated
-//! step takes more instructions than `instructions.csv` allows. It also prints the bits of gradients that use the widest
+//! step takes more instructions than `instructions.csv` allows. It also prints a hash of gradients that use the widest
 //! instructions of the processor.
 
 #![allow(clippy::print_stdout)]
@@ -11,7 +11,7 @@ mod pinned;
 mod printed;
 
 use dvi_kernels as kernels;
-use printed::{WIDE, text_of};
+use printed::{WIDE, hash_of};
 use std::process::{Child, Command, ExitCode, Stdio};
 
 const STEPS: [u64; 2] = [1000, 2000];
@@ -24,7 +24,7 @@ fn main() -> ExitCode {
         std::hint::black_box(kernels::run(kernel, steps));
         return ExitCode::SUCCESS;
     }
-    println!("{WIDE}{}", text_of(&kernels::wide::bits()));
+    println!("{WIDE}{}", hash_of(&kernels::wide::bits()));
     let pinned = pinned::rows();
     let mut exceeded = Vec::new();
     println!("{:<36} {:>10} {:>10} {:>7} {:>10}", "step", "generated", "by hand", "ratio", "pinned");

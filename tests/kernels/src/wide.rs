@@ -2,17 +2,7 @@
 
 use dvi_core::DegenerateLagrangian;
 use dvi_core::prelude::*;
-
-/// Vortices, of which there may be enough to take their pairs in halves.
-#[degenerate_lagrangian(
-    coordinates(x[gamma.len()], y[gamma.len()]),
-    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
-        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
-)]
-struct Cloud {
-    gamma: Vec<f64>,
-}
+use dvi_tests::systems::ManyVortices;
 
 /// A chain of Fermi, Pasta, Ulam and Tsingou.
 #[lagrangian(
@@ -25,8 +15,9 @@ struct Chain {
     alpha: f64,
 }
 
+/// Numbers between −1 and 1, no two of which are equal.
 fn numbers(count: usize, seed: usize) -> Vec<f64> {
-    (0..count).map(|j| ((31 * j + 17 * seed) % 101) as f64 / 50.0 - 1.0).collect()
+    (0..count).map(|j| ((31 * j + 17 * seed) * 631 % 10_007) as f64 / 5003.5 - 1.0).collect()
 }
 
 /// The bits of gradients and forces: of many vortices, whose pairs are taken in halves, of few, and of a chain.
@@ -35,7 +26,7 @@ pub fn bits() -> Vec<u64> {
     for count in [600, 21] {
         let gamma = numbers(count, 1).into_iter().map(|gamma| 1.5 + gamma).collect();
         let mut gradient = vec![0.0; 2 * count];
-        Cloud { gamma }.hamiltonian_gradient(&numbers(2 * count, 2), 0.0, &mut gradient);
+        ManyVortices { gamma }.hamiltonian_gradient(&numbers(2 * count, 2), 0.0, &mut gradient);
         bits.extend(gradient.into_iter().map(f64::to_bits));
     }
     let (chain, mut force) = (Chain { n: 301, alpha: 0.25 }, vec![0.0; 301]);
