@@ -87,7 +87,7 @@ use crate::discrete::TwiceDifferentiable;
 use crate::methods::{InStep, Method, VariationalMethod};
 use crate::run::Together;
 use plan::Plan;
-use rounds::{Checkpoints, Rounds};
+use rounds::{Checkpoints, Rounds, Work};
 use settings::{Settings, Systems};
 
 pub use draws::{Draw, Draws};
@@ -268,8 +268,13 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             checkpoints.path = self.shard.path(&checkpoints.path);
         }
         let checkpoints = self.checkpoints.as_ref();
-        let rounds = Rounds::begin(plan, self.shard, count, checkpoints)?;
-        rounds.run(&self.settings, checkpoints, self.on_progress)
+        let rounds = Rounds::begin(plan, self.shard, checkpoints)?;
+        let settings = &self.settings;
+        let work = Work {
+            group: settings.group(),
+            advance: &|group, is_interrupted| settings.advance(group, count, is_interrupted),
+        };
+        rounds.run(&work, checkpoints, self.on_progress)
     }
 }
 

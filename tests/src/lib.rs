@@ -17,6 +17,11 @@ pub fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
+/// Numbers as bits, so that zeros have signs and what is no number is equal to itself.
+pub fn bits(x: &[f64]) -> Vec<u64> {
+    x.iter().map(|x| x.to_bits()).collect()
+}
+
 /// Numbers in (−1, 1) from a linear congruential generator.
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers(pub u64);

@@ -5,6 +5,7 @@ use dvi_core::error::CheckpointError;
 use dvi_core::methods::{General, Method, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
+use dvi_tests::bits;
 use dvi_tests::configurations::{leapfrogging, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
@@ -31,8 +32,7 @@ fn written_and_read(checkpoint: &Checkpoint) -> Result<Checkpoint, serde_json::E
 
 /// What can be asked of a run, numbers as bits.
 fn asked<R: Run<Scalar = f64>>(run: &R) -> (Vec<u64>, u64, u64, dvi_core::state::Statistics, Checkpoint) {
-    let bits = run.q().iter().map(|x| x.to_bits()).collect();
-    (bits, run.time().to_bits(), run.energy().to_bits(), run.statistics(), run.checkpoint())
+    (bits(run.q()), run.time().to_bits(), run.energy().to_bits(), run.statistics(), run.checkpoint())
 }
 
 fn check<S, M>(system: &S, method: M, start: S::State<f64>) -> Outcome

@@ -7,6 +7,7 @@ use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::state::Statistics;
 use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian, Space, System, Varied};
+use dvi_tests::bits;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::functions::*;
@@ -19,10 +20,6 @@ use dvi_tests::zoo::shapes::*;
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 const W: usize = 5;
-
-fn bits(x: &[f64]) -> Vec<u64> {
-    x.iter().map(|x| x.to_bits()).collect()
-}
 
 /// Points near `q`, another in each lane.
 fn points(q: &[f64]) -> (Vec<Lanes<W>>, [Vec<f64>; W]) {
@@ -37,13 +34,11 @@ fn times() -> Lanes<W> {
     Lanes(core::array::from_fn(|lane| 0.3 + 0.1 * lane as f64))
 }
 
+/// Of a point and the time.
+type Function<'f, T> = &'f dyn Fn(&[T], T, &mut [T]);
+
 /// Compares what `together` sets its output to with what `alone` does in each lane.
-fn compare(
-    q: &[f64],
-    what: &str,
-    together: impl Fn(&[Lanes<W>], Lanes<W>, &mut [Lanes<W>]),
-    alone: impl Fn(&[f64], f64, &mut [f64]),
-) {
+fn compare(q: &[f64], what: &str, together: Function<'_, Lanes<W>>, alone: Function<'_, f64>) {
     let (packs, points) = points(q);
     let mut found = vec![Lanes::all(0.0); q.len()];
     together(&packs, times(), &mut found);
@@ -57,24 +52,19 @@ fn compare(
 
 fn formulas_in_lanes<S: DegenerateLagrangian + DegenerateLagrangian<Lanes<W>>>(system: &S, q: &[f64]) {
     let name = S::REPORT.system;
-    compare(
-        q,
-        &format!("∇H of {name}"),
-        |q, t, out| system.flow_source(q, t, out),
-        |q, t, out| system.flow_source(q, t, out),
-    );
-    compare(
-        q,
-        &format!("α of {name}"),
-        |q, t, out| system.one_form(q, t, out),
-        |q, t, out| system.one_form(q, t, out),
-    );
-    compare(
-        q,
-        &format!("H of {name}"),
-        |q, t, out| out[0] = system.hamiltonian(q, t),
-        |q, t, out| out[0] = system.hamiltonian(q, t),
-    );
+    macro_rules! compare {
+        ($what:literal, |$q:ident, $t:ident, $out:ident| $statement:expr) => {
+            compare(
+                q,
+                &format!("{} of {name}", $what),
+                &|$q, $t, $out: &mut [_]| $statement,
+                &|$q, $t, $out: &mut [_]| $statement,
+            );
+        };
+    }
+    compare!("∇H", |q, t, out| system.flow_source(q, t, out));
+    compare!("α", |q, t, out| system.one_form(q, t, out));
+    compare!("H", |q, t, out| out[0] = system.hamiltonian(q, t));
 }
 
 #[test]
@@ -95,7 +85,7 @@ fn history<S: Lagrangian, M: Method<S, f64>>(
     [q0, v0]: [&[f64]; 2],
     h: f64,
 ) -> Result<(Vec<u64>, Statistics), Box<dyn core::error::Error>> {
-    let [mut q, mut v] = [0, 1].map(|_| system.space().vector());
+    let (mut q, mut v) = (system.space().vector(), system.space().vector());
     q.copy_from_slice(q0);
     let (t, mut passed, mut statistics) = (0.2, Vec::new(), Statistics::default());
     let mut memory = method.begin(system, &q, v0, t, h)?;
@@ -104,7 +94,7 @@ fn history<S: Lagrangian, M: Method<S, f64>>(
         let taken = method.step(system, &mut memory, &mut q, now, h, &mut statistics);
         taken.map_err(|failure| format!("{} at step {step}: {failure}", S::REPORT.system))?;
         method.velocity(system, &memory, &q, now + h, &mut v)?;
-        passed.extend(q.iter().chain(v.iter()).map(|x| x.to_bits()));
+        passed.extend([bits(&q), bits(&v)].concat());
     }
     Ok((passed, statistics))
 }

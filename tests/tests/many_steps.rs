@@ -2,6 +2,7 @@
 
 use dvi_core::DegenerateLagrangian;
 use dvi_core::prelude::*;
+use dvi_tests::bits;
 use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
 
@@ -28,7 +29,6 @@ fn check<S: DegenerateLagrangian>(
         }
         assert_eq!(found, failure, "in pieces of {piece}");
         assert_eq!(pieces.statistics(), single.statistics(), "in pieces of {piece}");
-        let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(pieces.q()), bits(single.q()), "in pieces of {piece}");
         assert_eq!(bits(pieces.memory().defect()), bits(single.memory().defect()), "in pieces of {piece}");
     }

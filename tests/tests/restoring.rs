@@ -4,6 +4,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::state::{Memory, Statistics};
 use dvi_core::{Lagrangian, Space};
+use dvi_tests::bits;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::gauges::OneSided;
@@ -43,7 +44,6 @@ fn check<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, q0: &[f64], v0
             let now = t + f64::from(step) * h;
             method.step(system, &mut kept, &mut q, now, h, &mut statistics)?;
             method.step(system, &mut other, &mut same, now, h, &mut statistics)?;
-            let bits = |q: &[f64]| q.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&q), bits(&same), "step {step} after {before}");
         }
     }

@@ -6,6 +6,7 @@ use dvi_core::prelude::*;
 use dvi_core::run::Together;
 use dvi_core::scalar::Lanes;
 use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
+use dvi_tests::bits;
 use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::*;
@@ -45,8 +46,7 @@ fn check<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq 
                 );
             }
             assert_eq!(one.statistics(), other.statistics(), "run {j}");
-            let bits = |run: &Integrator<'_, S, M>| run.q().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(one), bits(other), "run {j}");
+            assert_eq!(bits(one.q()), bits(other.q()), "run {j}");
         }
     }
     Ok(errors)

@@ -74,7 +74,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         &self,
         group: &mut [Slot],
         count: u64,
-        is_interrupted: impl Fn() -> bool,
+        is_interrupted: &dyn Fn() -> bool,
     ) -> Result<(), EnsembleError> {
         let mut runners = Vec::with_capacity(group.len());
         for slot in group {

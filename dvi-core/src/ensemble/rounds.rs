@@ -13,13 +13,19 @@ use super::error::EnsembleError;
 use super::file;
 use super::group::{Place, Slot};
 use super::plan::Plan;
-use super::settings::Settings;
-use super::{Outcome, Progress, Results, Shard};
-use crate::Lagrangian;
-use crate::methods::Method;
+use super::{Outcome, Progress, Results, Shard, Tell};
 
 /// How often progress is told.
 const PROGRESS: Duration = Duration::from_secs(1);
+
+/// What is done in a round, whatever the systems and the method are.
+pub(super) struct Work<'w> {
+    /// So many members go together.
+    pub(super) group: usize,
+    /// Takes the members of a group on, until they have ended or this says that they are interrupted.
+    #[allow(clippy::type_complexity)]
+    pub(super) advance: &'w (dyn Fn(&mut [Slot], &dyn Fn() -> bool) -> Result<(), EnsembleError> + Sync),
+}
 
 /// The file of a checkpoint, and how often it is written.
 pub(super) struct Checkpoints {
@@ -31,7 +37,6 @@ pub(super) struct Checkpoints {
 pub(super) struct Rounds {
     pub(super) plan: Plan,
     pub(super) shard: Shard,
-    pub(super) steps: u64,
     pub(super) slots: Vec<Slot>,
 }
 
@@ -40,14 +45,13 @@ impl Rounds {
     pub(super) fn begin(
         plan: Plan,
         shard: Shard,
-        steps: u64,
         checkpoints: Option<&Checkpoints>,
     ) -> Result<Self, EnsembleError> {
         let saved = checkpoints.map(|Checkpoints { path, .. }| Ok((path, file::read(path)?))).transpose()?;
         let Some((path, Some(saved))) = saved else {
             let slots =
                 (0..plan.members).filter(|&member| shard.contains(member)).map(Slot::waiting).collect();
-            return Ok(Self { plan, shard, steps, slots });
+            return Ok(Self { plan, shard, slots });
         };
         let of_shard = super::error::Difference {
             what: "shard".into(),
@@ -57,22 +61,17 @@ impl Rounds {
         let other_shard = (saved.shard() != shard).then_some(of_shard);
         match plan.difference(&saved.plan).or(other_shard) {
             Some(difference) => Err(EnsembleError::Foreign { path: path.clone(), difference }),
-            None => Ok(Self { plan, shard, steps, slots: saved.slots }),
+            None => Ok(Self { plan, shard, slots: saved.slots }),
         }
     }
 
     /// Goes on until all members have ended.
-    pub(super) fn run<S, M>(
+    pub(super) fn run(
         mut self,
-        settings: &Settings<'_, S, M>,
+        work: &Work<'_>,
         checkpoints: Option<&Checkpoints>,
-        mut on_progress: Option<impl FnMut(&Progress)>,
-    ) -> Result<Results, EnsembleError>
-    where
-        S: Lagrangian + Sync,
-        S::State<f64>: Sync,
-        M: Method<S, f64> + Clone + Sync,
-    {
+        mut on_progress: Option<Tell<'_>>,
+    ) -> Result<Results, EnsembleError> {
         // A path that cannot be written to shows before the work is done.
         self.write(checkpoints)?;
         let mut written = Instant::now();
@@ -80,7 +79,7 @@ impl Rounds {
             self.tell(&mut on_progress);
             let rest = checkpoints.map(|checkpoints| checkpoints.every.saturating_sub(written.elapsed()));
             let length = on_progress.as_ref().map(|_| PROGRESS).into_iter().chain(rest).min();
-            self.round(settings, length)?;
+            self.round(work, length)?;
             if checkpoints.is_some_and(|checkpoints| written.elapsed() >= checkpoints.every) {
                 self.write(checkpoints)?;
                 written = Instant::now();
@@ -92,25 +91,15 @@ impl Rounds {
     }
 
     /// Takes members on until they have ended or, if the round has a `length`, it is over. In each round at least one of them gets on.
-    fn round<S, M>(
-        &mut self,
-        settings: &Settings<'_, S, M>,
-        length: Option<Duration>,
-    ) -> Result<(), EnsembleError>
-    where
-        S: Lagrangian + Sync,
-        S::State<f64>: Sync,
-        M: Method<S, f64> + Clone + Sync,
-    {
+    fn round(&mut self, work: &Work<'_>, length: Option<Duration>) -> Result<(), EnsembleError> {
         let begin = Instant::now();
         let is_over = || length.is_some_and(|length| begin.elapsed() >= length);
         let has_begun = AtomicBool::new(false);
-        let steps = self.steps;
-        self.slots.par_chunks_mut(settings.group()).with_max_len(1).try_for_each(|group| {
+        self.slots.par_chunks_mut(work.group).with_max_len(1).try_for_each(|group| {
             if group.iter().all(Slot::has_ended) || (has_begun.swap(true, Ordering::Relaxed) && is_over()) {
                 return Ok(());
             }
-            settings.advance(group, steps, is_over)
+            (work.advance)(group, &is_over)
         })
     }
 
@@ -123,7 +112,7 @@ impl Rounds {
             .map_or(Ok(()), |Checkpoints { path, .. }| file::write(path, &self.plan, self.shard, &self.slots))
     }
 
-    fn tell(&self, on_progress: &mut Option<impl FnMut(&Progress)>) {
+    fn tell(&self, on_progress: &mut Option<Tell<'_>>) {
         let Some(on_progress) = on_progress else { return };
         let mut progress = Progress { members: self.slots.len() as u64, ..Progress::default() };
         for slot in &self.slots {

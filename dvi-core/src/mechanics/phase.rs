@@ -63,7 +63,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         system.gradient(q, v, t, &mut force, &mut p);
         norm::finite(&p).and(norm::finite(&force)).map_err(StartError::Starter)?;
         mean.copy_from_slice(v);
-        let carried = [0, 1].map(|_| Carried::new(system, summation));
+        let carried = [Carried::new(system, summation), Carried::new(system, summation)];
         Ok(Self { p, force, history: History::new(system, Some(mean)), last_step: T::lift(0.0), carried })
     }
 

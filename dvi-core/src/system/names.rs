@@ -5,21 +5,45 @@ use crate::name::Name;
 
 /// The names of all entries of the states of `system`, coordinates first, each with its place among the coordinates or among the
 /// velocities.
-pub(crate) fn entries<S: System>(system: &S) -> impl Iterator<Item = (Name, usize)> {
-    let halves: &[bool] = if S::REGULAR { &[false, true] } else { &[false] };
-    halves.iter().flat_map(move |&is_velocity| {
-        let mut first = 0;
-        S::REPORT.coordinates.iter().enumerate().flat_map(move |(number, block)| {
-            let &CoordinateBlock { name: block, size, factor } = block;
-            let coordinates = system.block_len(number);
+pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
+    Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
+}
+
+/// Stands before an entry.
+pub(crate) struct Entries<'a, S> {
+    system: &'a S,
+    is_velocity: bool,
+    /// The number of a block of coordinates, and the place of its first one.
+    block: usize,
+    first: usize,
+    /// The place within the block.
+    index: usize,
+}
+
+impl<S: System> Iterator for Entries<'_, S> {
+    type Item = (Name, usize);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let Some(&CoordinateBlock { name, size, factor }) = S::REPORT.coordinates.get(self.block) else {
+                if self.is_velocity || !S::REGULAR {
+                    return None;
+                }
+                *self = Self { is_velocity: true, ..entries(self.system) };
+                continue;
+            };
+            let &mut Self { system, is_velocity, block, first, index } = self;
+            let coordinates = system.block_len(block);
             let count = if is_velocity { factor.velocities(coordinates) } else { coordinates };
-            let begin = first;
-            first += coordinates;
-            let is_array = !size.is_empty();
-            (0..count).map(move |index| {
-                let name = Name { block, is_velocity, index: is_array.then_some(index), factor };
-                (name, begin + index)
-            })
-        })
-    })
+            if index < count {
+                self.index += 1;
+                let index_in_array = (!size.is_empty()).then_some(index);
+                return Some((
+                    Name { block: name, is_velocity, index: index_in_array, factor },
+                    first + index,
+                ));
+            }
+            (self.block, self.first, self.index) = (block + 1, first + coordinates, 0);
+        }
+    }
 }

@@ -69,7 +69,7 @@ impl Random {
 }
 
 /// Values of f and the derivative of each by each of q, then by t: `derivatives[f][variable]`.
-pub(crate) fn differentiated(q: &[f64], t: f64, f: impl Fn(&[Dual64], Dual64) -> Vec<Dual64>) -> Jacobian {
+pub(crate) fn differentiated(q: &[f64], t: f64, f: &dyn Fn(&[Dual64], Dual64) -> Vec<Dual64>) -> Jacobian {
     let n = q.len();
     let columns: Vec<Vec<Dual64>> = (0..=n)
         .map(|along| {
@@ -96,7 +96,7 @@ pub(crate) struct Expansion {
     pub(crate) hessian: Vec<f64>,
 }
 
-pub(crate) fn expanded(variables: &[f64], f: impl Fn(&[HyperDual64]) -> HyperDual64) -> Expansion {
+pub(crate) fn expanded(variables: &[f64], f: &dyn Fn(&[HyperDual64]) -> HyperDual64) -> Expansion {
     let n = variables.len();
     let unit = |on: bool| f64::from(u8::from(on));
     let mut expansion = Expansion { value: 0.0, gradient: vec![0.0; n], hessian: vec![0.0; n * n] };
@@ -161,7 +161,7 @@ pub(crate) fn agrees<S: ByHand>(system: &S) {
 pub(crate) fn lagrangian<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Random) {
     let (q, n) = (place.q, place.q.len());
     let variables = [q, v].concat();
-    let expected = expanded(&variables, |z| system.action(&z[..n], &z[n..], HyperDual64::from(t)));
+    let expected = expanded(&variables, &|z| system.action(&z[..n], &z[n..], HyperDual64::from(t)));
     let [second, first] = [largest(&expected.hessian), largest(&expected.gradient)];
     let value = system.lagrangian(q, v, t);
     place.compare("L", &[value], &[expected.value], larger(first, expected.value.abs()));
@@ -186,7 +186,7 @@ pub(crate) fn lagrangian<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t:
     place.compare("linearize", &matrix, &sum, larger(larger(second, first), 1.0));
 
     // The generated formula itself on dual numbers: the graph before differentiation against after.
-    let itself = expanded(&variables, |z| system.lagrangian(&z[..n], &z[n..], HyperDual64::from(t)));
+    let itself = expanded(&variables, &|z| system.lagrangian(&z[..n], &z[n..], HyperDual64::from(t)));
     place.compare("L on dual numbers, first", &itself.gradient, &expected.gradient, larger(first, second));
     place.compare("L on dual numbers, second", &itself.hessian, &expected.hessian, larger(second, first));
 }
@@ -199,7 +199,8 @@ pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f6
     let (q, v, t) = (single(place.q), single(v), t as f32);
     let place = Place { q: &double(&q), epsilon: f64::from(f32::EPSILON), ..*place };
     let variables = [double(&q), double(&v)].concat();
-    let expected = expanded(&variables, |z| system.action(&z[..n], &z[n..], HyperDual64::from(f64::from(t))));
+    let expected =
+        expanded(&variables, &|z| system.action(&z[..n], &z[n..], HyperDual64::from(f64::from(t))));
     let scale = larger(largest(&expected.hessian), largest(&expected.gradient));
     let (mut l_q, mut l_v, mut matrix) = (vec![0.0; n], vec![0.0; n], vec![0.0; n * n]);
     let w = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
@@ -212,10 +213,10 @@ pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f6
 /// H, its gradient, and the right side of the flow.
 fn hamiltonian<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
     let (q, n) = (place.q, place.q.len());
-    let energy = differentiated(q, t, |q, t| vec![ByHand::energy(system, q, t)]);
-    let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
+    let energy = differentiated(q, t, &|q, t| vec![ByHand::energy(system, q, t)]);
+    let alpha = differentiated(q, t, &|q, t| system.alpha(q, t));
     let gradient = &energy.derivatives[0][..n];
-    let second = expanded(q, |q| ByHand::energy(system, q, HyperDual64::from(t))).hessian;
+    let second = expanded(q, &|q| ByHand::energy(system, q, HyperDual64::from(t))).hessian;
     let scale = larger(largest(gradient), energy.values[0].abs());
     place.compare("H", &[system.hamiltonian(q, t)], &energy.values, scale);
     let mut out = vec![f64::NAN; n];
@@ -232,7 +233,7 @@ fn hamiltonian<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
 /// α, a Dα + b (Dα)ᵀ, and its entries at the conjugates.
 fn one_form<S: ByHand>(system: &S, place: &Place<'_>, t: f64, random: &mut Random) {
     let (q, n) = (place.q, place.q.len());
-    let alpha = differentiated(q, t, |q, t| system.alpha(q, t));
+    let alpha = differentiated(q, t, &|q, t| system.alpha(q, t));
     let scale = larger(larger(largest(&alpha.derivatives.concat()), largest(&alpha.values)), 1.0);
     let mut out = vec![f64::NAN; n];
     system.one_form(q, t, &mut out);
@@ -259,14 +260,14 @@ fn momenta<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
     if S::REPORT.momenta.is_empty() {
         return;
     }
-    let expected = differentiated(q, t, |q, t| system.integrals(q, t));
+    let expected = differentiated(q, t, &|q, t| system.integrals(q, t));
     assert_eq!(expected.values.len(), S::REPORT.momenta.len());
     for (index, (value, derivatives)) in expected.values.iter().zip(&expected.derivatives).enumerate() {
         let scale = larger(largest(derivatives), value.abs());
         place.compare("momentum", &[system.momentum(index, q, &[], t)], &[*value], scale);
         let mut out = vec![f64::NAN; n];
         system.momentum_gradient(index, q, t, &mut out);
-        let second = expanded(q, |q| system.integrals(q, HyperDual64::from(t))[index]).hessian;
+        let second = expanded(q, &|q| system.integrals(q, HyperDual64::from(t))[index]).hessian;
         place.compare("momentum gradient", &out, &derivatives[..n], larger(largest(&second), scale));
     }
 }

@@ -21,7 +21,7 @@ fn observe<S: ByHand>(system: &S) -> Seen {
     let mut first: Option<Vec<f64>> = None;
     for _ in 0..POINTS {
         let (q, t) = (system.point(&mut random), random.between(-2.0, 2.0));
-        let rows = differentiated(&q, t, |q, t| system.alpha(q, t)).derivatives;
+        let rows = differentiated(&q, t, &|q, t| system.alpha(q, t)).derivatives;
         let matrix: Vec<f64> = rows.iter().flat_map(|row| row[..n].to_vec()).collect();
         for at in 0..n * n {
             let (entry, mirror) = (matrix[at], matrix[n * (at % n) + at / n]);

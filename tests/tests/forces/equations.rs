@@ -216,7 +216,7 @@ fn without_forces_runs_are_the_same_to_the_bit() -> Outcome {
     ) -> Result<Vec<u64>, Box<dyn core::error::Error>> {
         let mut run = Integrator::new(system, method, 0.05, start)?;
         run.take_steps(1000)?;
-        Ok(run.q().iter().map(|x| x.to_bits()).collect())
+        Ok(dvi_tests::bits(run.q()))
     }
     let [x, y, dot_x, dot_y] = Swirl::start();
     let (swirl, swirling) = (Swirl { swirl: 0.0 }, Swirl::state(Swirl::start()));

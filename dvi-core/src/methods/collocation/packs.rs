@@ -22,7 +22,8 @@ pub(in crate::methods) fn combine<const STAGES: usize, T: Real>(
     let (outs, out_left) = out.as_chunks_mut::<BLOCK>();
     let mut first = 0;
     for (packs, out) in blocks.iter().zip(outs) {
-        *out = combine_block(columns, packs, core::array::from_fn(|k| from(first + k)));
+        *out =
+            combine_block(columns, packs, [from(first), from(first + 1), from(first + 2), from(first + 3)]);
         first += BLOCK;
     }
     for (k, (pack, out)) in left.iter().zip(out_left).enumerate() {

@@ -100,6 +100,13 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         if r == NODES - 1 { self.left[j] } else { [self.point[j][r], self.velocity[j][r]] }
     }
 
+    /// The same times the weight of the node.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn weighted_direction(&self, j: usize, r: usize) -> [T; 2] {
+        let (w, [point, velocity]) = (self.weights[j], self.direction(j, r));
+        [w * point, w * velocity]
+    }
+
     /// Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ)
     fn sum(&self, r: usize, k: usize, z: T) -> T {
         (0..NODES).fold(T::lift(0.0), |sum, j| {

@@ -100,7 +100,7 @@ where
         step.system.gradient(point, velocity, step.node_time(rule.nodes()[j]), gradient, momentum);
         statistics.gradients += 1;
         for (r, residual) in residuals.iter_mut().enumerate() {
-            let [by_point, by_velocity] = coefficients.direction(j, r).map(|x| coefficients.weights[j] * x);
+            let [by_point, by_velocity] = coefficients.weighted_direction(j, r);
             for i in 0..residual.len() {
                 residual[i] += step.h * by_point * gradient[i] + by_velocity * momentum[i];
             }
@@ -140,7 +140,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
         let Self { step: Step { h, .. }, coefficients, j, .. } = *self;
-        let [by_point, by_velocity] = coefficients.direction(j, r).map(|x| coefficients.weights[j] * x);
+        let [by_point, by_velocity] = coefficients.weighted_direction(j, r);
         let (phi, psi) = (coefficients.point[j][k], coefficients.velocity[j][k]);
         Weights {
             qq: *h * by_point * phi,

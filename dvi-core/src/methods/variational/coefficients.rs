@@ -211,7 +211,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
         sink: &mut K,
     ) {
         let (w, Basis { b, b_bar, d, d_bar }) = (self.weights[node], self.bases[node]);
-        let [[r, r_dot], [c, c_dot]] = ends.map(|end| end.of([[b, d], [b_bar, d_bar]]));
+        let at_ends = [[b, d], [b_bar, d_bar]];
+        let ([r, r_dot], [c, c_dot]) = (ends[0].of(at_ends), ends[1].of(at_ends));
         let weights =
             Weights { qq: w * h * r * c, qv: w * r * c_dot, vq: w * r_dot * c, vv: w * r_dot * c_dot / h };
         system.linearize(point, velocity, t, weights, gradient, momentum, sink);
@@ -352,8 +353,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Each<S, T> {
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         let Self { weights, b, b_bar, d, d_bar, .. } = self;
         let NodeWork { point, velocity, gradient, momentum } = work;
-        let [[r, r_dot], [c, c_dot]] =
-            ends.map(|end| end.of([[&b[node], &d[node]], [&b_bar[node], &d_bar[node]]]));
+        let at_ends = [[&b[node], &d[node]], [&b_bar[node], &d_bar[node]]];
+        let ([r, r_dot], [c, c_dot]) = (ends[0].of(at_ends), ends[1].of(at_ends));
         let blocks = [
             (Weights { qq: one, ..none }, r, c, h),
             (Weights { qv: one, ..none }, r, c_dot, one),
@@ -384,8 +385,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Coefficients<T> for Each<S, T> {
         self.weights[node]
     }
     fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T> {
-        let [b, b_bar, d, d_bar] =
-            [&self.b, &self.b_bar, &self.d, &self.d_bar].map(|of_nodes| &of_nodes[node]);
+        let (b, b_bar, d, d_bar) = (&self.b[node], &self.b_bar[node], &self.d[node], &self.d_bar[node]);
         move |i| Basis { b: b[i], b_bar: b_bar[i], d: d[i], d_bar: d_bar[i] }
     }
     fn sums(&self) -> impl Fn(usize) -> Sums<T> {

@@ -48,7 +48,7 @@ pub(crate) fn agrees<S: Sampled>(system: &S, constants: [bool; 3]) {
 
 fn expansion<S: Action>(system: &S, q: &[f64], v: &[f64], t: f64) -> Expansion {
     let n = q.len();
-    expanded(&[q, v].concat(), |z| system.action(&z[..n], &z[n..], HyperDual64::from(t)))
+    expanded(&[q, v].concat(), &|z| system.action(&z[..n], &z[n..], HyperDual64::from(t)))
 }
 
 fn energy_and_force<S: Sampled>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
@@ -75,7 +75,7 @@ fn momenta<S: Sampled>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
     assert_eq!(expected.len(), S::REPORT.momenta.len());
     for (index, value) in expected.iter().enumerate() {
         let slopes =
-            expanded(&[q, v].concat(), |z| system.integrals(&z[..n], &z[n..], HyperDual64::from(t))[index]);
+            expanded(&[q, v].concat(), &|z| system.integrals(&z[..n], &z[n..], HyperDual64::from(t))[index]);
         let scale = larger(largest(&slopes.gradient), value.re.abs());
         place.compare("momentum", &[system.momentum(index, q, v, t)], &[value.re], scale);
     }
