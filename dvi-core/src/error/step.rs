@@ -295,3 +295,8 @@ pub struct StepError {
 /// The result of a step is returned through every call of a run: with failures of seven words in place of five, steps of
 /// phase-fitted schemes took 13 % to 16 % more instructions.
 const _: () = assert!(size_of::<StepFailure>() <= 40);
+
+impl StepFailure {
+    /// A matrix is asked for that is not made for systems of this class.
+    pub(crate) const NO_MATRIX: Self = Self::Singular { column: 0, pivot: f64::NAN };
+}

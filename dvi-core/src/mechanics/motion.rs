@@ -157,10 +157,10 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
     /// Whether the force depends on velocities, so that it is evaluated again where these have converged.
-    fn has_velocity_forces() -> bool {
-        false
-    }
-    /// 1/m for each coordinate, if p' is a force of positions and time alone and q' = p/m: the equations are q'' = f(q, t) then.
+    const HAS_VELOCITY_FORCES: bool = false;
+    /// Whether p' is a force of positions and time alone and q' = p/m: the equations are q'' = f(q, t) then.
+    const OF_SECOND_ORDER: bool = false;
+    /// 1/m for each coordinate, if the equations are of second order.
     fn reciprocal_masses(_equations: &Self::Equations) -> Option<&[T]> {
         None
     }

@@ -239,6 +239,9 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
         [t, h]: [T; 2],
         velocity: &mut [T],
     ) -> Result<(), StepFailure> {
+        if S::CONSTANT_MASS {
+            return Ok(());
+        }
         let Self::Varying(orientation) = self else { return Ok(()) };
         let per_h = T::lift(1.0) / h;
         for (v, &delta) in velocity.iter_mut().zip(increment) {
@@ -264,10 +267,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
                 mass.solve(&phase.p, v);
                 Ok(())
             }
-            Self::Varying(_) => {
+            // Not compiled where the mass is constant.
+            Self::Varying(_) if !S::CONSTANT_MASS => {
                 phase.history.extrapolate(v);
                 Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v, S::QUADRATIC)
             }
+            Self::Varying(_) => Err(StepFailure::NO_MATRIX),
         }
     }
 }

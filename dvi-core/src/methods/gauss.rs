@@ -270,7 +270,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         let convergence = Convergence::fixed_point(stopping, scale, q, stopping.max_iterations);
         let stages: Stages<'_, STAGES, E, S, T> = Stages { system, memory, t, h, evaluation: PhantomData };
         repeat(convergence, statistics, stages)?;
-        if S::Kind::has_velocity_forces() {
+        if S::Kind::HAS_VELOCITY_FORCES {
             // Those of the last iteration belong to the velocities before it.
             memory.reach(0);
             memory.evaluate_part::<E>(1, system, t, h, statistics)?;
@@ -298,8 +298,8 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { system, memory, t, h, .. } = self;
-        if let Some(change) = memory.improve_places::<E>(system, *t, *h, statistics)? {
-            return Ok(change);
+        if S::Kind::OF_SECOND_ORDER {
+            return memory.improve_places::<E>(system, *t, *h, statistics);
         }
         // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
         for part in (1..memory.y.len()).rev() {

@@ -176,10 +176,14 @@ struct Attempt<'a, S: System, F, R, T: Real> {
 impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        if self.step.method.needs_forces_only::<S, T>() && self.step.method.summation == Summation::Plain {
+        // What the class of the system excludes is not compiled for it.
+        let is_plain = self.step.method.summation == Summation::Plain;
+        if S::SEPARABLE && is_plain && self.step.method.needs_forces_only::<S, T>() {
             separable::step(&self.step, &mut self.parts, self.budget, statistics)
-        } else {
+        } else if S::CONSTANT_MASS && !F::PER_COORDINATE {
             general::by_fixed_point(&self.step, &mut self.parts, statistics)
+        } else {
+            Err(StepFailure::NO_MATRIX)
         }
     }
 
@@ -246,7 +250,10 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     {
         let step = Step { system, method: self, t, h };
         let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
-        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && S::SEPARABLE, &*inertial) {
+        if S::SEPARABLE
+            && F::UNFITTED
+            && let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial)
+        {
             if self.summation == Summation::Compensated {
                 statistics.gradients += 1;
                 return verlet::compensated(&step, mass, phase, work, q);
@@ -354,7 +361,10 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
     ) -> Result<(), StepFailure> {
         let VariationalMemory { phase, inertial, work, .. } = &mut *memory;
         let is_plain = self.summation == Summation::Plain;
-        if let (true, Inertial::Constant(mass)) = (self.is_verlet() && S::SEPARABLE && is_plain, &*inertial) {
+        if S::SEPARABLE
+            && F::UNFITTED
+            && let (true, Inertial::Constant(mass)) = (self.is_verlet() && is_plain, &*inertial)
+        {
             let (taken, result) = verlet::steps(system, mass, phase, work, q, clock, count);
             statistics.gradients += taken;
             statistics.steps += taken;

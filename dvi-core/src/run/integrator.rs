@@ -13,7 +13,7 @@ use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
 use crate::state::memory::Aside;
 use crate::system::start::{consistent, evaluate, flatten, velocities};
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System};
+use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
 ///
@@ -45,10 +45,7 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// # Errors
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
     pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
-        validate(system, t, h)?;
-        let [q, v] = flatten(system, &start)?;
-        evaluate(system, &q, &v, t)?;
-        consistent(system, &q, t)?;
+        let [q, v] = checked(system, t, h, &start)?;
         let begin = || method.begin(system, &q, &v[..velocities(system)], t, h);
         let (memory, kept) = (begin()?, Kept::for_transformed(&q, begin)?);
         Ok(Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h), kept })
@@ -92,10 +89,10 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
-        // Where the time is not transformed, the compiler leaves the question out.
-        let taken = match self.kept.as_mut().filter(|_| S::TIME_TRANSFORMED) {
-            Some(kept) => self.stepper.steps_forward(clock, count, kept),
-            None => self.stepper.steps(clock, count),
+        let taken = match &mut self.kept {
+            // Not compiled where the time is not transformed.
+            Some(kept) if S::TIME_TRANSFORMED => self.stepper.steps_forward(clock, count, kept),
+            Some(_) | None => self.stepper.steps(clock, count),
         };
         taken.map_err(|failure| self.error(failure))
     }
@@ -230,6 +227,20 @@ impl<S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Int
             .field("statistics", &self.stepper.statistics)
             .finish_non_exhaustive()
     }
+}
+
+/// The coordinates and velocities of a state that a run can begin from.
+fn checked<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    t: T,
+    h: T,
+    start: &S::State<T>,
+) -> Result<[Vector<S, T>; 2], StartError> {
+    validate(system, t, h)?;
+    let [q, v] = flatten(system, start)?;
+    evaluate(system, &q, &v, t)?;
+    consistent(system, &q, t)?;
+    Ok([q, v])
 }
 
 fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T, h: T) -> Result<(), StartError> {

@@ -57,10 +57,12 @@ impl<S: RegularLagrangian<T>, T: Real> Velocities<S, T> {
     fn velocity(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         match self {
             Self::Constant(mass) => mass.solve(p, v),
-            Self::Varying(Transform { legendre, latest, .. }) => {
+            // Not compiled where the mass is constant.
+            Self::Varying(Transform { legendre, latest, .. }) if !S::CONSTANT_MASS => {
                 legendre.solve(system, q, p, t, v, S::QUADRATIC)?;
                 latest.copy_from_slice(v);
             }
+            Self::Varying(_) => return Err(StepFailure::NO_MATRIX),
         }
         Ok(())
     }
@@ -105,6 +107,9 @@ impl<S: System, T: Real> Motion<S, T> for Regular {
 }
 
 impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
+    const HAS_VELOCITY_FORCES: bool = !S::SEPARABLE;
+    const OF_SECOND_ORDER: bool = S::SEPARABLE && S::DIAGONAL_MASS;
+
     fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<HamiltonsEquations<S, T>, StartError> {
         let [mut force, mut p, mut velocity, latest, between]: [Vector<S, T>; 5] = system.space().vectors();
         system.gradient(q, v, t, &mut force, &mut p);
@@ -165,9 +170,6 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         statistics.gradients += 1;
         Ok(())
     }
-    fn has_velocity_forces() -> bool {
-        !S::SEPARABLE
-    }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
         match &equations.inverse {
@@ -183,10 +185,10 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         t: T,
     ) -> Result<T, StepFailure> {
         match &mut equations.inverse {
-            Velocities::Constant(_) => Ok(T::lift(0.0)),
-            Velocities::Varying(Transform { legendre, velocity, .. }) => {
+            Velocities::Varying(Transform { legendre, velocity, .. }) if !S::CONSTANT_MASS => {
                 legendre.of_momentum_alone(system, [&y.0[0], velocity, &y.0[1]], t)
             }
+            Velocities::Constant(_) | Velocities::Varying(_) => Ok(T::lift(0.0)),
         }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -208,8 +210,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     ) -> Result<(), StepFailure> {
         let [arrival, momentum] = &y.0;
         norm::finite(arrival).and(norm::finite(momentum))?;
-        if let Velocities::Varying(Transform { legendre, orientation, velocity, latest, between }) =
-            &mut equations.inverse
+        if !S::CONSTANT_MASS
+            && let Velocities::Varying(Transform { legendre, orientation, velocity, latest, between }) =
+                &mut equations.inverse
         {
             // The velocity of the last stage leads to the one that belongs to the new momentum, if there is one.
             legendre.solve(system, arrival, momentum, t, latest, S::QUADRATIC)?;

@@ -198,6 +198,9 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let frequency = &step.method.frequency;
+        if F::UNFITTED {
+            return self.fit(frequency.fixed(0) * step.h);
+        }
         let ([start, end], Some(mass), Some(_)) =
             (&mut self.ends, self.inertial.constant(), frequency.reading())
         else {

@@ -118,8 +118,10 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
             |path, statistics| {
                 if S::SEPARABLE && F::UNFITTED {
                     eliminated::fixed_point(&step, path, q0, budget, statistics)
-                } else {
+                } else if S::SEPARABLE {
                     fitted::fixed_point(&step, path, q0, budget, statistics)
+                } else {
+                    Err(StepFailure::NO_MATRIX)
                 }
             },
             |path, newton, guess, statistics| {

@@ -19,6 +19,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     /// order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place(&mut self, h: T) -> Option<T> {
+        if !S::Kind::OF_SECOND_ORDER {
+            return None;
+        }
         let Self { equations, coefficients, terms, stages, y, rest, .. } = self;
         let reciprocals = S::Kind::reciprocal_masses(equations)?;
         let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
@@ -35,8 +38,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         Some(nystrom.place(STAGES, displacements, from, places, renewed))
     }
 
-    /// Evaluates the forces at all stages once and moves them, and returns the largest change of a position; `None` if the equations are
-    /// not of second order.
+    /// For equations of second order: evaluates the forces at all stages once and moves them, and returns the largest change of a position.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn improve_places<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
@@ -44,17 +46,17 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         t: T,
         h: T,
         statistics: &mut Statistics,
-    ) -> Result<Option<T>, StepFailure> {
-        if S::Kind::reciprocal_masses(&self.equations).is_none() {
-            return Ok(None);
-        }
+    ) -> Result<T, StepFailure> {
         self.evaluate_part::<E>(1, system, t, h, statistics)?;
-        Ok(self.place(h))
+        self.place(h).ok_or(StepFailure::NO_MATRIX)
     }
 
     /// The largest h q' where the step begins; `None` if the equations are not of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn drift(&self, h: T) -> Option<T> {
+        if !S::Kind::OF_SECOND_ORDER {
+            return None;
+        }
         let reciprocals = S::Kind::reciprocal_masses(&self.equations)?;
         let rates = self.y[1].iter().zip(reciprocals).map(|(&p, &reciprocal)| h * reciprocal * p);
         Some(rates.fold(T::lift(0.0), |largest, rate| norm::larger(largest, Scalar::abs(rate))))
@@ -63,6 +65,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     /// Sets the increment of the coordinates, if the equations are of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn displace(&mut self, h: T) {
+        if !S::Kind::OF_SECOND_ORDER {
+            return;
+        }
         let Self { equations, coefficients, terms, y, rest, increment, .. } = self;
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
         for (k, &reciprocal) in reciprocals.iter().enumerate() {
@@ -74,6 +79,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
 
     /// Sets the velocities of the stages, if the equations are of second order: steps do without them.
     pub(super) fn set_velocities(&mut self) {
+        if !S::Kind::OF_SECOND_ORDER {
+            return;
+        }
         let Self { equations, coefficients, slopes, terms, y, .. } = self;
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
         let from = |k: usize| (y[1][k], Lanes::all(T::lift(0.0)));

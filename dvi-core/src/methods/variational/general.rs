@@ -4,7 +4,7 @@
 use super::Step;
 use super::coefficients::{Adjustable, Coefficients};
 use super::lagrangian::Interpolated;
-use super::memory::{Interpolation, Parts, Work};
+use super::memory::{Parts, Work, with_coefficients};
 use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{DiscreteLagrangian, Ends, solve_by_newton};
@@ -29,12 +29,9 @@ pub(super) fn by_newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
     let Parts { interpolation, ends, phase, inertial, work, q } = parts;
     let mass = inertial.constant();
     guess.begin(&mut work.increment, |increment| phase.guess(mass, &phase.p, step.h, increment));
-    match interpolation {
-        Interpolation::Uniform(uniform) => {
-            newton(step, uniform, ends, mass, phase, work, q, solver, statistics)
-        }
-        Interpolation::Each(each) => newton(step, each, ends, mass, phase, work, q, solver, statistics),
-    }?;
+    with_coefficients!(F, interpolation, |coefficients| {
+        newton(step, coefficients, ends, mass, phase, work, q, solver, statistics)
+    })?;
     finish(step, parts, statistics)
 }
 
@@ -46,10 +43,8 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let Parts { interpolation, ends, phase, inertial, work, q } = parts;
-    // For other L, and with frequencies per coordinate, it has been refused.
-    let (Some(mass), Interpolation::Uniform(coefficients)) = (inertial.constant(), interpolation) else {
-        return Err(StepFailure::Singular { column: 0, pivot: f64::NAN });
-    };
+    let Some(mass) = inertial.constant() else { return Err(StepFailure::NO_MATRIX) };
+    let coefficients = interpolation.uniform()?;
     phase.guess(Some(mass), &phase.p, step.h, &mut work.increment);
     let Work { node, next, increment, trial, sum } = &mut **work;
     let (method, p, force) = (step.method, &phase.p, &phase.force);

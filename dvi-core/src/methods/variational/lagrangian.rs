@@ -7,7 +7,7 @@
 //! exact, and D₁D₂L_d is that of ω held constant.
 
 use super::coefficients::{Adjustable, Coefficients, End};
-use super::memory::Interpolation;
+use super::memory::{Interpolation, with_coefficients};
 use super::{Step, Variational};
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{Frequency, FrequencyIn, GivenFrequency, Local, Reading};
@@ -39,6 +39,9 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
 {
     /// The coefficients for the frequency at these ends.
     fn read_frequency(&mut self, step: &Step<'_, S, F, R, T>, at: Ends<'_, T>) -> Result<(), StepFailure> {
+        if F::UNFITTED {
+            return self.coefficients.fix(step);
+        }
         let Some(reading) = self.method.frequency.reading() else { return self.coefficients.fix(step) };
         // Where L is not separable, a frequency that is read has been refused.
         let Some(mass) = self.mass else { return Err(StepFailure::Frequency { omega: f64::NAN }) };
@@ -77,7 +80,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         d1: &mut [T],
         sum: Option<&mut [T]>,
     ) {
-        if self.method.frequency.reading() != Some(Reading::Variational) {
+        if F::UNFITTED || self.method.frequency.reading() != Some(Reading::Variational) {
             return;
         }
         let [start, end] = &*self.ends;
@@ -135,15 +138,12 @@ pub struct QuadratureLagrangian<S: System, F, R, T: Real = f64> {
     node: NodeWork<S, T>,
 }
 
-/// `with_coefficients!(self, system, interval, |step, coefficients| …)`: with those of the step.
-macro_rules! with_coefficients {
+/// `with_coefficients_of_step!(self, system, interval, |step, coefficients| …)`: with those of the step.
+macro_rules! with_coefficients_of_step {
     ($self:ident, $system:ident, $interval:ident, |$step:ident, $coefficients:ident| $body:expr) => {{
         let $step = Step { system: $system, method: &$self.method, t: $interval.t, h: $interval.h };
         $self.interpolation.fix(&$step)?;
-        match &mut $self.interpolation {
-            Interpolation::Uniform($coefficients) => $body,
-            Interpolation::Each($coefficients) => $body,
-        }
+        with_coefficients!(F, $self.interpolation, |$coefficients| $body);
         Ok(())
     }};
 }
@@ -165,7 +165,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Discret
         sum: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        with_coefficients!(self, system, interval, |step, coefficients| {
+        with_coefficients_of_step!(self, system, interval, |step, coefficients| {
             add_derivatives(&step, coefficients, ends, &mut self.node, [d1, sum], statistics);
         })
     }
@@ -177,7 +177,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Discret
         sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        with_coefficients!(self, system, interval, |step, coefficients| {
+        with_coefficients_of_step!(self, system, interval, |step, coefficients| {
             add_linearized(&step, coefficients, ends, &mut self.node, d1, sink);
         })
     }
@@ -191,7 +191,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDi
         Span { system, interval, ends }: Span<'_, S, T>,
         [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
-        with_coefficients!(self, system, interval, |step, coefficients| {
+        with_coefficients_of_step!(self, system, interval, |step, coefficients| {
             for (node, &c) in self.method.rule.nodes().iter().enumerate() {
                 coefficients.place(node, step.h, ends, &mut self.node);
                 let at = [step.node_time(c), step.h];

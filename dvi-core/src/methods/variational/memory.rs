@@ -42,6 +42,20 @@ pub(super) enum Interpolation<S: System, T: Real> {
     Each(Each<S, T>),
 }
 
+/// `with_coefficients!(F, interpolation, |coefficients| …)`: with those for frequencies of the type `F`, and compiled for these alone.
+macro_rules! with_coefficients {
+    ($frequency:ty, $interpolation:expr, |$coefficients:ident| $body:expr) => {
+        if <$frequency>::PER_COORDINATE {
+            let $coefficients = $interpolation.each()?;
+            $body
+        } else {
+            let $coefficients = $interpolation.uniform()?;
+            $body
+        }
+    };
+}
+pub(super) use with_coefficients;
+
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
 pub(super) struct Work<S: System, T: Real> {
@@ -129,14 +143,29 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Interpolation<S, T> {
         }
     }
 
+    /// Where there is one frequency for all coordinates.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn uniform(&mut self) -> Result<&mut Uniform<T>, StepFailure> {
+        match self {
+            Self::Uniform(uniform) => Ok(uniform),
+            Self::Each(_) => Err(StepFailure::Frequency { omega: f64::NAN }),
+        }
+    }
+
+    /// Where each coordinate has one of its own.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn each(&mut self) -> Result<&mut Each<S, T>, StepFailure> {
+        match self {
+            Self::Each(each) => Ok(each),
+            Self::Uniform(_) => Err(StepFailure::Frequency { omega: f64::NAN }),
+        }
+    }
+
     /// See [`Adjustable::fix`].
     pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
         &mut self,
         step: &Step<'_, S, F, R, T>,
     ) -> Result<(), StepFailure> {
-        match self {
-            Self::Each(each) => each.fix(step),
-            Self::Uniform(uniform) => uniform.fix(step),
-        }
+        with_coefficients!(F, self, |coefficients| coefficients.fix(step))
     }
 }

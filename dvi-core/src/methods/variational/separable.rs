@@ -9,7 +9,7 @@
 
 use super::Step;
 use super::coefficients::{Adjustable, Sums, Uniform};
-use super::memory::{Interpolation, Parts, Work};
+use super::memory::{Parts, Work, with_coefficients};
 use crate::discrete::NodeWork;
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{FrequencyIn, Reading};
@@ -31,10 +31,7 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
     budget: usize,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    // L is separable.
-    let Some(mass) = inertial.constant() else {
-        return Err(StepFailure::Singular { column: 0, pivot: f64::NAN });
-    };
+    let Some(mass) = inertial.constant() else { return Err(StepFailure::NO_MATRIX) };
     let mut on_stack;
     let work: &mut Work<S, T> = if <S::Space as Space>::ON_STACK {
         on_stack = Work::new(step.system);
@@ -45,16 +42,15 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
     widest_if(
         !<S::Space as Space>::ON_STACK,
         #[cfg_attr(not(debug_assertions), inline(always))]
-        || match interpolation {
-            // Coefficients that change in each iteration belong into registers.
-            Interpolation::Uniform(_) if step.method.frequency.reading().is_some() => {
+        || {
+            if !F::UNFITTED && step.method.frequency.reading().is_some() {
+                // Coefficients that change in each iteration belong into registers.
                 let coefficients = &mut Uniform::linear(&step.method.rule);
+                return complete(step, coefficients, mass, phase, work, q, budget, statistics);
+            }
+            with_coefficients!(F, interpolation, |coefficients| {
                 complete(step, coefficients, mass, phase, work, q, budget, statistics)
-            }
-            Interpolation::Uniform(uniform) => {
-                complete(step, uniform, mass, phase, work, q, budget, statistics)
-            }
-            Interpolation::Each(each) => complete(step, each, mass, phase, work, q, budget, statistics),
+            })
         },
     )
 }
@@ -144,6 +140,9 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     /// The coefficients, as far as the start of the step decides them.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn read_start(&mut self) -> Result<(), StepFailure> {
+        if F::UNFITTED {
+            return self.coefficients.fix(self.step);
+        }
         let Some(reading) = self.step.method.frequency.reading() else {
             return self.coefficients.fix(self.step);
         };
