@@ -50,3 +50,18 @@ pub(crate) fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
 
     if worth_it { widest(Body(body)) } else { body() }
 }
+
+/// Runs `body` apart from its caller, and so compiled for the instructions of every processor, if it is `worth_it`; it chooses for itself
+/// what is compiled for others.
+///
+/// Elementary functions take one number at a time. Each call of one between the widest instructions costs as much as part of the function:
+/// so the formulas of a system are taken out of a step that uses these.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn apart_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
+    #[inline(never)]
+    fn apart<R>(body: impl FnOnce() -> R) -> R {
+        body()
+    }
+
+    if worth_it { apart(body) } else { body() }
+}

@@ -14,7 +14,7 @@ use crate::error::StepFailure;
 use crate::mechanics::combination::Inverse;
 use crate::methods::Clock;
 use crate::scalar::norm;
-use crate::scalar::simd::widest_if;
+use crate::scalar::simd::{apart_if, widest_if};
 use crate::solve::{Convergence, Guess, iterate};
 use crate::space::scratch;
 use crate::state::Statistics;
@@ -203,7 +203,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
                 if !is_long {
                     place([origin, increment], sigma, point);
                 }
-                step.system.hamiltonian_gradient(point, node_time, gradient);
+                apart_if(
+                    is_long,
+                    #[cfg_attr(not(debug_assertions), inline(always))]
+                    || step.system.hamiltonian_gradient(point, node_time, gradient),
+                );
                 statistics.gradients += 1;
                 let mut largest = T::lift(0.0);
                 inverse.solve_in_blocks(
