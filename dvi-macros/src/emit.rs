@@ -26,7 +26,7 @@ use crate::model::Model;
 use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
-use crate::symbolic::{Coordinate, Fold, Graph};
+use crate::symbolic::{Coordinate, Fold, Graph, Loop};
 
 mod indices;
 pub(crate) mod inlining;
@@ -63,6 +63,8 @@ struct Function<'a> {
     element: Element,
     /// Whether it is the [part](pairs) of one body.
     is_part: bool,
+    /// Whether it is inside of what is compiled for the widest instructions.
+    is_wide: bool,
 }
 
 pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
@@ -113,16 +115,16 @@ impl Emitter<'_> {
                 uses[position] == 1 && !elsewhere[position] && nesting[position] < DEEPEST_EXPRESSION;
             inlined[position] = is_short || matches!(instruction, Instruction::Literal(_));
         }
-        let element = Element::Number;
-        let function =
-            Function { emitter: self, routine, inlined: &inlined, is_guarded, element, is_part: false };
-        let body = function.steps(&routine.steps);
-        if routine.has_packs(&function) {
-            let krate = self.krate();
-            quote!(#krate::__private::widest::<__T, _>(__q.len(), #ForceInline || { #body }))
-        } else {
-            body
-        }
+        let function = Function {
+            emitter: self,
+            routine,
+            inlined: &inlined,
+            is_guarded,
+            element: Element::Number,
+            is_part: false,
+            is_wide: false,
+        };
+        function.steps(&routine.steps)
     }
 }
 
@@ -179,15 +181,28 @@ impl Function<'_> {
             }
             Step::Loop { over, folds, body } => {
                 let begin = self.begin(folds);
-                let repeated = if self.runs_over_packs(over, folds, body) {
-                    self.packs(over, folds, body)
+                let repeated = if !self.is_wide && self.has_packs(over, folds, body) {
+                    let krate = self.emitter.krate();
+                    let wide = Function { is_wide: true, ..*self }.repeated(over, folds, body);
+                    quote!(#krate::__private::widest::<__T, _>(__q.len(), #ForceInline || { #wide });)
                 } else {
-                    let one_by_one = self.emitter.loop_over(over, &self.terms(folds, body));
-                    self.pairs(over, folds, body).map_or(one_by_one.clone(), |pairs| pairs.or(&one_by_one))
+                    self.repeated(over, folds, body)
                 };
                 quote!(#begin #repeated)
             }
             Step::Write(statement, value) => self.write(&self.routine.statements[*statement].place, *value),
+        }
+    }
+
+    /// A loop whose sums and products have begun.
+    fn repeated(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> TokenStream {
+        if self.runs_over_packs(over, folds, body) {
+            return self.packs(over, folds, body);
+        }
+        let one_by_one = self.emitter.loop_over(over, &self.terms(folds, body));
+        match self.pairs(over, folds, body) {
+            Some(pairs) => pairs.or(&one_by_one),
+            None => one_by_one,
         }
     }
 

@@ -249,7 +249,7 @@ fn vortices() {
                             }
                         }
                     },
-                )
+                );
             }
         "#]],
     );
@@ -275,6 +275,7 @@ fn function_of_a_sum() {
                 let (__vector0, __rest) = __vector.split_at_mut(self.n);
                 let (__vector1, __rest) = __rest.split_at_mut(self.n);
                 let _ = __rest;
+                let mut __r6 = T::lift(-0.0);
                 __private::widest::<
                     T,
                     _,
@@ -282,7 +283,6 @@ fn function_of_a_sum() {
                     __q.len(),
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
-                        let mut __r6 = T::lift(-0.0);
                         let __whole = __private::whole(0usize, self.n);
                         {
                             let mut __sum6 = __private::Sums::<T>::empty();
@@ -300,8 +300,17 @@ fn function_of_a_sum() {
                             let __r5 = (__r1 * __r1) + (__r3 * __r3);
                             __r6 += __r5;
                         }
-                        let __r8 = T::lift(1f64)
-                            / (T::sqrt(__r6));
+                    },
+                );
+                let __r8 = T::lift(1f64)
+                    / (T::sqrt(__r6));
+                __private::widest::<
+                    T,
+                    _,
+                >(
+                    __q.len(),
+                    #[cfg_attr(not(debug_assertions), inline(always))]
+                    || {
                         let __whole = __private::whole(0usize, self.n);
                         {
                             let __r8 = __private::all(__r8);
@@ -319,7 +328,7 @@ fn function_of_a_sum() {
                             __vector0[__i0] += (__r8 * __r1);
                         }
                     },
-                )
+                );
             }
         "#]],
     );

@@ -23,7 +23,8 @@
 //!     …
 //! }
 //! ```
-//! and the function around it is compiled for the widest instructions of the processor. Where a term adds to several entries of one
+//! and it is compiled for the widest instructions of the processor, with the loops around it and nothing else: between such instructions
+//! each call of an elementary function costs more. Where a term adds to several entries of one
 //! array that lie beside one another, each pack loads and stores the first of them only. What belongs to entries behind them waits for
 //! the packs of these: no pack loads what the one before has just stored in other parts. Terms whose places lie on both sides of the end of
 //! a ring, as x[(j + 1) % n] for the last j, are taken one by one before and behind the packs.
@@ -39,7 +40,6 @@ use super::{Element, Function, local, name, output_array};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
 use crate::program::{Output, Place};
-use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
 use crate::symbolic::{Coordinate, Fold, Index, Loop, Node, Parameter, Unary};
 
@@ -58,22 +58,16 @@ struct Addition<'a> {
     waiting: Ident,
 }
 
-impl Routine {
-    /// Whether one of its loops runs over packs.
-    pub(super) fn has_packs(&self, function: &Function<'_>) -> bool {
-        fn any(steps: &[Step], function: &Function<'_>) -> bool {
-            steps.iter().any(|step| match step {
-                Step::Loop { over, folds, body } => {
-                    function.runs_over_packs(over, folds, body) || any(body, function)
-                }
+impl Function<'_> {
+    /// Whether a loop, or one inside of it, runs over packs.
+    pub(super) fn has_packs(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> bool {
+        self.runs_over_packs(over, folds, body)
+            || body.iter().any(|step| match step {
+                Step::Loop { over, folds, body } => self.has_packs(over, folds, body),
                 Step::Let(_) | Step::Write(..) => false,
             })
-        }
-        any(&self.steps, function)
     }
-}
 
-impl Function<'_> {
     /// Whether the terms of a loop can be taken in packs.
     pub(super) fn runs_over_packs(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> bool {
         let lower = over.range.lower.as_literal().unwrap_or(0);

@@ -36,6 +36,8 @@ const HAMILTONIANS: &[&str] = &[
     // Exponents that are zero for one index, and not beside it.
     "product(0..2, |i| (2 + x[i]).powf(x[1] - x[i]))",
     "sum(0..N, |i| (u * u + 1).powf(u * (i as f64)) + (2 + x[i]).powf(i as f64))",
+    // An exponent that looks constant where it is 1 to all digits, of bases that have no logarithm.
+    "(u - 0.9).powf((40 * w).erf())",
     // Exponents that are constant in one branch, of bases that have no logarithm.
     "(u - 5).powf(if w < 5 { 2 } else { u }) + (u - 5).powf(if w < 5 { 1 } else { u })",
     "(u - 5).powf(if w < 5 { 3 } else { w }) * (2 - sum(0..N, |i| x[i] * x[i]) * 9).powf(if u < 5 { 1 } else { x[0] })",

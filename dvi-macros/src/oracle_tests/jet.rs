@@ -6,6 +6,9 @@
 
 use super::functions::{BinaryFunction, Derivatives};
 
+/// A sum this much smaller than its terms is nothing but their rounding errors.
+const NOISE: f64 = 1e-10;
+
 /// A number with the size of its terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sized {
@@ -25,6 +28,16 @@ impl Sized {
     pub(super) fn times(self, other: Self) -> Self {
         let value = self.value * other.value;
         Self { value, size: self.value.abs() * other.size + self.size * other.value.abs() }
+    }
+
+    /// The product of two sums that may be added up term by term: where one is zero as a whole, its terms are not.
+    fn times_each(self, other: Self) -> Self {
+        let is_nothing = |sum: Self| sum.value.abs() < NOISE * sum.size;
+        let product = self.times(other);
+        if is_nothing(self) || is_nothing(other) {
+            return Self { size: self.size * other.size, ..product };
+        }
+        product
     }
 
     pub(super) fn scaled(self, factor: f64) -> Self {
@@ -134,8 +147,8 @@ impl Jet {
             |i| fa.times(a.gradient(i)).plus(fb.times(b.gradient(i))),
             |i, j| {
                 let (ai, aj, bi, bj) = (a.gradient(i), a.gradient(j), b.gradient(i), b.gradient(j));
-                let squares = faa.times(ai.times(aj)).plus(fbb.times(bi.times(bj)));
-                let mixed = fab.times(ai.times(bj).plus(bi.times(aj)));
+                let squares = faa.times(ai.times_each(aj)).plus(fbb.times(bi.times_each(bj)));
+                let mixed = fab.times(ai.times_each(bj).plus(bi.times_each(aj)));
                 let linear = fa.times(a.hessian(i, j)).plus(fb.times(b.hessian(i, j)));
                 squares.plus(mixed).plus(linear)
             },

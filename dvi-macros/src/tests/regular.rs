@@ -278,6 +278,7 @@ fn constraints_of_a_chain_along_a_motion() {
                 let (__g0, __rest) = __g.split_at_mut((self.n).saturating_sub(1usize));
                 let (__g1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
+                let mut __r12 = T::lift(-0.0);
                 __private::widest::<
                     T,
                     _,
@@ -285,7 +286,6 @@ fn constraints_of_a_chain_along_a_motion() {
                     __q.len(),
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
-                        let mut __r12 = T::lift(-0.0);
                         let __whole = __private::whole(0usize, self.n);
                         {
                             let mut __sum12 = __private::Sums::<T>::empty();
@@ -301,17 +301,17 @@ fn constraints_of_a_chain_along_a_motion() {
                             let __r11 = __r0 * __r0;
                             __r12 += __r11;
                         }
-                        for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
-                            let __r0 = __v0[__i0];
-                            let __r1 = __v0[__i0 + 1usize];
-                            let __r2 = __r0 - __r1;
-                            let __r4 = __v1[__i0];
-                            let __r5 = __r4 - T::lift(1f64);
-                            __g0[__i0] += (__r2 + (__r1 * __r5) - (__r0 * __r5) - (__r4 * __r2));
-                        }
-                        __g1[0usize] += (T::lift(2f64) * __r12);
                     },
-                )
+                );
+                for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                    let __r0 = __v0[__i0];
+                    let __r1 = __v0[__i0 + 1usize];
+                    let __r2 = __r0 - __r1;
+                    let __r4 = __v1[__i0];
+                    let __r5 = __r4 - T::lift(1f64);
+                    __g0[__i0] += (__r2 + (__r1 * __r5) - (__r0 * __r5) - (__r4 * __r2));
+                }
+                __g1[0usize] += (T::lift(2f64) * __r12);
             }
         "#]],
     );

@@ -130,7 +130,7 @@ pub(super) fn binary(name: &str, a: &Jet, b: &Jet) -> Option<Jet> {
         "hypot" => unary("sqrt", &a.times(a).plus(&b.times(b)))?,
         // 0⁰ of sums without terms: the rules of differentiation do not know that it is a constant.
         "powf" if a.is_zero_without_sign() || b.is_zero_without_sign() => Jet::number(f64::NAN),
-        "powf" if y.fract() == 0.0 && y.abs() <= 64.0 && !b.varies() => a.power(y as i32),
+        "powf" if y.fract() == 0.0 && y.abs() <= 64.0 && !b.holds_variable() => a.power(y as i32),
         "powf" => unary("exp", &b.times(&unary("ln", a)?))?,
         // The angle that has the derivative of arctan(a/b) or of −arctan(b/a), whichever quotient is small.
         "atan2" if x.abs() <= y.abs() => unary("atan", &a.times(&b.reciprocal()))?.with_value(x.atan2(y)),

@@ -75,6 +75,8 @@ struct Parts {
     is_empty_sum: bool,
     /// Whether there is a sum without terms in it: if it is zero, its sign is that of no sum as written.
     holds_empty_sum: bool,
+    /// Whether there is a variable in it, be its derivatives zero or not: erf(30) is 1 to all digits.
+    holds_variable: bool,
     rate: Option<Jet>,
 }
 
@@ -92,6 +94,7 @@ impl Jet {
             size: [0.0; PARTS],
             is_empty_sum: false,
             holds_empty_sum: false,
+            holds_variable: false,
             rate: None,
         };
         parts.value[0] = value;
@@ -110,6 +113,7 @@ impl Jet {
     /// A variable with its rates along the directions.
     pub(super) fn variable(value: f64, first: [f64; FIRST], second: [f64; SECOND]) -> Self {
         let mut jet = Self::number(value);
+        jet.0.holds_variable = true;
         jet.0.value[1..=FIRST].copy_from_slice(&first);
         jet.0.value[1 + FIRST..1 + FIRST + SECOND].copy_from_slice(&second);
         jet.0.size = jet.0.value.map(f64::abs);
@@ -153,9 +157,9 @@ impl Jet {
         self.0.holds_empty_sum && self.0.value[0] == 0.0
     }
 
-    /// Whether it changes along any direction.
-    pub(super) fn varies(&self) -> bool {
-        self.0.value[1..].iter().any(|part| *part != 0.0)
+    /// Whether it is made of variables.
+    pub(super) fn holds_variable(&self) -> bool {
+        self.0.holds_variable
     }
 
     /// The same derivatives around another value.
@@ -194,6 +198,7 @@ impl Jet {
         }
         self.0.is_empty_sum &= other.0.is_empty_sum;
         self.0.holds_empty_sum |= other.0.holds_empty_sum;
+        self.0.holds_variable |= other.0.holds_variable;
         self.0.rate = match (self.0.rate.take(), &other.0.rate) {
             (Some(one), Some(two)) => Some(one.plus(two)),
             (one, two) => one.or_else(|| two.clone()),
@@ -221,6 +226,7 @@ impl Jet {
         // The sign of a zero counts: `signum` sees it.
         let mut product = Self::number(-0.0);
         product.0.holds_empty_sum = self.0.holds_empty_sum || other.0.holds_empty_sum;
+        product.0.holds_variable = self.0.holds_variable || other.0.holds_variable;
         let mut add = |to: usize, i: usize, j: usize| {
             let ((x, a), (y, b)) = ((self.0.value[i], self.0.size[i]), (other.0.value[j], other.0.size[j]));
             product.0.value[to] += x * y;
@@ -265,6 +271,7 @@ impl Jet {
         if self.0.is_empty_sum {
             return result;
         }
+        result.0.holds_variable = self.0.holds_variable;
         let (x, u) = (self.0.value[0], self.0.size[0]);
         // The largest that the derivatives can be where the argument may be, as far as it is known.
         let known_to = 64.0 * f64::EPSILON * u;
