@@ -218,6 +218,17 @@ impl<T: RealField + Copy> Real for T {}
 /// need.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn carries_derivatives<T: Real>() -> bool {
-    let is_single = T::default_epsilon() > T::lift(1e-10);
-    size_of::<T>() > if is_single { size_of::<f32>() } else { size_of::<f64>() }
+    size_of::<T>() > if is_single::<T>() { size_of::<f32>() } else { size_of::<f64>() }
+}
+
+/// The smallest number that has all digits: those below are multiples of one number.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn smallest_normal<T: Real>() -> T {
+    T::lift(if is_single::<T>() { f64::from(f32::MIN_POSITIVE) } else { f64::MIN_POSITIVE })
+}
+
+/// Whether it has the digits of `f32`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn is_single<T: Real>() -> bool {
+    T::default_epsilon() > T::lift(1e-10)
 }

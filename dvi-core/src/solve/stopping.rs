@@ -15,8 +15,8 @@ mod together;
 
 use crate::Real;
 use crate::error::{StartError, StepFailure};
-use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported, smallest};
+use crate::scalar::{carries_derivatives, smallest_normal};
 
 pub(crate) use together::Convergences;
 
@@ -83,7 +83,8 @@ impl StepFailure {
         scale: impl FnOnce() -> Result<T, Self>,
     ) -> Result<(), Self> {
         let Self::NotConverged { correction, .. } = self else { return Err(self) };
-        let floor = FLOOR * reported(T::default_epsilon()) * scale().map_or(0.0, reported);
+        let scale = larger(scale().map_or(0.0, reported), reported(smallest_normal::<T>()));
+        let floor = FLOOR * reported(T::default_epsilon()) * scale;
         if correction <= floor { Ok(()) } else { Err(self) }
     }
 }
@@ -102,7 +103,7 @@ pub(crate) enum Verdict {
 pub(crate) struct Convergence<T> {
     tolerance: T,
     /// Rounding errors are relative to the size of the numbers, or to the first correction if that is larger: from zero, or from close
-    /// to it, that is the increment.
+    /// to it, that is the increment. Below the smallest normal number they are absolute.
     scale: T,
     first: T,
     correction: T,
@@ -200,7 +201,7 @@ impl<T: Real> Convergence<T> {
     #[inline]
     fn hesitate(&mut self, shrunk: T) -> Option<Verdict> {
         let size = self.correction / (T::lift(FLOOR) * T::default_epsilon());
-        if size <= larger(self.scale, self.first) {
+        if size <= larger(larger(self.scale, self.first), smallest_normal()) {
             return Some(Verdict::Accept);
         }
         if shrunk <= T::lift(0.0) {

@@ -4,7 +4,7 @@
 
 use super::{Convergence, FLOOR, MOST_GROWTHS, Stopping, Verdict};
 use crate::Scalar;
-use crate::scalar::{Comparison, Lanes};
+use crate::scalar::{Comparison, Lanes, smallest_normal};
 
 /// The convergence of `W` iterations that run in step.
 #[derive(Debug)]
@@ -32,10 +32,10 @@ impl<const W: usize> Convergences<W> {
         smallest: Lanes<W>,
         budget: usize,
     ) -> Self {
-        let zero = Lanes::all(0.0);
+        let (zero, least) = (Lanes::all(0.0), Lanes::all(smallest_normal()));
         let mut new = Self {
             tolerance: zero,
-            scale,
+            scale: Lanes::choose(scale, Comparison::Less, least, least, scale),
             first: zero,
             correction: zero,
             growths: zero,
