@@ -51,11 +51,11 @@ pub(crate) fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     if worth_it { widest(Body(body)) } else { body() }
 }
 
-/// Runs `body` apart from its caller, and so compiled for the instructions of every processor, if it is `worth_it`; it chooses for itself
-/// what is compiled for others.
+/// Runs `body` apart from its caller, if it is `worth_it`: compiled for the instructions of every processor, as far as it does not choose
+/// others itself.
 ///
-/// Elementary functions take one number at a time. Each call of one between the widest instructions costs as much as part of the function:
-/// so the formulas of a system are taken out of a step that uses these.
+/// Elementary functions take one number at a time, and a call of one takes longer between the widest instructions. So the formulas of a
+/// system stand apart from a step that uses these.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn apart_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     #[inline(never)]
