@@ -21,10 +21,11 @@ use crate::discrete::{Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
+use crate::scalar::simd::apart_if;
 use crate::solve::{Guess, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
+use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, Space, System, Vector};
 
 pub use lagrangian::QuadratureLagrangian;
 use memory::Parts;
@@ -152,6 +153,16 @@ impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> Step<'_, S, 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn node_time(&self, c: f64) -> T {
         self.t + T::lift(c) * self.h
+    }
+
+    /// Sets `force` to F at a point of the node `c`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn force(&self, point: &[T], c: f64, force: &mut [T]) {
+        apart_if(
+            !<S::Space as Space>::ON_STACK,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            || self.system.force(point, &[], self.node_time(c), force),
+        );
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

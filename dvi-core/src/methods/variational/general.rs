@@ -109,7 +109,7 @@ fn finish<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     norm::finite(next).and(norm::finite(&node.momentum))?;
     let end = step.node_time(1.0);
     if S::SEPARABLE {
-        step.system.force(next, &[], end, trial);
+        step.force(next, 1.0, trial);
         statistics.gradients += 1;
     }
     inertial.check(step.system, [next, increment], [end, step.h], &mut node.velocity)?;

@@ -19,7 +19,7 @@ use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::PhasePoint;
 use crate::scalar::blocks::blocks;
 use crate::scalar::norm;
-use crate::scalar::simd::{apart_if, widest_if};
+use crate::scalar::simd::widest_if;
 use crate::solve::{Convergence, iterate};
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, Vector};
@@ -183,7 +183,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         for ((next, &q), &delta) in next.iter_mut().zip(self.q).zip(increment.iter()) {
             *next = q + delta;
         }
-        force(self.step, next, 1.0, gradient);
+        self.step.force(next, 1.0, gradient);
         self.gradients += 1;
     }
 
@@ -299,7 +299,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         if !self.is_placed {
             place(&self.coefficients.bases(node), 0, [self.q, increment], point);
         }
-        force(self.step, point, c, trial);
+        self.step.force(point, c, trial);
         self.gradients += 1;
     }
 
@@ -380,21 +380,6 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         }
         Ok(())
     }
-}
-
-/// Sets `force` to F at a point of the node `c`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn force<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
-    step: &Step<'_, S, F, R, T>,
-    point: &[T],
-    c: f64,
-    force: &mut [T],
-) {
-    apart_if(
-        !<S::Space as Space>::ON_STACK,
-        #[cfg_attr(not(debug_assertions), inline(always))]
-        || step.system.force(point, &[], step.node_time(c), force),
-    );
 }
 
 /// Sets `point` to b q0 + b̄ q1 for the coordinates from `first` on.

@@ -61,7 +61,7 @@ pub(super) fn compensated<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, 
         *delta *= step.h;
     }
     phase.reach(q, increment, next);
-    step.system.force(next, &[], step.node_time(1.0), force);
+    step.force(next, 1.0, force);
     for (impulse, &f) in sum.iter_mut().zip(force.iter()) {
         *impulse += half * f;
     }
