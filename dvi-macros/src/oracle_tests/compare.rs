@@ -5,14 +5,16 @@ mod constraints;
 
 use super::evaluate::{Oracle, Outside, Point};
 use super::expand::{environment, expand};
-use super::jet::{Jet, Sized};
+use super::jet::{Jet, ROUNDING, Sized};
 use super::random::Random;
 use super::rust::{Environment, Expansion, Machine, Value};
 use super::structure::{self, Claims};
 use super::system::{Gauge, System};
 use call::Call;
 /// Rounding errors stay below this, relative to the size of the terms.
-const TOLERANCE: f64 = 1e-10;
+pub(super) const TOLERANCE: f64 = 1e-10;
+/// Second derivatives of a gauge are no larger than this, or not by much.
+const GAUGES: f64 = 10.0;
 
 /// The number of points that a system is compared at, and of points that are drawn to find them.
 const POINTS: usize = 2;
@@ -245,8 +247,8 @@ impl<'a> Comparison<'a> {
         let n = self.system.dimension();
         let Expected { point: Point { q, t, .. }, lagrangian: jet, .. } = expected;
         let (_, slices) = self.call().slice(q).real(*t).slice(&vec![7.0; n]).run("flow_source")?;
-        // Second derivatives of the gauge, of whatever size, cancel in both.
-        let cancelled = Sized { value: 0.0, size: 10.0 };
+        // Second derivatives of the gauge cancel in both, and leave their rounding errors.
+        let cancelled = Sized { value: 0.0, size: ROUNDING * GAUGES };
         self.same_vector("flow_source with a gauge", &slices[1], |i| {
             expected.source(i).plus(jet.hessian(n + i, 2 * n)).plus(cancelled)
         })?;

@@ -4,10 +4,11 @@
 //! was added up from, to first order in the rounding errors. What another order of operations may
 //! change is a small multiple of the rounding unit times that size.
 
+use super::compare::TOLERANCE;
 use super::functions::{BinaryFunction, Derivatives};
 
-/// A sum this much smaller than its terms is nothing but their rounding errors.
-const NOISE: f64 = 1e-10;
+/// The size that stands for 64 roundings of a term of size 1: what may be left where such terms cancel.
+pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON / TOLERANCE;
 
 /// A number with the size of its terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,14 +31,11 @@ impl Sized {
         Self { value, size: self.value.abs() * other.size + self.size * other.value.abs() }
     }
 
-    /// The product of two sums that may be added up term by term: where one is zero as a whole, its terms are not.
+    /// The product of two sums that may be added up term by term: where one cancels as a whole, the products of its terms leave their
+    /// rounding errors.
     fn times_each(self, other: Self) -> Self {
-        let is_nothing = |sum: Self| sum.value.abs() < NOISE * sum.size;
         let product = self.times(other);
-        if is_nothing(self) || is_nothing(other) {
-            return Self { size: self.size * other.size, ..product };
-        }
-        product
+        Self { size: product.size + ROUNDING * self.size * other.size, ..product }
     }
 
     pub(super) fn scaled(self, factor: f64) -> Self {
