@@ -22,7 +22,7 @@ pub(crate) mod quadrature;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Stopping, iterate, sizes};
 use crate::space::sink::Sink;
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
@@ -166,21 +166,18 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
     interval: Interval<T>,
     [q0, p0]: [&[T]; 2],
     delta: &mut [T],
-    (solver, residual): (&mut Linear<S, T>, &mut Vector<S, T>),
+    (solver, [residual, weights]): (&mut Linear<S, T>, [&mut Vector<S, T>; 2]),
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let scale = norm::largest(q0) + norm::largest(delta);
-    let convergence = Convergence::new(stopping, scale, q0, stopping.max_iterations);
-    iterate(convergence, statistics, |statistics| {
+    let convergence = Convergence::new(stopping, stopping.max_iterations);
+    iterate(convergence, statistics, |due, statistics| {
+        due.prepare(weights, q0, delta);
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let span = Span { system, interval, ends: Ends { q0, delta } };
         solver.solve(&mut Equations { l_d, span, p0, statistics }, residual)?;
-        for (delta, &correction) in delta.iter_mut().zip(residual.iter()) {
-            *delta -= correction;
-        }
-        Ok(norm::largest(residual))
+        Ok(sizes::reduce(weights, delta, residual))
     })?;
     norm::finite(delta)
 }

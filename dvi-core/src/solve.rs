@@ -1,5 +1,6 @@
 //! How the equation of an implicit step is solved: one loop for all iterations, and one order in which they are tried.
 
+pub(crate) mod sizes;
 mod stopping;
 
 use core::ops::DerefMut;
@@ -11,6 +12,7 @@ use crate::space::linear::Storing;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 
+pub(crate) use sizes::Due;
 pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Verdict};
 
@@ -84,25 +86,25 @@ const STEPS_BEFORE_RETRY: u32 = 32;
 
 /// What is iterated.
 pub(crate) trait Iteration<T> {
-    /// Applies a correction and returns its size.
+    /// Applies a correction and returns the largest of its sizes in the units of the coordinates, after it has done what is `due`.
     ///
     /// # Errors
     /// Any [`StepFailure`] ends the iteration.
-    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure>;
+    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure>;
 
     /// Counts what `times` improvements have cost, if they have not counted it themselves.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self, _times: u64, _statistics: &mut Statistics) {}
 }
 
-impl<T, F: FnMut(&mut Statistics) -> Result<T, StepFailure>> Iteration<T> for F {
+impl<T, F: FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>> Iteration<T> for F {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        self(statistics)
+    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        self(due, statistics)
     }
 }
 
-/// Iterates until a correction counts as the last. `improve` applies a correction and returns its size.
+/// Iterates until a correction counts as the last. `improve` is as [`Iteration::improve`].
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or that of an iteration.
@@ -110,7 +112,7 @@ impl<T, F: FnMut(&mut Statistics) -> Result<T, StepFailure>> Iteration<T> for F 
 pub(crate) fn iterate<T: Real>(
     convergence: Convergence<T>,
     statistics: &mut Statistics,
-    improve: impl FnMut(&mut Statistics) -> Result<T, StepFailure>,
+    improve: impl FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>,
 ) -> Result<(), StepFailure> {
     repeat(convergence, statistics, improve)
 }
@@ -127,7 +129,7 @@ pub(crate) fn repeat<T: Real>(
 ) -> Result<(), StepFailure> {
     // The second is how many improvements there were beside the iterations.
     let (result, more) = loop {
-        let correction = match iteration.improve(statistics) {
+        let correction = match iteration.improve(&mut convergence.due, statistics) {
             Ok(correction) => correction,
             Err(failure) => break (Err(failure), 1),
         };
@@ -135,7 +137,8 @@ pub(crate) fn repeat<T: Real>(
             Verdict::Continue => {}
             // Comparisons have not seen the derivatives that numbers may carry.
             Verdict::Accept if carries_derivatives::<T>() => {
-                let mut improve = |_| iteration.improve(statistics).map(drop);
+                let due = &mut convergence.due;
+                let mut improve = |_| iteration.improve(due, statistics).map(drop);
                 break ((0..convergence.more).try_for_each(&mut improve), convergence.more as u64);
             }
             Verdict::Accept => break (Ok(()), 0),

@@ -20,7 +20,7 @@ use crate::discrete::Span;
 use crate::error::StepFailure;
 use crate::mechanics::legendre;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Stopping, iterate, sizes};
 use crate::space::sink::{Places, TransposedProduct};
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
@@ -212,9 +212,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
         } else {
             let stopping = Stopping::default();
-            let convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
-            iterate(convergence, &mut Statistics::default(), |_| {
-                self.improve_tangent(system, at, Tangent { p, v, impulse, work })
+            let convergence = Convergence::new(stopping, stopping.max_iterations);
+            iterate(convergence, &mut Statistics::default(), |due, _| {
+                due.prepare_alone(&mut self.weights, v);
+                self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
+                let (change, _) = self.parts(v.len());
+                Ok(sizes::largest(&self.weights, change))
             })?;
         }
         self.refine_tangent(system, at, Tangent { p, v, impulse, work })?;
@@ -241,13 +244,13 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         }
     }
 
-    /// One iteration; returns the size of its correction.
+    /// One iteration.
     fn improve_tangent(
         &mut self,
         system: &S,
         at: At<'_, T>,
         Tangent { p, v, impulse, work }: Tangent<'_, T>,
-    ) -> Result<T, StepFailure> {
+    ) -> Result<(), StepFailure> {
         let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
         let lower = OfVelocity { system, at, v };
         let (multipliers, active) = (&*impulse, impulse.len());
@@ -260,7 +263,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {
             *impulse -= change;
         }
-        Ok(norm::largest(change))
+        Ok(())
     }
 
     /// Adds Gᵀι at a point to a momentum.

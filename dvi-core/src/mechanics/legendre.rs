@@ -6,7 +6,7 @@
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Stopping, iterate, sizes};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
@@ -20,6 +20,8 @@ pub(crate) struct Legendre<S: System, T: Real> {
     /// By how much it is to change in the next.
     next: Vector<S, T>,
     l_q: Vector<S, T>,
+    /// In which the iteration judges velocities.
+    weights: Vector<S, T>,
 }
 
 /// How often a correction that leads out of the domain of L is halved.
@@ -34,6 +36,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
             correction: space.vector(),
             next: space.vector(),
             l_q: space.vector(),
+            weights: space.vector(),
         }
     }
 
@@ -57,8 +60,12 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
             return norm::finite(v);
         }
         let stopping = Stopping::default();
-        let convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
-        iterate(convergence, &mut Statistics::default(), |_| self.improve(system, q, p, t, v))?;
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        iterate(convergence, &mut Statistics::default(), |due, _| {
+            due.prepare_alone(&mut self.weights, v);
+            self.improve(system, q, p, t, v)?;
+            Ok(sizes::largest(&self.weights, &self.correction))
+        })?;
         norm::finite(v)
     }
 
@@ -82,25 +89,8 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         })
     }
 
-    /// The size of M⁻¹p with the mass matrix M at (q, v): velocities are found to its rounding, which is more than theirs
-    /// where L has large terms linear in v.
-    ///
-    /// # Errors
-    /// [`StepFailure::Singular`] where M is.
-    pub(crate) fn of_momentum_alone(
-        &mut self,
-        system: &S,
-        points: [&[T]; 3],
-        t: T,
-    ) -> Result<T, StepFailure> {
-        let Self { solver, next, l_q, .. } = self;
-        solver.solve(&mut Momentum(Equations { system, points, t, l_q }), next)?;
-        Ok(norm::largest(next))
-    }
-
-    /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began; returns the size
-    /// of its correction.
-    fn improve(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<T, StepFailure> {
+    /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began, which leaves its correction.
+    fn improve(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         let mut solved = self.solve_once(system, [q, v, p], t);
         for _ in 0..HALVINGS {
             if !matches!(solved, Err(StepFailure::NotFinite { .. })) {
@@ -117,7 +107,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         for (v, &correction) in v.iter_mut().zip(self.correction.iter()) {
             *v -= correction;
         }
-        Ok(norm::largest(&self.correction))
+        Ok(())
     }
 
     /// Sets `next` to the correction of v at (q, v), p.
@@ -148,17 +138,6 @@ impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
         for (b, &p) in b.iter_mut().zip(p) {
             *b -= p;
         }
-        Ok(())
-    }
-}
-
-/// ∂²L/∂v∂v w = p
-struct Momentum<'a, S, T>(Equations<'a, S, T>);
-
-impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Momentum<'_, S, T> {
-    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        self.0.evaluate(b, sink)?;
-        b.copy_from_slice(self.0.points[2]);
         Ok(())
     }
 }

@@ -164,16 +164,6 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     fn reciprocal_masses(_equations: &Self::Equations) -> Option<&[T]> {
         None
     }
-    /// The size of the velocities whose difference the velocity at (`q`, p, `t`) is: rounding is relative to it.
-    ///
-    /// # Errors
-    /// As [`evaluate`](Self::evaluate).
-    fn cancelling(
-        equations: &mut Self::Equations,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-    ) -> Result<T, StepFailure>;
     /// Whether Ω has kept its orientation at a point within a step.
     ///
     /// # Errors

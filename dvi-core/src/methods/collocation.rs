@@ -14,10 +14,6 @@ pub(super) mod lobatto;
 pub(super) mod packs;
 pub(super) mod steps;
 
-use crate::error::StepFailure;
-use crate::scalar::norm;
-use crate::space::elimination::eliminate;
-
 /// The largest number of stages.
 pub(super) const MOST: usize = 8;
 
@@ -118,20 +114,6 @@ impl<const S: usize> Collocation<S> {
         let (within, beyond) = (self.c.map(legendre), self.c.map(|c| legendre(1.0 + c)));
         core::array::from_fn(|i| core::array::from_fn(|j| self.b[j] * sum::<S>(&within[j], &beyond[i])))
     }
-
-    /// How much larger in the slopes the errors are that stages have, if they have another sign in each:
-    /// max |A⁻¹(1, −1, 1, …)|, which is the largest that it can be.
-    ///
-    /// # Errors
-    /// [`StepFailure::Singular`], as every elimination; A is regular.
-    pub(super) fn amplification(&self) -> Result<f64, StepFailure> {
-        let (mut a, mut slopes) = (self.a, [0.0; S]);
-        for (i, slope) in slopes.iter_mut().enumerate() {
-            *slope = if i % 2 == 0 { 1.0 } else { -1.0 };
-        }
-        eliminate(a.as_flattened_mut(), &mut slopes)?;
-        Ok(norm::largest(&slopes))
-    }
 }
 
 #[cfg(test)]
@@ -187,29 +169,6 @@ mod tests {
         check::<5>();
         check::<6>();
         check::<7>();
-        check::<8>();
-    }
-
-    /// Held against the rows of A⁻¹, solved for one by one.
-    #[test]
-    fn errors_are_amplified_the_most_where_signs_alternate() {
-        fn check<const S: usize>() {
-            let tableau = Collocation::<S>::gauss();
-            let mut rows = [0.0; S];
-            for j in 0..S {
-                let (mut a, mut column) = (tableau.a, [0.0; S]);
-                column[j] = 1.0;
-                super::eliminate(a.as_flattened_mut(), &mut column).expect("A is regular");
-                rows.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs());
-            }
-            let norm = rows.into_iter().fold(0.0, f64::max);
-            let amplification = tableau.amplification().expect("A is regular");
-            assert!((amplification / norm - 1.0).abs() < 1e-9, "{S} stages: {amplification}, {norm}");
-        }
-        check::<1>();
-        check::<2>();
-        check::<3>();
-        check::<4>();
         check::<8>();
     }
 

@@ -17,7 +17,7 @@ use crate::mechanics::orientation::MassOrientation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, Stopping, iterate};
+use crate::solve::{Convergence, Guess, Stopping, iterate, sizes};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
@@ -129,6 +129,8 @@ impl<S: ConstrainedSystem, T: Real> Memory<T> for Impulses<S, T> {
 #[derive(Debug)]
 struct Arrival<S: ConstrainedSystem, T: Real> {
     increment: Vector<S, T>,
+    /// In which the iteration judges coordinates.
+    weights: Vector<S, T>,
     q: Vector<S, T>,
     p: Vector<S, T>,
     v: Vector<S, T>,
@@ -218,10 +220,11 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     fn solve(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Step { system, interval, q, stopping } = *step;
         let Self { p, l_d, solver, is_positive, gradients, arrival, .. } = self;
-        let Arrival { increment, q: next, work, impulses: Impulses { first: impulse, .. }, .. } = arrival;
-        let scale = norm::largest(q) + norm::largest(increment);
-        let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| {
+        let Arrival { increment, weights, q: next, work, impulses: Impulses { first: impulse, .. }, .. } =
+            arrival;
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        iterate(convergence, statistics, |due, statistics| {
+            due.prepare(weights, q, increment);
             statistics.linearizations += 1;
             statistics.factorisations += 1;
             let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
@@ -232,13 +235,10 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             let equations = &mut Bordered { system, upper, lower, multipliers, forces, active };
             solver.solve(equations, Scalar::abs(interval.h))?;
             let (change, of_impulse) = solver.parts(q.len());
-            for (delta, &change) in increment.iter_mut().zip(change) {
-                *delta -= change;
-            }
             for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {
                 *impulse -= change;
             }
-            Ok(norm::largest(change))
+            Ok(sizes::reduce(weights, increment, change))
         })?;
         reach(q, increment, next);
         norm::finite(next)?;
@@ -259,7 +259,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     fn arrive(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Step { system, interval, q, .. } = *step;
         let Self { p: p0, l_d, solver, arrival, orientation, .. } = self;
-        let Arrival { increment, q: next, p, v, impulses: Impulses { first, last }, work } = arrival;
+        let Arrival { increment, q: next, p, v, impulses: Impulses { first, last }, work, .. } = arrival;
         p.fill(T::lift(0.0));
         work.fill(T::lift(0.0));
         let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
@@ -327,6 +327,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
         };
         let arrival = Arrival {
             increment: vector(),
+            weights: vector(),
             q: vector(),
             p: vector(),
             v: vector(),

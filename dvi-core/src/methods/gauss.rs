@@ -23,11 +23,10 @@ use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvalu
 use crate::methods::collocation::MOST;
 use crate::methods::collocation::steps::Steps;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, Tolerance, VariableStep};
-use crate::scalar::{Lanes, norm};
-use crate::solve::{Convergence, Iteration, Stopping, repeat};
+use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Real, Scalar, System, Vector};
+use crate::{Lagrangian, Real, System, Vector};
 
 use memory::Guess;
 
@@ -85,18 +84,6 @@ impl<const S: usize> Default for Gauss<S> {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// The largest of all numbers in `packs`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn largest<const STAGES: usize, T: Real>(packs: &[Lanes<STAGES, T>]) -> T {
-    let mut largest = [T::lift(0.0); STAGES];
-    for pack in packs {
-        for stage in 0..STAGES {
-            largest[stage] = norm::larger(largest[stage], Scalar::abs(pack.0[stage]));
-        }
-    }
-    norm::largest(&largest)
 }
 
 impl<const S: usize, E> Scheme for Gauss<S, E> {
@@ -254,21 +241,13 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
             Guess::Constant => memory.guess_constant(system, t, h, statistics)?,
         }
         // Where equations are of second order, this sets the positions that are guessed.
-        let increment = match memory.place(h).and(memory.drift(h)) {
-            Some(drift) => drift,
-            None => {
-                let speed = largest(&memory.slopes[0]);
-                let cancelling = S::Kind::cancelling(&mut memory.equations, system, &memory.y, t)?;
-                Scalar::abs(h) * norm::larger(speed, cancelling)
-            }
-        };
-        let scale = norm::largest(q) + increment;
+        memory.place(h);
         let stopping = match summation {
             Summation::Plain => stopping,
             Summation::Compensated => stopping.exhaustive(),
         };
-        let convergence = Convergence::fixed_point(stopping, scale, q, stopping.max_iterations);
-        let stages: Stages<'_, STAGES, E, S, T> = Stages { system, memory, t, h, evaluation: PhantomData };
+        let convergence = Convergence::fixed_point(stopping, stopping.max_iterations);
+        let stages: Stages<'_, STAGES, E, S, T> = Stages { system, memory, q, t, h, evaluation: PhantomData };
         repeat(convergence, statistics, stages)?;
         if S::Kind::HAS_VELOCITY_FORCES {
             // Those of the last iteration belong to the velocities before it.
@@ -283,6 +262,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
 struct Stages<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
     system: &'a S,
     memory: &'a mut GaussMemory<STAGES, S, T>,
+    q: &'a [T],
     t: T,
     h: T,
     evaluation: PhantomData<E>,
@@ -293,11 +273,12 @@ where
     S: System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
-    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity: the
-    /// momenta follow from the velocities.
+    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity, in units of the
+    /// coordinates: the momenta follow from the velocities.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { system, memory, t, h, .. } = self;
+    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { system, memory, q, t, h, .. } = self;
+        memory.prepare(due, q, *h);
         if S::Kind::OF_SECOND_ORDER {
             return memory.improve_places::<E>(system, *t, *h, statistics);
         }
@@ -307,7 +288,6 @@ where
             memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
         }
         memory.reach(1 % memory.y.len());
-        let largest = memory.evaluate_part::<E>(0, system, *t, *h, statistics)?;
-        Ok(Scalar::abs(*h) * largest)
+        memory.evaluate_part::<E>(0, system, *t, *h, statistics)
     }
 }

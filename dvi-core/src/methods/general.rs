@@ -131,9 +131,10 @@ impl<S: Lagrangian<T> + System<Kind: Unconstrained>, T: Real, M: InnerScheme<S, 
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let GeneralMemory { p, history, last_step, l_d, solver, residual, increment, sum, next } = memory;
+        // `sum` is not in use yet.
         history.extrapolate(increment);
         increment.iter_mut().for_each(|delta| *delta *= h);
-        let (interval, storage) = (Interval { t, h }, (solver, residual));
+        let (interval, storage) = (Interval { t, h }, (solver, [residual, &mut *sum]));
         solve_by_newton(l_d, system, interval, [q, p], increment, storage, self.stopping, statistics)?;
         sum.fill(T::lift(0.0));
         memory.residual.fill(T::lift(0.0));

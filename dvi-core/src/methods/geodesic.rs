@@ -135,8 +135,8 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         let mut memory = GeodesicMemory::new(system, seed);
         momentum(system, q, &l_v, &mut memory.p);
         manifold::lift(system, q, &mut memory.lifted);
-        let Work { node, matrix, residual, .. } = &mut memory.work;
-        let mut legendre = Legendre { node, matrix, residual };
+        let Work { node, matrix, residual, weights, .. } = &mut memory.work;
+        let mut legendre = Legendre { node, matrix, residual, weights };
         legendre.linearize(system, [q, v, &memory.p], t).map_err(StartError::Starter)?;
         memory.is_positive = memory.work.matrix.is_positive();
         if !S::CONSTANT_MASS || kicks::has_spheres::<S, T>() {
@@ -175,7 +175,9 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
     ) -> Result<(), StepFailure> {
         memory.rates.extrapolate([v]);
         let Work { mut node, mut matrix, mut residual, .. } = Work::new(system);
-        let mut legendre = Legendre { node: &mut node, matrix: &mut matrix, residual: &mut residual };
+        let mut weights = system.tangent().vector();
+        let mut legendre =
+            Legendre { node: &mut node, matrix: &mut matrix, residual: &mut residual, weights: &mut weights };
         legendre.solve(system, [q, &memory.p], t, v)
     }
 }

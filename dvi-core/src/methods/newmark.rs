@@ -19,12 +19,12 @@ use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
 use crate::scalar::norm::{self, reported};
-use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate};
+use crate::solve::{Convergence, Due, Guess, Ladder, Solver, Stopping, iterate, sizes};
 use crate::space::{LinearEquations, LinearSolver, Sink};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Linear, Real, RegularLagrangian, Scalar, Separable, Space, System, Vector, Weights};
+use crate::{Lagrangian, Linear, Real, RegularLagrangian, Separable, Space, System, Vector, Weights};
 
 pub use lagrangian::NewmarkLagrangian;
 
@@ -86,6 +86,8 @@ struct Work<S: System, T: Real> {
     /// d of Newton's method.
     correction: Vector<S, T>,
     increment: Vector<S, T>,
+    /// In which iterations judge coordinates.
+    weights: Vector<S, T>,
     next: Vector<S, T>,
     next_force: Vector<S, T>,
     /// The momentum that takes q0 to q1, or the residual, or what is added to the momentum.
@@ -123,10 +125,13 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
     /// Δ ← h M⁻¹[p½ + βh(F1 − F0)].
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         self.guess();
-        let convergence = Convergence::fixed_point(self.stopping, self.scale(), self.q, self.budget);
-        iterate(convergence, statistics, |statistics| {
+        let convergence = Convergence::fixed_point(self.stopping, self.budget);
+        iterate(convergence, statistics, |due, statistics| {
+            self.prepare(due);
             self.place(statistics);
-            Ok(self.carry())
+            self.carry();
+            let Work { weights, increment, velocity, .. } = &mut *self.work;
+            Ok(sizes::renew(weights, increment, velocity))
         })?;
         norm::finite(&self.work.increment)
     }
@@ -143,21 +148,23 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
             self.phase.guess(Some(self.mass), half, self.interval.h, increment);
         });
         let max = self.stopping.max_iterations;
-        let convergence = Convergence::new(self.stopping, self.scale(), self.q, max);
-        iterate(convergence, statistics, |statistics| {
+        let convergence = Convergence::new(self.stopping, max);
+        iterate(convergence, statistics, |due, statistics| {
+            self.prepare(due);
             self.place(statistics);
             self.improve(solver, statistics)
         })?;
         norm::finite(&self.work.increment)
     }
 
+    fn prepare(&mut self, due: &mut Due) {
+        let Work { weights, increment, .. } = &mut *self.work;
+        due.prepare(weights, self.q, increment);
+    }
+
     fn guess(&mut self) {
         let Work { half, increment, .. } = &mut *self.work;
         self.phase.guess(Some(self.mass), half, self.interval.h, increment);
-    }
-
-    fn scale(&self) -> T {
-        norm::largest(self.q) + norm::largest(&self.work.increment)
     }
 
     /// Sets `next` to q1, `next_force` to F(q1), and `transfer` to p½ + βh(F1 − F0).
@@ -171,22 +178,16 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         }
     }
 
-    /// Sets `increment` to h M⁻¹`transfer` and returns by how much it has changed.
-    fn carry(&mut self) -> T {
-        let Work { increment, transfer, velocity, .. } = &mut *self.work;
+    /// Sets `velocity` to h M⁻¹`transfer`, the new increment.
+    fn carry(&mut self) {
+        let Work { transfer, velocity, .. } = &mut *self.work;
         self.mass.solve(transfer, velocity);
-        let mut change = T::lift(0.0);
-        for (delta, &velocity) in increment.iter_mut().zip(velocity.iter()) {
-            let new = self.interval.h * velocity;
-            change = norm::larger(change, Scalar::abs(new - *delta));
-            *delta = new;
-        }
-        change
+        velocity.iter_mut().for_each(|velocity| *velocity *= self.interval.h);
     }
 
     /// One iteration of Newton's method; returns the size of d.
     fn improve(&mut self, solver: &mut Linear<S, T>, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Work { increment, next, transfer, velocity, momentum, next_force, correction, .. } =
+        let Work { increment, weights, next, transfer, velocity, momentum, next_force, correction, .. } =
             &mut *self.work;
         for transfer in transfer.iter_mut() {
             *transfer *= -self.interval.h;
@@ -197,10 +198,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         solver.solve(&mut Equations { system, interval, beta, x1: next, b: transfer, unused }, correction)?;
-        for (delta, &change) in increment.iter_mut().zip(correction.iter()) {
-            *delta -= change;
-        }
-        Ok(norm::largest(correction))
+        Ok(sizes::reduce(weights, increment, correction))
     }
 }
 
@@ -290,6 +288,7 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
         if self.is_explicit() {
             attempt.work.transfer.copy_from_slice(&attempt.work.half);
             attempt.carry();
+            attempt.work.increment.copy_from_slice(&attempt.work.velocity);
         } else {
             ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
         }
@@ -323,6 +322,7 @@ impl<S: Lagrangian<T>, T: Real> Work<S, T> {
             half: vector(),
             correction: vector(),
             increment: vector(),
+            weights: vector(),
             next: vector(),
             next_force: vector(),
             transfer: vector(),

@@ -14,7 +14,7 @@ use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, Stopping, iterate};
+use crate::solve::{Convergence, Guess, Stopping, iterate, sizes};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
@@ -105,6 +105,8 @@ pub struct ProjectedMemory<S: System, T: Real> {
     unknowns: [Vector<S, T>; 2],
     /// The residuals from 1, and then the corrections.
     residuals: [Vector<S, T>; NODES],
+    /// In which the iteration judges coordinates.
+    weights: Vector<S, T>,
     work: Work<S, T>,
 }
 
@@ -151,6 +153,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
             solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
             unknowns: system.space().vectors(),
             residuals: system.space().vectors(),
+            weights: vector(),
             work: Work {
                 middle: vector(),
                 velocity: vector(),
@@ -229,9 +232,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.guess(step.h, guess);
-        let scale = norm::largest(step.q) + norm::largest(&self.unknowns[0]);
-        let convergence = Convergence::new(stopping, scale, step.q, stopping.max_iterations);
-        let solved = iterate(convergence, statistics, |statistics| {
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        iterate(convergence, statistics, |due, statistics| {
+            due.prepare_all(&mut self.weights, step.q, &mut self.unknowns);
             self.differentiate(step, statistics);
             self.residuals[1..].iter().try_for_each(|residual| norm::finite(residual))?;
             statistics.linearizations += NODES as u64;
@@ -239,22 +242,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
             self.solve(step)?;
             let mut correction = T::lift(0.0);
             for (unknown, change) in self.unknowns.iter_mut().zip(&self.residuals[1..]) {
-                for (unknown, &change) in unknown.iter_mut().zip(change.iter()) {
-                    *unknown -= change;
-                }
-                correction = norm::larger(correction, norm::largest(change));
+                correction = norm::larger(correction, sizes::reduce(&self.weights, unknown, change));
             }
             Ok(correction)
-        });
-        solved.or_else(|failure| {
-            failure.unless_rounding(|| {
-                // What a relative error of the momentum makes of the unknowns.
-                let Self { residuals, p, .. } = &mut *self;
-                residuals.iter_mut().for_each(|residual| residual.copy_from_slice(p));
-                self.solve(step)?;
-                let sizes = self.residuals[1..].iter().map(|residual| norm::largest(residual));
-                Ok(sizes.fold(T::lift(0.0), norm::larger))
-            })
         })?;
         step.place(&self.unknowns, &mut self.work);
         let Self { orientation, work: Work { middle, end, one_form, .. }, .. } = self;

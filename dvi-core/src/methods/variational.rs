@@ -260,7 +260,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         F: FrequencyIn<T>,
     {
         let step = Step { system, method: self, t, h };
-        let VariationalMemory { interpolation, ends, phase, inertial, ladder, work } = memory;
+        let VariationalMemory { interpolation, ends, phase, inertial, ladder, work, weights } = memory;
         if S::SEPARABLE
             && F::UNFITTED
             && let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial)
@@ -274,7 +274,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
             return result;
         }
         let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        let parts = Parts { interpolation, ends, phase, inertial, work, q };
+        let parts = Parts { interpolation, ends, phase, inertial, work, weights, q };
         let mut attempt = Attempt { step, parts, budget };
         ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
     }

@@ -9,7 +9,7 @@ pub(crate) fn reported<T: Real>(value: T) -> f64 {
 }
 
 /// Where a vector has this many entries, it is worth to look at several at once.
-const MANY: usize = 32;
+pub(crate) const MANY: usize = 32;
 
 /// maxᵢ |xᵢ|; an entry that is not a number does not count.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -64,40 +64,6 @@ pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
     StepFailure::Singular { column, pivot: reported(pivot) }
 }
 
-/// The smallest |xᵢ| that is not zero, at most `bound`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn smallest<T: Real>(x: &[T], bound: T) -> T {
-    let value = |x| {
-        let size = Scalar::abs(x);
-        if size > T::lift(0.0) { size } else { bound }
-    };
-    fold(x, bound, value, |a, b| if b < a { b } else { a })
-}
-
-/// Sets `x` to `new`, and returns the largest change; one that is not a number does not count.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn renew<T: Real>(x: &mut [T], new: &[T]) -> T {
-    let one_by_one = |x: &mut [T], new: &[T]| {
-        x.iter_mut().zip(new).fold(T::lift(0.0), |largest, (x, &new)| {
-            let change = Scalar::abs(new - *x);
-            *x = new;
-            larger(largest, change)
-        })
-    };
-    if x.len() < MANY {
-        return one_by_one(x, new);
-    }
-    let ((chunks, rest), (new_chunks, new_rest)) = (x.as_chunks_mut::<8>(), new.as_chunks::<8>());
-    let mut partial = [T::lift(0.0); 8];
-    for (chunk, new) in chunks.iter_mut().zip(new_chunks) {
-        for ((partial, x), &new) in partial.iter_mut().zip(chunk).zip(new) {
-            *partial = larger(*partial, Scalar::abs(new - *x));
-            *x = new;
-        }
-    }
-    partial.into_iter().fold(one_by_one(rest, new_rest), larger)
-}
-
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
     if b > a { b } else { a }
@@ -120,26 +86,6 @@ pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
     let partial = chunks.iter().fold([T::lift(-0.0); 4], |sum, x| [0, 1, 2, 3].map(|i| sum[i] + x[i]));
     let sum = rest.iter().fold((partial[0] + partial[2]) + (partial[1] + partial[3]), |sum, &x| sum + x);
     sum * T::lift(0.0)
-}
-
-/// Whether a number that is not negative is finite, by one comparison.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn is_finite<T: Real>(size: T) -> bool {
-    size <= T::max_value().unwrap_or(T::lift(f64::MAX))
-}
-
-/// The largest |xᵢ|, if all entries are finite.
-///
-/// # Errors
-/// [`StepFailure::NotFinite`].
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn finite_size<T: Real>(x: &[T]) -> Result<T, StepFailure> {
-    let sum = x.iter().fold(T::lift(-0.0), |sum, &x| sum + x);
-    if !is_finite(Scalar::abs(sum)) {
-        each_finite(x)?;
-    }
-    let sizes = x.iter().map(|&x| Scalar::abs(x));
-    Ok(sizes.reduce(larger).unwrap_or(T::lift(0.0)))
 }
 
 #[cold]

@@ -8,7 +8,7 @@ use crate::mechanics::constraints::{
 };
 use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Stopping, iterate, sizes};
 use crate::space::sink::Places;
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
@@ -236,13 +236,12 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
     v: &[T],
 ) -> Result<(), StartError> {
     let stopping = Stopping::default();
-    let convergence = Convergence::new(stopping, norm::largest(q), q, stopping.max_iterations);
-    let result = iterate(convergence, &mut Statistics::default(), |_| {
+    let convergence = Convergence::new(stopping, stopping.max_iterations);
+    let mut weights: Vector<S, T> = projection.system.space().vector();
+    let result = iterate(convergence, &mut Statistics::default(), |due, _| {
+        due.prepare_alone(&mut weights, q);
         let change = projection.of_position(q, v)?;
-        for (q, &change) in q.iter_mut().zip(change) {
-            *q -= change;
-        }
-        Ok(norm::largest(change))
+        Ok(sizes::reduce(&weights, q, change))
     });
     match result.and(norm::finite(q)) {
         Ok(()) => Ok(()),

@@ -30,6 +30,8 @@ pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
     scales: Augmented<S, T>,
     /// Of velocities.
     pub(super) residuals: Residuals<S, T>,
+    /// In which iterations judge velocities.
+    pub(super) weights: Vector<S, T>,
 }
 
 /// In other units a run would be rounded in another way.
@@ -60,7 +62,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         let mut scales: Augmented<S, T> = space.vector();
         scales::balance(system, At { q, t }, v, scales.split_at_mut(n));
         let residuals = Residuals::new(system, &scales[..n]);
-        Self { matrix, solution: space.vector(), scales, residuals }
+        Self { matrix, solution: space.vector(), scales, residuals, weights: system.space().vector() }
     }
 
     /// Solves the equations, whose A is of the size of M/`alpha` with a positive `alpha`; the solution is here, x in its first n

@@ -66,15 +66,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         equations.field.evaluate(system, &y.0[0], t, out, statistics)
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn cancelling(
-        _equations: &mut FlowOnQ<S, T>,
-        _system: &S,
-        _y: &Self::Point<T>,
-        _t: T,
-    ) -> Result<T, StepFailure> {
-        Ok(T::lift(0.0))
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compare(
         equations: &mut FlowOnQ<S, T>,
         system: &S,

@@ -178,20 +178,6 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn cancelling(
-        equations: &mut HamiltonsEquations<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-    ) -> Result<T, StepFailure> {
-        match &mut equations.inverse {
-            Velocities::Varying(Transform { legendre, velocity, .. }) if !S::CONSTANT_MASS => {
-                legendre.of_momentum_alone(system, [&y.0[0], velocity, &y.0[1]], t)
-            }
-            Velocities::Constant(_) | Velocities::Varying(_) => Ok(T::lift(0.0)),
-        }
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compare(
         _equations: &mut HamiltonsEquations<S, T>,
         _system: &S,

@@ -67,6 +67,8 @@ pub struct Slopes<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     pub(crate) part: usize,
     /// h b.
     pub(crate) weights: Lanes<W, T>,
+    /// The units of changes.
+    pub(crate) units: &'a [T],
     /// The largest changes of a velocity so far, of each stage first, as the stages are beside one another.
     pub(crate) changes: [T; W],
 }
@@ -75,9 +77,9 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T>
     /// Renews number `j`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn renew(&mut self, j: usize, renewed: Lanes<W, T>) {
-        let slope = &mut self.slopes[self.part][j];
+        let (slope, unit) = (&mut self.slopes[self.part][j], self.units[j]);
         for stage in 0..W {
-            let change = Scalar::abs(renewed.0[stage] - slope.0[stage]);
+            let change = Scalar::abs(renewed.0[stage] - slope.0[stage]) * unit;
             self.changes[stage] = norm::larger(self.changes[stage], change);
         }
         *slope = renewed;

@@ -68,21 +68,21 @@ pub(in crate::methods) struct Nystrom<const STAGES: usize, T> {
 
 impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
     /// Sets the positions of the stages by the displacements x of the first `count`, and returns the largest change of one. For coordinate k,
-    /// `from`(k) is q and what is added to the sum. `renewed` is storage.
+    /// `from`(k) is q and what is added to the sum; changes are in units of `weights`. `renewed` is storage.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in crate::methods) fn place(
         &self,
         count: usize,
         displacements: &[Lanes<STAGES, T>],
         from: impl Fn(usize) -> (T, Lanes<STAGES, T>),
-        places: &mut [Lanes<STAGES, T>],
-        renewed: &mut [Lanes<STAGES, T>],
+        weights: &[T],
+        [places, renewed]: [&mut [Lanes<STAGES, T>]; 2],
     ) -> T {
         combine(&self.nu[..count], displacements, from, renewed);
         let mut changes = [T::lift(0.0); STAGES];
-        for (place, &renewed) in places.iter_mut().zip(renewed.iter()) {
+        for ((place, &renewed), &weight) in places.iter_mut().zip(renewed.iter()).zip(weights) {
             for stage in 0..STAGES {
-                let change = Scalar::abs(renewed.0[stage] - place.0[stage]);
+                let change = Scalar::abs(renewed.0[stage] - place.0[stage]) * weight;
                 changes[stage] = norm::larger(changes[stage], change);
             }
             *place = renewed;

@@ -28,15 +28,15 @@ where
     let Path { phase, inertial, interior, work, .. } = path;
     let (Some(interior), Some(mass)) = (interior, inertial.constant()) else { return Err(NOTHING_SOLVED) };
     let departure = Departure { q, phase, mass, h: step.h };
-    let scale = norm::largest(q) + interior.depart(&departure);
+    interior.depart(&departure);
     // The momentum is that of the forces before the last correction, whose size counts, and not that of the next one alone.
     let stopping = step.method.stopping.exhaustive();
-    let convergence = Convergence::fixed_point(stopping, scale, q, budget);
+    let convergence = Convergence::fixed_point(stopping, budget);
     iterate(
         convergence,
         statistics,
         #[cfg_attr(not(debug_assertions), inline(always))]
-        |statistics| Ok(interior.improve(step.system, &departure, step.t, statistics)),
+        |due, statistics| Ok(interior.improve(step.system, &departure, step.t, due, statistics)),
     )?;
     let Work { unknowns, residuals, .. } = work;
     for k in 0..q.len() {

@@ -37,8 +37,9 @@ where
     I: InteriorNodes<NODES, S, T>,
 {
     path.guess(step, q);
-    let convergence = Convergence::fixed_point(step.method.stopping, path.scale(), q, budget);
-    iterate(convergence, statistics, |statistics| {
+    let convergence = Convergence::fixed_point(step.method.stopping, budget);
+    iterate(convergence, statistics, |due, statistics| {
+        due.prepare_all(&mut path.work.weights, q, &mut path.work.unknowns[1..]);
         path.read_frequency(step, statistics)?;
         Ok(improve(step, path, statistics))
     })?;
@@ -73,7 +74,7 @@ where
     let Path { coefficients, inertial, work, .. } = path;
     // Of another L no step comes here, and nothing converges.
     let Some(mass) = inertial.constant() else { return T::lift(f64::NAN) };
-    let Work { unknowns, residuals, velocity, .. } = work;
+    let Work { unknowns, residuals, weights, velocity, .. } = work;
     for (residual, kinetic) in residuals.iter_mut().zip(&coefficients.kinetic).skip(1) {
         mass.solve(residual, velocity);
         for i in 0..residual.len() {
@@ -87,7 +88,7 @@ where
             let terms = inverse.iter().zip(residuals.iter()).skip(1);
             let change = terms.fold(zero, |sum, (&a, r)| sum + a * r[i]);
             unknown[i] -= change;
-            correction = norm::larger(correction, Scalar::abs(change));
+            correction = norm::larger(correction, Scalar::abs(change) * weights[i]);
         }
     }
     correction

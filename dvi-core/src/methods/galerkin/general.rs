@@ -15,7 +15,7 @@ use crate::discrete::frequency::{Frequency, FrequencyIn};
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, iterate};
+use crate::solve::{Convergence, Guess, iterate, sizes};
 use crate::space::{CoupledSolver, NodeSum, Sink, scratch};
 use crate::state::Statistics;
 use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector, Weights};
@@ -40,23 +40,21 @@ where
         }
     }
     let stopping = step.method.stopping;
-    let convergence = Convergence::new(stopping, path.scale(), q, stopping.max_iterations);
-    iterate(convergence, statistics, |statistics| {
+    let convergence = Convergence::new(stopping, stopping.max_iterations);
+    iterate(convergence, statistics, |due, statistics| {
+        due.prepare_all(&mut path.work.weights, q, &mut path.work.unknowns[1..]);
         path.read_frequency(step, statistics)?;
         differentiate(step, path, statistics)?;
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let Path { rule, coefficients, work, .. } = &mut *path;
-        let Work { unknowns, residuals, point, velocity, gradient, momentum, .. } = work;
+        let Work { unknowns, residuals, weights, point, velocity, gradient, momentum, .. } = work;
         let node = [point, velocity, gradient, momentum];
         let mut equations = Linearized { step, rule, coefficients, unknowns, node, j: 0, t: step.t };
         solver.solve(&mut equations, residuals)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
-            for (x, &change) in unknown.iter_mut().zip(change.iter()) {
-                *x -= change;
-            }
-            correction = norm::larger(correction, norm::largest(change));
+            correction = norm::larger(correction, sizes::reduce(weights, unknown, change));
         }
         Ok(correction)
     })?;

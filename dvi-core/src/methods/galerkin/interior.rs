@@ -21,9 +21,10 @@ use crate::mechanics::motion::weigh;
 use crate::mechanics::phase::PhasePoint;
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::collocation::packs::{Nystrom, combine, continuation, sum};
+use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::simd::Task;
-use crate::scalar::{Lanes, norm};
+use crate::solve::Due;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector};
@@ -53,6 +54,8 @@ pub struct Interior<const NODES: usize, const W: usize, S: System, T: Real, E> {
     drift: Vector<S, T>,
     kick: Vector<S, T>,
     work: [Vector<S, T>; 2],
+    /// In which the iteration judges coordinates.
+    sizes: Vector<S, T>,
     evaluation: PhantomData<E>,
 }
 
@@ -85,11 +88,17 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Deb
     fn forget(&mut self);
     /// Remembers the forces of a completed step of length `h` that began with the force `first`.
     fn remember(&mut self, h: T, first: &[T]);
-    /// Continues the forces of the step before, moves the nodes by them, and returns the largest change of a coordinate by the momentum
-    /// alone.
-    fn depart(&mut self, at: &Departure<'_, S, T>) -> T;
-    /// Evaluates the forces at all nodes once and moves these, and returns the largest change of a position.
-    fn improve(&mut self, system: &S, at: &Departure<'_, S, T>, t: T, statistics: &mut Statistics) -> T;
+    /// Continues the forces of the step before and moves the nodes by them.
+    fn depart(&mut self, at: &Departure<'_, S, T>);
+    /// Evaluates the forces at all nodes once and moves these, and returns the largest change of a position in units of the coordinates.
+    fn improve(
+        &mut self,
+        system: &S,
+        at: &Departure<'_, S, T>,
+        t: T,
+        due: &mut Due,
+        statistics: &mut Statistics,
+    ) -> T;
     /// Puts the nodes where the `unknowns` say, q0, the displacements and Δ, and evaluates the forces there, in a step of length h from t.
     fn visit(
         &mut self,
@@ -143,6 +152,7 @@ where
             drift: system.space().vector(),
             kick: system.space().vector(),
             work: system.space().vectors(),
+            sizes: system.space().vector(),
             evaluation: PhantomData,
         }
     }
@@ -164,7 +174,7 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn depart(&mut self, at: &Departure<'_, S, T>) -> T {
+    fn depart(&mut self, at: &Departure<'_, S, T>) {
         let Departure { phase, mass, h, .. } = *at;
         self.continue_forces(&phase.force, h);
         mass.displace(h, &phase.p, &mut self.drift);
@@ -174,11 +184,18 @@ where
         }
         mass.displace(h, impulse, &mut self.kick);
         self.place(at);
-        norm::largest(&self.drift)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, system: &S, at: &Departure<'_, S, T>, t: T, statistics: &mut Statistics) -> T {
+    fn improve(
+        &mut self,
+        system: &S,
+        at: &Departure<'_, S, T>,
+        t: T,
+        due: &mut Due,
+        statistics: &mut Statistics,
+    ) -> T {
+        due.prepare_places(&mut self.sizes, at.q, &mut self.places);
         self.evaluate(system, [t, at.h], statistics);
         self.place(at)
     }
@@ -275,11 +292,11 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         weigh(|_| by, forces, terms);
     }
 
-    /// Moves the nodes by the forces, and returns the largest change of a position.
+    /// Moves the nodes by the forces, and returns the largest change of a position in units of the coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, at: &Departure<'_, S, T>) -> T {
         let Departure { q, phase, mass, h } = *at;
-        let Self { nystrom, terms, displacements, places, renewed, drift, kick, work, .. } = self;
+        let Self { nystrom, terms, displacements, places, renewed, drift, kick, work, sizes, .. } = self;
         if let Some(reciprocals) = mass.reciprocals() {
             weigh(|k| Lanes::all(h * reciprocals[k]), terms, displacements);
         } else {
@@ -295,6 +312,6 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             let small = Lanes::all(phase.left_out_of_q(k)) + nodes * Lanes::all(kick[k]);
             (q[k], small + nodes * Lanes::all(drift[k]))
         };
-        nystrom.place(Self::COUNT, displacements, from, places, renewed)
+        nystrom.place(Self::COUNT, displacements, from, sizes, [places, renewed])
     }
 }

@@ -16,7 +16,7 @@ use crate::mechanics::pattern::linear_of_all;
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Stopping, iterate, sizes};
 use crate::space::linear::blocks;
 use crate::space::sink::{Sink, Transposed};
 use crate::state::Statistics;
@@ -37,6 +37,8 @@ pub struct GalerkinLagrangian<const NODES: usize, S: System, F, T: Real = f64> {
 struct Storage<const NODES: usize, S: System, T: Real> {
     displacements: [Vector<S, T>; NODES],
     residuals: [Vector<S, T>; NODES],
+    /// In which iterations judge coordinates.
+    weights: Vector<S, T>,
     blocks: [[Matrix<S, T>; NODES]; NODES],
     permutation: Permutation<S>,
     node: NodeWork<S, T>,
@@ -141,24 +143,22 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         for displacement in &mut storage.displacements {
             displacement.fill(T::lift(0.0));
         }
-        let Ends { q0, delta } = self.ends;
-        let scale = norm::largest(q0) + norm::largest(delta);
-        let convergence = Convergence::new(stopping, scale, q0, stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| {
+        let q0 = self.ends.q0;
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        iterate(convergence, statistics, |due, statistics| {
+            let Storage { weights, displacements, .. } = &mut *storage;
+            due.prepare_all(weights, q0, &mut displacements[..Self::INTERIOR]);
             self.differentiate(storage, statistics);
             self.linearize(storage);
             statistics.linearizations += 1;
             statistics.factorisations += 1;
-            let Storage { displacements, residuals, blocks, permutation, .. } = &mut *storage;
+            let Storage { displacements, residuals, weights, blocks, permutation, .. } = &mut *storage;
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
             blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)?;
             let mut correction = T::lift(0.0);
             for (displacement, change) in displacements.iter_mut().zip(residuals.iter()).take(Self::INTERIOR)
             {
-                for (x, &change) in displacement.iter_mut().zip(change.iter()) {
-                    *x -= change;
-                }
-                correction = norm::larger(correction, norm::largest(change));
+                correction = norm::larger(correction, sizes::reduce(weights, displacement, change));
             }
             Ok(correction)
         })
@@ -286,6 +286,7 @@ where
         let storage = Storage {
             displacements: space.vectors(),
             residuals: space.vectors(),
+            weights: space.vector(),
             blocks: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
             permutation: space.permutation(),
             node: NodeWork::new(system),

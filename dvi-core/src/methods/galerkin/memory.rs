@@ -60,6 +60,8 @@ pub(super) struct Work<const NODES: usize, S: System, T: Real> {
     pub(super) unknowns: [Vector<S, T>; NODES],
     /// (D₁ + D₂)L_d, ∂L_d/∂δ of the interior nodes, and p0 + D₁L_d; then the corrections of the unknowns.
     pub(super) residuals: [Vector<S, T>; NODES],
+    /// In which iterations judge coordinates.
+    pub(super) weights: Vector<S, T>,
     pub(super) point: Vector<S, T>,
     pub(super) velocity: Vector<S, T>,
     /// ∂L/∂q at a node.
@@ -184,12 +186,6 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
         phase.guess(inertial.constant(), &phase.p, step.h, increment);
     }
 
-    /// max|q0| + max|Δ|, by which errors are measured.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn scale(&self) -> T {
-        norm::largest(&self.work.unknowns[0]) + norm::largest(&self.work.unknowns[NODES - 1])
-    }
-
     /// The coefficients for the frequency at the current unknowns.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn read_frequency<F: FrequencyIn<T>, E>(
@@ -284,6 +280,7 @@ impl<const NODES: usize, S: Lagrangian<T>, T: Real> Work<NODES, S, T> {
         Self {
             unknowns: system.space().vectors(),
             residuals: system.space().vectors(),
+            weights: vector(),
             point: vector(),
             velocity: vector(),
             gradient: vector(),

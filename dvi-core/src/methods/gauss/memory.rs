@@ -9,10 +9,11 @@ use crate::mechanics::motion::{
 };
 use crate::methods::collocation::packs::{combine, largest_of, sum};
 use crate::scalar::Lanes;
+use crate::solve::Due;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::{Summation, left_out};
-use crate::{Real, System, Vector};
+use crate::{Real, Space, System, Vector};
 
 /// The slopes of all stages before the first iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +42,8 @@ pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
     pub(super) y: PointOf<S, T>,
     pub(super) increment: PointOf<S, T>,
     pub(super) next: PointOf<S, T>,
+    /// In which the iteration judges coordinates.
+    pub(super) weights: Vector<S, T>,
     work: StageWork<STAGES, S, T>,
 }
 
@@ -79,6 +82,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
             y,
             increment,
             next,
+            weights: system.space().vector(),
             work: StageWork::new(system),
         })
     }
@@ -146,14 +150,27 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         h: T,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
-        let Self { equations, coefficients, slopes, terms, stages, work, .. } = self;
+        let Self { equations, coefficients, slopes, terms, stages, weights: units, work, .. } = self;
         let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
         let at = AtStages { system, y: &*stages, t: times };
         let weights = Lanes::all(h) * coefficients.b;
         let changes = [T::lift(0.0); STAGES];
-        let mut renewed = Slopes { slopes, terms: &mut terms[part], part, weights, changes };
+        let mut renewed = Slopes { slopes, terms: &mut terms[part], part, weights, units, changes };
         E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
         Ok(largest_of(renewed.changes))
+    }
+
+    /// Does what is `due` before an iteration from `q`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn prepare(&mut self, due: &mut Due, q: &[T], h: T) {
+        let Self { coefficients, slopes, terms, stages, weights, .. } = self;
+        if S::Kind::OF_SECOND_ORDER {
+            return due.prepare_places(weights, q, &mut stages[0]);
+        }
+        if due.prepare_slopes(weights, (q, h), &mut slopes[0]) {
+            let weights = Lanes::all(h) * coefficients.b;
+            weigh(|_| weights, &slopes[0], &mut terms[0]);
+        }
     }
 
     /// Moves to the end of the step.

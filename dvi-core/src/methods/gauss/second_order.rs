@@ -10,9 +10,9 @@ use super::memory::GaussMemory;
 use crate::error::StepFailure;
 use crate::mechanics::motion::{FirstOrder, StageEvaluation, weigh};
 use crate::methods::collocation::packs::{combine, sum};
-use crate::scalar::{Lanes, norm};
+use crate::scalar::Lanes;
 use crate::state::Statistics;
-use crate::{Real, Scalar, System};
+use crate::{Real, System};
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
     /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the equations are not of second
@@ -22,7 +22,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         if !S::Kind::OF_SECOND_ORDER {
             return None;
         }
-        let Self { equations, coefficients, terms, stages, y, rest, .. } = self;
+        let Self { equations, coefficients, terms, stages, y, rest, weights, .. } = self;
         let reciprocals = S::Kind::reciprocal_masses(equations)?;
         let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
             return None;
@@ -35,7 +35,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
             let small = Lanes::all(rest[0][k]) + nodes * Lanes::all(by * rest[1][k]);
             (y[0][k], small + nodes * Lanes::all(by * y[1][k]))
         };
-        Some(nystrom.place(STAGES, displacements, from, places, renewed))
+        Some(nystrom.place(STAGES, displacements, from, weights, [places, renewed]))
     }
 
     /// For equations of second order: evaluates the forces at all stages once and moves them, and returns the largest change of a position.
@@ -49,17 +49,6 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
     ) -> Result<T, StepFailure> {
         self.evaluate_part::<E>(1, system, t, h, statistics)?;
         self.place(h).ok_or(StepFailure::NO_MATRIX)
-    }
-
-    /// The largest h q' where the step begins; `None` if the equations are not of second order.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn drift(&self, h: T) -> Option<T> {
-        if !S::Kind::OF_SECOND_ORDER {
-            return None;
-        }
-        let reciprocals = S::Kind::reciprocal_masses(&self.equations)?;
-        let rates = self.y[1].iter().zip(reciprocals).map(|(&p, &reciprocal)| h * reciprocal * p);
-        Some(rates.fold(T::lift(0.0), |largest, rate| norm::larger(largest, Scalar::abs(rate))))
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.

@@ -4,13 +4,13 @@ use nalgebra::Vector3;
 
 use super::memory::Square;
 use super::node::{Between, By, Node};
-use super::step::{correct, subtract_momentum};
+use super::step::{correct, set_weights, subtract_momentum};
 use crate::discrete::NodeWork;
 use crate::error::StepFailure;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, set, vector};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::system::{Factor, ManifoldSystem};
@@ -60,12 +60,13 @@ pub(super) struct Legendre<'a, S: ManifoldSystem, T: Real> {
     pub(super) node: &'a mut Node<S, T>,
     pub(super) matrix: &'a mut Square<S, T>,
     pub(super) residual: &'a mut [T],
+    pub(super) weights: &'a mut [T],
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> Legendre<'_, S, T> {
     /// Sets the residual and the matrix at (`q`, `v`), and factors it.
     pub(super) fn linearize(&mut self, system: &S, [q, v, p]: [&[T]; 3], t: T) -> Result<(), StepFailure> {
-        let Self { node, matrix, residual } = self;
+        let Self { node, matrix, residual, .. } = self;
         node.rest(system, q, v);
         let mass = Weights::mass();
         let entries = matrix.cleared();
@@ -91,19 +92,32 @@ impl<S: ManifoldLagrangian<T>, T: Real> Legendre<'_, S, T> {
     ) -> Result<(), StepFailure> {
         velocity(system, q, v);
         let stopping = Stopping::default();
-        let convergence = Convergence::new(stopping, norm::largest(v), v, stopping.max_iterations);
-        iterate(convergence, &mut Statistics::default(), |_| {
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        iterate(convergence, &mut Statistics::default(), |due, _| {
+            match core::mem::replace(due, Due::Nothing) {
+                Due::Nothing => {}
+                Due::Sizes => set_weights(system, self.weights, |block| norm::largest(&v[block.places()])),
+                Due::Shake => {
+                    sizes::set_shaken(self.weights, self.residual);
+                    self.correct(system, q, v);
+                }
+            }
             self.linearize(system, [q, v, p], t)?;
             self.matrix.solve(self.residual);
-            for block in blocks(system) {
-                correct(block, self.residual, v, |rate, [along, across]| {
-                    let circle = at_rest(block, q);
-                    rate - circle.direction * along - circle.axis * across
-                });
-            }
+            self.correct(system, q, v);
             norm::finite(v)?;
-            Ok(norm::largest(self.residual))
+            Ok(sizes::largest(self.weights, self.residual))
         })
+    }
+
+    /// Takes the residual, which is a correction now, from the velocity.
+    fn correct(&self, system: &S, q: &[T], v: &mut [T]) {
+        for block in blocks(system) {
+            correct(block, self.residual, v, |rate, [along, across]| {
+                let circle = at_rest(block, q);
+                rate - circle.direction * along - circle.axis * across
+            });
+        }
     }
 }
 

@@ -61,6 +61,8 @@ pub(super) struct Work<S: ManifoldSystem, T: Real> {
     /// The force there, where kicks are steps.
     pub(super) force: Vector<S, T>,
     pub(super) residual: Tangent<S, T>,
+    /// In which the iteration judges tangent vectors.
+    pub(super) weights: Tangent<S, T>,
     pub(super) matrix: Square<S, T>,
     pub(super) node: Node<S, T>,
 }
@@ -81,6 +83,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
             p: vector(),
             force: vector(),
             residual: system.tangent().vector(),
+            weights: system.tangent().vector(),
             matrix: system.tangent().square(all),
             node: Node::new(system),
         }

@@ -14,13 +14,13 @@ use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{self, Block, blocks, quaternion, rotation, set, vector};
 use crate::scalar::norm;
 use crate::scalar::norm::reported;
-use crate::solve::{Convergence, Guess, Stopping, iterate};
+use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
 use crate::space::{Sink, SquareMatrix};
 use crate::state::Statistics;
 use crate::state::rates::Rates;
 use crate::state::summation::Carried;
-use crate::system::Factor;
-use crate::{ManifoldLagrangian, Real, Space, System, Vector, Weights};
+use crate::system::{Factor, ManifoldSystem};
+use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// One step: where it begins, and how long it is.
 pub(super) struct Step<'a, S, T> {
@@ -108,23 +108,47 @@ impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
         statistics: &mut Statistics,
         mut linearize: impl FnMut(&mut Self, &mut Statistics),
     ) -> Result<(), StepFailure> {
-        let scale = norm::largest(step.q) + norm::largest(&self.displacement);
-        let convergence = Convergence::new(stopping, scale, step.q, stopping.max_iterations);
-        iterate(convergence, statistics, |statistics| {
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        iterate(convergence, statistics, |due, statistics| {
+            self.prepare(due, step);
             linearize(self, statistics);
             statistics.factorisations += 1;
             self.matrix.factor()?;
             self.matrix.solve(&mut self.residual);
-            for block in blocks(step.system) {
-                correct(block, &self.residual, &mut self.displacement, |displacement, [along, across]| {
-                    let circle = GreatCircle::new(vector(step.q, block), displacement);
-                    circle.axis * (circle.angle - along) + circle.direction * across
-                });
-            }
+            self.correct(step);
             norm::finite(&self.displacement)?;
-            Ok(norm::largest(&self.residual))
+            Ok(sizes::largest(&self.weights, &self.residual))
         })?;
         self.check_angles(step.system)
+    }
+
+    /// Does what is `due` before an iteration. Angles are judged as they are.
+    fn prepare(&mut self, due: &mut Due, step: &Step<'_, S, T>) {
+        match core::mem::replace(due, Due::Nothing) {
+            Due::Nothing => {}
+            Due::Sizes => set_weights(step.system, &mut self.weights, |block| match block.factor {
+                Factor::Line => {
+                    let place = block.places().start;
+                    Scalar::abs(step.q[place]) + Scalar::abs(self.displacement[place])
+                }
+                Factor::Rotation | Factor::Sphere => T::lift(1.0),
+            }),
+            Due::Shake => {
+                sizes::set_shaken(&self.weights, &mut self.residual);
+                self.correct(step);
+            }
+        }
+    }
+
+    /// Takes the residual, which is a correction now, from the displacement.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn correct(&mut self, step: &Step<'_, S, T>) {
+        for block in blocks(step.system) {
+            correct(block, &self.residual, &mut self.displacement, |displacement, [along, across]| {
+                let circle = GreatCircle::new(vector(step.q, block), displacement);
+                circle.axis * (circle.angle - along) + circle.direction * across
+            });
+        }
     }
 
     /// Sets the residual to −D₁L_d − p0 and the matrix to its derivative.
@@ -221,6 +245,17 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
             let mut between = Between::<S, T, K>::new(first, displacement, tangents, *by, sink);
             system.linearize(point, velocity, t, *weights, gradient, momentum, &mut between);
         }
+    }
+}
+
+/// Sets the weights of all entries of each block to one over its size.
+pub(super) fn set_weights<S: ManifoldSystem, T: Real>(
+    system: &S,
+    weights: &mut [T],
+    size: impl Fn(&Block) -> T,
+) {
+    for block in blocks(system) {
+        weights[block.slot..block.slot + block.dimension()].fill(sizes::weight_of(size(&block)));
     }
 }
 

@@ -15,7 +15,7 @@ use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::methods::collocation::Collocation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, Stopping, iterate};
+use crate::solve::{Convergence, Guess, Stopping, iterate, sizes};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
@@ -78,6 +78,8 @@ pub struct OneStepGaussMemory<const NODES: usize, const STAGES: usize, S: System
     forces: [Vector<S, T>; STAGES],
     /// The residuals from 1, and then the corrections.
     residuals: [Vector<S, T>; NODES],
+    /// In which the iteration judges coordinates.
+    weights: Vector<S, T>,
     work: Work<S, T>,
 }
 
@@ -130,6 +132,7 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             split: Split::new(system),
             solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
             increments: space.vectors(),
+            weights: space.vector(),
             forces: space.vectors(),
             residuals: space.vectors(),
             work: Work {
@@ -225,44 +228,23 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.guess(h, guess);
-        let size = self.increments.iter().fold(T::lift(0.0), |m, w| norm::larger(m, norm::largest(w)));
-        let scale = norm::largest(q) + size;
-        let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
-        let solved = iterate(convergence, statistics, |statistics| {
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        iterate(convergence, statistics, |due, statistics| {
+            due.prepare_all(&mut self.weights, q, &mut self.increments);
             self.differentiate(system, q, [t, h], statistics);
             self.residuals[1..].iter().try_for_each(|residual| norm::finite(residual))?;
             statistics.linearizations += STAGES as u64;
             statistics.factorisations += 1;
-            let Self { tableau, increments, residuals, solver, work, .. } = &mut *self;
+            let Self { tableau, increments, residuals, weights, solver, work, .. } = &mut *self;
             let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
             solver.solve(&mut matrix, residuals)?;
             let mut correction = T::lift(0.0);
             for (increment, change) in increments.iter_mut().zip(&residuals[1..]) {
-                for (w, &change) in increment.iter_mut().zip(change.iter()) {
-                    *w -= change;
-                }
-                correction = norm::larger(correction, norm::largest(change));
+                correction = norm::larger(correction, sizes::reduce(weights, increment, change));
             }
             Ok(correction)
-        });
-        solved.or_else(|failure| failure.unless_rounding(|| self.of_rounding(system, q, [t, h])))?;
+        })?;
         self.increments.iter().try_for_each(|increment| norm::finite(increment))
-    }
-
-    /// What relative errors of momenta and coordinates make of the increments, where they have another sign in each stage: it is
-    /// differences between stages that are amplified.
-    fn of_rounding(&mut self, system: &S, q: &Vector<S, T>, [t, h]: [T; 2]) -> Result<T, StepFailure> {
-        let Self { p, tableau, increments, residuals, solver, work, .. } = self;
-        let mut sign = T::lift(1.0);
-        for residual in residuals.iter_mut() {
-            residual.iter_mut().zip(p.iter()).for_each(|(residual, &p)| *residual = sign * p);
-            sign = -sign;
-        }
-        let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
-        solver.solve(&mut matrix, residuals)?;
-        let of_coordinates = T::lift(tableau.amplification()?) * norm::largest(q);
-        let of_momenta = residuals[1..].iter().map(|residual| norm::largest(residual));
-        Ok(of_momenta.fold(of_coordinates, norm::larger))
     }
 
     /// Sets `forces` to F and `residuals` to r.

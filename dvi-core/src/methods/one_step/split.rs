@@ -2,11 +2,11 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Iteration, Stopping, repeat};
+use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
 use crate::space::sink::Places;
 use crate::space::{elimination, scratch};
 use crate::state::Statistics;
-use crate::{Matrix, ProperlyDegenerate, Real, Space, System, Vector};
+use crate::{Matrix, ProperlyDegenerate, Real, Scalar, Space, System, Vector};
 
 /// Storage for equations in y.
 #[derive(Debug)]
@@ -16,6 +16,8 @@ pub(super) struct Split<S: System, T: Real> {
     /// ϑ − p, and the change of y in its order.
     form: Vector<S, T>,
     change: Vector<S, T>,
+    /// In which the iteration judges coordinates.
+    weights: Vector<S, T>,
 }
 
 /// Whether α has a component along coordinate `i`: the compiler knows it where sizes are literals.
@@ -36,7 +38,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
-        Self { block: space.matrix(), form: space.vector(), change: space.vector() }
+        Self { block: space.matrix(), form: space.vector(), change: space.vector(), weights: space.vector() }
     }
 
     /// Improves y in `q` until ϑ(q, t) = `p`.
@@ -53,19 +55,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let convergence = Convergence::new(stopping, norm::largest(q), q, stopping.max_iterations);
-        let newton = Newton { split: self, system, q, t, p };
-        match repeat(convergence, statistics, newton) {
-            Err(failure @ StepFailure::NotConverged { .. }) => {
-                self.form.copy_from_slice(p);
-                let scale = self.solve_once(system, q, t, statistics);
-                failure.unless_rounding(|| scale)
-            }
-            solved => solved,
-        }
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        repeat(convergence, statistics, Newton { split: self, system, q, t, p })
     }
 
-    /// Sets `change` to (∂ϑ/∂y)⁻¹`form`, and returns its size.
+    /// Sets `change` to (∂ϑ/∂y)⁻¹`form`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve_once(
         &mut self,
@@ -73,18 +67,18 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         q: &[T],
         t: T,
         statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
+    ) -> Result<(), StepFailure> {
         let half = q.len() / 2;
         if S::CANONICAL {
             return self.divide(system, q, t);
         }
         self.eliminate(system, q, t, half, statistics)?;
-        norm::finite_size(&self.change[..half])
+        norm::finite(&self.change[..half])
     }
 
     /// The same where each row has one entry.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn divide(&mut self, system: &S, q: &[T], t: T) -> Result<T, StepFailure> {
+    fn divide(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
         let half = q.len() / 2;
         scratch!(entries = system, self.block[..q.len()]);
         system.conjugate_entries(q, t, T::lift(1.0), T::lift(0.0), entries);
@@ -92,14 +86,14 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         for (i, column) in rows() {
             self.change[system.place(column) - half] = self.form[i] * (T::lift(1.0) / entries[i]);
         }
-        let size = norm::finite_size(&self.change[..half]);
+        let finite = norm::finite(&self.change[..half]);
         // A quotient by a number without a reciprocal is not finite, unless its numerator is as small as that.
-        if size.is_err() {
+        if finite.is_err() {
             for (i, column) in rows() {
                 norm::reciprocal(entries[i], column)?;
             }
         }
-        size
+        finite
     }
 
     /// The same by elimination.
@@ -112,7 +106,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         half: usize,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { block, form, change } = self;
+        let Self { block, form, change, .. } = self;
         let block = &mut block[..half * half];
         block.fill(T::lift(0.0));
         let mut sink = Places(|row: usize, column: usize, entry: T| {
@@ -143,17 +137,19 @@ struct Newton<'a, S: System, T: Real> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { split, system, q, t, p } = self;
+        due.prepare_alone(&mut split.weights, q);
         system.one_form(q, *t, &mut split.form);
         for (form, &p) in split.form.iter_mut().zip(p.iter()) {
             *form -= p;
         }
-        let size = split.solve_once(system, q, *t, statistics)?;
-        let half = q.len() / 2;
+        split.solve_once(system, q, *t, statistics)?;
+        let (half, mut size) = (q.len() / 2, T::lift(0.0));
         for (i, q) in q.iter_mut().enumerate() {
             if let Some(y) = system.place(i).checked_sub(half) {
                 *q -= split.change[y];
+                size = norm::larger(size, Scalar::abs(split.change[y]) * split.weights[i]);
             }
         }
         Ok(size)

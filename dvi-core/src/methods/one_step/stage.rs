@@ -10,7 +10,7 @@ use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Iteration, Stopping, repeat};
+use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
 use crate::space::sink::{Product, Scaled};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
 use crate::state::Statistics;
@@ -82,6 +82,8 @@ pub(super) struct Stage<S: System, T: Real> {
     solver: Linear<S, T>,
     velocity: Vector<S, T>,
     correction: Vector<S, T>,
+    /// In which the iteration judges unknowns.
+    weights: Vector<S, T>,
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
@@ -99,6 +101,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
             point: vector(),
             velocity: vector(),
             correction: vector(),
+            weights: vector(),
         }
     }
 
@@ -113,40 +116,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Step { system, q, t, h, nodes } = *step;
-        let scale = norm::larger(norm::largest(q), norm::largest(&self.unknown));
-        let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
-        let Err(failure) = repeat(convergence, statistics, Newton { step, stage: self }) else {
-            return Ok(());
-        };
-        if !S::Space::ON_STACK {
-            return failure.unless_rounding(|| self.of_momentum(system, q, [t, h], nodes));
-        }
-        // What another function sees has no place in registers.
-        let mut apart = Self::new(system, q, t);
-        apart.unknown.copy_from_slice(&self.unknown);
-        apart.momentum.copy_from_slice(&self.momentum);
-        failure.unless_rounding(|| apart.of_momentum(system, q, [t, h], nodes))
-    }
-
-    /// What a relative error of the momentum makes of the unknowns.
-    #[cold]
-    #[inline(never)]
-    fn of_momentum(
-        &mut self,
-        system: &S,
-        q: &Vector<S, T>,
-        [t, h]: [T; 2],
-        nodes: &[Node],
-    ) -> Result<T, StepFailure> {
-        let step = Step { system, q, t, h, nodes };
-        let (equations, solver, correction) = self.equations(&step);
-        solver.solve(&mut OfMomentum(equations), correction)?;
-        let sizes = correction.iter().enumerate().map(|(i, &x)| Scalar::abs(step.stretch(i) * x));
-        let size = sizes.fold(T::lift(0.0), norm::larger);
-        // What has been evaluated is at the unknowns.
-        self.correction.fill(T::lift(0.0));
-        Ok(size)
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        repeat(convergence, statistics, Newton { step, stage: self })
     }
 
     /// The equations at the unknowns.
@@ -243,15 +214,17 @@ struct Newton<'a, S: System, T: Real> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, _statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { step, stage } = self;
+        due.prepare(&mut stage.weights, step.q, &mut stage.unknown);
         let (mut equations, solver, correction) = stage.equations(step);
         solver.solve(&mut equations, correction)?;
         let mut size = T::lift(0.0);
-        for (i, (unknown, &correction)) in stage.unknown.iter_mut().zip(stage.correction.iter()).enumerate() {
+        let Stage { unknown, correction, weights, .. } = &mut **stage;
+        for (i, (unknown, &correction)) in unknown.iter_mut().zip(correction.iter()).enumerate() {
             let change = step.stretch(i) * correction;
             *unknown -= change;
-            size = norm::larger(size, Scalar::abs(change));
+            size = norm::larger(size, Scalar::abs(change) * weights[i]);
         }
         Ok(size)
     }
@@ -314,19 +287,6 @@ impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, 
                 b[i] += weight * one_form[i] - h * row(i) * gradient[i];
             }
         }
-        Ok(())
-    }
-}
-
-/// The same matrix, and the momentum on the right: what a relative error of the momentum makes of the unknowns.
-struct OfMomentum<'a, S: System, T: Real>(Equations<'a, S, T>);
-
-impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for OfMomentum<'_, S, T> {
-    const IN_ANY_UNITS: bool = true;
-
-    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        self.0.evaluate(b, sink)?;
-        b.copy_from_slice(self.0.momentum);
         Ok(())
     }
 }

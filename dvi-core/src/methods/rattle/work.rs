@@ -7,12 +7,12 @@ use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::mass::Mass;
 use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Iteration, Stopping, repeat};
+use crate::solve::{Convergence, Due, Iteration, Stopping, repeat, sizes};
 use crate::space::SquareMatrix;
 use crate::space::sink::Places;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Scalar, Separable, Space, Vector};
+use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
 
 /// A vector of coordinates for each constraint.
 type Rows<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Array<Vector<S, T>>;
@@ -43,6 +43,8 @@ pub(super) struct Work<S: ConstrainedSystem, T: Real> {
     pub(super) impulses: Impulses<S, T>,
     /// A displacement, or a velocity.
     pub(super) vector: Vector<S, T>,
+    /// In which the iteration judges coordinates.
+    pub(super) weights: Vector<S, T>,
     pub(super) values: Multipliers<S, T>,
     pub(super) gram: Gram<S, T>,
 }
@@ -74,6 +76,7 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
             place: Place::new(system),
             impulses: Impulses::new(system),
             vector: vector(),
+            weights: vector(),
             values: system.multipliers().vector(),
             gram: system.multipliers().square(all),
         }
@@ -189,11 +192,9 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         mass.displace(h, &place.p, vector);
         combine(&here.solved, first, vector);
         add(q, vector, q1);
-        let largest = if step.look == Look::Quick { norm::largest_number } else { norm::largest };
-        let scale = largest(q) + largest(vector);
-        let convergence = Convergence::new(stopping, scale, q, stopping.max_iterations);
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
         repeat(convergence, statistics, Newton { step, work: self })?;
-        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, values, gram } = self;
+        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, values, gram, .. } = self;
         constrain(system, q1, t1, values, &mut place.rows);
         place.measure(mass);
         let reciprocal = T::lift(1.0) / h;
@@ -226,7 +227,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         t: T,
         look: Look,
     ) -> Result<(), StepFailure> {
-        let Self { q, place, impulses, vector: v, values, gram } = self;
+        let Self { q, place, impulses, vector: v, values, gram, .. } = self;
         let Place { p, rows, solved, squares, .. } = place;
         if S::AUTONOMOUS {
             // G M⁻¹p, with the rows of G M⁻¹, which are here.
@@ -265,9 +266,10 @@ struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, _statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Step { system, here, t, h, .. } = *self.step;
-        let Work { q, place: Place { rows, .. }, impulses, vector, values, gram } = &mut *self.work;
+    fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Step { system, q: q0, here, t, h, .. } = *self.step;
+        let Work { q, place: Place { rows, .. }, impulses, vector, weights, values, gram } = &mut *self.work;
+        due.prepare_end(weights, q0, q);
         constrain(system, q, t + h, values, rows);
         if self.step.trusts_pivot() {
             let pivot = dot(&rows[0], &here.solved[0]);
@@ -282,12 +284,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
         reduce_all(&mut impulses.first, values);
         vector.fill(T::lift(NEUTRAL));
         combine(&here.solved, values, vector);
-        reduce_all(q, vector);
-        Ok(match (&here.solved[..], &values[..], self.step.look) {
-            // The largest product is the product with the largest.
-            ([solved], [value], Look::Quick) => Scalar::abs(*value) * norm::largest_number(solved),
-            _ => norm::largest(vector),
-        })
+        Ok(sizes::reduce(weights, q, vector))
     }
 }
 

@@ -15,7 +15,7 @@ use crate::mechanics::combination::Inverse;
 use crate::methods::Clock;
 use crate::scalar::norm;
 use crate::scalar::simd::{apart_if, widest_if};
-use crate::solve::{Convergence, Guess, iterate};
+use crate::solve::{Convergence, Guess, iterate, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
@@ -175,10 +175,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let node = &mut l_d.work;
         scratch!(increment = step.system, node.velocity);
         scratch!(trial = step.system, work.trial);
+        scratch!(weights = step.system, work.weights);
         scratch!(point = step.system, node.point);
         scratch!(gradient = step.system, node.momentum);
         history.extrapolate(increment);
-        let mut scale = norm::largest(q) + norm::largest(increment);
         // Where the iteration would be without s.
         let origin: &[T] = if defect.is_none() {
             q
@@ -186,10 +186,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             for ((next, &q), &shift) in work.next.iter_mut().zip(q.iter()).zip(work.shift.iter()) {
                 *next = q + sigma * shift;
             }
-            scale += norm::largest(&work.shift);
             &work.next
         };
-        let convergence = Convergence::fixed_point(step.method.stopping, scale, q, *budget);
+        let convergence = Convergence::fixed_point(step.method.stopping, *budget);
         // Long vectors are passed over once: each block of the next point is placed as soon as its s is known.
         let is_long = !<S::Space as Space>::ON_STACK;
         if is_long {
@@ -199,8 +198,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             convergence,
             statistics,
             #[cfg_attr(not(debug_assertions), inline(always))]
-            |statistics| {
-                if !is_long {
+            |due, statistics| {
+                let has_moved = due.prepare(weights, q, increment);
+                if has_moved || !is_long {
                     place([origin, increment], sigma, point);
                 }
                 apart_if(
@@ -217,7 +217,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     |block, s| {
                         let (origin, increment) = (&origin[block.clone()], &mut increment[block.clone()]);
-                        largest = norm::larger(largest, norm::renew(increment, s));
+                        largest = norm::larger(largest, sizes::renew(&weights[block.clone()], increment, s));
                         if is_long {
                             place([origin, increment], sigma, &mut point[block]);
                         }
@@ -238,14 +238,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
-        let Work { increment, trial, shift, next: total, .. } = &mut **work;
+        let Work { increment, trial, weights, shift, next: total, .. } = &mut **work;
         if defect.is_none() {
             shift.fill(T::lift(0.0));
         }
         history.extrapolate(increment);
-        let scale = norm::largest(q) + norm::largest(increment) + norm::largest(shift);
-        let convergence = Convergence::fixed_point(step.method.stopping.exhaustive(), scale, q, *budget);
-        iterate(convergence, statistics, |statistics| {
+        let convergence = Convergence::fixed_point(step.method.stopping.exhaustive(), *budget);
+        iterate(convergence, statistics, |due, statistics| {
+            due.prepare(weights, q, increment);
             for ((total, &shift), &s) in total.iter_mut().zip(shift.iter()).zip(increment.iter()) {
                 *total = step.method.sigma * (shift + s);
             }
@@ -253,7 +253,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             step.system.hamiltonian_gradient(&l_d.work.point, step.node_time(), &mut l_d.work.gradient);
             statistics.gradients += 1;
             inverse.solve(step.system, &l_d.work.gradient, trial);
-            Ok(norm::renew(increment, trial))
+            Ok(sizes::renew(weights, increment, trial))
         })?;
         norm::finite(increment)
     }
@@ -274,8 +274,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             add_to(&mut work.next, defect);
             add_to(&mut work.increment, &work.shift);
         }
-        let Work { increment, next: p0, trial, .. } = &mut **work;
-        let (points, storage) = ([&***q, &**p0], (solver, trial));
+        let Work { increment, next: p0, trial, weights, .. } = &mut **work;
+        let (points, storage) = ([&***q, &**p0], (solver, [trial, weights]));
         let stopping = step.method.stopping;
         solve_by_newton(
             *l_d,

@@ -96,6 +96,8 @@ pub(super) struct Work<S: System, T: Real> {
     /// The smooth part of the increment.
     pub(super) increment: Vector<S, T>,
     pub(super) trial: Vector<S, T>,
+    /// In which iterations judge coordinates.
+    pub(super) weights: Vector<S, T>,
     /// (D₁ + D₂)L_d
     pub(super) sum: Vector<S, T>,
     pub(super) next: Vector<S, T>,
@@ -109,6 +111,7 @@ impl<S: Lagrangian<T>, T: Real> Work<S, T> {
             ahead: vector(),
             increment: vector(),
             trial: vector(),
+            weights: vector(),
             sum: vector(),
             next: vector(),
         }

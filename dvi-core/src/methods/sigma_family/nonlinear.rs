@@ -10,7 +10,7 @@ use crate::discrete::{DiscreteLagrangian, Ends, NodeWork, OneNode, Span, solve_b
 use crate::error::StepFailure;
 use crate::mechanics::combination::Inverse;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, iterate};
+use crate::solve::{Convergence, Guess, iterate, sizes};
 use crate::state::Statistics;
 use crate::state::history::History;
 use crate::{DegenerateLagrangian, Linear, Real, Vector};
@@ -100,13 +100,13 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { step, q, history, inverse, l_d, work, budget } = self;
         let combination = fixed_point_matrix::<S, T>(step.method, step.h);
-        let Work { increment, trial, shift: p0, sum, next: residual, .. } = &mut **work;
+        let Work { increment, trial, weights, shift: p0, sum, next: residual, .. } = &mut **work;
         history.extrapolate(increment);
         l_d.place(step.interval(), Ends { q0: q, delta: increment });
         inverse.prepare(step.system, &l_d.work.point, step.node_time(), combination, trial, statistics)?;
-        let scale = norm::largest(q) + norm::largest(increment);
-        let convergence = Convergence::fixed_point(step.method.stopping, scale, q, *budget);
-        let solved = iterate(convergence, statistics, |statistics| {
+        let convergence = Convergence::fixed_point(step.method.stopping, *budget);
+        iterate(convergence, statistics, |due, statistics| {
+            due.prepare(weights, q, increment);
             residual.copy_from_slice(p0);
             let ends = Ends { q0: q, delta: increment };
             l_d.derivatives(
@@ -119,13 +119,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             for (delta, &correction) in increment.iter_mut().zip(trial.iter()) {
                 *delta += correction;
             }
-            Ok(norm::largest(trial))
-        });
-        solved.or_else(|failure| {
-            failure.unless_rounding(|| {
-                inverse.solve(step.system, p0, trial);
-                Ok(norm::largest(trial))
-            })
+            Ok(sizes::largest(weights, trial))
         })?;
         norm::finite(increment)
     }
@@ -138,9 +132,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { step, q, history, l_d, work, .. } = self;
-        let Work { increment, trial, shift: p0, .. } = &mut **work;
+        let Work { increment, trial, weights, shift: p0, .. } = &mut **work;
         guess.begin(increment, |increment| history.extrapolate(increment));
-        let (points, storage) = ([&***q, &**p0], (solver, trial));
+        let (points, storage) = ([&***q, &**p0], (solver, [trial, weights]));
         let stopping = step.method.stopping;
         solve_by_newton(*l_d, step.system, step.interval(), points, increment, storage, stopping, statistics)
     }

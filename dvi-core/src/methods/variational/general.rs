@@ -12,10 +12,10 @@ use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, iterate};
+use crate::solve::{Convergence, Guess, iterate, sizes};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Linear, NondegenerateLagrangian, Real, Scalar};
+use crate::{Linear, NondegenerateLagrangian, Real, Vector};
 
 /// A step by Newton's method from a guess.
 #[inline(never)]
@@ -26,11 +26,11 @@ pub(super) fn by_newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
     guess: Guess,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let Parts { interpolation, ends, phase, inertial, work, q } = parts;
+    let Parts { interpolation, ends, phase, inertial, work, weights, q } = parts;
     let mass = inertial.constant();
     guess.begin(&mut work.increment, |increment| phase.guess(mass, &phase.p, step.h, increment));
     with_coefficients!(F, interpolation, |coefficients| {
-        newton(step, coefficients, ends, mass, phase, work, q, solver, statistics)
+        newton(step, coefficients, ends, mass, phase, (work, weights), q, solver, statistics)
     })?;
     finish(step, parts, statistics)
 }
@@ -42,32 +42,29 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
     parts: &mut Parts<'_, S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let Parts { interpolation, ends, phase, inertial, work, q } = parts;
+    let Parts { interpolation, ends, phase, inertial, work, weights, q } = parts;
     let Some(mass) = inertial.constant() else { return Err(StepFailure::NO_MATRIX) };
     let coefficients = interpolation.uniform()?;
     phase.guess(Some(mass), &phase.p, step.h, &mut work.increment);
     let Work { node, next, increment, trial, sum } = &mut **work;
     let (method, p, force) = (step.method, &phase.p, &phase.force);
     let mut l_d = Interpolated { method, coefficients, ends, mass: Some(mass), p, force, node, next };
-    let scale = norm::largest(q) + norm::largest(increment);
     let stopping = match step.method.summation {
         Summation::Plain => step.method.stopping,
         Summation::Compensated => step.method.stopping.exhaustive(),
     };
-    let convergence = Convergence::fixed_point(stopping, scale, q, stopping.max_iterations);
-    iterate(convergence, statistics, |statistics| {
+    let convergence = Convergence::fixed_point(stopping, stopping.max_iterations);
+    iterate(convergence, statistics, |due, statistics| {
+        due.prepare(weights, q, increment);
         trial.copy_from_slice(p);
         let ends = Ends { q0: q, delta: increment };
         l_d.derivatives(step.span(ends), trial, sum, statistics)?;
         let inverse_kappa = Coefficients::<T>::sums(l_d.coefficients)(0).inverse_kappa;
         mass.solve(trial, &mut l_d.node.velocity);
-        let mut correction = T::lift(0.0);
-        for (delta, &velocity) in increment.iter_mut().zip(l_d.node.velocity.iter()) {
-            let change = step.h * inverse_kappa * velocity;
-            *delta += change;
-            correction = norm::larger(correction, Scalar::abs(change));
+        for velocity in l_d.node.velocity.iter_mut() {
+            *velocity *= -(step.h * inverse_kappa);
         }
-        Ok(correction)
+        Ok(sizes::reduce(weights, increment, &l_d.node.velocity))
     })?;
     norm::finite(increment)?;
     sum.fill(T::lift(0.0));
@@ -83,7 +80,7 @@ fn newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustab
     ends: &mut [Local<S, T>; 2],
     mass: Option<&Mass<S, T>>,
     phase: &PhasePoint<S, T>,
-    work: &mut Work<S, T>,
+    (work, weights): (&mut Work<S, T>, &mut Vector<S, T>),
     q: &[T],
     solver: &mut Linear<S, T>,
     statistics: &mut Statistics,
@@ -92,7 +89,8 @@ fn newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustab
     let (method, p, force) = (step.method, &*phase.p, &*phase.force);
     let l_d = &mut Interpolated { method, coefficients, ends, mass, p, force, node, next };
     let (interval, stopping) = (step.interval(), step.method.stopping);
-    solve_by_newton(l_d, step.system, interval, [q, p], increment, (solver, trial), stopping, statistics)?;
+    let storage = (solver, [&mut *trial, weights]);
+    solve_by_newton(l_d, step.system, interval, [q, p], increment, storage, stopping, statistics)?;
     sum.fill(T::lift(0.0));
     l_d.derivatives(step.span(Ends { q0: q, delta: increment }), trial, sum, statistics)
 }

@@ -23,6 +23,8 @@ pub struct VariationalMemory<S: System, T: Real> {
     /// With the matrix of Newton's method; explicit steps do not use it.
     pub(super) ladder: Ladder<Linear<S, T>>,
     pub(super) work: Work<S, T>,
+    /// In which iterations judge coordinates; work space.
+    pub(super) weights: Vector<S, T>,
 }
 
 /// What a step changes, the coordinates among it.
@@ -32,6 +34,7 @@ pub(super) struct Parts<'a, S: System, T: Real> {
     pub(super) phase: &'a mut PhasePoint<S, T>,
     pub(super) inertial: &'a mut Inertial<S, T>,
     pub(super) work: &'a mut Work<S, T>,
+    pub(super) weights: &'a mut Vector<S, T>,
     pub(super) q: &'a mut Vector<S, T>,
 }
 
@@ -112,6 +115,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> VariationalMemory<S, T> {
             inertial: Inertial::new(system, q, v, t)?,
             ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t, solver.storing())),
             work: Work::new(system),
+            weights: system.space().vector(),
         })
     }
 }

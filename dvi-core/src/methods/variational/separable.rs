@@ -20,14 +20,15 @@ use crate::mechanics::phase::PhasePoint;
 use crate::scalar::blocks::blocks;
 use crate::scalar::norm;
 use crate::scalar::simd::widest_if;
-use crate::solve::{Convergence, iterate};
+use crate::solve::{Convergence, iterate, sizes};
+use crate::space::scratch;
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, Vector};
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
-    Parts { interpolation, phase, inertial, work, q, .. }: &mut Parts<'_, S, T>,
+    Parts { interpolation, phase, inertial, work, weights, q, .. }: &mut Parts<'_, S, T>,
     budget: usize,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -39,6 +40,7 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
     } else {
         work
     };
+    scratch!(weights = step.system, **weights);
     widest_if(
         !<S::Space as Space>::ON_STACK,
         #[cfg_attr(not(debug_assertions), inline(always))]
@@ -46,10 +48,10 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
             if !F::UNFITTED && step.method.frequency.reading().is_some() {
                 // Coefficients that change in each iteration belong into registers.
                 let coefficients = &mut Uniform::linear(&step.method.rule);
-                return complete(step, coefficients, mass, phase, work, q, budget, statistics);
+                return complete(step, coefficients, mass, phase, (work, weights), q, budget, statistics);
             }
             with_coefficients!(F, interpolation, |coefficients| {
-                complete(step, coefficients, mass, phase, work, q, budget, statistics)
+                complete(step, coefficients, mass, phase, (work, weights), q, budget, statistics)
             })
         },
     )
@@ -62,7 +64,7 @@ fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjust
     coefficients: &mut C,
     mass: &Mass<S, T>,
     phase: &mut PhasePoint<S, T>,
-    work: &mut Work<S, T>,
+    (work, weights): (&mut Work<S, T>, &mut [T]),
     q: &mut Vector<S, T>,
     budget: usize,
     statistics: &mut Statistics,
@@ -70,7 +72,7 @@ fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjust
     let start = T::lift(0.0);
     let is_placed = false;
     let mut attempt = Attempt { step, coefficients, mass, phase, q, work, start, is_placed, gradients: 0 };
-    let result = attempt.run(budget, statistics);
+    let result = attempt.run(weights, budget, statistics);
     statistics.gradients += attempt.gradients;
     result?;
     let Work { node: NodeWork { momentum, gradient, .. }, next, increment, .. } = work;
@@ -127,13 +129,18 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     Attempt<'_, S, F, R, C, T>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(&mut self, budget: usize, statistics: &mut Statistics) -> Result<(), StepFailure> {
+    fn run(
+        &mut self,
+        weights: &mut [T],
+        budget: usize,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
         self.read_start()?;
         if self.step.method.is_explicit() {
             self.kick_drift_kick();
             return Ok(());
         }
-        self.solve(budget, statistics)?;
+        self.solve(weights, budget, statistics)?;
         self.finish()
     }
 
@@ -158,19 +165,24 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
 
     /// Δ.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve(&mut self, budget: usize, statistics: &mut Statistics) -> Result<(), StepFailure> {
+    fn solve(
+        &mut self,
+        weights: &mut [T],
+        budget: usize,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
         self.phase.guess(Some(self.mass), &self.phase.p, self.step.h, &mut self.work.increment);
-        let scale = norm::largest(self.q) + norm::largest(&self.work.increment);
-        let convergence = Convergence::fixed_point(self.step.method.stopping, scale, self.q, budget);
+        let convergence = Convergence::fixed_point(self.step.method.stopping, budget);
         iterate(
             convergence,
             statistics,
             #[cfg_attr(not(debug_assertions), inline(always))]
-            |_| {
+            |due, _| {
+                self.is_placed &= !due.prepare(weights, self.q, &mut self.work.increment);
                 if self.step.method.reads_both_ends() {
                     self.read_both_ends()?;
                 }
-                Ok(self.improve())
+                Ok(self.improve(weights))
             },
         )?;
         norm::finite(&self.work.increment)
@@ -209,7 +221,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
 
     /// One iteration; returns the size of its correction.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self) -> T {
+    fn improve(&mut self, weights: &[T]) -> T {
         let nodes = self.step.method.rule.nodes();
         // At the end of the step b = 0.
         let mut left = nodes.iter().enumerate().filter(|(_, c)| **c != 1.0);
@@ -219,20 +231,20 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
                 if !is_only {
                     self.gather(last, Share::Left);
                 }
-                self.correct_by_last(reciprocals, last, c, is_only)
+                self.correct_by_last(weights, reciprocals, (last, c), is_only)
             }
             _ => {
                 self.gather(nodes.len(), Share::Left);
                 let NodeWork { momentum, velocity, .. } = &mut self.work.node;
                 self.mass.solve(momentum, velocity);
-                self.correct()
+                self.correct(weights)
             }
         }
     }
 
     /// Corrects Δ by the velocity that belongs to the impulses of the left end, and returns the size of the correction.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn correct(&mut self) -> T {
+    fn correct(&mut self, weights: &[T]) -> T {
         let Work { increment, node: NodeWork { velocity, .. }, .. } = &mut *self.work;
         let sums = self.coefficients.sums();
         // Corrections take the place of velocities, which are of no use any more.
@@ -242,13 +254,19 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
             *velocity = sums(i).correction(self.step.h * *velocity, q, *delta);
             *delta += *velocity;
         }
-        norm::largest(velocity)
+        sizes::largest(weights, velocity)
     }
 
     /// The same, with the impulse of the last node that has one at the left end, which is not in `momentum` yet; if it is the
     /// only one, nothing is in `momentum`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn correct_by_last(&mut self, reciprocals: &[T], node: usize, c: f64, is_only: bool) -> T {
+    fn correct_by_last(
+        &mut self,
+        weights: &[T],
+        reciprocals: &[T],
+        (node, c): (usize, f64),
+        is_only: bool,
+    ) -> T {
         self.evaluate(node, c);
         let (h, basis, sums) = (self.step.h, self.coefficients.bases(node), self.coefficients.sums());
         let weight = h * self.coefficients.weight(node);
@@ -269,7 +287,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
                 corrections[i] = sums(at).correction(h * velocity, q[i], increment[i]);
                 increment[i] += corrections[i];
             }
-            largest = norm::larger(largest, norm::largest(corrections));
+            largest = norm::larger(largest, sizes::largest(&weights[block.clone()], corrections));
             if self.is_placed {
                 place(&basis, block.start, [q, increment], &mut point[block]);
             }

@@ -1,17 +1,16 @@
 //! The convergence of several iterations in lanes, each judged as it would be alone.
 //!
-//! What is a branch in [`Convergence::judge`] is a choice between numbers here, of all lanes at once: 1 stands for yes, 0 for no.
+//! What is a branch in [`Convergence::judge`](super::Convergence::judge) is a choice between numbers here, of all lanes at once: 1 stands
+//! for yes, 0 for no. Where an iteration would take sizes again or be put to the test, all give up: it does that alone.
 
-use super::{Convergence, FLOOR, MOST_GROWTHS, Stopping, Verdict};
+use super::{FLOOR, LARGE, MOST_GROWTHS, SMALL, Stopping, Verdict};
 use crate::Scalar;
-use crate::scalar::{Comparison, Lanes, smallest_normal};
+use crate::scalar::{Comparison, Lanes};
 
-/// The convergence of `W` iterations that run in step.
+/// The convergence of `W` fixed points that run in step.
 #[derive(Debug)]
 pub(crate) struct Convergences<const W: usize> {
     tolerance: Lanes<W>,
-    scale: Lanes<W>,
-    first: Lanes<W>,
     correction: Lanes<W>,
     growths: Lanes<W>,
     /// 1 where the iteration goes on, and 0 where it is done.
@@ -24,33 +23,27 @@ pub(crate) struct Convergences<const W: usize> {
 }
 
 impl<const W: usize> Convergences<W> {
-    /// As [`Convergence::of_fixed_point`] in each lane.
+    /// As [`Convergence::fixed_point`](super::Convergence::fixed_point) in each lane.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of_fixed_point(
-        stopping: Stopping,
-        scale: Lanes<W>,
-        smallest: Lanes<W>,
-        budget: usize,
-    ) -> Self {
-        let (zero, least) = (Lanes::all(0.0), Lanes::all(smallest_normal()));
-        let mut new = Self {
-            tolerance: zero,
-            scale: Lanes::choose(scale, Comparison::Less, least, least, scale),
-            first: zero,
+    pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
+        let alone: super::Convergence<f64> = super::Convergence::fixed_point(stopping, budget);
+        let zero = Lanes::all(0.0);
+        Self {
+            tolerance: Lanes::all(alone.tolerance),
             correction: zero,
             growths: zero,
             active: Lanes::all(1.0),
             iterations: zero,
             latest: 0,
             budget,
-            stalling: zero,
-        };
-        for lane in 0..W {
-            let alone = Convergence::of_fixed_point(stopping, scale.0[lane], smallest.0[lane], budget);
-            new.tolerance.0[lane] = alone.tolerance;
-            new.stalling.0[lane] = alone.stalling;
+            stalling: Lanes::all(alone.stalling),
         }
-        new
+    }
+
+    /// Whether the next iteration takes the sizes of the coordinates first.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn takes_sizes(&self) -> bool {
+        self.latest == 0
     }
 
     /// 1 in the lanes that go on, and 0 in the others.
@@ -69,7 +62,7 @@ impl<const W: usize> Convergences<W> {
         iterations
     }
 
-    /// [`Convergence::judge`] in the active lanes: gives up if one of them does, and goes on as long as one does.
+    /// [`Convergence::judge`](super::Convergence::judge) in the active lanes: gives up if one of them does, and goes on as long as one does.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn judge(&mut self, corrections: Lanes<W>) -> Verdict {
         let first = self.latest == 0;
@@ -79,20 +72,26 @@ impl<const W: usize> Convergences<W> {
         let shrunk = self.correction - corrections;
         self.correction = corrections;
         let mut is_last = Lanes::choose(corrections, Comparison::LessOrEqual, self.tolerance, yes, no);
-        if first {
-            self.first = corrections;
-        } else {
-            let are_later = self.are_small_later(shrunk);
-            let are_noise = self.are_noise(shrunk);
-            is_last = Lanes::choose(is_last + are_later + are_noise, Comparison::Greater, no, yes, no);
-            self.growths += Lanes::choose(shrunk, Comparison::LessOrEqual, no, yes, no);
+        // A correction that is not a number is not small.
+        let is_small = Lanes::choose(corrections, Comparison::LessOrEqual, Lanes::all(LARGE), yes, no);
+        let mut is_alone = yes - is_small;
+        if !first {
+            let stands = Lanes::choose(shrunk, Comparison::Greater, self.stalling * corrections, no, yes);
+            let floor = Lanes::all(FLOOR * f64::EPSILON);
+            let are_noise = Lanes::choose(corrections, Comparison::LessOrEqual, floor, stands, no);
+            is_last += self.are_small_later(shrunk) + are_noise;
+            let has_grown = Lanes::choose(shrunk, Comparison::LessOrEqual, no, stands, no);
+            self.growths += has_grown;
+            let is_tiny =
+                Lanes::choose(corrections, Comparison::LessOrEqual, Lanes::all(SMALL), has_grown, no);
+            let most = Lanes::all(MOST_GROWTHS as f64);
+            is_alone += is_tiny + Lanes::choose(self.growths, Comparison::Greater, most, yes, no);
         }
         self.active = Lanes::choose(is_last, Comparison::Greater, no, no, self.active);
         if self.active == no {
             return Verdict::Accept;
         }
-        let most = Lanes::all(MOST_GROWTHS as f64);
-        let given_up = Lanes::choose(self.growths, Comparison::Greater, most, self.active, no);
+        let given_up = Lanes::choose(is_alone, Comparison::Greater, no, self.active, no);
         if given_up == no && self.latest < self.budget { Verdict::Continue } else { Verdict::GiveUp }
     }
 
@@ -102,22 +101,14 @@ impl<const W: usize> Convergences<W> {
         let (square, most) = (self.correction * self.correction, self.tolerance * shrunk);
         Lanes::choose(most, Comparison::Greater, square, Lanes::all(1.0), Lanes::all(0.0))
     }
-
-    /// Whether the latest corrections no longer shrink, and are nothing but rounding errors.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn are_noise(&self, shrunk: Lanes<W>) -> Lanes<W> {
-        let (no, yes) = (Lanes::all(0.0), Lanes::all(1.0));
-        let largest = Lanes::choose(self.first, Comparison::Greater, self.scale, self.first, self.scale);
-        let size = self.correction * Lanes::all(1.0 / (FLOOR * f64::EPSILON));
-        let below = Lanes::choose(size, Comparison::LessOrEqual, largest, yes, no);
-        Lanes::choose(shrunk, Comparison::Greater, self.stalling * self.correction, no, below)
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Convergence, Convergences, Stopping, Verdict};
+    use super::super::{Convergence, Trial};
+    use super::{Convergences, Stopping, Verdict};
     use crate::scalar::Lanes;
+    use crate::solve::Due;
 
     const LANES: usize = 8;
 
@@ -139,11 +130,11 @@ mod tests {
         let (mut accepted, mut given_up) = (0, 0);
         for (seed, tolerance) in (0..44).flat_map(|seed| [0.0, 1e-17, 1e-12, 1e-6].map(|t| (seed, t))) {
             let stopping = Stopping { tolerance, ..Stopping::default() };
-            let (scale, smallest, budget) = (Lanes::all(2.0), Lanes::all(0.5), 40);
-            let of_one: Convergence<f64> = Convergence::of_fixed_point(stopping, 2.0, 0.5, budget);
+            let budget = 40;
+            let mut of_one: Convergence<f64> = Convergence::fixed_point(stopping, budget);
+            of_one.due = Due::Nothing;
             let mut alone = [(of_one, Verdict::Continue); LANES];
-            let mut together: Convergences<LANES> =
-                Convergences::of_fixed_point(stopping, scale, smallest, budget);
+            let mut together: Convergences<LANES> = Convergences::fixed_point(stopping, budget);
             let verdict = loop {
                 let iteration = together.latest as i32;
                 let corrections = Lanes(core::array::from_fn(|lane| correction(lane, iteration, seed)));
@@ -151,6 +142,11 @@ mod tests {
                 for (lane, (convergence, latest)) in alone.iter_mut().enumerate() {
                     if *latest == Verdict::Continue {
                         *latest = convergence.judge(corrections.0[lane]);
+                    }
+                    // What is done alone ends what is done together.
+                    let is_tried = !matches!(convergence.trial, Trial::None);
+                    if *latest == Verdict::Continue && (is_tried || convergence.due == Due::Sizes) {
+                        *latest = Verdict::GiveUp;
                     }
                     let goes_on = f64::from(*latest != Verdict::Accept);
                     assert_eq!(together.active.0[lane], goes_on, "lane {lane}, {iteration}, seed {seed}");

@@ -6,7 +6,7 @@ use crate::methods::sigma_family::Sigma;
 use crate::methods::together::{Companion, all_finite, load, of_lanes};
 use crate::scalar::lanes::read_lane;
 use crate::scalar::simd::{Task, widest};
-use crate::scalar::{Comparison, Lanes};
+use crate::scalar::{Comparison, Lanes, smallest_normal};
 use crate::solve::{Convergences, Stopping, Verdict};
 use crate::state::history::{DEPTH, extrapolate};
 use crate::system::Packable;
@@ -53,6 +53,7 @@ where
                 monitor.look(q)?;
                 Ok(monitor.steps_unseen().max(1))
             });
+            let [corrected, weights, ..] = &mut *kept;
             let (done, iterations) = widest(Midpoints {
                 system,
                 stopping: method.stopping,
@@ -64,9 +65,10 @@ where
                 q,
                 origin: ahead,
                 increment: other,
-                corrected: &mut kept[0],
+                corrected,
                 point,
                 gradient,
+                weights,
                 shift,
                 history,
                 place: &mut place,
@@ -113,6 +115,8 @@ struct Midpoints<'a, const W: usize, S: System> {
     corrected: &'a mut Packed<W, S>,
     point: &'a mut Packed<W, S>,
     gradient: &'a mut Packed<W, S>,
+    /// In which the iteration judges coordinates.
+    weights: &'a mut Packed<W, S>,
     shift: &'a mut Packed<W, S>,
     history: &'a mut [Packed<W, S>; DEPTH],
     /// Where the next increment goes in the history.
@@ -142,20 +146,25 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     fn step(&mut self, number: u64) -> Option<[u64; W]> {
         let half = Lanes::all(0.5);
         extrapolate(self.history, *self.place, self.increment);
-        let mut scale = largest(self.q) + largest(self.increment);
         if self.has_shift {
-            scale += largest(self.shift);
             for ((origin, &q), &shift) in self.origin.iter_mut().zip(self.q.iter()).zip(self.shift.iter()) {
                 *origin = q + half * shift;
             }
         } else {
             self.origin.copy_from_slice(self.q);
         }
-        let smallest = smallest(self.q, scale);
-        let mut convergence = Convergences::of_fixed_point(self.stopping, scale, smallest, self.budget);
+        let mut convergence = Convergences::fixed_point(self.stopping, self.budget);
         let time = self.clock.after(number);
         let time = Lanes::all(time.time() + 0.5 * time.step_size());
         loop {
+            if convergence.takes_sizes() {
+                let increments = self.q.iter().zip(self.increment.iter());
+                for (weight, (&q, &s)) in self.weights.iter_mut().zip(increments) {
+                    // As `weight_of`.
+                    let least = Lanes::all(smallest_normal::<f64>() / f64::EPSILON);
+                    *weight = Lanes::all(1.0) / (Scalar::abs(q) + Scalar::abs(s) + least);
+                }
+            }
             let correction = self.iterate(time, convergence.active());
             match convergence.judge(correction) {
                 Verdict::Continue => {}
@@ -191,7 +200,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         let increments = self.increment.iter().zip(self.corrected.iter_mut());
         for ((j, &reciprocal), (&s, corrected)) in self.reciprocals.iter().enumerate().zip(increments) {
             let trial = self.gradient[self.system.conjugate(j)] * reciprocal;
-            correction = larger(correction, Scalar::abs(trial - s));
+            correction = larger(correction, Scalar::abs(trial - s) * self.weights[j]);
             *corrected = Lanes::choose(active, Comparison::Greater, Lanes::all(0.0), trial, s);
         }
         // In another place, as what is stored with a mask is slow to load.
@@ -204,26 +213,4 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn larger<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
     Lanes::choose(b, Comparison::Greater, a, b, a)
-}
-
-/// As [`norm::largest`](crate::scalar::norm::largest).
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn largest<const W: usize>(x: &[Lanes<W>]) -> Lanes<W> {
-    let mut largest = Lanes::all(0.0);
-    for &x in x {
-        largest = larger(largest, Scalar::abs(x));
-    }
-    largest
-}
-
-/// As [`norm::smallest`](crate::scalar::norm::smallest).
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn smallest<const W: usize>(x: &[Lanes<W>], bound: Lanes<W>) -> Lanes<W> {
-    let mut smallest = bound;
-    for &x in x {
-        let x = Scalar::abs(x);
-        let if_positive = Lanes::choose(x, Comparison::Greater, Lanes::all(0.0), x, smallest);
-        smallest = Lanes::choose(x, Comparison::Less, smallest, if_positive, smallest);
-    }
-    smallest
 }
