@@ -26,7 +26,7 @@ use crate::solve::{Convergence, Stopping, iterate, sizes};
 use crate::space::sink::Sink;
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
-use crate::{Lagrangian, Linear, Real, Vector};
+use crate::{Lagrangian, Linear, Real, Scalar, Vector};
 
 pub use frequency::{
     Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, PerCoordinate, Radial, Reading, Unfitted,
@@ -176,7 +176,8 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let span = Span { system, interval, ends: Ends { q0, delta } };
-        solver.solve(&mut Equations { l_d, span, p0, statistics }, residual)?;
+        let size = |j: usize| Scalar::abs(q0[j]) + Scalar::abs(delta[j]);
+        solver.solve(&mut Equations { l_d, span, p0, statistics }, size, residual)?;
         Ok(sizes::reduce(weights, delta, residual))
     })?;
     norm::finite(delta)

@@ -7,8 +7,9 @@ use super::pattern::of_entries;
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::SquareMatrix;
+use crate::space::elimination::unit_of_row;
 use crate::space::sink::{Places, Sink};
-use crate::{NondegenerateLagrangian, Real, Space, Square, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
 
 /// M and M⁻¹.
 #[derive(Debug)]
@@ -24,7 +25,9 @@ pub(crate) struct Mass<S: System, T: Real> {
 #[derive(Debug)]
 struct Coupled<S: System, T: Real> {
     matrix: Square<S, T>,
+    /// Of the matrix whose rows are in these units.
     factors: Square<S, T>,
+    units: Vector<S, T>,
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
@@ -49,16 +52,24 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
         let entries = matrix.cleared();
         // What is weighted by zero has no place in it.
+        let [mut masses, reciprocals]: [Vector<S, T>; 2] = space.vectors();
         let mut sink = Places(|row: usize, column: usize, entry: T| {
             if entry != zero {
                 entries.add(row, column, entry);
             }
+            if row == column {
+                masses[row] += entry;
+            }
         });
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
         let mut factors = matrix.clone();
+        // In units in which a velocity has an energy of one, as long as its mass is positive.
+        let mut units: Vector<S, T> = space.vector();
+        units.fill(T::lift(1.0));
+        factors.scale_rows(|j| unit_of_row([Scalar::sqrt(Scalar::abs(masses[j]))].into_iter()), &mut units);
         factors.factor_with_care([&mut l_q, &mut l_v])?;
-        let [masses, reciprocals] = [space.vector(), space.vector()];
-        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
+        masses.fill(zero);
+        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, units }) })
     }
 
     /// 1/m of each coordinate, if M is diagonal.
@@ -78,8 +89,10 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {
         // What is known when compiled keeps elimination out of the steps with a diagonal matrix.
         match &self.coupled {
-            Some(Coupled { factors, .. }) if !S::DIAGONAL_MASS => {
-                v.copy_from_slice(p);
+            Some(Coupled { factors, units, .. }) if !S::DIAGONAL_MASS => {
+                for ((v, &p), &unit) in v.iter_mut().zip(p).zip(units.iter()) {
+                    *v = unit * p;
+                }
                 factors.solve(v);
             }
             _ => {

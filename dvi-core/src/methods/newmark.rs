@@ -24,7 +24,7 @@ use crate::space::{LinearEquations, LinearSolver, Sink};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Linear, Real, RegularLagrangian, Separable, Space, System, Vector, Weights};
+use crate::{Lagrangian, Linear, Real, RegularLagrangian, Scalar, Separable, Space, System, Vector, Weights};
 
 pub use lagrangian::NewmarkLagrangian;
 
@@ -197,7 +197,9 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         let unused: [&mut [T]; 3] = [velocity, next_force, momentum];
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        solver.solve(&mut Equations { system, interval, beta, x1: next, b: transfer, unused }, correction)?;
+        let size = |j: usize| Scalar::abs(self.q[j]) + Scalar::abs(increment[j]);
+        let mut equations = Equations { system, interval, beta, x1: next, b: transfer, unused };
+        solver.solve(&mut equations, size, correction)?;
         Ok(sizes::reduce(weights, increment, correction))
     }
 }

@@ -19,7 +19,7 @@ use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::rates::Rates;
-use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights};
+use crate::{Coupled, DegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// The variational midpoint scheme with a projection onto p = α(q), for any degenerate system.
 ///
@@ -302,9 +302,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 
     /// Overwrites the residuals with the corrections.
     fn solve(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
-        let Self { residuals, solver, work, .. } = self;
+        let Self { unknowns: [delta, _], residuals, solver, work, .. } = self;
         let mut matrix = Linearized { step, node: 0, work };
-        solver.solve(&mut matrix, residuals)
+        let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(delta[j]);
+        solver.solve(&mut matrix, size, residuals)
     }
 
     fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {

@@ -169,6 +169,24 @@ pub(crate) fn is_positive<T: Real>(matrix: &[T], permutation: &[usize]) -> bool 
     (0..n).fold(true, |positive, k| positive ^ is_negative(k) ^ (permutation[k] != k))
 }
 
+/// One over the size of a row, Σⱼ |aⱼ| sⱼ; one if it has none.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn unit_of_row<T: Real>(terms: impl Iterator<Item = T>) -> T {
+    let reciprocal = T::lift(1.0) / terms.fold(T::lift(0.0), |sum, term| sum + Scalar::abs(term));
+    if reciprocal.is_finite() { reciprocal } else { T::lift(1.0) }
+}
+
+/// Multiplies each row of the row-major `matrix`, and its entry of `x`, by one over its size in terms of the `sizes` of the unknowns.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn scale_rows<T: Real>(matrix: &mut [T], sizes: &[T], x: &mut [T]) {
+    for (i, x) in x.iter_mut().enumerate() {
+        let line = &mut matrix[i * sizes.len()..(i + 1) * sizes.len()];
+        let unit = unit_of_row(line.iter().zip(sizes).map(|(&a, &size)| a * size));
+        line.iter_mut().for_each(|a| *a *= unit);
+        *x *= unit;
+    }
+}
+
 /// The length of a row below which its end is not worth a loop of its own.
 const SHORT: usize = 8;
 
@@ -237,7 +255,7 @@ pub(crate) fn eliminate_two<T: Real>(matrix: &[T], x: &mut [T]) -> Option<Result
     let size = Scalar::abs(determinant);
     // What is not a number is neither.
     let is_safe =
-        size >= larger(T::lift(1e-100), T::lift(0.5) * Scalar::abs(across)) && size <= T::lift(1e100);
+        size >= larger(T::lift(1e-200), T::lift(0.5) * Scalar::abs(across)) && size <= T::lift(1e200);
     if is_safe {
         let reciprocal = T::lift(1.0) / determinant;
         [*x, *y] = [(d * *x - b * *y) * reciprocal, (a * *y - c * *x) * reciprocal];

@@ -39,19 +39,25 @@ pub trait LinearEquations<T> {
 
 /// What solves linear equations, with the storage that it needs.
 pub trait LinearSolver<T: Real>: Debug {
-    /// Sets `x` to the solution.
+    /// Sets `x` to the solution, where xⱼ are changes of unknowns of the size |`size`(j)|.
     ///
     /// # Errors
     /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if b is no number
     /// there; [`StepFailure::NotConverged`] where products with vectors lead to no solution. Of a regular A and a b that is no
     /// number, the solution may be no number.
-    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure>;
+    fn solve(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        size: impl Fn(usize) -> T,
+        x: &mut [T],
+    ) -> Result<(), StepFailure>;
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
     matrix: &mut M,
     equations: &mut E,
+    size: impl Fn(usize) -> T,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
@@ -59,10 +65,11 @@ fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
         return solved;
     }
     let finite = norm::finite(x);
+    matrix.scale_rows(&size, x);
     match matrix.eliminate(x) {
         Ok(()) => Ok(()),
         Err(StepFailure::Singular { .. }) if finite.is_ok() && E::IN_ANY_UNITS => {
-            by_factors(matrix, equations, x)
+            by_factors(matrix, equations, size, x)
         }
         Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
@@ -74,9 +81,11 @@ fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
 fn by_factors<T: Real, M: SquareMatrix<T>>(
     matrix: &mut M,
     equations: &mut impl LinearEquations<T>,
+    size: impl Fn(usize) -> T,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
+    matrix.scale_rows(size, x);
     matrix.factor_in_any_units()?;
     matrix.solve(x);
     Ok(())
@@ -86,8 +95,13 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> LinearS
     for FixedSquare<T, BLOCKS, N, SINGLES>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
-        eliminate(self, equations, x)
+    fn solve(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        size: impl Fn(usize) -> T,
+        x: &mut [T],
+    ) -> Result<(), StepFailure> {
+        eliminate(self, equations, size, x)
     }
 }
 
@@ -143,10 +157,15 @@ impl<T: Scalar> RunTimeSolver<T> {
 
 #[cfg(feature = "alloc")]
 impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
-    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
+    fn solve(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        size: impl Fn(usize) -> T,
+        x: &mut [T],
+    ) -> Result<(), StepFailure> {
         match &mut self.0 {
-            Storage::Matrix(matrix) => eliminate(matrix, equations, x),
-            Storage::Products(krylov) => krylov.solve(equations, x),
+            Storage::Matrix(matrix) => eliminate(matrix, equations, size, x),
+            Storage::Products(krylov) => krylov.solve(equations, size, x),
         }
     }
 }

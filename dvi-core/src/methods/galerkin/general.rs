@@ -18,7 +18,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, iterate, sizes};
 use crate::space::{CoupledSolver, NodeSum, Sink, scratch};
 use crate::state::Statistics;
-use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector, Weights};
+use crate::{Coupled, NondegenerateLagrangian, Real, Scalar, System, Vector, Weights};
 use core::ops::DerefMut;
 
 /// The unknowns.
@@ -51,7 +51,8 @@ where
         let Work { unknowns, residuals, weights, point, velocity, gradient, momentum, .. } = work;
         let node = [point, velocity, gradient, momentum];
         let mut equations = Linearized { step, rule, coefficients, unknowns, node, j: 0, t: step.t };
-        solver.solve(&mut equations, residuals)?;
+        let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(unknowns[NODES - 1][j]);
+        solver.solve(&mut equations, size, residuals)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
             correction = norm::larger(correction, sizes::reduce(weights, unknown, change));

@@ -20,7 +20,7 @@ use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
-use crate::{Coupled, ProperlyDegenerate, Real, Space, System, Vector, Weights};
+use crate::{Coupled, ProperlyDegenerate, Real, Scalar, Space, System, Vector, Weights};
 
 /// Gauss collocation of a degenerate Lagrangian in class ([`ProperlyDegenerate`]) with `S` stages, 1 ≤ `S` ≤ 4.
 ///
@@ -237,7 +237,8 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             statistics.factorisations += 1;
             let Self { tableau, increments, residuals, weights, solver, work, .. } = &mut *self;
             let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
-            solver.solve(&mut matrix, residuals)?;
+            let size = |j: usize| increments.iter().fold(Scalar::abs(q[j]), |size, w| size + Scalar::abs(w[j]));
+            solver.solve(&mut matrix, size, residuals)?;
             let mut correction = T::lift(0.0);
             for (increment, change) in increments.iter_mut().zip(&residuals[1..]) {
                 correction = norm::larger(correction, sizes::reduce(weights, increment, change));

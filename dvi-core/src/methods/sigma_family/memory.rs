@@ -168,6 +168,13 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoStep<S, T> {
     ) -> Result<Self, StartError> {
         let mut memory = Self::new(system, method, q, t, h)?;
         memory.defect_vanishes = true;
+        if S::AFFINE && method.sigma != T::lift(1.0) {
+            // The first increment is about that of the field where the run begins.
+            let Self { inverse, history, l_d, work, .. } = &mut memory;
+            system.hamiltonian_gradient(q, t, &mut l_d.work.gradient);
+            inverse.solve(system, &l_d.work.gradient, &mut work.increment);
+            history.begin_again(&work.increment);
+        }
         Ok(memory)
     }
 

@@ -11,6 +11,7 @@ use super::{LinearEquations, LinearSolver, RunTimeSolver, Storing};
 #[cfg(feature = "alloc")]
 use crate::RunTime;
 use crate::error::StepFailure;
+use crate::space::elimination::unit_of_row;
 #[cfg(feature = "alloc")]
 use crate::space::sink::Places;
 use crate::space::{Fixed, FixedMatrix, FixedVector};
@@ -36,13 +37,14 @@ pub trait NodeSum<const NODES: usize, T> {
 
 /// What solves for `NODES` − 1 vectors, with the storage that it needs.
 pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
-    /// Overwrites the vectors, but the first, with the solution.
+    /// Overwrites the vectors, but the first, with the solution: changes of unknowns of the size |`size`(j)| at coordinate j.
     ///
     /// # Errors
     /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
+        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure>;
 }
@@ -76,6 +78,7 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
+        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { rows, second, permutation } = self;
@@ -98,8 +101,32 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
                 }
             }
         }
+        let space = Fixed::<BLOCKS, N, SINGLES>;
+        let [mut sizes, units]: [FixedVector<T, BLOCKS, N, SINGLES>; 2] = space.vectors();
+        sizes.iter_mut().enumerate().for_each(|(j, entry)| *entry = size(j));
+        for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(1) {
+            scale_rows(&mut row[1..], &sizes, units, vector);
+        }
         blocks::eliminate(rows, permutation, vectors, 1..NODES)
     }
+}
+
+/// Multiplies rows that go through all `blocks`, which are stored transposed, and their entries of `x` by one over their sizes.
+fn scale_rows<T: Real, B: DerefMut<Target = [T]>>(
+    blocks: &mut [B],
+    sizes: &[T],
+    mut units: impl DerefMut<Target = [T]>,
+    x: &mut [T],
+) {
+    let n = sizes.len().max(1);
+    for (column, &size) in blocks.iter().flat_map(|block| block.chunks_exact(n).zip(sizes)) {
+        units.iter_mut().zip(column).for_each(|(unit, &a)| *unit += Scalar::abs(a * size));
+    }
+    units.iter_mut().for_each(|unit| *unit = unit_of_row(core::iter::once(*unit)));
+    for column in blocks.iter_mut().flat_map(|block| block.chunks_exact_mut(n)) {
+        column.iter_mut().zip(units.iter()).for_each(|(a, &unit)| *a *= unit);
+    }
+    x.iter_mut().zip(units.iter()).for_each(|(x, &unit)| *x *= unit);
 }
 
 /// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq.
@@ -201,6 +228,7 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
+        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { solver, b, x } = self;
@@ -211,7 +239,7 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
         for (b, vector) in b.chunks_exact_mut(n).zip(&vectors[1..]) {
             b.copy_from_slice(vector);
         }
-        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, x)?;
+        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, |k| size(k % n), x)?;
         for (x, vector) in x.chunks_exact(n).zip(&mut vectors[1..]) {
             vector.copy_from_slice(x);
         }

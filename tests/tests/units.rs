@@ -1,0 +1,303 @@
+//! Units do not matter: where the unit of each coordinate and that of time change by powers of two, every method with every solver
+//! takes the same steps, bit for bit, scaled.
+//!
+//! Each system is written in physical coordinates X = u x, with numbers x in units u, and in a time t τ. What a run computes of X is
+//! exact in u and τ where these are powers of two; so any difference is a decision that a method has taken in numbers and not in sizes.
+
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_core::{Lagrangian, State};
+
+/// Exponents of the units of coordinates, and of time.
+type Exponents<const N: usize> = ([i32; N], i32);
+
+/// Of so many kinds: one unit after the other, all of them to and fro, up to 2^±80.
+fn exponents<const N: usize>() -> impl Iterator<Item = Exponents<N>> {
+    let one = |k: usize, by: i32| (core::array::from_fn(|i| if i == k { by } else { 0 }), 0);
+    let single = (0..N).flat_map(move |k| [one(k, 80), one(k, -80), one(k, 13)]);
+    let mixed = [7, -41, 80].map(|by: i32| {
+        let of = |i: usize| (by * (i as i32 * 5 + 3)) % 81;
+        (core::array::from_fn(of), of(N) / 2)
+    });
+    single.chain(mixed).chain([([0; N], 40), ([0; N], -80)])
+}
+
+fn power(exponent: i32) -> f64 {
+    f64::powi(2.0, exponent)
+}
+
+/// A system in units `u` and τ.
+trait InUnits<const N: usize>: Lagrangian<f64> + Sized {
+    const H: f64;
+    fn system(u: [f64; N], tau: f64) -> Self;
+    /// The start, coordinates and then velocities, in units of one.
+    fn start() -> Vec<f64>;
+    /// Which unit a coordinate has.
+    fn unit(coordinate: usize) -> usize {
+        coordinate
+    }
+}
+
+/// The end of a run in units, in units of one, with the number of its iterations.
+fn end<const N: usize, S: InUnits<N>, M: Method<S, f64>>(
+    (coordinates, time): Exponents<N>,
+    method: M,
+    steps: u64,
+) -> Result<(Vec<u64>, u64), String> {
+    let (u, tau) = (coordinates.map(power), power(time));
+    let system = S::system(u, tau);
+    let start = S::start();
+    let n = system.names().filter(|name| !name.is_velocity).count();
+    let factor = |k: usize| if k < n { 1.0 / u[S::unit(k)] } else { tau / u[S::unit(k - n)] };
+    let scaled: Vec<f64> = start.iter().enumerate().map(|(k, x)| x * factor(k)).collect();
+    let (q, v) = scaled.split_at(n);
+    let state = S::State::read(|block| system.block_len(block), q, v);
+    let mut run = Integrator::new(&system, method, S::H / tau, state).map_err(|error| error.to_string())?;
+    run.take_steps(steps).map_err(|error| error.to_string())?;
+    let state = run.state();
+    let values = system.values(&state).expect("a state of this system").enumerate();
+    let bits = values.map(|(k, value)| (value / factor(k)).to_bits()).collect();
+    Ok((bits, run.statistics().iterations))
+}
+
+fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone>(name: &str, method: M) {
+    let steps = 40;
+    let plain = end::<N, S, M>(([0; N], 0), method.clone(), steps).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let moved: Vec<f64> = plain.0.iter().map(|&bits| f64::from_bits(bits)).collect();
+    assert!(moved.iter().all(|x| x.is_finite()) && moved != S::start(), "{name}: {moved:?}");
+    let differ: Vec<_> = exponents::<N>()
+        .filter(|&units| end::<N, S, M>(units, method.clone(), steps) != Ok(plain.clone()))
+        .collect();
+    assert!(differ.is_empty(), "{name}: {} units, the first {:?}: {:?} for {plain:?}",
+        differ.len(), differ[0], end::<N, S, M>(differ[0], method.clone(), steps));
+}
+
+const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov];
+
+#[degenerate_lagrangian(
+    coordinates(x, p),
+    one_form = u[1] * p * u[0] * d(x) / tau,
+    hamiltonian = (u[1] * p).powi(2) / 2.0 + (u[0] * x).powi(2) / 2.0 + (u[0] * x).powi(4) / 8.0,
+)]
+struct Oscillator { u: [f64; 2], tau: f64 }
+
+impl InUnits<2> for Oscillator {
+    const H: f64 = 0.1;
+    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![1.0, 0.0] }
+}
+
+#[degenerate_lagrangian(
+    coordinates(x[3], y[3]),
+    one_form = sum(0..3, |j| (u[j] * x[j] * w[j] * d(y[j]) - w[j] * y[j] * u[j] * d(x[j])) / 2.0) / tau,
+    hamiltonian = sum_pairs(0..3, |j, k| ((u[j] * x[j] - u[k] * x[k]).powi(2) + (w[j] * y[j] - w[k] * y[k]).powi(2)).ln()) / (4.0 * PI),
+)]
+struct Vortices { u: [f64; 3], w: [f64; 3], tau: f64 }
+
+impl InUnits<6> for Vortices {
+    const H: f64 = 0.1;
+    fn system(u: [f64; 6], tau: f64) -> Self { Self { u: [u[0], u[1], u[2]], w: [u[3], u[4], u[5]], tau } }
+    fn start() -> Vec<f64> { vec![1.0, -0.4, -0.7, 0.2, 0.9, -0.8] }
+}
+
+/// Predators y and their prey x.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = (u[1] * y).ln() / (u[0] * x) * u[0] * d(x) / tau,
+    hamiltonian = u[0] * x + u[1] * y - (u[0] * x).ln() - 2.0 * (u[1] * y).ln(),
+)]
+struct Predators { u: [f64; 2], tau: f64 }
+
+impl InUnits<2> for Predators {
+    const H: f64 = 0.1;
+    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![1.0, 1.0] }
+}
+
+/// The centre of the gyration of a charge: Ω couples three coordinates.
+#[degenerate_lagrangian(
+    coordinates(x, y, z, v),
+    one_form = ((1.0 + (u[0] * x).powi(2) / 10.0) * (u[0] * x * u[1] * d(y) - u[1] * y * u[0] * d(x)) / 2.0
+        + u[3] * v * u[2] * d(z)) / tau,
+    hamiltonian = (u[3] * v).powi(2) / 2.0 + 0.3 * (u[0] * x + (u[1] * y).powi(2)) + (u[2] * z).powi(2) * (1.0 + (u[0] * x).powi(2)),
+)]
+struct Centre { u: [f64; 4], tau: f64 }
+
+impl InUnits<4> for Centre {
+    const H: f64 = 0.1;
+    fn system(u: [f64; 4], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![1.0, 0.3, 0.5, 0.8] }
+}
+
+/// Coupled amplitudes, of a size that is known at run time only.
+#[degenerate_lagrangian(
+    coordinates(x[u.len()], p[u.len()]),
+    one_form = sum(0..u.len(), |j| w[j] * p[j] * u[j] * d(x[j])) / tau,
+    hamiltonian = sum(0..u.len(), |j| ((w[j] * p[j]).powi(2) + (u[j] * x[j]).powi(2)).powi(2) / 4.0)
+        + sum(1..u.len(), |j| u[j] * x[j] * u[j - 1] * x[j - 1] + w[j] * p[j] * w[j - 1] * p[j - 1]),
+)]
+struct Amplitudes { u: Vec<f64>, w: Vec<f64>, tau: f64 }
+
+impl InUnits<8> for Amplitudes {
+    const H: f64 = 0.05;
+    fn system(u: [f64; 8], tau: f64) -> Self { Self { u: u[..4].to_vec(), w: u[4..].to_vec(), tau } }
+    fn start() -> Vec<f64> { vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1] }
+}
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = ((u[0] * dot(x) / tau).powi(2) + (u[1] * dot(y) / tau).powi(2)) / 2.0
+        + 1.0 / ((u[0] * x).powi(2) + (u[1] * y).powi(2)).sqrt(),
+)]
+struct Kepler { u: [f64; 2], tau: f64 }
+
+impl InUnits<2> for Kepler {
+    const H: f64 = 0.05;
+    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![0.8, 0.0, 0.0, 1.2] }
+}
+
+#[lagrangian(
+    coordinates(a, b),
+    lagrangian = (u[0] * dot(a) / tau).powi(2) + (u[1] * dot(b) / tau).powi(2) / 2.0
+        + u[0] * dot(a) / tau * u[1] * dot(b) / tau * (u[0] * a - u[1] * b).cos()
+        + 2.0 * (u[0] * a).cos() + (u[1] * b).cos(),
+)]
+struct DoublePendulum { u: [f64; 2], tau: f64 }
+
+impl InUnits<2> for DoublePendulum {
+    const H: f64 = 0.05;
+    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![1.0, 0.5, 0.1, 0.3] }
+}
+
+/// A charge in a magnetic field, with friction and a drive.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(z)).powi(2)) / tau.powi(2) / 2.0
+        + (u[0] * x * u[1] * dot(y) - u[1] * y * u[0] * dot(x)) / tau - (u[0] * x).powi(2) * (1.0 + (u[2] * z).powi(2)) / 2.0,
+    force(z) = u[2] * ((t * tau).sin() - 0.1 * u[2] * dot(z) / tau),
+)]
+struct Charge { u: [f64; 3], tau: f64 }
+
+impl InUnits<3> for Charge {
+    const H: f64 = 0.1;
+    fn system(u: [f64; 3], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5] }
+}
+
+/// A chain of stiff springs, of a size that is known at run time only.
+#[lagrangian(
+    coordinates(x[u.len()]),
+    lagrangian = sum(0..u.len(), |j| (u[j] * dot(x[j]) / tau).powi(2) / 2.0 - (u[j] * x[j]).powi(4) / 4.0)
+        - sum(1..u.len(), |j| 50.0 * (u[j] * x[j] - u[j - 1] * x[j - 1]).powi(2) / 2.0),
+)]
+struct Chain { u: Vec<f64>, tau: f64 }
+
+impl InUnits<12> for Chain {
+    const H: f64 = 0.2;
+    fn system(u: [f64; 12], tau: f64) -> Self { Self { u: u.to_vec(), tau } }
+    fn start() -> Vec<f64> { (0..24).map(|j| (1.7 * f64::from(j)).sin()).collect() }
+}
+
+/// A constant mass matrix that couples coordinates.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + 2.0 * (u[2] * dot(z)).powi(2) + u[0] * dot(x) * u[1] * dot(y)
+        + u[1] * dot(y) * u[2] * dot(z)) / tau.powi(2) / 2.0 + (u[0] * x - u[1] * y).cos() - (u[2] * z).powi(2) / 2.0,
+)]
+struct CoupledMasses { u: [f64; 3], tau: f64 }
+
+impl InUnits<3> for CoupledMasses {
+    const H: f64 = 0.1;
+    fn system(u: [f64; 3], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5] }
+}
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2)) / tau.powi(2) / 2.0 - u[1] * y,
+    constraint = (u[0] * x).powi(2) + (u[1] * y).powi(2) - 1.0,
+)]
+struct Pendulum { u: [f64; 2], tau: f64 }
+
+impl InUnits<2> for Pendulum {
+    const H: f64 = 0.05;
+    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![1.0, 0.0, 0.0, 0.5] }
+}
+
+/// A blade on a plane that is not level.
+#[lagrangian(
+    coordinates(x, y, a),
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(a)).powi(2)) / tau.powi(2) / 2.0 + u[0] * x,
+    nonholonomic = u[0] * dot(x) * (u[2] * a).sin() - u[1] * dot(y) * (u[2] * a).cos(),
+)]
+struct Blade { u: [f64; 3], tau: f64 }
+
+impl InUnits<3> for Blade {
+    const H: f64 = 0.1;
+    fn system(u: [f64; 3], tau: f64) -> Self { Self { u, tau } }
+    fn start() -> Vec<f64> { vec![0.5, 0.2, 0.0, 1.0, 0.0, 0.7] }
+}
+
+#[test]
+fn of_degenerate_systems() {
+    for solver in SOLVERS {
+        let sigma = |sigma| Sigma { solver, ..Sigma::new(sigma) };
+        check::<2, Oscillator, _>("oscillator, midpoint", sigma(0.5));
+        check::<6, Vortices, _>("vortices, midpoint", sigma(0.5));
+        check::<2, Predators, _>("predators, midpoint", sigma(0.5));
+        check::<4, Centre, _>("centre, midpoint", sigma(0.5));
+        check::<8, Amplitudes, _>("amplitudes, midpoint", sigma(0.5));
+    }
+    check::<6, Vortices, _>("vortices, leapfrog", Sigma::leapfrog());
+    check::<2, Oscillator, _>("oscillator, one step", OneStep::midpoint());
+    check::<2, Predators, _>("predators, one step", OneStep::midpoint());
+    check::<2, Predators, _>("predators, trapezoid", OneStep::trapezoid());
+    check::<2, Predators, _>("predators, one-step Gauss", OneStepGauss::<2>::new());
+    check::<8, Amplitudes, _>("amplitudes, one step", OneStep::midpoint());
+    check::<2, Predators, _>("predators, projected", Projected::symmetric());
+    check::<4, Centre, _>("centre, projected", Projected::symmetric());
+    check::<6, Vortices, _>("vortices, projected", Projected::standard());
+    check::<6, Vortices, _>("vortices, Gauss", Gauss::<4>::new());
+    check::<6, Vortices, _>("vortices, Gauss in lanes", Gauss::<8>::new().in_lanes());
+    check::<4, Centre, _>("centre, Gauss", Gauss::<3>::new());
+    check::<8, Amplitudes, _>("amplitudes, Gauss", Gauss::<2>::new());
+    check::<2, Predators, _>("predators, composition", Composition::suzuki(OneStep::midpoint()));
+    check::<6, Vortices, _>("vortices, Runge-Kutta", RungeKutta::classical());
+}
+
+#[test]
+fn of_regular_systems() {
+    for solver in [Solver::Automatic, Solver::Newton, Solver::NewtonKrylov] {
+        let midpoint = Variational { solver, ..Variational::midpoint() };
+        check::<2, Kepler, _>("Kepler, midpoint", midpoint.clone());
+        check::<2, DoublePendulum, _>("double pendulum, midpoint", midpoint.clone());
+        check::<3, Charge, _>("charge, midpoint", midpoint.clone());
+        check::<12, Chain, _>("chain, midpoint", midpoint.clone());
+        check::<3, CoupledMasses, _>("coupled masses, midpoint", midpoint);
+        check::<12, Chain, _>("chain, Newmark", Newmark { solver, ..Newmark::new(0.25) });
+        check::<2, Kepler, _>("Kepler, Galerkin", Galerkin { solver, ..Galerkin::<4>::new() });
+        check::<2, DoublePendulum, _>("double pendulum, Galerkin", Galerkin { solver, ..Galerkin::<4>::new() });
+        check::<12, Chain, _>("chain, Galerkin", Galerkin { solver, ..Galerkin::<3>::new() });
+    }
+    check::<2, Kepler, _>("Kepler, Verlet", Variational::trapezoid());
+    check::<2, Kepler, _>("Kepler, Simpson", Variational::simpson());
+    check::<3, CoupledMasses, _>("coupled masses, Verlet", Variational::trapezoid());
+    check::<2, Kepler, _>("Kepler, Galerkin in lanes", Galerkin::<6>::new().in_lanes());
+    check::<2, Kepler, _>("Kepler, Gauss", Gauss::<1>::new());
+    check::<2, Kepler, _>("Kepler, Gauss in lanes", Gauss::<8>::new().in_lanes());
+    check::<2, DoublePendulum, _>("double pendulum, Gauss", Gauss::<2>::new());
+    check::<3, Charge, _>("charge, Gauss", Gauss::<4>::new());
+    check::<3, CoupledMasses, _>("coupled masses, Gauss", Gauss::<2>::new());
+    check::<2, Kepler, _>("Kepler, composition", Composition::kahan_li_8(Variational::trapezoid()));
+    check::<2, DoublePendulum, _>("double pendulum, Runge-Kutta", RungeKutta::classical());
+}
+
+#[test]
+fn of_systems_with_constraints() {
+    check::<2, Pendulum, _>("pendulum, RATTLE", Rattle::default());
+    check::<2, Pendulum, _>("pendulum, midpoint", Constrained::new(Variational::midpoint()));
+    check::<3, Blade, _>("blade", Constrained::new(Variational::midpoint()));
+}
