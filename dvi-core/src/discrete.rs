@@ -22,9 +22,9 @@ pub(crate) mod quadrature;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate, sizes};
+use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
 use crate::space::sink::Sink;
-use crate::space::{LinearEquations, LinearSolver, Storing};
+use crate::space::{LinearEquations, LinearSolver, Storing, linear};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Scalar, Vector};
 
@@ -176,8 +176,12 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let span = Span { system, interval, ends: Ends { q0, delta } };
+        let mut equations = Equations { l_d, span, p0, statistics };
         let size = |j: usize| Scalar::abs(q0[j]) + Scalar::abs(delta[j]);
-        solver.solve(&mut Equations { l_d, span, p0, statistics }, size, residual)?;
+        if *due == Due::Residual {
+            return linear::residual(&mut equations, size, [residual, weights]);
+        }
+        solver.solve(&mut equations, size, residual)?;
         Ok(sizes::reduce(weights, delta, residual))
     })?;
     norm::finite(delta)

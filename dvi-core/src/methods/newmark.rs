@@ -20,7 +20,7 @@ use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
 use crate::scalar::norm::{self, reported};
 use crate::solve::{Convergence, Due, Guess, Ladder, Solver, Stopping, iterate, sizes};
-use crate::space::{LinearEquations, LinearSolver, Sink};
+use crate::space::{LinearEquations, LinearSolver, Sink, linear};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
@@ -152,7 +152,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         iterate(convergence, statistics, |due, statistics| {
             self.prepare(due);
             self.place(statistics);
-            self.improve(solver, statistics)
+            self.improve(solver, *due, statistics)
         })?;
         norm::finite(&self.work.increment)
     }
@@ -186,7 +186,12 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
     }
 
     /// One iteration of Newton's method; returns the size of d.
-    fn improve(&mut self, solver: &mut Linear<S, T>, statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(
+        &mut self,
+        solver: &mut Linear<S, T>,
+        due: Due,
+        statistics: &mut Statistics,
+    ) -> Result<T, StepFailure> {
         let Work { increment, weights, next, transfer, velocity, momentum, next_force, correction, .. } =
             &mut *self.work;
         for transfer in transfer.iter_mut() {
@@ -199,6 +204,9 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         statistics.factorisations += 1;
         let size = |j: usize| Scalar::abs(self.q[j]) + Scalar::abs(increment[j]);
         let mut equations = Equations { system, interval, beta, x1: next, b: transfer, unused };
+        if due == Due::Residual {
+            return linear::residual(&mut equations, size, [correction, weights]);
+        }
         solver.solve(&mut equations, size, correction)?;
         Ok(sizes::reduce(weights, increment, correction))
     }

@@ -16,14 +16,18 @@ pub enum Due {
     Nothing,
     /// It takes sizes.
     Sizes,
-    /// It moves the unknowns.
+    /// It moves the unknowns, and keeps where they were in the place of the weights.
     Shake,
+    /// It takes sizes with 2¹⁶ times what the unknowns have responded.
+    Response,
+    /// It finds the residual, and no correction.
+    Residual,
 }
 
 /// One over `size`. Rounding errors of numbers below the smallest normal one are absolute.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn weight_of<T: Real>(size: T) -> T {
-    T::lift(1.0) / (size + smallest_normal::<T>() / T::default_epsilon())
+    T::lift(1.0) / (size + smallest_normal::<T>())
 }
 
 /// By so many times its size an unknown is moved.
@@ -33,48 +37,24 @@ impl Due {
     /// Prepares an iteration that improves the increment `delta` of `q`; whether that has been moved.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare<T: Real>(&mut self, weights: &mut [T], q: &[T], delta: &mut [T]) -> bool {
-        let due = core::mem::replace(self, Self::Nothing);
-        match due {
-            Self::Nothing => {}
-            Self::Sizes => {
-                for ((weight, &q), &delta) in weights.iter_mut().zip(q).zip(delta.iter()) {
-                    *weight = weight_of(Scalar::abs(q) + Scalar::abs(delta));
-                }
-            }
-            Self::Shake => shake(weights, delta),
-        }
-        due == Self::Shake
+        let size = |k: usize, delta: T| Scalar::abs(q[k]) + Scalar::abs(delta);
+        *self != Self::Nothing && self.carry_out(weights, size, delta)
     }
 
     /// The same where the unknown is `q1`, and Δ = q1 − q.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare_end<T: Real>(&mut self, weights: &mut [T], q: &[T], q1: &mut [T]) {
-        match core::mem::replace(self, Self::Nothing) {
-            Self::Nothing => {}
-            Self::Sizes => {
-                for ((weight, &q), &q1) in weights.iter_mut().zip(q).zip(q1.iter()) {
-                    *weight = weight_of(Scalar::abs(q) + Scalar::abs(q1 - q));
-                }
-            }
-            Self::Shake => shake(weights, q1),
-        }
+        let size = |k: usize, q1: T| Scalar::abs(q[k]) + Scalar::abs(q1 - q[k]);
+        let _ = *self != Self::Nothing && self.carry_out(weights, size, q1);
     }
 
     /// The same where `x` is the unknown, and no increment.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare_alone<T: Real>(&mut self, weights: &mut [T], x: &mut [T]) {
-        match core::mem::replace(self, Self::Nothing) {
-            Self::Nothing => {}
-            Self::Sizes => {
-                for (weight, &x) in weights.iter_mut().zip(x.iter()) {
-                    *weight = weight_of(Scalar::abs(x));
-                }
-            }
-            Self::Shake => shake(weights, x),
-        }
+        let _ = *self != Self::Nothing && self.carry_out(weights, |_, x| Scalar::abs(x), x);
     }
 
-    /// The same of several unknowns for each coordinate.
+    /// The same of several unknowns for each coordinate, of which the last is the one that responds.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare_all<T: Real, V: DerefMut<Target = [T]>>(
         &mut self,
@@ -82,20 +62,23 @@ impl Due {
         q: &[T],
         unknowns: &mut [V],
     ) {
-        match core::mem::replace(self, Self::Nothing) {
-            Self::Nothing => {}
-            Self::Sizes => {
-                for (k, (weight, &q)) in weights.iter_mut().zip(q).enumerate() {
-                    let sizes = unknowns.iter().map(|unknown| Scalar::abs(unknown[k]));
-                    *weight = weight_of(Scalar::abs(q) + sizes.fold(T::lift(0.0), larger));
-                }
+        let Some((last, others)) = unknowns.split_last_mut() else { return };
+        if *self == Self::Shake {
+            for unknown in others.iter_mut() {
+                unknown
+                    .iter_mut()
+                    .zip(weights.iter())
+                    .enumerate()
+                    .for_each(|(k, (x, &weight))| *x += shaken(k, weight));
             }
-            Self::Shake => unknowns.iter_mut().for_each(|unknown| shake(weights, unknown)),
         }
+        let size = |k: usize, last: T| {
+            let sizes = others.iter().map(|unknown| Scalar::abs(unknown[k]));
+            Scalar::abs(q[k]) + sizes.fold(Scalar::abs(last), larger)
+        };
+        let _ = *self != Self::Nothing && self.carry_out(weights, size, last);
     }
-}
 
-impl Due {
     /// The same of positions of several stages, in the lanes of packs.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare_places<const W: usize, T: Real>(
@@ -104,16 +87,10 @@ impl Due {
         q: &[T],
         places: &mut [Lanes<W, T>],
     ) {
-        match core::mem::replace(self, Self::Nothing) {
-            Self::Nothing => {}
-            Self::Sizes => {
-                for ((weight, &q), place) in weights.iter_mut().zip(q).zip(places.iter()) {
-                    let ways = place.0.map(|place| place - q);
-                    *weight = weight_of(Scalar::abs(q) + largest_number(&ways));
-                }
-            }
-            Self::Shake => shake_packs(weights, places),
-        }
+        let size = |k: usize, place: &Lanes<W, T>| {
+            Scalar::abs(q[k]) + largest_number(&place.0.map(|place| place - q[k]))
+        };
+        let _ = *self != Self::Nothing && self.carry_out_in_packs(weights, T::lift(1.0), size, places);
     }
 
     /// The same of velocities of several stages, in a step of length `h`; weights are those of velocities then. Whether they have been moved.
@@ -124,42 +101,95 @@ impl Due {
         (q, h): (&[T], T),
         slopes: &mut [Lanes<W, T>],
     ) -> bool {
-        let due = core::mem::replace(self, Self::Nothing);
-        match due {
-            Self::Nothing => {}
-            Self::Sizes => {
-                let h = Scalar::abs(h);
-                for ((weight, &q), slope) in weights.iter_mut().zip(q).zip(slopes.iter()) {
-                    *weight = h * weight_of(Scalar::abs(q) + h * largest_number(&slope.0));
+        let h = Scalar::abs(h);
+        let size = |k: usize, slope: &Lanes<W, T>| Scalar::abs(q[k]) + h * largest_number(&slope.0);
+        *self != Self::Nothing && self.carry_out_in_packs(weights, h, size, slopes)
+    }
+
+    /// Does what is due with an unknown for each coordinate, whose `size` is that of coordinate k where it has a value; whether it moves.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn carry_out<T: Real>(&mut self, weights: &mut [T], size: impl Fn(usize, T) -> T, x: &mut [T]) -> bool {
+        if *self != Self::Sizes {
+            return self.test(weights, size, x);
+        }
+        for (k, (weight, &x)) in weights.iter_mut().zip(x.iter()).enumerate() {
+            *weight = weight_of(size(k, x));
+        }
+        *self = Self::Nothing;
+        false
+    }
+
+    /// The same where the iterate is put to the test.
+    #[cold]
+    #[inline(never)]
+    fn test<T: Real>(&mut self, weights: &mut [T], size: impl Fn(usize, T) -> T, x: &mut [T]) -> bool {
+        match *self {
+            // The iteration itself answers that.
+            Self::Residual => return false,
+            Self::Nothing | Self::Sizes => {}
+            Self::Shake => {
+                for (k, (x, weight)) in x.iter_mut().zip(weights).enumerate() {
+                    let kept = *x;
+                    *x += shaken(k, *weight);
+                    *weight = kept;
                 }
             }
-            Self::Shake => shake_packs(weights, slopes),
+            Self::Response => {
+                for (k, (&x, weight)) in x.iter().zip(weights).enumerate() {
+                    *weight = weight_of(size(k, x) + Scalar::abs(x - *weight) / T::lift(SHAKE));
+                }
+            }
         }
-        due == Self::Shake
+        core::mem::replace(self, Self::Nothing) == Self::Shake
     }
-}
 
-#[cold]
-fn shake_packs<const W: usize, T: Real>(weights: &[T], packs: &mut [Lanes<W, T>]) {
-    for (k, (pack, &weight)) in packs.iter_mut().zip(weights).enumerate() {
-        pack.0.iter_mut().enumerate().for_each(|(stage, x)| *x += shaken(W * k + stage, weight));
+    /// The same with unknowns in the lanes of packs, of which the last responds, in units of coordinates over `unit`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn carry_out_in_packs<const W: usize, T: Real>(
+        &mut self,
+        weights: &mut [T],
+        unit: T,
+        size: impl Fn(usize, &Lanes<W, T>) -> T,
+        packs: &mut [Lanes<W, T>],
+    ) -> bool {
+        if *self != Self::Sizes {
+            return self.test_packs(weights, unit, size, packs);
+        }
+        for (k, (weight, pack)) in weights.iter_mut().zip(packs.iter()).enumerate() {
+            *weight = unit * weight_of(size(k, pack));
+        }
+        *self = Self::Nothing;
+        false
     }
-}
 
-/// Moves unknowns to and fro, without a pattern that an equation could have.
-#[cold]
-fn shake<T: Real>(weights: &[T], unknowns: &mut [T]) {
-    unknowns.iter_mut().zip(weights).enumerate().for_each(|(k, (x, &weight))| *x += shaken(k, weight));
-}
-
-/// Sets changes of the unknowns to those by which they are moved.
-#[cold]
-pub(crate) fn set_shaken<T: Real>(weights: &[T], changes: &mut [T]) {
-    changes
-        .iter_mut()
-        .zip(weights)
-        .enumerate()
-        .for_each(|(k, (change, &weight))| *change = shaken(k, weight));
+    /// The same where the iterate is put to the test.
+    #[cold]
+    #[inline(never)]
+    fn test_packs<const W: usize, T: Real>(
+        &mut self,
+        weights: &mut [T],
+        unit: T,
+        size: impl Fn(usize, &Lanes<W, T>) -> T,
+        packs: &mut [Lanes<W, T>],
+    ) -> bool {
+        match *self {
+            Self::Nothing | Self::Sizes | Self::Residual => {}
+            Self::Shake => {
+                for (k, (pack, weight)) in packs.iter_mut().zip(weights).enumerate() {
+                    let kept = pack.0[W - 1];
+                    pack.0.iter_mut().enumerate().for_each(|(lane, x)| *x += shaken(W * k + lane, *weight));
+                    *weight = kept;
+                }
+            }
+            Self::Response => {
+                for (k, (pack, weight)) in packs.iter().zip(weights).enumerate() {
+                    let response = unit * Scalar::abs(pack.0[W - 1] - *weight) / T::lift(SHAKE);
+                    *weight = unit * weight_of(size(k, pack) + response);
+                }
+            }
+        }
+        core::mem::replace(self, Self::Nothing) == Self::Shake
+    }
 }
 
 /// By how much unknown `k` is moved: up or down by the leading bit of its multiple by the golden ratio (Knuth 1998, section 6.4).

@@ -11,10 +11,11 @@
 //! is never reached by a fixed point, and its rounding errors are those that no longer shrink at all.
 //! Newton's method squares its error in the iteration that is accepted, and leaves nothing over.
 //!
-//! Where the terms of an equation cancel, rounding errors are larger than their coordinate says, and have no bound that it
-//! knows: a body at rest between two springs. There an iterate that no longer improves is put to the test: it is moved by
-//! 2⁻¹⁶ of each size, and is accepted if the iteration returns to where its corrections were as small as before. An
-//! iteration that does not contract does not return.
+//! Where the terms of an equation cancel, rounding errors are larger than their coordinate says: a body at rest between two
+//! springs. What they are is measured where an iterate no longer improves. The unknowns of a fixed point are moved by 2⁻¹⁶ of
+//! their sizes: 2¹⁶ times the response of a coordinate is what its rounding errors are relative to. Newton's method is asked
+//! for its residual, relative to Σⱼ |Kᵢⱼ| sⱼ in each row of its matrix K, where sⱼ are the sizes of the coordinates: that is the
+//! relative error of the equations that the iterate solves (Oettli & Prager 1964).
 
 mod together;
 
@@ -22,7 +23,7 @@ use super::sizes::Due;
 use crate::Real;
 use crate::error::{StartError, StepFailure};
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::{larger, reported};
+use crate::scalar::norm::reported;
 
 pub(crate) use together::Convergences;
 
@@ -68,11 +69,11 @@ impl Stopping {
     }
 }
 
-/// How many times corrections may grow.
-const MOST_GROWTHS: usize = 2;
+/// So many corrections in turn may be no smaller than the smallest before them.
+const MOST_IN_VAIN: usize = 3;
 
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
-const FLOOR: f64 = 32.0;
+pub(crate) const FLOOR: f64 = 32.0;
 
 /// What to do with an iterate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,21 +90,17 @@ const SMALL: f64 = 1e-7;
 /// A correction beyond this says that sizes have not been what they are.
 const LARGE: f64 = 0.5;
 
-/// By so much a test of an iterate makes corrections larger at least, if it shows anything.
-const SHAKEN: f64 = 64.0;
-
-/// Corrections have returned to where they were when they are at most so many times as large.
-const RETURNED: f64 = 4.0;
-
 /// What is known of an iterate that no longer improves.
 #[derive(Clone, Copy, Debug)]
 enum Trial<T> {
     /// It improves, as far as is known.
     None,
-    /// It has been moved, and corrections were of this size before.
+    /// It has been moved, and the next correction says how it responds; the tolerance is this one again after it.
     Shaken(T),
-    /// Corrections have grown since, and are to return to this size.
-    Returning(T),
+    /// Sizes contain what its rounding errors are relative to.
+    Loose,
+    /// Instead of a correction it is asked for its residual.
+    Asked,
 }
 
 /// The corrections of one step so far.
@@ -113,12 +110,15 @@ pub(crate) struct Convergence<T> {
     pub(crate) due: Due,
     tolerance: T,
     correction: T,
-    growths: usize,
+    /// The smallest correction, and how many there have been in turn that are no smaller.
+    least: T,
+    in_vain: usize,
     pub(crate) iterations: usize,
     budget: usize,
     /// The iteration by which it has to be decided.
     last: usize,
     trial: Trial<T>,
+    is_fixed_point: bool,
     /// A correction that has shrunk by no more than so many times itself no longer counts as shrinking, where it is a rounding error.
     stalling: T,
     /// How many more iterations derivatives take that come with the numbers.
@@ -146,7 +146,9 @@ impl<T: Real> Convergence<T> {
             tolerance: T::lift(stopping.tolerance),
             more: if carries_derivatives::<T>() { MORE_BY_NEWTON } else { 0 },
             correction: T::lift(0.0),
-            growths: 0,
+            least: T::lift(f64::INFINITY),
+            in_vain: 0,
+            is_fixed_point: false,
             iterations: 0,
             budget,
             last: budget,
@@ -158,7 +160,7 @@ impl<T: Real> Convergence<T> {
     /// The same for a fixed point, which gains a constant factor in each iteration.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
-        let mut new = Self::new(stopping, budget);
+        let mut new = Self { is_fixed_point: true, ..Self::new(stopping, budget) };
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
         }
@@ -186,7 +188,7 @@ impl<T: Real> Convergence<T> {
                 return Verdict::Accept;
             }
             let is_shrinking = shrunk > self.stalling * correction;
-            if !is_shrinking && let Some(verdict) = self.hesitate(shrunk) {
+            if !is_shrinking && let Some(verdict) = self.hesitate(before) {
                 return verdict;
             }
         }
@@ -201,44 +203,47 @@ impl<T: Real> Convergence<T> {
         }
     }
 
-    /// Decides where corrections no longer shrink as they should.
+    /// Decides where corrections no longer shrink as they should, the last one from `before`.
     #[inline]
-    fn hesitate(&mut self, shrunk: T) -> Option<Verdict> {
-        if self.correction <= T::lift(FLOOR) * T::default_epsilon() {
+    fn hesitate(&mut self, before: T) -> Option<Verdict> {
+        let is_noise = self.correction <= T::lift(FLOOR) * T::default_epsilon();
+        if is_noise && !matches!(self.trial, Trial::Shaken(_)) {
             return Some(Verdict::Accept);
         }
-        self.doubt(shrunk)
+        self.doubt(before)
     }
 
     /// Puts an iterate to the test that no longer improves, and says how it has ended.
     #[cold]
-    fn doubt(&mut self, shrunk: T) -> Option<Verdict> {
-        let has_grown = shrunk <= T::lift(0.0);
-        match self.trial {
-            Trial::None => {
-                self.growths += usize::from(has_grown);
-                let is_noise = has_grown && self.correction <= T::lift(SMALL);
-                if is_noise || self.growths > MOST_GROWTHS {
-                    self.trial = Trial::Shaken(larger(self.correction, self.correction + shrunk));
-                    self.due = Due::Shake;
-                    self.last = self.iterations + self.budget;
-                    // From now on each correction is looked at here.
-                    self.stalling = T::lift(f64::INFINITY);
-                }
-                None
-            }
-            Trial::Shaken(level) if self.correction >= T::lift(SHAKEN) * level => {
-                self.trial = Trial::Returning(level);
-                self.growths = 0;
-                None
-            }
-            Trial::Shaken(_) => Some(Verdict::GiveUp),
-            Trial::Returning(level) if self.correction <= T::lift(RETURNED) * level => Some(Verdict::Accept),
-            Trial::Returning(_) => {
-                self.growths += usize::from(has_grown);
-                (self.growths > MOST_GROWTHS).then_some(Verdict::GiveUp)
-            }
+    fn doubt(&mut self, before: T) -> Option<Verdict> {
+        if let Trial::Shaken(tolerance) = self.trial {
+            (self.tolerance, self.stalling, self.trial) = (tolerance, T::lift(0.0), Trial::Loose);
+            (self.due, self.correction) = (Due::Response, T::lift(f64::INFINITY));
+            return None;
         }
+        if before < self.least {
+            (self.least, self.in_vain) = (before, 0);
+        }
+        // A correction that is not a number is counted by the budget alone.
+        self.in_vain += usize::from(self.correction >= self.least);
+        let is_noise = self.in_vain > 1 && self.correction <= T::lift(SMALL);
+        match self.trial {
+            Trial::Asked => return Some(Verdict::GiveUp),
+            Trial::Loose => return (self.in_vain > MOST_IN_VAIN).then_some(Verdict::GiveUp),
+            Trial::Shaken(_) | Trial::None if is_noise || self.in_vain > MOST_IN_VAIN => {}
+            Trial::Shaken(_) | Trial::None => return None,
+        }
+        (self.least, self.in_vain) = (T::lift(f64::INFINITY), 0);
+        self.last = self.iterations + self.budget;
+        if self.is_fixed_point {
+            // What the next correction is does not matter.
+            (self.trial, self.due) = (Trial::Shaken(self.tolerance), Due::Shake);
+            self.tolerance = T::lift(-1.0);
+        } else {
+            (self.trial, self.due) = (Trial::Asked, Due::Residual);
+        }
+        (self.correction, self.stalling) = (T::lift(f64::INFINITY), T::lift(f64::INFINITY));
+        None
     }
 
     /// The failure to report after [`Verdict::GiveUp`].

@@ -6,18 +6,19 @@ mod coupled;
 #[cfg(feature = "alloc")]
 mod krylov;
 
+use core::cell::RefCell;
 use core::fmt::Debug;
+use core::ops::Deref;
 
-use crate::Real;
 use crate::error::StepFailure;
 use crate::scalar::norm;
+use crate::space::sink::Places;
 use crate::space::square::SquareMatrix;
 use crate::space::{FixedSquare, Sink};
 
 #[cfg(feature = "alloc")]
-use crate::Scalar;
-#[cfg(feature = "alloc")]
 use crate::space::square::{Layout, Pattern, RunTimeSquare};
+use crate::{Real, Scalar, Weights};
 #[cfg(feature = "alloc")]
 use krylov::Krylov;
 
@@ -35,6 +36,66 @@ pub trait LinearEquations<T> {
 
     /// Whether A is regular but for single points, so that a small pivot is one of units, and not of rows that depend on each other.
     const IN_ANY_UNITS: bool = false;
+}
+
+/// The residual of the point where `equations` are linearised, b, relative in each row to Σⱼ |Aᵢⱼ| sⱼ, with the sizes sⱼ = |`size`(j)| of the
+/// unknowns: the relative error of the equations that this point solves (Oettli & Prager 1964). `b` and `sums` are storage.
+#[cold]
+#[inline(never)]
+pub(crate) fn residual<T: Real>(
+    equations: &mut impl LinearEquations<T>,
+    size: impl Fn(usize) -> T,
+    [b, sums]: [&mut [T]; 2],
+) -> Result<T, StepFailure> {
+    sums.fill(T::lift(0.0));
+    equations.evaluate(b, &mut Places(|i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j))))?;
+    relative(b, sums)
+}
+
+/// The largest of the quotients of |b| and the sums.
+fn relative<T: Real>(b: &[T], sums: &[T]) -> Result<T, StepFailure> {
+    norm::finite(b)?;
+    let quotients = b.iter().zip(sums).filter(|(b, _)| **b != T::lift(0.0));
+    Ok(quotients.fold(T::lift(0.0), |largest, (&b, &sum)| norm::larger(largest, Scalar::abs(b) / sum)))
+}
+
+/// The same of equations for several vectors, whose residuals are in `vectors`, but the first.
+#[cold]
+#[inline(never)]
+pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T>, V: Deref<Target = [T]>>(
+    matrix: &mut M,
+    size: impl Fn(usize) -> T,
+    vectors: &[V; NODES],
+    sums: &mut [T],
+) -> Result<T, StepFailure> {
+    let mut largest = T::lift(0.0);
+    for (r, vector) in vectors.iter().enumerate().skip(1) {
+        sums.fill(T::lift(0.0));
+        let sums = RefCell::new(&mut *sums);
+        let add = |i: usize, j: usize, entry: T| sums.borrow_mut()[i] += Scalar::abs(entry * size(j));
+        for node in 0..NODES {
+            matrix.place(node);
+            let of = |weight: fn(&Weights<T>) -> T| {
+                (1..NODES).fold(T::lift(0.0), |sum, k| sum + Scalar::abs(weight(&matrix.weights(r, k))))
+            };
+            let [qq, qv, vq, vv] = [of(|w| w.qq), of(|w| w.qv), of(|w| w.vq), of(|w| w.vv)];
+            matrix.second_derivatives(
+                &mut Places(|i, j, entry| add(i, j, qq * entry)),
+                &mut Places(|i, j, entry| {
+                    add(i, j, qv * entry);
+                    if M::MIXED_ARE_TRANSPOSED {
+                        add(j, i, vq * entry);
+                    }
+                }),
+                &mut Places(|i, j, entry| add(i, j, vv * entry)),
+            );
+            if !M::MIXED_ARE_TRANSPOSED {
+                matrix.momentum_by_position(&mut Places(|i, j, entry| add(i, j, vq * entry)));
+            }
+        }
+        largest = norm::larger(largest, relative(vector, &sums.into_inner()[..])?);
+    }
+    Ok(largest)
 }
 
 /// What solves linear equations, with the storage that it needs.

@@ -15,8 +15,8 @@ use crate::discrete::frequency::{Frequency, FrequencyIn};
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, iterate, sizes};
-use crate::space::{CoupledSolver, NodeSum, Sink, scratch};
+use crate::solve::{Convergence, Due, Guess, iterate, sizes};
+use crate::space::{CoupledSolver, NodeSum, Sink, linear, scratch};
 use crate::state::Statistics;
 use crate::{Coupled, NondegenerateLagrangian, Real, Scalar, System, Vector, Weights};
 use core::ops::DerefMut;
@@ -52,6 +52,9 @@ where
         let node = [point, velocity, gradient, momentum];
         let mut equations = Linearized { step, rule, coefficients, unknowns, node, j: 0, t: step.t };
         let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(unknowns[NODES - 1][j]);
+        if *due == Due::Residual {
+            return linear::residual_of_nodes(&mut equations, size, residuals, weights);
+        }
         solver.solve(&mut equations, size, residuals)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {

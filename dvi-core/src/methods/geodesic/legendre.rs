@@ -94,13 +94,8 @@ impl<S: ManifoldLagrangian<T>, T: Real> Legendre<'_, S, T> {
         let stopping = Stopping::default();
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, &mut Statistics::default(), |due, _| {
-            match core::mem::replace(due, Due::Nothing) {
-                Due::Nothing => {}
-                Due::Sizes => set_weights(system, self.weights, |block| norm::largest(&v[block.places()])),
-                Due::Shake => {
-                    sizes::set_shaken(self.weights, self.residual);
-                    self.correct(system, q, v);
-                }
+            if core::mem::replace(due, Due::Nothing) == Due::Sizes {
+                set_weights(system, self.weights, |block| norm::largest(&v[block.places()]));
             }
             self.linearize(system, [q, v, p], t)?;
             self.matrix.solve(self.residual);

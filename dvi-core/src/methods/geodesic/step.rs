@@ -124,19 +124,14 @@ impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
 
     /// Does what is `due` before an iteration. Angles are judged as they are.
     fn prepare(&mut self, due: &mut Due, step: &Step<'_, S, T>) {
-        match core::mem::replace(due, Due::Nothing) {
-            Due::Nothing => {}
-            Due::Sizes => set_weights(step.system, &mut self.weights, |block| match block.factor {
+        if core::mem::replace(due, Due::Nothing) == Due::Sizes {
+            set_weights(step.system, &mut self.weights, |block| match block.factor {
                 Factor::Line => {
                     let place = block.places().start;
                     Scalar::abs(step.q[place]) + Scalar::abs(self.displacement[place])
                 }
                 Factor::Rotation | Factor::Sphere => T::lift(1.0),
-            }),
-            Due::Shake => {
-                sizes::set_shaken(&self.weights, &mut self.residual);
-                self.correct(step);
-            }
+            });
         }
     }
 

@@ -15,8 +15,8 @@ use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::methods::collocation::Collocation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, Stopping, iterate, sizes};
-use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
+use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
+use crate::space::{CoupledSolver, NodeSum, Sink, Storing, linear};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
@@ -237,7 +237,11 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             statistics.factorisations += 1;
             let Self { tableau, increments, residuals, weights, solver, work, .. } = &mut *self;
             let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
-            let size = |j: usize| increments.iter().fold(Scalar::abs(q[j]), |size, w| size + Scalar::abs(w[j]));
+            let size =
+                |j: usize| increments.iter().fold(Scalar::abs(q[j]), |size, w| size + Scalar::abs(w[j]));
+            if *due == Due::Residual {
+                return linear::residual_of_nodes(&mut matrix, size, residuals, weights);
+            }
             solver.solve(&mut matrix, size, residuals)?;
             let mut correction = T::lift(0.0);
             for (increment, change) in increments.iter_mut().zip(&residuals[1..]) {

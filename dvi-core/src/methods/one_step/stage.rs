@@ -12,7 +12,7 @@ use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
 use crate::space::sink::{Product, Scaled};
-use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
+use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
 use crate::state::Statistics;
 use crate::{Linear, ProperlyDegenerate, Real, Scalar, Space, System, Vector, Weights};
 
@@ -220,6 +220,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
         let (mut equations, solver, correction) = stage.equations(step);
         let unknown = &*equations.unknown;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
+        if *due == Due::Residual {
+            let mut sums: Vector<S, T> = step.system.space().vector();
+            return linear::residual(&mut equations, size, [correction, &mut sums]);
+        }
         solver.solve(&mut equations, size, correction)?;
         let mut size = T::lift(0.0);
         let Stage { unknown, correction, weights, .. } = &mut **stage;

@@ -3,7 +3,7 @@
 //! What is a branch in [`Convergence::judge`](super::Convergence::judge) is a choice between numbers here, of all lanes at once: 1 stands
 //! for yes, 0 for no. Where an iteration would take sizes again or be put to the test, all give up: it does that alone.
 
-use super::{FLOOR, LARGE, MOST_GROWTHS, SMALL, Stopping, Verdict};
+use super::{FLOOR, LARGE, MOST_IN_VAIN, SMALL, Stopping, Verdict};
 use crate::Scalar;
 use crate::scalar::{Comparison, Lanes};
 
@@ -12,7 +12,8 @@ use crate::scalar::{Comparison, Lanes};
 pub(crate) struct Convergences<const W: usize> {
     tolerance: Lanes<W>,
     correction: Lanes<W>,
-    growths: Lanes<W>,
+    least: Lanes<W>,
+    in_vain: Lanes<W>,
     /// 1 where the iteration goes on, and 0 where it is done.
     active: Lanes<W>,
     /// How many iterations each has taken, and how many those have that go on.
@@ -31,7 +32,8 @@ impl<const W: usize> Convergences<W> {
         Self {
             tolerance: Lanes::all(alone.tolerance),
             correction: zero,
-            growths: zero,
+            least: Lanes::all(f64::INFINITY),
+            in_vain: zero,
             active: Lanes::all(1.0),
             iterations: zero,
             latest: 0,
@@ -69,7 +71,8 @@ impl<const W: usize> Convergences<W> {
         self.latest += 1;
         self.iterations += self.active;
         let (no, yes) = (Lanes::all(0.0), Lanes::all(1.0));
-        let shrunk = self.correction - corrections;
+        let before = self.correction;
+        let shrunk = before - corrections;
         self.correction = corrections;
         let mut is_last = Lanes::choose(corrections, Comparison::LessOrEqual, self.tolerance, yes, no);
         // A correction that is not a number is not small.
@@ -80,12 +83,14 @@ impl<const W: usize> Convergences<W> {
             let floor = Lanes::all(FLOOR * f64::EPSILON);
             let are_noise = Lanes::choose(corrections, Comparison::LessOrEqual, floor, stands, no);
             is_last += self.are_small_later(shrunk) + are_noise;
-            let has_grown = Lanes::choose(shrunk, Comparison::LessOrEqual, no, stands, no);
-            self.growths += has_grown;
-            let is_tiny =
-                Lanes::choose(corrections, Comparison::LessOrEqual, Lanes::all(SMALL), has_grown, no);
-            let most = Lanes::all(MOST_GROWTHS as f64);
-            is_alone += is_tiny + Lanes::choose(self.growths, Comparison::Greater, most, yes, no);
+            let is_less = Lanes::choose(before, Comparison::Less, self.least, stands, no);
+            self.least = Lanes::choose(is_less, Comparison::Greater, no, before, self.least);
+            self.in_vain = Lanes::choose(is_less, Comparison::Greater, no, no, self.in_vain);
+            self.in_vain += Lanes::choose(self.least, Comparison::LessOrEqual, corrections, stands, no);
+            let is_tiny = Lanes::choose(corrections, Comparison::LessOrEqual, Lanes::all(SMALL), stands, no);
+            let most = Lanes::all(MOST_IN_VAIN as f64);
+            is_alone += Lanes::choose(self.in_vain, Comparison::Greater, yes, is_tiny, no)
+                + Lanes::choose(self.in_vain, Comparison::Greater, most, stands, no);
         }
         self.active = Lanes::choose(is_last, Comparison::Greater, no, no, self.active);
         if self.active == no {

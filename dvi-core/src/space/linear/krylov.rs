@@ -163,7 +163,8 @@ impl<T: Real> Krylov<T> {
         let mut size = 0;
         while size < BASIS && Scalar::abs(rhs[size]) > target {
             self.precondition(size * n);
-            let Self { basis, columns, rotations, units, unused, work: [direction, product], .. } = &mut *self;
+            let Self { basis, columns, rotations, units, unused, work: [direction, product], .. } =
+                &mut *self;
             product.fill(T::lift(0.0));
             equations.evaluate(unused, &mut Product { x: direction, sum: product })?;
             product.iter_mut().zip(units.iter()).for_each(|(product, &unit)| *product *= unit);

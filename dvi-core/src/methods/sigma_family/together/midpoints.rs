@@ -161,7 +161,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
                 let increments = self.q.iter().zip(self.increment.iter());
                 for (weight, (&q, &s)) in self.weights.iter_mut().zip(increments) {
                     // As `weight_of`.
-                    let least = Lanes::all(smallest_normal::<f64>() / f64::EPSILON);
+                    let least = Lanes::all(smallest_normal::<f64>());
                     *weight = Lanes::all(1.0) / (Scalar::abs(q) + Scalar::abs(s) + least);
                 }
             }
