@@ -120,8 +120,7 @@ impl Due {
     }
 
     /// The same where the iterate is put to the test.
-    #[cold]
-    #[inline(never)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn test<T: Real>(&mut self, weights: &mut [T], size: impl Fn(usize, T) -> T, x: &mut [T]) -> bool {
         match *self {
             // The iteration itself answers that.
@@ -163,8 +162,7 @@ impl Due {
     }
 
     /// The same where the iterate is put to the test.
-    #[cold]
-    #[inline(never)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn test_packs<const W: usize, T: Real>(
         &mut self,
         weights: &mut [T],

@@ -178,8 +178,9 @@ impl<T: Real> Convergence<T> {
             return Verdict::Accept;
         }
         let is_small = correction <= T::lift(LARGE);
-        if !is_small {
-            self.resize();
+        // While an iterate is put to the test, sizes stay as they are.
+        if !is_small && matches!(self.trial, Trial::None) {
+            self.due = Due::Sizes;
         }
         if self.iterations > 1 {
             // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow. Where both sides are so
@@ -195,14 +196,6 @@ impl<T: Real> Convergence<T> {
         if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
     }
 
-    /// Asks for the sizes that coordinates have now. While an iterate is put to the test they stay as they are.
-    #[cold]
-    fn resize(&mut self) {
-        if matches!(self.trial, Trial::None) {
-            self.due = Due::Sizes;
-        }
-    }
-
     /// Decides where corrections no longer shrink as they should, the last one from `before`.
     #[inline]
     fn hesitate(&mut self, before: T) -> Option<Verdict> {
@@ -210,16 +203,20 @@ impl<T: Real> Convergence<T> {
         if is_noise && !matches!(self.trial, Trial::Shaken(_)) {
             return Some(Verdict::Accept);
         }
-        self.doubt(before)
+        // What another function sees has no place in registers.
+        let verdict;
+        (*self, verdict) = self.doubt(before);
+        verdict
     }
 
     /// Puts an iterate to the test that no longer improves, and says how it has ended.
     #[cold]
-    fn doubt(&mut self, before: T) -> Option<Verdict> {
+    #[inline(never)]
+    fn doubt(mut self, before: T) -> (Self, Option<Verdict>) {
         if let Trial::Shaken(tolerance) = self.trial {
             (self.tolerance, self.stalling, self.trial) = (tolerance, T::lift(0.0), Trial::Loose);
             (self.due, self.correction) = (Due::Response, T::lift(f64::INFINITY));
-            return None;
+            return (self, None);
         }
         if before < self.least {
             (self.least, self.in_vain) = (before, 0);
@@ -227,11 +224,12 @@ impl<T: Real> Convergence<T> {
         // A correction that is not a number is counted by the budget alone.
         self.in_vain += usize::from(self.correction >= self.least);
         let is_noise = self.in_vain > 1 && self.correction <= T::lift(SMALL);
+        let is_in_vain = self.in_vain > MOST_IN_VAIN;
         match self.trial {
-            Trial::Asked => return Some(Verdict::GiveUp),
-            Trial::Loose => return (self.in_vain > MOST_IN_VAIN).then_some(Verdict::GiveUp),
-            Trial::Shaken(_) | Trial::None if is_noise || self.in_vain > MOST_IN_VAIN => {}
-            Trial::Shaken(_) | Trial::None => return None,
+            Trial::Asked => return (self, Some(Verdict::GiveUp)),
+            Trial::Loose => return (self, is_in_vain.then_some(Verdict::GiveUp)),
+            Trial::Shaken(_) | Trial::None if is_noise || is_in_vain => {}
+            Trial::Shaken(_) | Trial::None => return (self, None),
         }
         (self.least, self.in_vain) = (T::lift(f64::INFINITY), 0);
         self.last = self.iterations + self.budget;
@@ -243,11 +241,11 @@ impl<T: Real> Convergence<T> {
             (self.trial, self.due) = (Trial::Asked, Due::Residual);
         }
         (self.correction, self.stalling) = (T::lift(f64::INFINITY), T::lift(f64::INFINITY));
-        None
+        (self, None)
     }
 
     /// The failure to report after [`Verdict::GiveUp`].
-    #[cold]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn failure(&self) -> StepFailure {
         StepFailure::NotConverged {
             iterations: self.iterations,

@@ -120,6 +120,36 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         repeat(convergence, statistics, Newton { step, stage: self })
     }
 
+    /// The residual at the unknowns, against what it is made of.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn residual(&mut self, step: &Step<'_, S, T>) -> Result<T, StepFailure> {
+        let Step { system, q, t, h, nodes } = *step;
+        if !S::Space::ON_STACK {
+            return self.residual_of(system, q, [t, h], nodes);
+        }
+        // What another function sees has no place in registers.
+        let mut apart = Self::new(system, q, t);
+        apart.unknown.copy_from_slice(&self.unknown);
+        apart.momentum.copy_from_slice(&self.momentum);
+        apart.residual_of(system, q, [t, h], nodes)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn residual_of(
+        &mut self,
+        system: &S,
+        q: &Vector<S, T>,
+        [t, h]: [T; 2],
+        nodes: &[Node],
+    ) -> Result<T, StepFailure> {
+        let step = &Step { system, q, t, h, nodes };
+        let Self { unknown, momentum, gradient, one_form, point, velocity, correction, weights, .. } = self;
+        let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(unknown[j]);
+        let work = [point, velocity, gradient, one_form];
+        linear::residual(&mut Equations { step, unknown, momentum, work }, size, [correction, weights])
+    }
+
     /// The equations at the unknowns.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn equations<'a>(&'a mut self, step: &'a Step<'a, S, T>) -> Posed<'a, S, T> {
@@ -216,14 +246,13 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { step, stage } = self;
+        if *due == Due::Residual {
+            return stage.residual(step);
+        }
         due.prepare(&mut stage.weights, step.q, &mut stage.unknown);
         let (mut equations, solver, correction) = stage.equations(step);
         let unknown = &*equations.unknown;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
-        if *due == Due::Residual {
-            let mut sums: Vector<S, T> = step.system.space().vector();
-            return linear::residual(&mut equations, size, [correction, &mut sums]);
-        }
         solver.solve(&mut equations, size, correction)?;
         let mut size = T::lift(0.0);
         let Stage { unknown, correction, weights, .. } = &mut **stage;
