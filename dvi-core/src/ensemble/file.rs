@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 use super::Shard;
 use super::error::EnsembleError;
 use super::group::Slot;
-use super::plan::{Fingerprint, Plan};
+use super::plan::Plan;
+use crate::state::fingerprint::Fingerprint;
 
 /// Begins each file; after it stand the fingerprint of the rest and the rest.
 const MARK: &[u8] = b"dvi ensemble checkpoint 1\n";
