@@ -232,8 +232,8 @@ pub enum CheckpointError {
     },
     /// What is read is not what was written. The error of the reader has this text.
     #[error(
-        "the checkpoint has changed since it was taken: its numbers and counts do not go with its checksum; a text format that \
-         rounds numbers does that (serde_json needs its feature `float_roundtrip`)"
+        "the checkpoint has changed since it was taken: its numbers and counts do not go with its \
+         checksum; a text format that rounds numbers does that (serde_json needs its feature `float_roundtrip`)"
     )]
     Changed,
     /// It has numbers or counts that no run has.

@@ -278,7 +278,8 @@ fn a_checkpoint_has_the_velocities_of_a_regular_system() -> Outcome {
     Ok(())
 }
 
-/// The hash of a checkpoint as it is documented: FNV's offset, words multiplied by 2⁶⁴ over the golden ratio, 53 bits.
+/// The checksum of a checkpoint, computed once more: from the offset of FNV on, each word is multiplied by
+/// 2⁶⁴ over the golden ratio, and 53 bits are kept.
 fn checksum(written: &serde_json::Value) -> Option<u64> {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut take = |word: u64| {
@@ -385,7 +386,8 @@ fn a_rounded_checkpoint_is_refused() -> Outcome {
     Ok(())
 }
 
-/// With another step it is a checkpoint as before, in double and in single precision, and numbers that JSON cannot write are errors.
+/// With another step it is a checkpoint as before, in double and in single precision, and numbers that JSON
+/// cannot write are errors.
 #[test]
 fn a_changed_step_can_be_written() -> Outcome {
     let start = KeplerState { x: 0.7_f32, y: 0.2, dot_x: 0.3, dot_y: 1.1 };
@@ -394,7 +396,8 @@ fn a_changed_step_can_be_written() -> Outcome {
     let checkpoint = run.checkpoint().with_step_size(0.1);
     let text = serde_json::to_string(&checkpoint)?;
     assert_eq!(serde_json::from_str::<Checkpoint<f32>>(&text)?, checkpoint);
-    // The decimal fraction that stands for a number in single precision is another number in double precision.
+    // The decimal fraction that stands for a number in single precision is another number in double
+    // precision.
     assert!(serde_json::from_str::<Checkpoint>(&text).is_err(), "{text}");
     let text = serde_json::to_string(&checkpoint.with_step_size(f32::NAN))?;
     assert!(serde_json::from_str::<Checkpoint<f32>>(&text).is_err(), "{text}");

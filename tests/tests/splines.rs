@@ -236,7 +236,8 @@ fn bowl<const D: usize>(at: [f64; D]) -> Expansion<D> {
     }
 }
 
-/// Two points that are too close are named; where they are not, the values that are known are met, with half of the digits at least.
+/// Two points that are too close are named; where they are not, the values that are known are met, with
+/// half of the digits at least.
 #[test]
 fn close_points_are_met_or_refused() -> Outcome {
     fn check<const D: usize>(
@@ -307,6 +308,16 @@ fn close_points_are_met_or_refused() -> Outcome {
         check::<2>(gap, &mut numbers)?;
         check::<3>(gap, &mut numbers)?;
     }
+    // The figures of the documentation.
+    let points = [-0.6, 0.0, 0.31, 0.62, 1.2, 1.2 + 1e-7, 1.5, 2.0, 2.9];
+    let spline = Spline::sample([Axis::new(&points)?], |at| bowl(at).value)?;
+    let mut largest = [0.0; 3];
+    for k in 0..=1000 {
+        let at = [-0.6 + 3.5 * f64::from(k) / 1000.0];
+        let (there, exact) = (all(&spline.expansion(at)), all(&bowl(at)));
+        largest = core::array::from_fn(|i| larger(largest[i], (there[i] - exact[i]).abs()));
+    }
+    assert!(largest[0] < 1e-9 && largest[2] < 1e-7, "{largest:?}");
     // Two gaps are each allowed, and both together are not.
     let points = with_a_gap(&mut numbers, 8, 3, 1e-5);
     let axis = Axis::new(&points)?;

@@ -33,11 +33,12 @@ const LARGEST_GROWTH: f64 = 1e8;
 /// of them, the largest values were between 0.9 and 5 for a factor of 2, and between 19 and 6700 for a factor of 3. Of quintic
 /// ones they were between 0.9 and 6 for a factor of 1.2, and between 3 and 4000 for a factor of 1.5.
 ///
-/// Rounding errors of values grow where two points are close beside their neighbours, by the ratio of these distances and more, and
-/// the factors of all axes multiply. A grid on which they could grow more than 10⁸ times, so that fewer than half of the digits were
-/// left, is refused. On one axis that is otherwise nearly uniform, a distance may be 10⁷ times smaller than the larger one beside it,
-/// in degree 5 10⁶ times, and not 10⁹ times. Through the values of 1 + x²/10, with two points 10⁻⁷ apart among others at distances
-/// of 0.3 to 0.9, a cubic spline and its second derivative were off by no more than 10⁻⁹ and 10⁻⁷.
+/// Rounding errors of values grow where two points are close beside their neighbours, by the ratio of these
+/// distances and more, and the factors of all axes multiply. A grid on which they could grow more than 10⁸
+/// times, so that fewer than half of the digits were left, is refused. On one axis that is otherwise nearly
+/// uniform, a distance may be 10⁷ times smaller than the larger one beside it, in degree 5 10⁶ times, and
+/// not 10⁹ times. Through the values of 1 + x²/10, with two points 10⁻⁷ apart among others at distances of
+/// 0.3 to 0.9, a cubic spline and its second derivative were off by no more than 10⁻⁹ and 10⁻⁷.
 ///
 /// At an end without a period the polynomials of the first two cells are the same one (*not a knot*; of the first three,
 /// in degree 5), and no derivative there has to be known. In every variable, polynomials up to the degree of the spline are
@@ -377,16 +378,19 @@ pub enum SplineError {
         /// That value.
         expected: f64,
     },
-    /// Distances on the axes differ so much that rounding errors of the values would be enlarged more than 10⁸ times.
+    /// Distances on the axes differ so much that rounding errors of the values would be enlarged more than
+    /// 10⁸ times.
     #[error(
-        "points {} and {index} of axis {axis}, {before:e} and {after:e}, are too close beside their neighbours: rounding errors of the \
-         values would be enlarged {growth:.1e} times, and 1e8 times is allowed; leave out one of them",
+        "points {} and {index} of axis {axis}, {before:e} and {after:e}, are too close beside their \
+         neighbours: rounding errors of the values would be enlarged {growth:.1e} times, and 1e8 times is \
+         allowed; leave out one of them",
         .index - 1
     )]
     Unequal {
         /// The axis, counted from 0.
         axis: usize,
-        /// The second of the two points on it whose distance is the smallest part of one beside it, counted from 0.
+        /// The second of the two points on it whose distance is the smallest part of one beside it, counted
+        /// from 0.
         index: usize,
         /// The first of them.
         before: f64,

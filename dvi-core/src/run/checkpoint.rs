@@ -16,9 +16,10 @@ use crate::{Lagrangian, Real, Space, Vector};
 /// on a system with the same parameters, and with the same method and options. That they are the same is not checked beyond
 /// the amount of what they carry.
 ///
-/// With the feature `serde` it can be written to a file. A text format must write and read numbers without a rounding error;
-/// `serde_json` does it with its feature `float_roundtrip`. A checkpoint has a checksum, and to read one whose numbers have changed
-/// is an error of the reader with the text of [`CheckpointError::Changed`].
+/// With the feature `serde` it can be written to a file. A text format must write and read numbers without
+/// a rounding error; `serde_json` does it with its feature `float_roundtrip`. A checkpoint has a checksum,
+/// and to read one whose numbers have changed is an error of the reader with the text of
+/// [`CheckpointError::Changed`].
 ///
 /// With other parameters a run begins anew, at the time and in the state of the one before. Here a spring is stiffened half way,
 /// and the error stays of the order of the method:

@@ -6,8 +6,8 @@ use crate::Real;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 
-/// A hash of 64 bits, FNV-1a of texts: it tells mistakes apart, not attacks. Words are taken as a whole and not byte by byte, because
-/// no other thread of an ensemble is at work while all initial states are read.
+/// A hash of 64 bits, FNV-1a of texts: it tells mistakes apart, not attacks. Words are taken as a whole and
+/// not byte by byte, because no other thread of an ensemble is at work while all initial states are read.
 pub(crate) struct Fingerprint(u64);
 
 impl Fingerprint {

@@ -100,8 +100,8 @@ fn files_that_cannot_be_written_or_read() -> Checked {
     Ok(())
 }
 
-/// Of what is no checkpoint no more is read than its head, if so much: a file of a terabyte, with the mark of a checkpoint and without,
-/// devices without an end, and a pipe that nobody writes to.
+/// Of what is no checkpoint no more is read than its head, if so much: a file of a terabyte, with the mark
+/// of a checkpoint and without, devices without an end, and a pipe that nobody writes to.
 #[cfg(unix)]
 #[test]
 fn what_is_no_checkpoint_is_left_alone() -> Checked {

@@ -105,7 +105,8 @@ impl<'a> Row<'a> {
     }
 }
 
-/// What programs write in the place of a number that they do not have: no comments, and names only beside others.
+/// What programs write in the place of a number that they do not have: no comments, and names only beside
+/// others.
 #[rustfmt::skip]
 const MISSING: [&str; 15] = [
     "NA", "N/A", "n/a", "<NA>", "NULL", "null", "None", "missing",
@@ -117,8 +118,8 @@ pub(super) fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%']) && !MISSING.iter().any(|word| line.starts_with(word))
 }
 
-/// Whether a word is a name and not a number, or what is left of one: its first letter or digit is a letter, it has no sign, and it is
-/// no form of NaN or infinity.
+/// Whether a word is a name and not a number, or what is left of one: its first letter or digit is a
+/// letter, it has no sign, and it is no form of NaN or infinity.
 fn is_name(word: &str) -> bool {
     let word = word.trim_matches('"');
     let first = word.chars().find(|c| c.is_alphanumeric());

@@ -198,7 +198,8 @@ pub(crate) fn projected<S: ConstrainedLagrangian<T>, T: Real>(
 }
 
 /// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has taken away. Where little or
-/// nothing is left of a velocity they are large beside it, and each iteration leaves 10⁻¹⁶ of them, down to the smallest numbers.
+/// nothing is left of a velocity they are large beside it, and each iteration leaves 10⁻¹⁶ of them, down to
+/// the smallest numbers.
 const ITERATIONS: usize = 40;
 
 /// Makes `v` a velocity that the constraints admit at `q`.
@@ -227,11 +228,13 @@ fn align<S: ConstrainedLagrangian<T>, T: Real>(
     }
 }
 
-/// From far away an iteration for one constraint of degree d leaves (1 − 1/d) of the distance, so that at most 710 lead from the largest
-/// value of the constraint that can be represented to one, and as many to the smallest. Several constraints may hinder each other.
+/// From far away an iteration for one constraint of degree d leaves (1 − 1/d) of the distance, so that at
+/// most 710 lead from the largest value of the constraint that can be represented to one, and as many to
+/// the smallest. Several constraints may hinder each other.
 const MOVES: usize = 1500;
 
-/// Where the constraints are kept the next iteration leaves rounding errors, and one more brings derivatives of up to third order.
+/// Where the constraints are kept the next iteration leaves rounding errors, and one more brings
+/// derivatives of up to third order.
 const LAST_MOVES: usize = 2;
 
 /// Moves q to the constraints.
@@ -247,7 +250,8 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
         projection.solver.balance(system, At { q, t }, v);
         let change = match (projection.of_position(q, v), off) {
             (Ok(change), _) => change,
-            // The way there has ended where the equations have no solution, which says nothing of the constraints.
+            // The way there has ended where the equations have no solution, which says nothing of the
+            // constraints.
             (Err(_), Some((constraint, value))) => {
                 return Err(StartError::Inconsistent { constraint, value });
             }
