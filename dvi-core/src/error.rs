@@ -230,6 +230,12 @@ pub enum CheckpointError {
         /// How many numbers and counts were not read.
         more: usize,
     },
+    /// What is read is not what was written. The error of the reader has this text.
+    #[error(
+        "the checkpoint has changed since it was taken: its numbers and counts do not go with its \
+         checksum; a text format that rounds numbers does that (serde_json needs its feature `float_roundtrip`)"
+    )]
+    Changed,
     /// It has numbers or counts that no run has.
     #[error("the checkpoint is damaged: it has numbers or counts that no run has")]
     Damaged,

@@ -1,5 +1,7 @@
 //! What a run carries from step to step, how it is added up, and what it has cost.
 
+#[cfg(feature = "alloc")]
+pub(crate) mod fingerprint;
 pub(crate) mod history;
 pub(crate) mod memory;
 pub(crate) mod rates;

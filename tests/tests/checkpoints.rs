@@ -278,25 +278,48 @@ fn a_checkpoint_has_the_velocities_of_a_regular_system() -> Outcome {
     Ok(())
 }
 
+/// The checksum of a checkpoint, computed once more: from the offset of FNV on, each word is multiplied by
+/// 2⁶⁴ over the golden ratio, and 53 bits are kept.
+fn checksum(written: &serde_json::Value) -> Option<u64> {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut take = |word: u64| {
+        hash = (hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        hash ^= hash >> 32;
+    };
+    let list = |place: &str| written.pointer(place)?.as_array();
+    let ends = vec![written["time"].clone(), written["step_size"].clone()];
+    for list in [list("/q")?, list("/v")?, &ends, list("/record/numbers")?] {
+        take(list.len() as u64);
+        list.iter().try_for_each(|number| number.as_f64().map(|number| take(number.to_bits())))?;
+    }
+    let statistics = ["steps", "rejected", "iterations", "gradients", "linearizations", "factorisations"];
+    let counts = statistics.iter().map(|name| &written["statistics"][name]).chain(list("/record/counts")?);
+    counts.map(serde_json::Value::as_u64).try_for_each(|count| count.map(&mut take))?;
+    Some(hash >> 11)
+}
+
 /// Resumes from a checkpoint with one number or count after the other damaged, and tells how many were refused; of the others
-/// all that can be said is that they end.
+/// all that can be said is that they end. Each damage is seen before that, unless its checksum is forged.
 fn damaged(
     whole: &Checkpoint,
     resume: impl Fn(&Checkpoint) -> Result<(), StartError>,
 ) -> Result<[usize; 2], serde_json::Error> {
     let whole = serde_json::to_value(whole)?;
+    assert_eq!(whole["checksum"].as_u64(), checksum(&whole));
     let (mut tried, mut refused) = (0, 0);
     let mut attempt = |place: &str, value: serde_json::Value| -> Result<(), serde_json::Error> {
         let mut broken = whole.clone();
         if let Some(entry) = broken.pointer_mut(place) {
             *entry = value;
         }
-        tried += 1;
-        // A number that is none does not even read as one.
-        match serde_json::from_value::<Checkpoint>(broken) {
-            Ok(checkpoint) => refused += usize::from(resume(&checkpoint).is_err()),
-            Err(_) => refused += 1,
+        if broken != whole {
+            let seen = serde_json::from_value::<Checkpoint>(broken.clone()).map(drop);
+            assert!(seen.is_err_and(|error| error.to_string() == CheckpointError::Changed.to_string()));
         }
+        broken["checksum"] = checksum(&broken).into();
+        tried += 1;
+        let forged = serde_json::from_value::<Checkpoint>(broken)?;
+        refused += usize::from(resume(&forged).is_err());
         Ok(())
     };
     let length = |name: &str| whole["record"][name].as_array().map_or(0, Vec::len);
@@ -317,6 +340,68 @@ fn damaged(
         attempt(&format!("/{name}"), 7.5.into())?;
     }
     Ok([tried, refused])
+}
+
+/// What a text format makes of numbers that it writes with so many digits, or cannot write.
+fn rounded(written: &serde_json::Value, digits: usize) -> serde_json::Value {
+    match written {
+        serde_json::Value::Number(number) if number.is_f64() => {
+            let written = format!("{:.*e}", digits - 1, number.as_f64().unwrap_or(f64::NAN));
+            written.parse::<f64>().map_or(serde_json::Value::Null, Into::into)
+        }
+        serde_json::Value::Array(list) => list.iter().map(|entry| rounded(entry, digits)).collect(),
+        serde_json::Value::Object(map) => {
+            map.iter().map(|(key, entry)| (key.clone(), rounded(entry, digits))).collect()
+        }
+        other => other.clone(),
+    }
+}
+
+/// Of 200 checkpoints that a format has rounded, each is what it was, or is refused with the reason.
+#[test]
+fn a_rounded_checkpoint_is_refused() -> Outcome {
+    let mut numbers = dvi_tests::Numbers(43);
+    let (mut equal, mut refused) = ([0; 3], [0; 3]);
+    for steps in 0..200 {
+        let mut number = || 0.1 * numbers.next();
+        let start = KeplerState { x: 0.7 + number(), y: number(), dot_x: number(), dot_y: 1.1 + number() };
+        let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 0.0123, start)?;
+        run.take_steps(steps)?;
+        let checkpoint = run.checkpoint();
+        let written = serde_json::to_value(&checkpoint)?;
+        for (place, digits) in [15, 16, 17].into_iter().enumerate() {
+            match serde_json::from_value::<Checkpoint>(rounded(&written, digits)) {
+                Ok(read) => {
+                    assert_eq!(read, checkpoint);
+                    equal[place] += 1;
+                }
+                Err(error) => {
+                    assert!(error.to_string().contains("`float_roundtrip`"), "{error}");
+                    refused[place] += 1;
+                }
+            }
+        }
+    }
+    assert!(equal[2] == 200 && refused[0] == 200 && refused[1] > 100, "{equal:?} {refused:?}");
+    Ok(())
+}
+
+/// With another step it is a checkpoint as before, in double and in single precision, and numbers that JSON
+/// cannot write are errors.
+#[test]
+fn a_changed_step_can_be_written() -> Outcome {
+    let start = KeplerState { x: 0.7_f32, y: 0.2, dot_x: 0.3, dot_y: 1.1 };
+    let mut run = Integrator::new(&KEPLER, Gauss::<2>::new(), 0.05, start)?;
+    run.take_steps(7)?;
+    let checkpoint = run.checkpoint().with_step_size(0.1);
+    let text = serde_json::to_string(&checkpoint)?;
+    assert_eq!(serde_json::from_str::<Checkpoint<f32>>(&text)?, checkpoint);
+    // The decimal fraction that stands for a number in single precision is another number in double
+    // precision.
+    assert!(serde_json::from_str::<Checkpoint>(&text).is_err(), "{text}");
+    let text = serde_json::to_string(&checkpoint.with_step_size(f32::NAN))?;
+    assert!(serde_json::from_str::<Checkpoint<f32>>(&text).is_err(), "{text}");
+    Ok(())
 }
 
 fn check_damaged<S: Lagrangian, M: Method<S, f64> + Clone>(

@@ -109,6 +109,48 @@ fn messages() {
     }
 }
 
+/// A first row of which nothing can be read is no row of names.
+#[test]
+fn unreadable_first_rows() -> Outcome {
+    #[rustfmt::skip]
+    let words = [
+        "0.141-270", "********", "1.#QNAN", "-1.#IND", "1.#INF", "-nan(ind)", "nan(0x8)", "NaN(snan)",
+        "inf()", "NA", "N/A", "null", "None", "#N/A", "#DIV/0!", "#NUM!", "0x1F", "1.5E", "1e5x", "0.5f",
+        "1'000", "2_000", "1\u{2009}234", "1\u{a0}234.5", "\"0.5\"", "(0.5", "$0.5", "+x", "½", "∞", "?",
+        "−1", "-----", "...", "--",
+    ];
+    for word in words {
+        let texts = [
+            (1, format!("{word}\n0.5\n0.25\n")),
+            (2, format!("0.5\n{word}\n0.25\n")),
+            (1, format!("{word};1\n1;2\n")),
+        ];
+        for (line, text) in texts {
+            let said = refusal(Table::read(&text));
+            assert_eq!(said, format!("line {line}, column 1: `{word}` is found, and a number is expected"));
+        }
+    }
+    // What is a number for Rust is one, and nobody is told before it is asked for.
+    for word in ["NaN", "-nan", "inf", "-Infinity", "1d400"] {
+        let table = Table::read(&format!("{word}\n0.5\n0.25\n"))?;
+        assert_eq!((table.rows(), table.names().len()), (3, 0), "{word}");
+        assert!(matches!(table.column(1), Err(TableError::NotFinite { line: 1, .. })), "{word}");
+    }
+    for names in [
+        ["r", "z"],
+        ["|B|", "<x>"],
+        ["B_r", "e5"],
+        ["ψ", "∂ψ/∂r"],
+        ["NA", "x"],
+        ["nano", "info"],
+        ["[m]", "_x"],
+    ] {
+        let table = Table::read(&format!("{}\n1 2\n", names.join(" ")))?;
+        assert_eq!((table.names(), table.rows()), (&names.map(String::from)[..], 1));
+    }
+    Ok(())
+}
+
 #[test]
 fn messages_of_names() -> Outcome {
     let said = |text: &str, name: &str| refusal(Table::read(text).and_then(|table| table.column(name)));

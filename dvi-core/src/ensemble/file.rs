@@ -2,7 +2,7 @@
 
 use std::borrow::ToOwned;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::vec::Vec;
 
@@ -11,10 +11,13 @@ use serde::{Deserialize, Serialize};
 use super::Shard;
 use super::error::EnsembleError;
 use super::group::Slot;
-use super::plan::{Fingerprint, Plan};
+use super::plan::Plan;
+use crate::state::fingerprint::Fingerprint;
 
-/// Begins each file; after it stand the fingerprint of the rest and the rest.
-const MARK: &[u8] = b"dvi ensemble checkpoint 1\n";
+/// Begins each file; after it stand the length and the fingerprint of the content, then the content.
+const MARK: &[u8] = b"dvi ensemble checkpoint 2\n";
+/// The bytes before the content.
+const HEAD: usize = MARK.len() + 16;
 
 /// What a file holds, in the binary format of the crate postcard, in which each number keeps its bits.
 #[derive(Deserialize)]
@@ -49,17 +52,21 @@ pub(super) fn write(path: &Path, plan: &Plan, shard: Shard, slots: &[Slot]) -> R
 pub(super) fn encode(plan: &Plan, shard: Shard, slots: &[Slot]) -> io::Result<Vec<u8>> {
     let saved = Borrowed { plan, shard: [shard.index, shard.of], slots };
     let content = postcard::to_allocvec(&saved).map_err(io::Error::other)?;
-    Ok([MARK, &fingerprint(&content), &content].concat())
+    Ok([MARK, &(content.len() as u64).to_le_bytes(), &fingerprint(&content), &content].concat())
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut beside = path.as_os_str().to_owned();
     beside.push(".new");
     let mut file = File::create(&beside)?;
-    file.write_all(bytes)?;
-    file.sync_all()?;
+    let written = file.write_all(bytes).and_then(|()| file.sync_all());
     drop(file);
-    fs::rename(&beside, path)?;
+    let replaced = written.and_then(|()| fs::rename(&beside, path));
+    if replaced.is_err() {
+        // What keeps a part of a file from being removed is not told: the first error is the cause.
+        let _ = fs::remove_file(&beside);
+    }
+    replaced?;
     #[cfg(unix)]
     File::open(folder(path))?.sync_all()?;
     Ok(())
@@ -73,14 +80,38 @@ fn folder(path: &Path) -> PathBuf {
     }
 }
 
-/// Reads a file; `None` if there is none.
+/// Reads a file; `None` if there is none. Of another one only the head is read, however long it is.
 pub(super) fn read(path: &Path) -> Result<Option<Saved>, EnsembleError> {
-    match fs::read(path) {
-        Ok(bytes) => decode(&bytes)
-            .map(Some)
-            .map_err(|reason| EnsembleError::Damaged { path: path.to_owned(), reason }),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(source) => Err(EnsembleError::File { path: path.to_owned(), source }),
+    let unread = |source| EnsembleError::File { path: path.to_owned(), source };
+    let damaged = |reason| EnsembleError::Damaged { path: path.to_owned(), reason };
+    match fs::metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(unread(error)),
+        Ok(metadata) if metadata.is_file() => {}
+        // A pipe keeps its reader waiting, and a device need not end.
+        Ok(_) => return Err(unread(io::Error::other("it is a folder, a device or a pipe, and no file"))),
+    }
+    let file = File::open(path).map_err(unread)?;
+    let len = file.metadata().map_err(unread)?.len();
+    let mut bytes = Vec::new();
+    (&file).take(HEAD as u64).read_to_end(&mut bytes).map_err(unread)?;
+    fingerprint_in_head(&bytes, len).map_err(damaged)?;
+    file.take(len).read_to_end(&mut bytes).map_err(unread)?;
+    decode(&bytes).map(Some).map_err(damaged)
+}
+
+/// The fingerprint of the content, in the head of a file of `len` bytes.
+///
+/// # Errors
+/// What is wrong with head or length.
+fn fingerprint_in_head(bytes: &[u8], len: u64) -> Result<[u8; 8], &'static str> {
+    let rest = bytes.strip_prefix(MARK).ok_or("it does not begin as one")?;
+    let (content, rest) = rest.split_first_chunk().ok_or("it ends too early")?;
+    let fingerprint = rest.first_chunk().ok_or("it ends too early")?;
+    if len.checked_sub(HEAD as u64) == Some(u64::from_le_bytes(*content)) {
+        Ok(*fingerprint)
+    } else {
+        Err("it does not have the length with which it was written")
     }
 }
 
@@ -89,10 +120,10 @@ pub(super) fn read(path: &Path) -> Result<Option<Saved>, EnsembleError> {
 /// # Errors
 /// What is wrong with them.
 pub(super) fn decode(bytes: &[u8]) -> Result<Saved, &'static str> {
-    let rest = bytes.strip_prefix(MARK).ok_or("it does not begin as one")?;
-    let (found, content) = rest.split_first_chunk::<8>().ok_or("it ends too early")?;
-    if *found != fingerprint(content) {
-        return Err("its content has changed since it was written, or its end is missing");
+    let found = fingerprint_in_head(bytes, bytes.len() as u64)?;
+    let content = &bytes[HEAD..];
+    if found != fingerprint(content) {
+        return Err("its content has changed since it was written");
     }
     let saved: Saved = postcard::from_bytes(content).map_err(|_| "it is one of another version")?;
     let shard = Shard::new(saved.shard[0], saved.shard[1]).map_err(|_| "there is no such shard")?;

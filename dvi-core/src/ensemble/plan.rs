@@ -12,6 +12,7 @@ use super::error::{Difference, EnsembleError};
 use super::member::plain;
 use super::settings::{Settings, Systems};
 use crate::methods::Method;
+use crate::state::fingerprint::Fingerprint;
 use crate::{Lagrangian, Space, State};
 
 /// A fact that not every ensemble knows: then it is empty, and belongs to all.
@@ -164,25 +165,7 @@ fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>)
     [starts.to_string(), systems.to_string(), texts]
 }
 
-/// A hash of 64 bits, FNV-1a of texts: it tells mistakes apart, not attacks. Numbers are taken as a whole and not byte by byte, because
-/// no other thread is at work while all initial states are read.
-pub(super) struct Fingerprint(u64);
-
 impl Fingerprint {
-    pub(super) const fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
-    pub(super) fn bytes(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
-
-    pub(super) fn value(&self) -> u64 {
-        self.0
-    }
-
     fn text(&mut self, text: &str) {
         self.bytes(text.as_bytes());
         // No text has this byte, so that two of them are told from one.
@@ -190,14 +173,12 @@ impl Fingerprint {
     }
 
     fn number(&mut self, x: f64) {
-        let product = (self.0 ^ plain(x).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        // A product carries to higher digits only.
-        self.0 = product ^ (product >> 32);
+        self.word(plain(x).to_bits());
     }
 }
 
 impl fmt::Display for Fingerprint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:016x}", self.0)
+        write!(f, "{:016x}", self.value())
     }
 }

@@ -125,6 +125,17 @@ impl Equations {
         }
     }
 
+    /// By how much rounding errors of the values can be larger in the coefficients, and in the spline,
+    /// which is no larger than these: the largest sum over a row of |inverse|. The signs in the inverse of
+    /// a totally positive matrix alternate, as those of the values do of which this is the solution; with a
+    /// period of an odd number of points, but for those around its end.
+    pub(super) fn growth(&self) -> f64 {
+        let mut line: Vec<f64> = [1.0, -1.0].into_iter().cycle().take(self.count()).collect();
+        self.solve(&mut line);
+        let larger = |growth: f64, c: &f64| if c.is_nan() { f64::INFINITY } else { growth.max(c.abs()) };
+        line.iter().fold(0.0, larger)
+    }
+
     /// From values to coefficients in all lines of an array along one axis. Neighbours on the axis are `stride` apart.
     ///
     /// With a period of `count` values, the coefficients are repeated until there are `coefficients` of them.

@@ -16,9 +16,13 @@ use row::Row;
 /// - A line is a row of numbers. All rows have the same number of columns, separated by blanks or tabs, by commas, or by
 ///   semicolons; blanks may stand around commas and semicolons. One table has one kind of separator.
 /// - Numbers have a decimal point, and exponents after `e`, `E`, or, as Fortran writes them, `d`, `D`.
-/// - Empty lines do not count, and neither do comments, lines that begin with `#` or `%`.
-/// - The first line may hold names of the columns, none of which is a number. Without it, the last comment above the first row
-///   names the columns if it has as many words as there are columns.
+/// - Empty lines do not count, and neither do comments, lines that begin with `#` or `%`. Errors of
+///   spreadsheets, such as `#N/A`, are no comments.
+/// - The first line may hold names of the columns. The first letter or digit of a name is a letter, and no
+///   sign stands before it. `nan`, `inf` and, where all words of a line are such, `NA` and `null` are no
+///   names. Without names in the first line, the last comment above the first row names the columns if it
+///   has as many words as there are columns.
+/// - What is neither a name nor a number is an error: `********`, `1.#QNAN`, and `0.141-270` too.
 ///
 /// `psi.txt` may hold
 /// ```text
@@ -92,7 +96,7 @@ impl Table {
         let (mut numbers, mut lines) = (Vec::new(), Vec::new());
         for (index, line) in text.lines().enumerate() {
             let line = line.trim();
-            if line.starts_with(['#', '%']) {
+            if row::is_comment(line) {
                 let words = line.trim_start_matches(['#', '%']).trim();
                 comment = if first.is_none() { Some(Row::new(index + 1, words)) } else { comment };
             } else if !line.is_empty() {

@@ -28,13 +28,14 @@ use crate::{Real, Space};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
-    /// A state near `state` that the constraints admit at time `t`. Newton's method moves the positions, with steps that are the
-    /// shortest in the metric of the mass matrix; the velocity is then changed by as little as possible. A run can begin at what is
-    /// returned, and what it returns of that is the same but for rounding.
+    /// A state near `state` that the constraints admit at time `t`. Newton's method moves the positions
+    /// until the constraints are kept up to rounding, from however far away, with steps that are the
+    /// shortest in the metric of the mass matrix; the velocity is then changed by as little as possible. A
+    /// run can begin at what is returned, and what it returns of that is the same but for rounding.
     ///
     /// # Errors
-    /// [`StartError::Inconsistent`] where no position or no velocity is found; [`StartError::Projection`] where a constraint is
-    /// redundant; others as the start of a run has.
+    /// [`StartError::Inconsistent`] where no position is found in 1500 iterations, or no velocity;
+    /// [`StartError::Projection`] where a constraint is redundant; others as the start of a run has.
     fn projected(&self, t: T, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
         consistent::projected(self, t, state)
     }

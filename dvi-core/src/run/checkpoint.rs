@@ -6,6 +6,7 @@ use crate::error::{CheckpointError, StartError};
 use crate::methods::{Carries, Clock, Method};
 use crate::run::Stepper;
 use crate::state::Statistics;
+use crate::state::fingerprint::Fingerprint;
 use crate::state::memory::{Memory, Reader, Record};
 use crate::system::start::{finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
@@ -15,8 +16,10 @@ use crate::{Lagrangian, Real, Space, Vector};
 /// on a system with the same parameters, and with the same method and options. That they are the same is not checked beyond
 /// the amount of what they carry.
 ///
-/// With the feature `serde` it can be written to a file. A text format must write numbers so that they can be read back
-/// without a rounding error.
+/// With the feature `serde` it can be written to a file. A text format must write and read numbers without
+/// a rounding error; `serde_json` does it with its feature `float_roundtrip`. A checkpoint has a checksum,
+/// and to read one whose numbers have changed is an error of the reader with the text of
+/// [`CheckpointError::Changed`].
 ///
 /// With other parameters a run begins anew, at the time and in the state of the one before. Here a spring is stiffened half way,
 /// and the error stays of the order of the method:
@@ -50,13 +53,52 @@ use crate::{Lagrangian, Real, Space, Vector};
 /// The velocities are those of the state. Where masses change, the momenta change with them.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Checkpoint<T = f64> {
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Sealed<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
+pub struct Checkpoint<T = f64>(Sealed<T>);
+
+/// What a checkpoint holds. Of one that has just been read the checksum may be wrong.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Sealed<T> {
     q: Vec<T>,
     v: Vec<T>,
     time: T,
     step_size: T,
     statistics: Statistics,
     record: Record<T>,
+    checksum: u64,
+}
+
+impl<T: Real> Sealed<T> {
+    fn with_checksum(mut self) -> Self {
+        self.checksum = self.fingerprint();
+        self
+    }
+
+    /// The checksum that belongs to the rest: 53 bits, as many as the numbers of any format have.
+    fn fingerprint(&self) -> u64 {
+        let Self { q, v, time, step_size, statistics, record, checksum: _ } = self;
+        let (numbers, counts) = record.parts();
+        let mut fingerprint = Fingerprint::new();
+        for list in [&q[..], &v[..], &[*time, *step_size], numbers] {
+            fingerprint.word(list.len() as u64);
+            list.iter().for_each(|&number| fingerprint.real(number));
+        }
+        statistics.counts().iter().chain(counts).for_each(|&count| fingerprint.word(count));
+        fingerprint.value() >> 11
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Sealed<T>> for Checkpoint<T> {
+    type Error = CheckpointError;
+
+    fn try_from(read: Sealed<T>) -> Result<Self, CheckpointError> {
+        if read.checksum == read.fingerprint() { Ok(Self(read)) } else { Err(CheckpointError::Changed) }
+    }
 }
 
 /// No run has come so far.
@@ -74,32 +116,33 @@ impl<T: Real> Checkpoint<T> {
         save(&mut record);
         let v = stepper
             .with_velocity(time, |v| if v.iter().all(|v| v.is_finite()) { v.to_vec() } else { Vec::new() });
-        Self { q: stepper.q.to_vec(), v, time, step_size, statistics: stepper.statistics, record }
+        let (q, statistics) = (stepper.q.to_vec(), stepper.statistics);
+        Self(Sealed { q, v, time, step_size, statistics, record, checksum: 0 }.with_checksum())
     }
 
     /// The coordinates, flat, in the order of declaration.
     pub fn q(&self) -> &[T] {
-        &self.q
+        &self.0.q
     }
 
     /// The velocities of a regular system; empty for a degenerate one, and where the momenta of the run have no velocity.
     pub fn v(&self) -> &[T] {
-        &self.v
+        &self.0.v
     }
 
     /// The time.
     pub fn time(&self) -> T {
-        self.time
+        self.0.time
     }
 
     /// The length of the step: the next one of a fixed step, the latest of a controlled one.
     pub fn step_size(&self) -> T {
-        self.step_size
+        self.0.step_size
     }
 
     /// What the run has cost.
     pub fn statistics(&self) -> Statistics {
-        self.statistics
+        self.0.statistics
     }
 
     /// A checkpoint from which a run with a fixed step goes on with steps of length `h`. The defect of a run of
@@ -107,29 +150,26 @@ impl<T: Real> Checkpoint<T> {
     /// σ = ½. Begin such a run anew.
     #[must_use]
     pub fn with_step_size(self, h: T) -> Self {
-        Self { step_size: h, ..self }
+        Self(Sealed { step_size: h, ..self.0 }.with_checksum())
     }
 
     /// The coordinates and velocities, for `system`, if all numbers and counts are those of a run.
     pub(crate) fn point<S: Lagrangian<T>>(&self, system: &S) -> Result<[Vector<S, T>; 2], StartError> {
-        let (expected, found) = (system.space().dimension(), self.q.len());
+        let (expected, found) = (system.space().dimension(), self.0.q.len());
         if found != expected {
             return Err(CheckpointError::Coordinates { expected, found }.into());
         }
-        let (expected, found) = (velocities(system), self.v.len());
+        let (expected, found) = (velocities(system), self.0.v.len());
         if found != 0 && found != expected {
             return Err(CheckpointError::Velocities { expected, found }.into());
         }
-        finite(system, &self.q, &self.v)?;
-        let Statistics { steps, rejected, iterations, gradients, linearizations, factorisations } =
-            self.statistics;
-        let counts = [steps, rejected, iterations, gradients, linearizations, factorisations];
-        if counts.iter().any(|&count| count > BEYOND) || !self.record.is_finite() {
+        finite(system, &self.0.q, &self.0.v)?;
+        if self.0.statistics.counts().iter().any(|&count| count > BEYOND) || !self.0.record.is_finite() {
             return Err(CheckpointError::Damaged.into());
         }
         let (mut q, mut v): (Vector<S, T>, Vector<S, T>) = (system.space().vector(), system.space().vector());
-        q.copy_from_slice(&self.q);
-        v[..found].copy_from_slice(&self.v);
+        q.copy_from_slice(&self.0.q);
+        v[..found].copy_from_slice(&self.0.v);
         Ok([q, v])
     }
 
@@ -139,7 +179,7 @@ impl<T: Real> Checkpoint<T> {
         memory: &mut M::Memory,
         load: impl FnOnce(&mut Reader<'_, T>) -> Result<(), CheckpointError>,
     ) -> Result<(), StartError> {
-        let mut reader = self.record.reader();
+        let mut reader = self.0.record.reader();
         memory.load(&mut reader)?;
         load(&mut reader)?;
         Ok(reader.end()?)
@@ -162,14 +202,14 @@ impl<T: Real> Clock<T> {
         reader.numbers(&mut numbers)?;
         let ([start, h], step) = (numbers, reader.count()?);
         let clock = Self { start, h, step };
-        if clock.after(checkpoint.statistics.steps).time() != checkpoint.time {
+        if clock.after(checkpoint.0.statistics.steps).time() != checkpoint.time() {
             return Err(CheckpointError::Damaged);
         }
-        if h == checkpoint.step_size {
+        if h == checkpoint.step_size() {
             return Ok(clock);
         }
         // No steps have been taken with this one.
-        let step = 0_u64.wrapping_sub(checkpoint.statistics.steps);
-        Ok(Self { start: checkpoint.time, h: checkpoint.step_size, step })
+        let step = 0_u64.wrapping_sub(checkpoint.0.statistics.steps);
+        Ok(Self { start: checkpoint.time(), h: checkpoint.step_size(), step })
     }
 }

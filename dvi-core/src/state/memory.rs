@@ -88,6 +88,11 @@ impl<T: Copy> Record<T> {
         Reader { numbers: &self.numbers, counts: &self.counts }
     }
 
+    /// All numbers, and all counts.
+    pub(crate) fn parts(&self) -> (&[T], &[u64]) {
+        (&self.numbers, &self.counts)
+    }
+
     /// Whether all numbers are finite, as those of a run are.
     pub(crate) fn is_finite(&self) -> bool
     where

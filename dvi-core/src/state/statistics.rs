@@ -20,6 +20,15 @@ pub struct Statistics {
     pub factorisations: u64,
 }
 
+impl Statistics {
+    /// All counters.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn counts(self) -> [u64; 6] {
+        let Self { steps, rejected, iterations, gradients, linearizations, factorisations } = self;
+        [steps, rejected, iterations, gradients, linearizations, factorisations]
+    }
+}
+
 impl AddAssign for Statistics {
     fn add_assign(&mut self, other: Self) {
         self.steps += other.steps;

@@ -163,6 +163,92 @@ fn redundant_and_inconsistent_constraints_are_named() {
     assert!(constraint < 3 && value.abs() > 0.1, "{constraint} {value}");
 }
 
+/// From anywhere on a ray the circle is met where the ray meets it, up to rounding.
+#[test]
+fn far_and_near_states_are_projected() -> Outcome {
+    let at = |x: f64, y: f64| PendulumState { x, y, dot_x: -y.signum(), dot_y: x.signum() };
+    for exponent in -153..=153 {
+        let size = 10_f64.powi(exponent);
+        for (x, y) in [(1.0, 0.5), (1.0, 0.0), (0.0, -1.0), (-0.3, 0.7), (1.0, 1e-10), (-1e-5, -1.0)] {
+            let found = PENDULUM.projected(0.0, &at(size * x, size * y))?;
+            let radius = f64::hypot(x, y);
+            // Some 500 iterations lead from the farthest, each with rounding errors.
+            for (found, expected) in [(found.x, x / radius), (found.y, y / radius)] {
+                assert!((found - expected).abs() <= 1e-14, "{size:e} ({x}, {y}): {found}");
+            }
+            assert!((found.x * found.x + found.y * found.y - 1.0).abs() <= 3.0 * f64::EPSILON, "{found:?}");
+            Integrator::new(&PENDULUM, Rattle::default(), 0.01, found)?;
+        }
+    }
+    for exponent in -18..=18 {
+        let size = 10_f32.powi(exponent);
+        let start = PendulumState { x: size, y: 0.5 * size, dot_x: 1.0, dot_y: 0.0 };
+        let found: PendulumState<f32> = PENDULUM.projected(0.0, &start)?;
+        let off = [found.x - 0.8_f32.sqrt(), found.y - 0.2_f32.sqrt()];
+        assert!(off.iter().all(|off| off.abs() < 2e-6), "{size:e}: {found:?}");
+    }
+    // Where the squares are no numbers, that is said.
+    let said = |x: f64| PENDULUM.projected(0.0, &at(x, 0.0)).map_err(|error| error.to_string());
+    for x in [1e155, 1e300, 1e-160, 1e-300] {
+        assert!(
+            said(x).is_err_and(|said| said.contains("constraint 0") && said.contains("inf")),
+            "{:?}",
+            said(x)
+        );
+    }
+    Ok(())
+}
+
+/// Of higher degrees, in coordinates of several sizes.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + 1e-6 * dot(z).powi(2)) / 2.0,
+    constraint = [x.powi(4) - 1.0, y.powi(3) - 2.0 * x, (z - 1e3 * x).powi(3) - y + 8.0],
+)]
+#[derive(Clone, Copy, Debug)]
+struct Curved;
+
+#[test]
+fn several_constraints_are_met_from_far_away() -> Outcome {
+    let y = 2_f64.cbrt();
+    let z = 1e3 - (8.0 - y).cbrt();
+    for (x, far_y, far_z) in [
+        (1.1, 0.5, 1.0),
+        (1e3, 300.0, -1e9),
+        (1e16, 100.0, 1e20),
+        (1e50, -700.0, 1e60),
+        (1e76, 1e100, -1e100),
+        (1e-3, 1e-9, 0.0),
+    ] {
+        let start = CurvedState { x, y: far_y, z: far_z, dot_x: 1.0, dot_y: 1.0, dot_z: 1.0 };
+        let found = Curved.projected(0.0, &start)?;
+        let off = [found.x - 1.0, (found.y - y) / y, (found.z - z) / z];
+        assert!(off.iter().all(|off| off.abs() < 1e-15), "{x:e}: {off:?}");
+        // Three constraints leave no velocity.
+        assert!([found.dot_x, found.dot_y, found.dot_z].iter().all(|v| v.abs() < 1e-12), "{found:?}");
+        Integrator::new(&Curved, Rattle::default(), 0.01, found)?;
+    }
+    let (system, mut state) = links(20);
+    let mut numbers = dvi_tests::Numbers(19);
+    for size in [1e-3, 0.1, 10.0, 1e3, 1e100] {
+        state.x.iter_mut().chain(&mut state.y).for_each(|x| *x = size * numbers.next());
+        let found = match system.projected(0.0, &state) {
+            Ok(found) => found,
+            // Twenty constraints hinder each other, and come near too slowly.
+            Err(StartError::Inconsistent { value, .. }) if size == 1e100 && value.abs() > 1.0 => continue,
+            Err(error) => return Err(error.into()),
+        };
+        let joint = |i: usize| (found.x[i], found.y[i]);
+        for i in 0..20 {
+            let (before, here) = (if i == 0 { (0.0, 0.0) } else { joint(i - 1) }, joint(i));
+            let length = f64::hypot(here.0 - before.0, here.1 - before.1);
+            assert!((length / system.rod[i] - 1.0).abs() < 1e-13, "{size:e}, rod {i}: {length}");
+        }
+        Integrator::new(&system, Rattle::default(), 0.01, found)?;
+    }
+    Ok(())
+}
+
 /// A redundant constraint of a chain, whose equations are banded.
 #[test]
 fn redundant_constraints_of_a_chain_are_named() {

@@ -100,6 +100,56 @@ fn files_that_cannot_be_written_or_read() -> Checked {
     Ok(())
 }
 
+/// Of what is no checkpoint no more is read than its head, if so much: a file of a terabyte, with the mark
+/// of a checkpoint and without, devices without an end, and a pipe that nobody writes to.
+#[cfg(unix)]
+#[test]
+fn what_is_no_checkpoint_is_left_alone() -> Checked {
+    let path = file("large.ckpt");
+    ensemble(&HenonHeiles).checkpoints(&path, RARELY).take_steps(10)?;
+    let refused = |path: &std::path::Path| {
+        let result = ensemble(&HenonHeiles).checkpoints(path, RARELY).take_steps(10);
+        (result.map(drop), Results::read(path).map(drop))
+    };
+    const TERABYTE: u64 = 1 << 40;
+    for content in [std::fs::read(&path)?, vec![]] {
+        std::fs::write(&path, content)?;
+        std::fs::OpenOptions::new().write(true).open(&path)?.set_len(TERABYTE)?;
+        let (run, read) = refused(&path);
+        assert!(matches!(run, Err(EnsembleError::Damaged { .. })), "{run:?}");
+        assert!(matches!(read, Err(EnsembleError::Damaged { .. })), "{read:?}");
+        assert_eq!(std::fs::metadata(&path)?.len(), TERABYTE);
+    }
+    let pipe = file("pipe.ckpt");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status()?.success());
+    let devices = ["/dev/full", "/dev/zero", "/dev/null"].map(std::path::PathBuf::from);
+    for path in devices.into_iter().chain([pipe]).filter(|path| path.exists()) {
+        let (run, read) = refused(&path);
+        assert!(matches!(run, Err(EnsembleError::File { .. })), "{run:?}");
+        assert!(matches!(read, Err(EnsembleError::File { .. })), "{read:?}");
+        assert!(path.exists(), "it is left where it is");
+    }
+    Ok(())
+}
+
+/// A disk without space: what is written beside the checkpoint goes to a device that is always full.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_the_good_checkpoint_alone() -> Checked {
+    let path = file("full.ckpt");
+    ensemble(&HenonHeiles).checkpoints(&path, RARELY).take_steps(10)?;
+    let kept = std::fs::read(&path)?;
+    let beside = path.with_extension("ckpt.new");
+    std::os::unix::fs::symlink("/dev/full", &beside)?;
+    let result = ensemble(&HenonHeiles).checkpoints(&path, RARELY).take_steps(10);
+    let Err(EnsembleError::File { source, .. }) = result else { return Err(format!("{result:?}").into()) };
+    assert_eq!(source.kind(), std::io::ErrorKind::StorageFull);
+    assert!(std::fs::symlink_metadata(&beside).is_err(), "nothing is left beside it");
+    assert_eq!(std::fs::read(&path)?, kept);
+    assert_eq!(said(ensemble(&HenonHeiles).checkpoints(&path, RARELY).take_steps(10)), "no error");
+    Ok(())
+}
+
 #[test]
 fn shards_that_do_not_go_together() -> Checked {
     let shard = |index, of, steps| -> Result<Results, Box<dyn std::error::Error>> {

@@ -50,14 +50,15 @@ impl<'a> Row<'a> {
             Separator::Comma => Some(','),
             Separator::Semicolon => Some(';'),
         };
-        let blank = between.is_none().then(|| self.text.split_whitespace());
+        // Other blanks than these stand within numbers, between thousands.
+        let blank = between.is_none().then(|| self.text.split_ascii_whitespace());
         let split = between.map(|between| self.text.split(between).map(str::trim));
         blank.into_iter().flatten().chain(split.into_iter().flatten())
     }
 
-    /// Whether it may hold names: none of its words is a number.
+    /// Whether it holds names.
     pub(super) fn is_header(self) -> bool {
-        self.words().all(|word| number(word).is_none() && !word.is_empty() && !has_decimal_comma(word))
+        self.words().all(is_name) && !self.words().all(|word| MISSING.contains(&word))
     }
 
     /// An error unless it has the columns and separators of the first line of the table.
@@ -102,6 +103,29 @@ impl<'a> Row<'a> {
     fn is_comma_between_blanks(self, word: &str) -> bool {
         self.separator == Separator::Comma && word.split_whitespace().all(|part| number(part).is_some())
     }
+}
+
+/// What programs write in the place of a number that they do not have: no comments, and names only beside
+/// others.
+#[rustfmt::skip]
+const MISSING: [&str; 15] = [
+    "NA", "N/A", "n/a", "<NA>", "NULL", "null", "None", "missing",
+    "#N/A", "#NUM!", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NULL!",
+];
+
+/// Whether a line, without blanks around it, is a comment.
+pub(super) fn is_comment(line: &str) -> bool {
+    line.starts_with(['#', '%']) && !MISSING.iter().any(|word| line.starts_with(word))
+}
+
+/// Whether a word is a name and not a number, or what is left of one: its first letter or digit is a
+/// letter, it has no sign, and it is no form of NaN or infinity.
+fn is_name(word: &str) -> bool {
+    let word = word.trim_matches('"');
+    let first = word.chars().find(|c| c.is_alphanumeric());
+    let is_signed = word.starts_with(['+', '-', '−']);
+    let beginning = word.split('(').next().and_then(number);
+    first.is_some_and(char::is_alphabetic) && !is_signed && beginning.is_none()
 }
 
 /// Whether a word is a number but for a comma in the place of the point.

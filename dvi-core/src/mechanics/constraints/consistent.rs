@@ -8,10 +8,9 @@ use crate::mechanics::constraints::{
 };
 use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
-use crate::solve::{Convergence, Stopping, iterate, sizes};
+use crate::scalar::smallest_normal;
 use crate::space::sink::Places;
 use crate::space::{LinearEquations, Sink};
-use crate::state::Statistics;
 use crate::system::start::{evaluate, flatten, validate};
 use crate::{Real, Scalar, Space, State, Vector};
 
@@ -95,7 +94,7 @@ fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     let mut worst = None;
     for (constraint, (&value, &size)) in values.iter().zip(sizes.iter()).enumerate() {
         let (value, size) = (reported(value), reported(size));
-        let off = if value.is_nan() { f64::INFINITY } else { value.abs() / size };
+        let off = if value.is_finite() { value.abs() / size } else { f64::INFINITY };
         if off > 1.0 && worst.is_none_or(|(_, _, known)| off > known) {
             worst = Some((constraint, value, off));
         }
@@ -163,7 +162,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
             Among::Steps { h, .. } => Scalar::abs(h) * acceleration,
             Among::States => Scalar::sqrt(acceleration * Scalar::abs(q)),
         };
-        *scale = Scalar::abs(v) + of_force;
+        *scale = Scalar::abs(v) + of_force + smallest_normal();
     }
     // A redundant constraint is named by these equations.
     let mut projection = Projection::new(system, q, v, t);
@@ -191,16 +190,16 @@ pub(crate) fn projected<S: ConstrainedLagrangian<T>, T: Real>(
     validate(system, t)?;
     let [mut q, mut v] = flatten(system, state)?;
     evaluate(system, &q, &v, t)?;
-    let mut projection = Projection::new(system, &q, &v, t);
     if S::Kind::OF_POSITIONS {
-        move_to(&mut projection, &mut q, &v)?;
+        move_to(&mut Projection::new(system, &q, &v, t), &mut q, &v)?;
     }
-    align(&mut projection, &q, &mut v)?;
+    align(&mut Projection::new(system, &q, &v, t), &q, &mut v)?;
     Ok(S::State::read(|block| system.block_len(block), &q, &v))
 }
 
 /// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has taken away. Where little or
-/// nothing is left of a velocity they are large beside it, and each iteration leaves 10⁻¹⁶ of them.
+/// nothing is left of a velocity they are large beside it, and each iteration leaves 10⁻¹⁶ of them, down to
+/// the smallest numbers.
 const ITERATIONS: usize = 40;
 
 /// Makes `v` a velocity that the constraints admit at `q`.
@@ -217,7 +216,7 @@ fn align<S: ConstrainedLagrangian<T>, T: Real>(
             *v -= change;
         }
         let residuals = &mut projection.solver.residuals;
-        residuals.evaluate(system, At { q, t }, v, |j| Scalar::abs(v[j]));
+        residuals.evaluate(system, At { q, t }, v, |j| Scalar::abs(v[j]) + smallest_normal());
         worst = residuals.worst(system, At { q, t }, v);
         if iteration > 0 && worst.is_none() {
             break;
@@ -229,28 +228,47 @@ fn align<S: ConstrainedLagrangian<T>, T: Real>(
     }
 }
 
+/// From far away an iteration for one constraint of degree d leaves (1 − 1/d) of the distance, so that at
+/// most 710 lead from the largest value of the constraint that can be represented to one, and as many to
+/// the smallest. Several constraints may hinder each other.
+const MOVES: usize = 1500;
+
+/// Where the constraints are kept the next iteration leaves rounding errors, and one more brings
+/// derivatives of up to third order.
+const LAST_MOVES: usize = 2;
+
 /// Moves q to the constraints.
 fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
     projection: &mut Projection<'_, S, T>,
     q: &mut Vector<S, T>,
     v: &[T],
 ) -> Result<(), StartError> {
-    let stopping = Stopping::default();
-    let convergence = Convergence::new(stopping, stopping.max_iterations);
-    let mut weights: Vector<S, T> = projection.system.space().vector();
-    let result = iterate(convergence, &mut Statistics::default(), |due, _| {
-        due.prepare_alone(&mut weights, q);
-        let change = projection.of_position(q, v)?;
-        Ok(sizes::reduce(&weights, q, change))
-    });
-    match result.and(norm::finite(q)) {
-        Ok(()) => Ok(()),
-        Err(StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. }) => {
-            let Projection { system, t, .. } = *projection;
-            let found = worst(system, OfPosition { system, at: At { q, t } }, |_| T::lift(0.0));
-            let (constraint, value) = found.map_err(StartError::Projection)?.unwrap_or((0, 0.0));
-            Err(StartError::Inconsistent { constraint, value })
+    let Projection { system, t, .. } = *projection;
+    let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
+    let (mut off, mut kept) = (None, 0);
+    for _ in 0..MOVES {
+        projection.solver.balance(system, At { q, t }, v);
+        let change = match (projection.of_position(q, v), off) {
+            (Ok(change), _) => change,
+            // The way there has ended where the equations have no solution, which says nothing of the
+            // constraints.
+            (Err(_), Some((constraint, value))) => {
+                return Err(StartError::Inconsistent { constraint, value });
+            }
+            (Err(failure), None) => return Err(StartError::Projection(failure)),
+        };
+        for (q, &change) in q.iter_mut().zip(change) {
+            *q -= change;
         }
-        Err(failure) => Err(StartError::Projection(failure)),
+        let of = OfPosition { system, at: At { q, t } };
+        off = worst(system, of, |j| rounding * Scalar::abs(q[j])).map_err(StartError::Projection)?;
+        kept = if off.is_none() { kept + 1 } else { 0 };
+        if kept > LAST_MOVES {
+            return Ok(());
+        }
+    }
+    match off {
+        None => Ok(()),
+        Some((constraint, value)) => Err(StartError::Inconsistent { constraint, value }),
     }
 }

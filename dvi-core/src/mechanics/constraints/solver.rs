@@ -65,6 +65,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         Self { matrix, solution: space.vector(), scales, residuals, weights: system.space().vector() }
     }
 
+    /// Takes the units that belong to another point.
+    pub(super) fn balance(&mut self, system: &S, at: At<'_, T>, v: &[T]) {
+        self.scales.fill(T::lift(0.0));
+        scales::balance(system, at, v, self.scales.split_at_mut(at.q.len()));
+    }
+
     /// Solves the equations, whose A is of the size of M/`alpha` with a positive `alpha`; the solution is here, x in its first n
     /// entries.
     ///
