@@ -98,8 +98,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
         match self {
             Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
-            // Never built for such a system; saying so keeps elimination out of its steps.
-            Self::Factors(..) if S::MATCHING => {}
+            // Never built for such a system; saying so keeps elimination out of its steps. A step fails with what is no number.
+            Self::Factors(..) if S::MATCHING => x.fill(T::lift(f64::NAN)),
             Self::Factors(matrix, _) => {
                 x.copy_from_slice(rhs);
                 matrix.solve(x);
@@ -251,7 +251,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
                     *out = x[system.conjugate(i)] * entry;
                 }
             }
-            Self::Coefficients(_) if S::MATCHING => {}
+            // As in `Inverse::solve`.
+            Self::Coefficients(_) if S::MATCHING => out.fill(T::lift(f64::NAN)),
             Self::Coefficients(Combination { a, b }) => {
                 out.fill(T::lift(0.0));
                 // Dα is the same at every point.
