@@ -11,7 +11,8 @@ pub enum StepFailure {
     /// The iteration ran out of its budget or moved away from a solution.
     #[error(
         "no convergence: after {iterations} iterations the correction is {correction:e}, \
-         {tolerance:e} was asked for; a smaller step helps"
+         {tolerance:e} was asked for; a smaller step helps, unless a formula jumps there, as dry friction does at rest: there write \
+         it without a jump, as with `tanh`"
     )]
     NotConverged {
         /// Iterations taken.
@@ -245,9 +246,11 @@ pub enum StepFailure {
         /// Its estimated error, in units of what the tolerance allows.
         error: f64,
     },
-    /// A step control asks for a step that does not advance the time, or leads to none that is finite.
+    /// A step control asks for a step that does not advance the time, or leads to none that is finite, or is so short that 1/h may be
+    /// infinite.
     #[error(
-        "the step control asks for h = {h:e}, which does not advance the time, or to none that is finite: a collision, or a demand out of reach"
+        "the step control asks for h = {h:e}, which does not advance the time, leads to none that is finite, or is below the smallest \
+         number that has all digits: a collision, or a demand out of reach"
     )]
     StepLength {
         /// The step, perhaps not finite.

@@ -12,7 +12,7 @@ use crate::run::physical_time::Kept;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
 use crate::state::memory::Aside;
-use crate::system::start::{consistent, evaluate, flatten, velocities};
+use crate::system::start::{consistent, evaluate, flatten, named, validate_step, velocities};
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
@@ -46,7 +46,10 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
     pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
         let [q, v] = checked(system, t, h, &start)?;
-        let begin = || method.begin(system, &q, &v[..velocities(system)], t, h);
+        let begin = || {
+            let begun = method.begin(system, &q, &v[..velocities(system)], t, h);
+            begun.map_err(|error| named(system, [&q, &v], t, error))
+        };
         let (memory, kept) = (begin()?, Kept::for_transformed(&q, begin)?);
         Ok(Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h), kept })
     }
@@ -60,9 +63,13 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     #[cfg(feature = "alloc")]
     pub fn resume(system: &'a S, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
-        validate(system, t, h)?;
+        crate::system::start::validate(system, t)?;
+        validate_step(t, h)?;
         let [q, v] = checkpoint.point(system)?;
-        let begin = || method.begin_again(system, &q, &v[..velocities(system)], t, h);
+        let begin = || {
+            let begun = method.begin_again(system, &q, &v[..velocities(system)], t, h);
+            begun.map_err(|error| named(system, [&q, &v], t, error))
+        };
         let (mut memory, kept) = (begin()?, Kept::for_transformed(&q, begin)?);
         let mut clock = Clock::new(t, h);
         checkpoint.load::<S, M>(&mut memory, |reader| {
@@ -152,7 +159,10 @@ impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         evaluate(system, &q0, &rest, t)?;
         consistent(system, &q0, t)?;
         evaluate(system, &q1, &rest, t + h)?;
-        let begin = || method.begin_between(system, &q0, &q1, t, h);
+        let begin = || {
+            let begun = method.begin_between(system, &q0, &q1, t, h);
+            begun.map_err(|error| named(system, [&q0, &rest], t, error))
+        };
         let (memory, kept) = (begin()?, Kept::for_transformed(&q0, begin)?);
         Ok(Self { stepper: Stepper::new(system, method, memory, q0), clock: Clock::new(t, h), kept })
     }
@@ -244,8 +254,7 @@ fn checked<S: Lagrangian<T>, T: Real>(
 }
 
 fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T, h: T) -> Result<(), StartError> {
-    if !h.is_finite() || h == T::lift(0.0) {
-        return Err(StartError::Step { h: reported(h) });
-    }
-    crate::system::start::validate(system, t)
+    crate::system::start::validate(system, t)?;
+    validate_step(t, h)?;
+    if t + h == t { Err(StartError::Step { h: reported(h) }) } else { Ok(()) }
 }

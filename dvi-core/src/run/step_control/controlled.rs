@@ -7,6 +7,7 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, Tolerance, VariableStep};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
+use crate::system::start::is_length;
 use crate::{Lagrangian, Real, System, Vector};
 
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the control
@@ -53,12 +54,12 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
     /// Takes a step from time `t` to `t + h`, without allocation.
     ///
     /// # Errors
-    /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite; else as
+    /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite, or `h` is below the smallest number that has all digits; else as
     /// [`Method::step`](crate::methods::Method::step). Nothing has moved then.
     #[inline]
     pub fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
         let end = t + h;
-        if end == t || !end.is_finite() {
+        if end == t || !end.is_finite() || !is_length(h) {
             return Err(StepFailure::StepLength { h: reported(h) });
         }
         let Stepper { system, method, memory, q, statistics, .. } = &mut self.stepper;
