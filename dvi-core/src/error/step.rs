@@ -271,6 +271,13 @@ pub enum StepFailure {
     /// ahead: iterates of a step and their guesses lie beyond it. Where the motion itself stays inside, a smaller step helps.
     #[error("the step leaves a table: {0}")]
     Outside(OutsideError),
+    /// The step ends outside of the domain of a formula of L: the argument of a root, a logarithm or a power is negative there, that of an
+    /// inverse function out of its range, or a function that is called is no number.
+    #[error(
+        "the step ends outside of the domain of a formula, as beyond the zero of what a root or a logarithm is taken of: the motion \
+         leads there, or the step is too long"
+    )]
+    LeftDomain,
     /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.
     #[error(
         "coordinate {coordinate} became {value}: a collision, a formula that left its domain, or a step that is too long"

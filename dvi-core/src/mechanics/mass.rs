@@ -13,7 +13,7 @@ use crate::{NondegenerateLagrangian, Real, Space, Square, System, Vector, Weight
 /// M and M⁻¹.
 #[derive(Debug)]
 pub(crate) struct Mass<S: System, T: Real> {
-    /// The diagonal of M, and one over it; zeros if M is not diagonal.
+    /// The diagonal of M, and one over it; no numbers if M is not diagonal.
     masses: Vector<S, T>,
     reciprocals: Vector<S, T>,
     /// If M is not diagonal.
@@ -57,7 +57,9 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
         let mut factors = matrix.clone();
         factors.factor_with_care([&mut l_q, &mut l_v])?;
-        let [masses, reciprocals] = [space.vector(), space.vector()];
+        let [mut masses, mut reciprocals]: [Vector<S, T>; 2] = space.vectors();
+        masses.fill(T::lift(f64::NAN));
+        reciprocals.fill(T::lift(f64::NAN));
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
     }
 
