@@ -82,6 +82,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 }
                 Ok(())
             }
+            Self::Factors(..) if S::MATCHING => Err(StepFailure::NO_MATRIX),
             Self::Factors(matrix, work) => {
                 statistics.factorisations += 1;
                 system.one_form_jacobian(q, t, a, b, matrix.cleared());
@@ -98,8 +99,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
         match self {
             Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
-            // Never built for such a system; saying so keeps elimination out of its steps. A step fails with what is no number.
-            Self::Factors(..) if S::MATCHING => x.fill(T::lift(f64::NAN)),
+            // `prepare` refuses these; saying so keeps elimination out of the steps. To write what is no number costs 15 instructions.
+            Self::Factors(..) if S::MATCHING => {}
             Self::Factors(matrix, _) => {
                 x.copy_from_slice(rhs);
                 matrix.solve(x);
@@ -251,8 +252,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
                     *out = x[system.conjugate(i)] * entry;
                 }
             }
-            // As in `Inverse::solve`.
-            Self::Coefficients(_) if S::MATCHING => out.fill(T::lift(f64::NAN)),
+            // `new`, which alone builds these, has built none; what that saves is as in `Inverse::solve`.
+            Self::Coefficients(_) if S::MATCHING => {}
             Self::Coefficients(Combination { a, b }) => {
                 out.fill(T::lift(0.0));
                 // Dα is the same at every point.
