@@ -4,7 +4,7 @@ mod step;
 
 use thiserror::Error;
 
-use crate::name::Name;
+use crate::name::{Along, Name};
 
 pub use step::{StepError, StepFailure};
 
@@ -62,8 +62,11 @@ pub struct Argument {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StartError {
-    /// The step is zero, infinite or not a number.
-    #[error("the step h = {h} must be finite and different from zero")]
+    /// The step is zero, infinite or not a number; or it is so short that the time stays what it is or that 1/h may be infinite, or so
+    /// long that the time of some later step may be.
+    #[error(
+        "the step h = {h:e} must move the time, by no less than the smallest number that has all digits, and lead to finite times"
+    )]
     Step {
         /// The step that was given.
         h: f64,
@@ -96,16 +99,30 @@ pub enum StartError {
     },
     /// The energy, or a derivative of L, is infinite or not a number at the initial state.
     #[error(
-        "{quantity} is {value} at the initial state: a parameter is not a number, or the state lies outside of the \
-         domain of the formulas"
+        "{quantity}{} is {value} at the initial state: a parameter is not a number, or the state lies outside of the \
+         domain of the formulas",
+        Along(.coordinate)
     )]
     Undefined {
         /// What was evaluated.
         quantity: &'static str,
-        /// Its coordinate, counted from 0 in the flat state; `None` for the energy.
-        coordinate: Option<usize>,
+        /// The coordinate that it belongs to; `None` for the energy.
+        coordinate: Option<Name>,
         /// Its value.
         value: f64,
+    },
+    /// The mass matrix, or Ω = −dα, says nothing of a coordinate: its row is zero, so that the motion is not determined.
+    #[error(
+        "{matrix} is singular at the initial state: its row for `{entry}` has the size {size:e}, so that nothing determines the motion \
+         of this coordinate"
+    )]
+    Singular {
+        /// Which matrix.
+        matrix: &'static str,
+        /// The coordinate.
+        entry: Name,
+        /// The sum of the sizes of the entries of its row.
+        size: f64,
     },
     /// The time transformation is not positive at the initial state.
     #[error("the time transformation is {rate} at the initial state: it must be positive and finite")]

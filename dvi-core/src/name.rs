@@ -30,3 +30,12 @@ impl fmt::Display for Name {
         }
     }
 }
+
+/// " along `x[3]`", or nothing.
+pub(crate) struct Along<'a>(pub(crate) &'a Option<Name>);
+
+impl fmt::Display for Along<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |name| write!(f, " along `{name}`"))
+    }
+}

@@ -3,8 +3,8 @@
 #[cfg(feature = "alloc")]
 mod checkpoint;
 mod integrator;
+mod kept;
 mod outside;
-mod physical_time;
 mod step_control;
 #[cfg(feature = "alloc")]
 mod together;

@@ -285,6 +285,11 @@ fn configuration(
     let forced = programs.forces.is_some();
     let autonomous = !programs.depends_on_time(emitter.graph);
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
+    let has_domain = programs.domain.is_some().then(|| {
+        quote!(
+            const HAS_DOMAIN: bool = true;
+        )
+    });
     let constrained = programs.constraints.as_ref().map(|constraints| constraints.of);
     let (check, kind) = (
         check::check(emitter, programs),
@@ -299,6 +304,7 @@ fn configuration(
             type State<__T: #krate::Scalar> = #type_in_trait;
             const REPORT: #krate::Report = #report;
             const HAS_SCALAR_FIELDS: bool = #has_scalar_fields;
+            #has_domain
             const TIME_TRANSFORMED: bool = #time_transformed;
             const FORCED: bool = #forced;
             const AUTONOMOUS: bool = #autonomous;
@@ -344,6 +350,13 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             }
         }
     });
+    let domain = programs.domain.as_ref().map(|domain| {
+        let value = emitter.value(domain);
+        quote! {
+            #[inline]
+            fn domain(&self, __q: &[__T], __t: __T) -> __T { #value }
+        }
+    });
     let indices = 0..programs.momenta.len();
     let momenta = programs.momenta.iter().map(|value| emitter.value(value));
     let items = quote! {
@@ -364,6 +377,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             }
             #applied_force
             #outside
+            #domain
             #members
             #[inline]
             fn momentum(&self, __index: usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {

@@ -68,6 +68,8 @@ pub(crate) struct Programs {
     pub(crate) constraints: Option<Constraints>,
     /// L, all components of F and all constraints, added up: no number where one of them is none.
     pub(crate) probe: Routine,
+    /// No number outside of the domain of L, if that does not know all positions.
+    pub(crate) domain: Option<Routine>,
     pub(crate) gradient: Routine,
     pub(crate) linearize: Routine,
     pub(crate) momenta: Vec<Routine>,
@@ -97,11 +99,13 @@ impl Programs {
         let gradient = gradient(graph, lagrangian, force);
         entries.extend(force_derivatives(graph, force));
         let linearize = linearize(graph, &gradient, &entries);
+        let domain = graph.domain(lagrangian.node);
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
             forces: (!force.is_empty()).then(|| applied(graph, force)),
             constraints: constraints.map(|declared| Constraints::new(graph, declared)),
             probe: probe(graph, lagrangian, force, constraints.map_or(&[], |declared| &declared.list)),
+            domain: (!domain.is_zero()).then(|| Routine::new(graph, result(domain))),
             gradient: Routine::new(graph, gradient),
             linearize: Routine::new(graph, linearize),
             momenta: momenta.iter().map(|value| Routine::new(graph, result(*value))).collect(),

@@ -11,6 +11,7 @@ mod constrained;
 mod constraints;
 mod derivatives;
 mod discrete_equations;
+mod domains;
 mod energy_momentum;
 mod ensemble;
 mod error_control;

@@ -348,7 +348,7 @@ fn failures_are_values() -> Outcome {
     let none = SphereForm { gamma: 0.0 };
     let start = SphereFormState { phi: 0.4, z: 0.3 };
     let error = Integrator::new(&none, OneStep::midpoint(), 0.1, start).err();
-    assert!(matches!(error, Some(StartError::Starter(StepFailure::Singular { .. }))), "{error:?}");
+    assert!(matches!(error, Some(StartError::Singular { matrix: "Ω = −dα", .. })), "{error:?}");
     Ok(())
 }
 

@@ -241,7 +241,7 @@ fn failures_are_values() -> Outcome {
     let none = SphereForm { gamma: 0.0 };
     let start = SphereFormState { phi: 0.4, z: 0.3 };
     let error = Integrator::new(&none, Projected::symmetric(), 0.1, start).err();
-    assert!(matches!(error, Some(StartError::Starter(StepFailure::Singular { .. }))), "{error:?}");
+    assert!(matches!(error, Some(StartError::Singular { matrix: "Ω = −dα", .. })), "{error:?}");
     // Prey beyond zero has no logarithm; the last good state is kept.
     let q0 = [1e-3, 30.0];
     let start = dvi_tests::systems::LotkaVolterraState { x: q0[0], y: q0[1] };

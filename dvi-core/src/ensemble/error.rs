@@ -13,8 +13,8 @@ use crate::error::StartError;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EnsembleError {
-    /// The step is zero, infinite or not a number.
-    #[error("the step h = {h} must be finite and different from zero")]
+    /// The step is zero, infinite or not a number; or so short that 1/h may be infinite.
+    #[error("the step h = {h:e} must be finite, and no less than the smallest number that has all digits")]
     Step {
         /// The step that was given.
         h: f64,

@@ -13,6 +13,7 @@ use super::member::plain;
 use super::settings::{Settings, Systems};
 use crate::methods::Method;
 use crate::state::fingerprint::Fingerprint;
+use crate::system::start::is_length;
 use crate::{Lagrangian, Space, State};
 
 /// A fact that not every ensemble knows: then it is empty, and belongs to all.
@@ -39,7 +40,7 @@ impl Plan {
     ) -> Result<Self, EnsembleError> {
         let Settings { h, stride, ref states, ref section, .. } = *settings;
         let names = names(settings)?;
-        if !h.is_finite() || h == 0.0 {
+        if !is_length(h) {
             return Err(EnsembleError::Step { h });
         }
         if stride == 0 {

@@ -11,7 +11,8 @@ pub enum StepFailure {
     /// The iteration ran out of its budget or moved away from a solution.
     #[error(
         "no convergence: after {iterations} iterations the correction is {correction:e}, \
-         {tolerance:e} was asked for; a smaller step helps"
+         {tolerance:e} was asked for; a smaller step helps, unless a formula jumps there, as dry friction does at rest: there write \
+         it without a jump, as with `tanh`"
     )]
     NotConverged {
         /// Iterations taken.
@@ -245,9 +246,11 @@ pub enum StepFailure {
         /// Its estimated error, in units of what the tolerance allows.
         error: f64,
     },
-    /// A step control asks for a step that does not advance the time, or leads to none that is finite.
+    /// A step control asks for a step that does not advance the time, or leads to none that is finite, or is so short that 1/h may be
+    /// infinite.
     #[error(
-        "the step control asks for h = {h:e}, which does not advance the time, or to none that is finite: a collision, or a demand out of reach"
+        "the step control asks for h = {h:e}, which does not advance the time, leads to none that is finite, or is below the smallest \
+         number that has all digits: a collision, or a demand out of reach"
     )]
     StepLength {
         /// The step, perhaps not finite.
@@ -268,6 +271,13 @@ pub enum StepFailure {
     /// ahead: iterates of a step and their guesses lie beyond it. Where the motion itself stays inside, a smaller step helps.
     #[error("the step leaves a table: {0}")]
     Outside(OutsideError),
+    /// The step ends outside of the domain of a formula of L: the argument of a root, a logarithm or a power is negative there, that of an
+    /// inverse function out of its range, or a function that is called is no number.
+    #[error(
+        "the step ends outside of the domain of a formula, as beyond the zero of what a root or a logarithm is taken of: the motion \
+         leads there, or the step is too long"
+    )]
+    LeftDomain,
     /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.
     #[error(
         "coordinate {coordinate} became {value}: a collision, a formula that left its domain, or a step that is too long"

@@ -20,6 +20,7 @@ impl<S: System, const D: usize> System for FastSum<'_, S, D> {
     type Kind = S::Kind;
     const REPORT: Report = S::REPORT;
     const HAS_SCALAR_FIELDS: bool = S::HAS_SCALAR_FIELDS;
+    const HAS_DOMAIN: bool = S::HAS_DOMAIN;
     const TIME_TRANSFORMED: bool = S::TIME_TRANSFORMED;
     const AUTONOMOUS: bool = S::AUTONOMOUS;
     const FORCED: bool = S::FORCED;
@@ -68,6 +69,9 @@ where
     }
     fn applied_force(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
         self.system.applied_force(q, v, t, out);
+    }
+    fn domain(&self, q: &[f64], t: f64) -> f64 {
+        self.system.domain(q, t)
     }
     fn outside(&self, q: &[f64], v: &[f64], t: f64) -> Option<OutsideError> {
         self.system.outside(q, v, t)

@@ -2,7 +2,7 @@
 
 use crate::error::StartError;
 use crate::mechanics::motion::Rates;
-use crate::system::start::{evaluate, flatten, validate, velocities};
+use crate::system::start::{evaluate, flatten, named, validate, velocities};
 use crate::{Lagrangian, Real, State, System};
 
 /// A system at a time t. Made by [`AtState::at_time`].
@@ -85,10 +85,9 @@ impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
     where
         S: System<Kind: Rates<S, T>>,
     {
-        let Self { system, t } = *self;
         let [q, v] = self.point(state)?;
-        let [rates, accelerations] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Undetermined)?;
-        Ok(S::State::read(|block| system.block_len(block), &rates, &accelerations))
+        let [rates, accelerations] = self.rates([&q, &v])?;
+        Ok(S::State::read(|block| self.system.block_len(block), &rates, &accelerations))
     }
 
     /// See [`AtState::energy_at`].
@@ -111,8 +110,17 @@ impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
         let Self { system, t } = *self;
         let [q, v] = self.point(state)?;
         // Of either kind the first is the velocity.
-        let [velocity, _] = S::Kind::rates(system, &q, &v, t).map_err(StartError::Undetermined)?;
+        let [velocity, _] = self.rates([&q, &v])?;
         Ok(system.lagrangian(&q, &velocity, t))
+    }
+
+    /// The rates of change of coordinates and velocities.
+    fn rates(&self, [q, v]: [&crate::Vector<S, T>; 2]) -> Result<[crate::Vector<S, T>; 2], StartError>
+    where
+        S: System<Kind: Rates<S, T>>,
+    {
+        let rates = S::Kind::rates(self.system, q, v, self.t);
+        rates.map_err(|failure| named(self.system, [q, v], self.t, StartError::Undetermined(failure)))
     }
 
     /// The coordinates and velocities of a state at which the system is defined.

@@ -14,7 +14,7 @@ use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector
 /// M and M⁻¹.
 #[derive(Debug)]
 pub(crate) struct Mass<S: System, T: Real> {
-    /// The diagonal of M, and one over it; zeros if M is not diagonal.
+    /// The diagonal of M, and one over it; no numbers if M is not diagonal.
     masses: Vector<S, T>,
     reciprocals: Vector<S, T>,
     /// If M is not diagonal.
@@ -52,7 +52,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
         let entries = matrix.cleared();
         // What is weighted by zero has no place in it.
-        let [mut masses, reciprocals]: [Vector<S, T>; 2] = space.vectors();
+        let [mut masses, mut reciprocals]: [Vector<S, T>; 2] = space.vectors();
         let mut sink = Places(|row: usize, column: usize, entry: T| {
             if entry != zero {
                 entries.add(row, column, entry);
@@ -68,7 +68,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         units.fill(T::lift(1.0));
         factors.scale_rows(|j| unit_of_row([Scalar::sqrt(Scalar::abs(masses[j]))].into_iter()), &mut units);
         factors.factor_with_care([&mut l_q, &mut l_v])?;
-        masses.fill(zero);
+        masses.fill(T::lift(f64::NAN));
+        reciprocals.fill(T::lift(f64::NAN));
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, units }) })
     }
 

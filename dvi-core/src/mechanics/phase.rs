@@ -239,15 +239,19 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
         [t, h]: [T; 2],
         velocity: &mut [T],
     ) -> Result<(), StepFailure> {
-        if S::CONSTANT_MASS {
-            return Ok(());
+        match self {
+            // The same matrix everywhere has the same orientation.
+            Self::Constant(_) => Ok(()),
+            // Not compiled where the mass is constant.
+            Self::Varying(orientation) if !S::CONSTANT_MASS => {
+                let per_h = T::lift(1.0) / h;
+                for (v, &delta) in velocity.iter_mut().zip(increment) {
+                    *v = delta * per_h;
+                }
+                orientation.check(system, q, velocity, t)
+            }
+            Self::Varying(_) => Err(StepFailure::NO_MATRIX),
         }
-        let Self::Varying(orientation) = self else { return Ok(()) };
-        let per_h = T::lift(1.0) / h;
-        for (v, &delta) in velocity.iter_mut().zip(increment) {
-            *v = delta * per_h;
-        }
-        orientation.check(system, q, velocity, t)
     }
 
     /// Sets `v` to the velocity with ∂L/∂v = p at (`q`, `t`).

@@ -20,6 +20,7 @@ mod together;
 
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::VectorField;
 use crate::methods::{Carries, Clock, Gauss, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
@@ -195,7 +196,12 @@ impl<T: Real> Sigma<T> {
     }
 
     /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
-    fn go_with<S: DegenerateLagrangian<T>>(&self, system: &S, q: &[T], t: T) -> Result<(), StartError> {
+    fn go_with<S: DegenerateLagrangian<T>>(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        t: T,
+    ) -> Result<(), StartError> {
         // The matrix of σ = 1 is that of the end of a step.
         if !self.is_end() || (self.sigma == T::lift(1.0) && !S::AFFINE) {
             return Ok(());
@@ -206,6 +212,8 @@ impl<T: Real> Sigma<T> {
         });
         system.one_form_jacobian(q, t, T::lift(1.0), zero, &mut sink);
         if sizes.contains(&zero) {
+            // Where Ω is singular too, none of these helps.
+            VectorField::new(system, q, t).map_err(StartError::Starter)?;
             let reason = "the one-form has no component along some coordinate, or one that is constant at the start, so \
                           that the equations are singular; take `Sigma::midpoint()`, `OneStep` if the system is in its class, or a \
                           one-form such as (p dq - q dp) / 2 in place of p dq";
@@ -247,8 +255,9 @@ impl<S, T: Real> Step<'_, S, T> {
 }
 
 impl<T: Real> Scheme for Sigma<T> {
+    /// Two for σ = ½. For every other σ it is one, or more where the one-form allows it: see [`Sigma`].
     fn order(&self) -> usize {
-        2
+        if self.is_midpoint() { 2 } else { 1 }
     }
     fn is_symmetric(&self) -> bool {
         self.is_midpoint() && self.reinitialisation == Reinitialisation::Never
@@ -339,8 +348,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
             statistics.steps += taken;
             return result;
         }
-        if S::AFFINE && self.sigma == T::lift(0.0) {
-            let (taken, result) = leapfrog::steps(system, &mut memory.run, q, clock, count);
+        if S::AFFINE
+            && let Some((taken, result)) = leapfrog::steps(system, &mut memory.run, q, clock, count)
+        {
             statistics.steps += taken;
             statistics.gradients += taken;
             result

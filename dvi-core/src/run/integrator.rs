@@ -8,23 +8,24 @@ use crate::methods::{Carries, Clock, Method, TwoPoint};
 use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
-use crate::run::physical_time::Kept;
+use crate::run::kept::Kept;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
 use crate::state::memory::Aside;
-use crate::system::start::{consistent, evaluate, flatten, velocities};
+use crate::system::start::{consistent, evaluate, flatten, named, validate_step, velocities};
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
 ///
 /// As an iterator it yields the state after each step, for ever, or up to the first failure; after that
-/// it yields `None`, and [`state`](Run::state) is the last good one. [`advance`](Run::advance) takes a
+/// it yields `None`, and [`state`](Run::state) is the last good one: no step ends outside of the domain of L, whatever its equations
+/// need of that place ([`StepFailure::LeftDomain`]). [`advance`](Run::advance) takes a
 /// step without building a state. What can be asked of a run are the methods of the trait [`Run`].
 pub struct Integrator<'a, S: System, M: Carries<S, T>, T: Real = f64> {
     pub(super) stepper: Stepper<'a, S, M, T>,
     /// At the start of the run.
     clock: Clock<T>,
-    /// If the time is transformed: where the step at hand has begun.
+    /// If steps are looked at: where those at hand have begun.
     kept: Option<Aside<Kept<S, M, T>>>,
 }
 
@@ -46,8 +47,11 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
     pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
         let [q, v] = checked(system, t, h, &start)?;
-        let begin = || method.begin(system, &q, &v[..velocities(system)], t, h);
-        let (memory, kept) = (begin()?, Kept::for_transformed(&q, begin)?);
+        let begin = || {
+            let begun = method.begin(system, &q, &v[..velocities(system)], t, h);
+            begun.map_err(|error| named(system, [&q, &v], t, error))
+        };
+        let (memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
         Ok(Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h), kept })
     }
 
@@ -60,10 +64,14 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     #[cfg(feature = "alloc")]
     pub fn resume(system: &'a S, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
-        validate(system, t, h)?;
+        crate::system::start::validate(system, t)?;
+        validate_step(t, h)?;
         let [q, v] = checkpoint.point(system)?;
-        let begin = || method.begin_again(system, &q, &v[..velocities(system)], t, h);
-        let (mut memory, kept) = (begin()?, Kept::for_transformed(&q, begin)?);
+        let begin = || {
+            let begun = method.begin_again(system, &q, &v[..velocities(system)], t, h);
+            begun.map_err(|error| named(system, [&q, &v], t, error))
+        };
+        let (mut memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
         let mut clock = Clock::new(t, h);
         checkpoint.load::<S, M>(&mut memory, |reader| {
             clock = Clock::load(checkpoint, reader)?;
@@ -90,8 +98,10 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
         let taken = match &mut self.kept {
-            // Not compiled where the time is not transformed.
-            Some(kept) if S::TIME_TRANSFORMED => self.stepper.steps_forward(clock, count, kept),
+            // Not compiled where steps are not looked at.
+            Some(kept) if S::TIME_TRANSFORMED || S::HAS_DOMAIN => {
+                self.stepper.steps_looked_at(clock, count, kept)
+            }
             Some(_) | None => self.stepper.steps(clock, count),
         };
         taken.map_err(|failure| self.error(failure))
@@ -121,9 +131,9 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
         self.clock.after(self.stepper.statistics.steps)
     }
 
-    /// Whether the time is not transformed.
+    /// Whether steps may be taken many at once, without a look at the end of each.
     #[cfg(feature = "alloc")]
-    pub(super) fn has_plain_time(&self) -> bool {
+    pub(super) fn is_unwatched(&self) -> bool {
         self.kept.is_none()
     }
 
@@ -152,8 +162,11 @@ impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
         evaluate(system, &q0, &rest, t)?;
         consistent(system, &q0, t)?;
         evaluate(system, &q1, &rest, t + h)?;
-        let begin = || method.begin_between(system, &q0, &q1, t, h);
-        let (memory, kept) = (begin()?, Kept::for_transformed(&q0, begin)?);
+        let begin = || {
+            let begun = method.begin_between(system, &q0, &q1, t, h);
+            begun.map_err(|error| named(system, [&q0, &rest], t, error))
+        };
+        let (memory, kept) = (begin()?, Kept::if_looked_at(&q0, begin)?);
         Ok(Self { stepper: Stepper::new(system, method, memory, q0), clock: Clock::new(t, h), kept })
     }
 }
@@ -244,8 +257,7 @@ fn checked<S: Lagrangian<T>, T: Real>(
 }
 
 fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T, h: T) -> Result<(), StartError> {
-    if !h.is_finite() || h == T::lift(0.0) {
-        return Err(StartError::Step { h: reported(h) });
-    }
-    crate::system::start::validate(system, t)
+    crate::system::start::validate(system, t)?;
+    validate_step(t, h)?;
+    if t + h == t { Err(StartError::Step { h: reported(h) }) } else { Ok(()) }
 }

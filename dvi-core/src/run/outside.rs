@@ -33,6 +33,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::UndefinedConstraint { .. }
             | StepFailure::Frequency { .. }
             | StepFailure::StepLength { .. }
+            | StepFailure::LeftDomain
             | StepFailure::Gap { .. }
             | StepFailure::Density { .. } => true,
             StepFailure::TimeRate { rate } => rate.is_nan(),

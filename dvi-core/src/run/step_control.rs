@@ -18,6 +18,7 @@ use core::fmt::Debug;
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariableStep;
 use crate::state::memory::Memory;
+use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
 
 pub use controlled::ControlledRun;
@@ -85,7 +86,7 @@ fn validate(tolerance: f64, first_step: f64) -> Result<(), StartError> {
             range: "positive and finite",
         });
     }
-    if !first_step.is_finite() || first_step == 0.0 {
+    if !is_length(first_step) {
         return Err(StartError::Step { h: first_step });
     }
     Ok(())

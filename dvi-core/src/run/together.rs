@@ -92,9 +92,9 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
         count: u64,
         results: &mut [Result<(), StepError>],
     ) {
-        let in_lanes = group.iter().all(|&run| {
-            runs[run].has_plain_time() && runs[run].system().space().dimension() == self.dimension
-        });
+        let in_lanes = group
+            .iter()
+            .all(|&run| runs[run].is_unwatched() && runs[run].system().space().dimension() == self.dimension);
         let mut left = count;
         while left > 0 && !group.is_empty() {
             if in_lanes {

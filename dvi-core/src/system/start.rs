@@ -1,10 +1,13 @@
 //! What is checked and laid out before a run begins.
 
-use crate::error::StartError;
+use crate::error::{StartError, StepFailure};
+use crate::name::Name;
 use crate::scalar::norm::reported;
+use crate::scalar::smallest_normal;
+use crate::space::sink::Places;
 use crate::system::names::entries;
-use crate::system::{TimeTransform, TimeTransformed};
-use crate::{Lagrangian, Real, Space, State, System, Vector};
+use crate::system::{Factor, TimeTransform, TimeTransformed};
+use crate::{Lagrangian, Real, Scalar, Space, State, System, Vector, Weights};
 
 /// Whether a run can begin at time `t`, and the formulas of `system` stay within its arrays.
 pub(crate) fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T) -> Result<(), StartError> {
@@ -12,6 +15,64 @@ pub(crate) fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T) -> Result<()
         return Err(StartError::Parameter { name: "t", value: reported(t), range: "finite" });
     }
     Ok(system.check()?)
+}
+
+/// More steps than a run takes.
+const MOST_STEPS: f64 = 9_223_372_036_854_775_808.0;
+
+/// Whether steps can have the length `h`: below the smallest number that has all digits, 1/h may be infinite.
+pub(crate) fn is_length<T: Real>(h: T) -> bool {
+    h.is_finite() && Scalar::abs(h) >= smallest_normal()
+}
+
+/// Whether steps of the length `h`, however many, lead from `t` to times that are finite.
+///
+/// # Errors
+/// [`StartError::Step`].
+pub(crate) fn validate_step<T: Real>(t: T, h: T) -> Result<(), StartError> {
+    let is_usable = is_length(h) && (t + T::lift(MOST_STEPS) * h).is_finite();
+    if is_usable { Ok(()) } else { Err(StartError::Step { h: reported(h) }) }
+}
+
+/// `error`, with the name of the first coordinate without a mass, or whose row of Ω is zero, where a matrix is singular at (`q`, `v`, `t`).
+#[cold]
+pub(crate) fn named<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    t: T,
+    error: StartError,
+) -> StartError {
+    let (StartError::Starter(StepFailure::Singular { .. })
+    | StartError::Undetermined(StepFailure::Singular { .. })) = error
+    else {
+        return error;
+    };
+    // Where coordinates are more than velocities, rows are not those of coordinates.
+    if S::REPORT.coordinates.iter().any(|block| block.factor != Factor::Line) {
+        return error;
+    }
+    let [zero, one] = [0.0, 1.0].map(T::lift);
+    let space = system.space();
+    let [mut sizes, mut velocity, mut l_q, mut l_v]: [Vector<S, T>; 4] = space.vectors();
+    let (matrix, weights) = if S::REGULAR {
+        velocity.copy_from_slice(v);
+        ("the mass matrix", Weights::mass())
+    } else {
+        ("Ω = −dα", Weights { qq: zero, qv: one, vq: -one, vv: zero })
+    };
+    let mut sink = Places(|row: usize, _: usize, entry: T| sizes[row] += Scalar::abs(entry));
+    system.linearize(q, &velocity, t, weights, &mut l_q, &mut l_v, &mut sink);
+    let is_singular = |place: &usize| !(one / sizes[*place]).is_finite();
+    let place = (0..sizes.len()).find(is_singular);
+    match place.and_then(|place| Some((coordinate(system, place)?, reported(sizes[place])))) {
+        Some((entry, size)) => StartError::Singular { matrix, entry, size },
+        None => error,
+    }
+}
+
+/// The name of the coordinate at a place in the flat state.
+fn coordinate<S: System>(system: &S, place: usize) -> Option<Name> {
+    entries(system).find(|(name, at)| !name.is_velocity && *at == place).map(|(name, _)| name)
 }
 
 /// Whether energy and derivatives of L are finite at the start of a run.
@@ -44,9 +105,9 @@ fn finite_derivatives<S: Lagrangian<T>, T: Real>(
         ["the one-form α", "the gradient of H"]
     };
     for (quantity, values) in [(momentum, &l_v), (force, &l_q)] {
-        if let Some(coordinate) = values.iter().position(|x| !x.is_finite()) {
-            let value = reported(values[coordinate]);
-            return Err(StartError::Undefined { quantity, coordinate: Some(coordinate), value });
+        if let Some(place) = values.iter().position(|x| !x.is_finite()) {
+            let (value, coordinate) = (reported(values[place]), coordinate(system, place));
+            return Err(StartError::Undefined { quantity, coordinate, value });
         }
     }
     let energy = system.energy(q, v, t);

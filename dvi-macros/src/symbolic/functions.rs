@@ -184,7 +184,7 @@ impl Graph {
     }
 
     /// (1 − u)(1 + u), which keeps its digits near |u| = 1.
-    fn one_minus_square(&mut self, u: Expr) -> Expr {
+    pub(super) fn one_minus_square(&mut self, u: Expr) -> Expr {
         let (below, above) = (self.subtract(Expr::ONE, u), self.add(Expr::ONE, u));
         self.multiply(below, above)
     }

@@ -292,7 +292,7 @@ impl Graph {
         Some(self.product(&factors))
     }
 
-    fn is_never_negative(&self, node: Id) -> bool {
+    pub(super) fn is_never_negative(&self, node: Id) -> bool {
         match self.node(node) {
             Node::One => true,
             Node::Sum(terms) => {

@@ -8,6 +8,7 @@ mod asked;
 mod bind;
 mod derivative;
 mod differential;
+mod domain;
 mod energy;
 mod functions;
 mod graph;

@@ -39,10 +39,9 @@ fn what_cannot_be_done_is_refused() {
     assert!(matches!(failure, Some(StartError::Parameter { name: "omega", .. })), "{failure:?}");
     let collision = KeplerState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 0.0 };
     let failure = Integrator::new(&KEPLER, method, 0.1, collision).err();
-    let undefined = |coordinate| coordinate == Some(0);
     assert!(
-        matches!(failure, Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate, value })
-            if undefined(coordinate) && value.is_nan()),
+        matches!(failure, Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(x), value })
+            if x.to_string() == "x" && value.is_nan()),
         "{failure:?}"
     );
 }
@@ -72,7 +71,11 @@ fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
     // At the pole the angle φ has no momentum.
     let pole = SphericalPendulumState { theta: 0.0, phi: 0.3, dot_theta: 0.0, dot_phi: 0.8 };
     let found = Integrator::new(&SphericalPendulum { g: 1.0 }, method, 0.1, pole).err();
-    assert!(matches!(found, Some(StartError::Starter(StepFailure::Singular { column: 1, .. }))), "{found:?}");
+    assert!(
+        matches!(found, Some(StartError::Singular { matrix: "the mass matrix", entry, .. })
+            if entry.to_string() == "phi"),
+        "{found:?}"
+    );
     // Far beyond the speed of light in the first iterate.
     let found = failure(relativistic(), method, 50.0)?;
     assert!(matches!(found, StepFailure::NotFinite { .. }), "{found:?}");

@@ -25,17 +25,15 @@ fn steps_and_starts_that_are_none_are_refused() {
         "{error:?}"
     );
     let collided = Integrator::new(&KEPLER, Variational::simpson(), 0.1, state(0.0, 1.0)).err();
-    let Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(0), value }) = collided
-    else {
-        panic!("{collided:?}")
-    };
-    assert!(value.is_nan());
+    let message = collided.map(|error| error.to_string()).unwrap_or_default();
+    assert!(message.starts_with("the force ∂L/∂q along `x` is NaN at the initial state: "), "{message}");
     let nothing =
         Integrator::new(&Kepler { mu: f64::NAN }, Variational::trapezoid(), 0.1, state(1.0, 1.0)).err();
     assert!(
         matches!(
             nothing,
-            Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(0), .. })
+            Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(x), .. })
+                if x.to_string() == "x"
         ),
         "{nothing:?}"
     );
@@ -125,22 +123,31 @@ struct Weighed {
 #[test]
 fn a_singular_mass_matrix_is_found() -> Outcome {
     let start: RisingState = RisingState { x: 0.0, dot_x: 0.0 };
-    let singular = StartError::Starter(StepFailure::Singular { column: 0, pivot: 0.0 });
     for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?] {
         for dot_x in [0.0, 1.0] {
             let start = RisingState { dot_x, ..start };
             let error = Integrator::new(&Rising { rest: 0.0 }, Variational::new(rule), 0.1, start).err();
-            assert_eq!(error, Some(singular), "{rule:?}");
+            assert_eq!(without_mass(error), Some(("x".into(), 0.0)), "{rule:?}");
             let error = Integrator::new(&Rising { rest: 0.0 }, Galerkin::<3>::new(), 0.1, start).err();
-            assert_eq!(error, Some(singular));
+            assert_eq!(without_mass(error), Some(("x".into(), 0.0)));
         }
     }
     let mut run = Integrator::new(&Rising { rest: 1.0 }, Variational::midpoint(), 0.1, start)?;
     assert!(matches!(run.next(), Some(Ok(_))));
     let start = WeighedState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 1.0 };
     let error = Integrator::new(&Weighed { m: [1.0, 0.0] }, Variational::trapezoid(), 0.1, start).err();
-    assert_eq!(error, Some(StartError::Starter(StepFailure::Singular { column: 1, pivot: 0.0 })));
+    assert_eq!(without_mass(error), Some(("y".into(), 0.0)));
     Ok(())
+}
+
+/// The coordinate that is refused, and the size of its row of the mass matrix.
+fn without_mass(error: Option<StartError>) -> Option<(String, f64)> {
+    match error {
+        Some(StartError::Singular { matrix: "the mass matrix", entry, size }) => {
+            Some((entry.to_string(), size))
+        }
+        _ => None,
+    }
 }
 
 #[test]

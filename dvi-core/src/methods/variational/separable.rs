@@ -159,7 +159,10 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         self.start = self.step.method.frequency.at(self.q, velocity, point);
         match reading {
             Reading::LeftFrozen => self.coefficients.set(self.step, self.start),
-            _ => Ok(()),
+            // Each iteration reads the end.
+            Reading::Averaged => Ok(()),
+            // Such a step needs more than forces.
+            Reading::Variational => Err(StepFailure::Frequency { omega: f64::NAN }),
         }
     }
 

@@ -1,12 +1,14 @@
 //! A run that a step control moves on, step by step, and back.
 
-use crate::state::memory::Memory;
+use crate::state::memory::{Aside, Memory};
 use core::fmt;
 
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, Tolerance, VariableStep};
+use crate::methods::{Carries, Clock, Tolerance, VariableStep};
 use crate::run::Stepper;
+use crate::run::kept::Kept;
 use crate::scalar::norm::reported;
+use crate::system::start::is_length;
 use crate::{Lagrangian, Real, System, Vector};
 
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the control
@@ -15,6 +17,8 @@ pub struct ControlledRun<'a, S: System, M: Carries<S, T>, T: Real> {
     pub(super) stepper: Stepper<'a, S, M, T>,
     /// What can be gone back to.
     checkpoint: Option<(M::Memory, Vector<S, T>)>,
+    /// If steps are looked at: where the one at hand has begun.
+    kept: Option<Aside<Kept<S, M, T>>>,
 }
 
 impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, T> {
@@ -26,8 +30,9 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
         begin: impl Fn(&M, &Vector<S, T>) -> Result<M::Memory, StartError>,
     ) -> Result<Self, StartError> {
         let memory = begin(&method, &q)?;
+        let kept = Kept::if_looked_at(&q, || begin(&method, &q))?;
         let checkpoint = rejects.then(|| begin(&method, &q)).transpose()?.map(|memory| (memory, q.clone()));
-        Ok(Self { stepper: Stepper::new(system, method, memory, q), checkpoint })
+        Ok(Self { stepper: Stepper::new(system, method, memory, q), checkpoint, kept })
     }
 
     /// The system.
@@ -53,16 +58,30 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
     /// Takes a step from time `t` to `t + h`, without allocation.
     ///
     /// # Errors
-    /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite; else as
-    /// [`Method::step`](crate::methods::Method::step). Nothing has moved then.
+    /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite, or `h` is below the smallest number that has all digits;
+    /// [`StepFailure::LeftDomain`]; else as [`Method::step`](crate::methods::Method::step). Nothing has moved then.
     #[inline]
     pub fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
         let end = t + h;
-        if end == t || !end.is_finite() {
+        if end == t || !end.is_finite() || !is_length(h) {
             return Err(StepFailure::StepLength { h: reported(h) });
         }
+        // Not compiled where steps are not looked at.
+        if S::HAS_DOMAIN
+            && let Some(kept) = &mut self.kept
+        {
+            self.stepper.keep(kept);
+        }
         let Stepper { system, method, memory, q, statistics, .. } = &mut self.stepper;
-        method.step(system, memory, q, t, h, statistics)
+        method.step(system, memory, q, t, h, statistics)?;
+        if S::HAS_DOMAIN
+            && let Some(kept) = &self.kept
+            && let Err(failure) = self.stepper.look(Clock::new(t, h).after(1), kept)
+        {
+            self.stepper.return_to(kept);
+            return Err(failure);
+        }
+        Ok(())
     }
 
     /// An estimate of the error of the last step, from time `t` of length `h` where steps usually have another, in units of `tolerance`, without

@@ -12,6 +12,7 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::{Tolerance, VariableStep};
 use crate::scalar::norm::{larger, reported};
 use crate::state::memory::{Memory, lasting};
+use crate::system::start::is_length;
 use crate::{Lagrangian, Real, Scalar};
 
 /// f: the next step aims at less than the tolerance.
@@ -135,7 +136,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl {
 
     fn begin(&self, _system: &S, _q: &[T], _v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
         self.tolerance.validate::<T>()?;
-        if !self.first_step.is_finite() || self.first_step == 0.0 {
+        if !is_length(self.first_step) {
             return Err(StartError::Step { h: self.first_step });
         }
         let (h, one) = (T::lift(self.first_step), T::lift(1.0));

@@ -11,7 +11,7 @@ use crate::methods::{Carries, VariableStep};
 use crate::run::Checkpoint;
 use crate::run::{Run, Stepper};
 use crate::state::memory::{Memory, lasting};
-use crate::system::start::{evaluate, flatten, validate, velocities};
+use crate::system::start::{evaluate, flatten, named, validate, velocities};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
 
 /// A run of a method on a system with steps chosen by a [`StepControl`].
@@ -60,10 +60,14 @@ where
         }
         let [q, v] = flatten(system, &start)?;
         evaluate(system, &q, &v, t)?;
-        let v = &v[..velocities(system)];
+        let all = v;
+        let v = &all[..velocities(system)];
         control.admit(&method)?;
-        let (control_memory, h) = control.begin(system, &q, v, t)?;
-        let begin = |method: &M, q: &Vector<S, T>| method.begin(system, q, v, t, h);
+        let explained = |q: &Vector<S, T>, error| named(system, [q, &all], t, error);
+        let (control_memory, h) = control.begin(system, &q, v, t).map_err(|error| explained(&q, error))?;
+        let begin = |method: &M, q: &Vector<S, T>| {
+            method.begin(system, q, v, t, h).map_err(|error| explained(q, error))
+        };
         let controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
         Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
     }
@@ -84,10 +88,15 @@ where
         let (t, mut h) = (checkpoint.time(), checkpoint.step_size());
         validate(system, t)?;
         let [q, v] = checkpoint.point(system)?;
-        let v = &v[..velocities(system)];
+        let all = v;
+        let v = &all[..velocities(system)];
         control.admit(&method)?;
-        let mut control_memory = control.begin_again(system, &q, v, t)?;
-        let begin = |method: &M, q: &Vector<S, T>| method.begin_again(system, q, v, t, h);
+        let explained = |q: &Vector<S, T>, error| named(system, [q, &all], t, error);
+        let begun = control.begin_again(system, &q, v, t);
+        let mut control_memory = begun.map_err(|error| explained(&q, error))?;
+        let begin = |method: &M, q: &Vector<S, T>| {
+            method.begin_again(system, q, v, t, h).map_err(|error| explained(q, error))
+        };
         let mut controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
         let mut clock = VariableClock::new(t);
         checkpoint.load::<S, M>(&mut controlled.stepper.memory, |reader| {

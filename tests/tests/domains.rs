@@ -1,0 +1,157 @@
+//! Where a run stands, the energy is a number: steps whose ends lie outside of the domain of a formula are taken back.
+
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
+use dvi_core::run::Together;
+use dvi_tests::bits;
+use dvi_tests::systems::{LotkaVolterra, PointVortices};
+use dvi_tests::zoo::regular::Kepler;
+
+type Outcome = Result<(), Box<dyn core::error::Error>>;
+
+/// A fall into the end of the domain at x = 0, where the force is finite beyond it: 1/x is known where ln x is not.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.ln())]
+#[derive(Clone, PartialEq)]
+struct Falling;
+
+/// The same with a mass that is not constant.
+#[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x).powi(2) / 2.0 - x.ln())]
+struct Heavy;
+
+/// The same as a one-form and a Hamiltonian.
+#[degenerate_lagrangian(coordinates(x, p), one_form = (p * d(x) - x * d(p)) / 2.0, hamiltonian = p * p / 2.0 + x.ln())]
+#[derive(Clone, PartialEq)]
+struct Flow;
+
+/// Here the force is not known outside either.
+#[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0 + x.sqrt())]
+struct Root;
+
+/// From 40 starts, whose last steps end at all distances beyond x = 0; returns how many needed nothing of that end.
+fn keeps_to_the_domain<S: Lagrangian, M: Method<S, f64>>(
+    name: &str,
+    (system, start): (&S, fn(f64) -> S::State<f64>),
+    method: impl Fn() -> M,
+) -> Result<usize, Box<dyn core::error::Error>> {
+    let mut left = 0;
+    for number in 1..=40 {
+        let begin = || Integrator::new(system, method(), 0.1, start(0.2 + 0.013 * f64::from(number)));
+        let mut run = begin()?;
+        // A step close by the end may lead far away.
+        let failure = loop {
+            let before = (bits(run.q()), run.steps(), run.energy());
+            let advanced = run.advance();
+            assert!(run.energy().is_finite() && run.q()[0] > 0.0, "{name}, {number}: {:?}", run.q());
+            let Err(error) = advanced else { continue };
+            assert_eq!((bits(run.q()), run.steps(), run.energy()), before, "{name}, {number}");
+            assert_eq!((error.step, error.time), (run.steps(), run.time()), "{name}, {number}");
+            assert!(run.next().is_none());
+            // The same again.
+            assert_eq!(format!("{:?}", run.advance().err()), format!("{:?}", Some(error)));
+            break error.failure;
+        };
+        left += usize::from(failure == StepFailure::LeftDomain);
+        // All at once, a run ends at the same state.
+        let mut at_once = begin()?;
+        let error = at_once.take_steps(run.steps() + 10).err().ok_or("no error")?;
+        assert_eq!((bits(at_once.q()), at_once.steps()), (bits(run.q()), run.steps()), "{name}, {number}");
+        assert_eq!(error.step, run.steps(), "{name}, {number}");
+    }
+    Ok(left)
+}
+
+#[test]
+fn no_run_stands_where_its_energy_is_no_number() -> Outcome {
+    let falling = (&Falling, (|x| FallingState { x, dot_x: -0.3 }) as fn(f64) -> _);
+    let heavy = (&Heavy, (|x| HeavyState { x, dot_x: -0.3 }) as fn(f64) -> _);
+    let flow = (&Flow, (|x| FlowState { x, p: -0.3 }) as fn(f64) -> _);
+    let root = (&Root, (|x| RootState { x: x / 2.0, p: -1.0 }) as fn(f64) -> _);
+    let left = [
+        keeps_to_the_domain("midpoint", falling, Variational::midpoint)?,
+        keeps_to_the_domain("Verlet", falling, Variational::trapezoid)?,
+        keeps_to_the_domain("Simpson", falling, Variational::simpson)?,
+        keeps_to_the_domain("Gauss 4", falling, Gauss::<2>::new)?,
+        keeps_to_the_domain("Runge-Kutta", falling, RungeKutta::classical)?,
+        keeps_to_the_domain("midpoint, heavy", heavy, Variational::midpoint)?,
+        keeps_to_the_domain("sigma = 0", flow, Sigma::leapfrog)?,
+        keeps_to_the_domain("sigma = 1/2", flow, Sigma::midpoint)?,
+        keeps_to_the_domain("Gauss 2", flow, Gauss::<1>::new)?,
+        keeps_to_the_domain("sigma = 1/2, root", root, Sigma::midpoint)?,
+        keeps_to_the_domain("one step, root", root, OneStep::midpoint)?,
+    ];
+    assert!(left.iter().all(|&left| left > 0), "{left:?}");
+    // The end of its step is one of its nodes.
+    assert_eq!(keeps_to_the_domain("projected, root", root, Projected::symmetric)?, 0);
+    Ok(())
+}
+
+#[test]
+fn a_step_control_keeps_to_the_domain() -> Outcome {
+    let start = FallingState { x: 0.5, dot_x: -0.3 };
+    let control = ErrorControl::new(1e-6, 0.1);
+    let mut run = ControlledIntegrator::new(&Falling, Gauss::<2>::new(), control, start)?;
+    let error = (0..100_000).find_map(|_| {
+        let advanced = run.advance().err();
+        assert!(f64::is_finite(run.energy()) && run.q()[0] > 0.0, "{:?}", run.q());
+        advanced
+    });
+    assert_eq!(error.ok_or("no error")?.step, run.steps());
+    let control = Reversible::new(0.1, Power { exponent: 0.0 });
+    let mut run = ControlledIntegrator::new(&Falling, Variational::trapezoid(), control, start)?;
+    let error = (0..100).find_map(|_| {
+        let advanced = run.advance().err();
+        assert!(f64::is_finite(run.energy()) && run.q()[0] > 0.0, "{:?}", run.q());
+        advanced
+    });
+    let error = error.ok_or("no error")?;
+    assert_eq!(error.failure, StepFailure::LeftDomain);
+    Ok(())
+}
+
+#[test]
+fn runs_that_share_lanes_keep_to_the_domain() -> Outcome {
+    const RUNS: usize = 4;
+    fn each<S: Lagrangian + PartialEq, M: Method<S, f64> + PartialEq + Copy>(
+        system: &S,
+        method: M,
+        starts: [S::State<f64>; RUNS],
+    ) -> Outcome
+    where
+        M: dvi_core::methods::InStep<RUNS, S>,
+    {
+        let begin = |start: &S::State<f64>| Integrator::new(system, method, 0.1, start.clone());
+        let mut together = starts.iter().map(begin).collect::<Result<Vec<_>, _>>()?;
+        let taken = Together::<RUNS, _, _>::new(&together[0]).take_steps(&mut together, 12);
+        for ((start, run), taken) in starts.iter().zip(&together).zip(taken) {
+            let mut alone = begin(start)?;
+            let expected = alone.take_steps(12);
+            assert_eq!(format!("{taken:?}"), format!("{expected:?}"));
+            assert_eq!((bits(run.q()), run.steps()), (bits(alone.q()), alone.steps()));
+            assert!(run.energy().is_finite(), "{:?}", run.q());
+        }
+        Ok(())
+    }
+    let flow = |x| FlowState { x, p: -0.3 };
+    each(&Flow, Sigma::midpoint(), [flow(0.4), flow(3.0), flow(0.55), flow(2.0)])?;
+    each(&Flow, Sigma::leapfrog(), [flow(0.4), flow(3.0), flow(0.55), flow(2.0)])
+}
+
+#[test]
+fn what_has_no_end_of_its_domain_is_not_looked_at() {
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - (k / m).sqrt() * (1.0 + x * x + y.powi(4)).ln() - x.hypot(y).powf(a)
+            - y.abs().sqrt() + (-x).exp().ln() - x.sin().atan(),
+    )]
+    struct Everywhere {
+        k: f64,
+        m: f64,
+        a: f64,
+    }
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - (1.0 - x * x).sqrt())]
+    struct Somewhere;
+    #[lagrangian(coordinates(x), lagrangian = -(1.0 - dot(x).powi(2)).sqrt())]
+    struct Fast;
+    const { assert!(!Everywhere::HAS_DOMAIN && !Kepler::HAS_DOMAIN && !PointVortices::<4>::HAS_DOMAIN) };
+    const { assert!(Somewhere::HAS_DOMAIN && LotkaVolterra::HAS_DOMAIN && Root::HAS_DOMAIN && !Fast::HAS_DOMAIN) };
+}
