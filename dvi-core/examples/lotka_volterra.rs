@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     table.flush()?;
 
     let equilibrium = system.rate;
-    let mut section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0] - equilibrium);
+    let mut section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0] - equilibrium)?;
     let mut times = Vec::new();
     for crossing in section.by_ref().take(101) {
         times.push(crossing?.time);

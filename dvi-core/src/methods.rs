@@ -177,6 +177,24 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
 
+    /// Advances `q` from `t` by a part `h` of the step of length `whole` that a run takes from there, on a
+    /// copy `memory` of what it carries: the state between two points of the run. It is a [step](Self::step)
+    /// of that length, unless the memory depends on the length of steps.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    fn part_of_step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        [h, _whole]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.step(system, memory, q, t, h, statistics)
+    }
+
     /// Sets `v` to the velocity at the current point. There is nothing to do for degenerate systems.
     ///
     /// # Errors

@@ -5,6 +5,7 @@ mod checkpoint;
 mod integrator;
 mod kept;
 mod outside;
+mod partial_step;
 mod step_control;
 #[cfg(feature = "alloc")]
 mod together;
@@ -22,6 +23,7 @@ use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
 pub use integrator::Integrator;
+pub(crate) use partial_step::{PartialStep, PartialStepOf};
 pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, EnergyMomentumMemory,
     ErrorControl, ErrorControlMemory, Osculating, OsculatingMemory, Power, Reversible, ReversibleMemory,

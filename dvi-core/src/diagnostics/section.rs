@@ -1,21 +1,17 @@
 //! Poincaré sections: the points at which a run crosses g(q) = 0.
 //!
-//! With steps of one length the points of a run lie on one smooth orbit, that of the method's modified equation. The
-//! polynomial of degree seven through the eight points around a crossing follows it to O(h⁸), and the zero of g on
-//! the polynomial is found to rounding: sections stay crisp at steps at which the orbit differs visibly
-//! from the exact one. Where the lengths of the steps follow the motion smoothly, so does the orbit. A parasitic mode,
-//! where there is one, is not smooth and is not followed.
-//! Interpolation in barycentric form: Berrut & Trefethen 2004, eq. 4.2.
+//! Between two points of a run its state is that of the step between them, taken again in part. On this
+//! curve, which leads from point to point, the zero of g is found to rounding. So a crossing has the error
+//! of the run and that of one step of its method more, whatever the length of its steps.
+//!
+//! A step that begins and ends on one side may cross twice. Whether it does is looked at in its middle and,
+//! as long as the parabola through three values of g comes close to zero, at its vertex.
 
-use crate::error::StepError;
-use crate::run::Run;
-use crate::scalar::norm::larger;
+use crate::error::{StartError, StepError, StepFailure};
+use crate::run::{PartialStep, PartialStepOf, Run};
+use crate::scalar::norm::{larger, reported};
 use crate::system::Smooth;
-use crate::{Real, Scalar, Space, State, System, Vector};
-
-const WINDOW: usize = 8;
-/// The interval of the window in which crossings are looked for.
-const CENTRE: usize = WINDOW / 2 - 1;
+use crate::{Real, Scalar, System};
 
 /// The crossings that a section keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,7 +42,7 @@ impl Direction {
 pub struct Crossing<S, T> {
     /// The time of the crossing.
     pub time: T,
-    /// The state at the crossing, with named coordinates. The velocities of a regular system are those of the interpolant.
+    /// The state at the crossing, with named coordinates and, of a regular system, velocities.
     pub state: S,
 }
 
@@ -56,35 +52,53 @@ pub type CrossingOf<R> =
 
 /// The crossings of a run with g(q) = 0, as an iterator that takes as many steps as it must.
 ///
-/// It looks for sign changes between consecutive points, so a run that crosses twice within a step
-/// passes unseen. The run is four steps ahead of the interval that is searched: crossings in the last
-/// four steps before a failure are not reported.
+/// A crossing lies on the step that leads over it, taken again from its beginning as a shorter one, by the
+/// method of the run: it is as accurate as the points of the run are, with the error of one step more, and g
+/// vanishes there to rounding. A method of order p has this error at the order h<sup>p+1</sup>. The points
+/// of the run are the same, bit for bit, as without a section. A crossing costs some eight steps. A run that
+/// begins on the section does not cross it there.
+///
+/// A step that begins and ends on one side of the section and crosses it twice in between is seen if g turns
+/// once on the way, and so far that a parabola through three of its values tells. That is looked for in
+/// steps that are near enough to the section, as the changes of g in the steps before say. What crosses more
+/// often within one step, or touches the section, may pass unseen.
 pub struct Section<'r, R: Run, G> {
     run: &'r mut R,
     g: G,
     direction: Direction,
-    points: [Vector<R::System, R::Scalar>; WINDOW],
-    values: [R::Scalar; WINDOW],
-    /// The lengths of the steps that led to the points.
-    steps: [R::Scalar; WINDOW],
-    /// The place of the oldest point.
-    oldest: usize,
-    filled: usize,
-    /// The next interval to search; past the centre, a step is due.
+    step: PartialStepOf<R>,
+    /// Values of g in the step at hand: where it begins, perhaps in between, and where it ends.
+    marks: [Mark<R::Scalar>; 3],
+    /// The next interval between two marks to search; past the last, a step is due.
     interval: usize,
-    probe: Vector<R::System, R::Scalar>,
-    /// The velocity at `probe`, if the system is regular.
-    velocity: Vector<R::System, R::Scalar>,
+    /// How fast g has changed in the last steps, once there is one.
+    rate: Option<R::Scalar>,
     failed: bool,
 }
 
+/// g at a time of a step, in parts of the step.
+#[derive(Clone, Copy, Debug)]
+struct Mark<T> {
+    part: T,
+    g: T,
+}
+
+/// There are so many intervals between marks.
+const INTERVALS: usize = 2;
+/// Of the rate at which g changes, what is kept from step to step.
+const FORGETTING: f64 = 0.9;
+/// The largest rate within a step, in units of the mean rates of the last steps.
+const MARGIN: f64 = 2.0;
+/// Where g is looked at in a step that may cross twice, at most.
+const LOOKS: usize = 6;
+
 impl<R: Run + core::fmt::Debug, G> core::fmt::Debug for Section<'_, R, G> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { run, direction, values, .. } = self;
+        let Self { run, direction, marks, .. } = self;
         f.debug_struct("Section")
             .field("run", run)
             .field("direction", direction)
-            .field("values", values)
+            .field("marks", marks)
             .finish_non_exhaustive()
     }
 }
@@ -92,28 +106,19 @@ impl<R: Run + core::fmt::Debug, G> core::fmt::Debug for Section<'_, R, G> {
 impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
     /// The crossings of `run`, from its current state on, with g(q) = 0 in the given direction. All
     /// memory is allocated here.
-    pub fn new(run: &'r mut R, direction: Direction, g: G) -> Self
+    ///
+    /// # Errors
+    /// [`StartError`] if no run of this method can begin at the current state.
+    pub fn new(run: &'r mut R, direction: Direction, mut g: G) -> Result<Self, StartError>
     where
         <R::System as System>::Kind: Smooth,
     {
-        let space = run.system().space();
-        Self {
-            g,
-            direction,
-            points: space.vectors(),
-            values: [R::Scalar::lift(0.0); WINDOW],
-            steps: [R::Scalar::lift(0.0); WINDOW],
-            oldest: 0,
-            filled: 0,
-            interval: 0,
-            probe: space.vector(),
-            velocity: space.vector(),
-            failed: false,
-            run,
-        }
+        let step = PartialStep::new(run)?;
+        let mark = Mark { part: R::Scalar::lift(1.0), g: g(run.q()) };
+        Ok(Self { g, direction, step, marks: [mark; 3], interval: INTERVALS, rate: None, failed: false, run })
     }
 
-    /// The run, four steps ahead of the interval that is searched.
+    /// The run, at the end of the step that is searched.
     pub fn run(&self) -> &R {
         self.run
     }
@@ -122,138 +127,132 @@ impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
     /// runs that may never cross again, where the iterator would not end.
     ///
     /// # Errors
-    /// [`StepError`] of the run.
+    /// [`StepError`] of the run, or of a part of its last step.
     pub fn advance(&mut self) -> Result<Option<CrossingOf<R>>, StepError> {
-        if self.filled < WINDOW || self.interval > CENTRE {
+        if self.interval == INTERVALS {
             self.step()?;
-            // The first window is searched from its beginning.
-            self.interval = self.interval.min(CENTRE);
-            if self.filled < WINDOW {
-                return Ok(None);
+        }
+        while self.interval < INTERVALS {
+            let [a, b] = [self.interval, self.interval + 1].map(|i| self.marks[i]);
+            self.interval += 1;
+            if self.direction.crosses(a.g, b.g) {
+                return self.locate(a, b).map(Some).map_err(|failure| self.error(failure));
             }
         }
-        let interval = self.interval;
-        self.interval += 1;
-        Ok(self.crosses(interval).then(|| self.locate(interval)))
+        Ok(None)
     }
 
-    fn push(&mut self) {
-        let place = (self.oldest + self.filled) % WINDOW;
-        if self.filled == WINDOW {
-            self.oldest = (self.oldest + 1) % WINDOW;
-        } else {
-            self.filled += 1;
-        }
-        self.points[place].copy_from_slice(self.run.q());
-        self.values[place] = (self.g)(self.run.q());
-        self.steps[place] = self.run.step_size();
-    }
-
-    /// Fills the window, or moves it by one step.
+    /// Takes a step, and marks it.
     fn step(&mut self) -> Result<(), StepError> {
-        if self.filled == 0 {
-            self.push();
-        }
+        let [zero, one] = [0.0, 1.0].map(R::Scalar::lift);
+        self.step.begin(self.run);
         self.run.advance()?;
-        self.push();
+        let begin = Mark { part: zero, g: self.marks[INTERVALS].g };
+        let end = Mark { part: one, g: (self.g)(self.run.q()) };
+        self.marks = [begin, end, end];
+        self.interval = 0;
+        if let Some(turn) = self.turn(begin, end).map_err(|failure| self.error(failure))? {
+            self.marks[1] = turn;
+        }
         Ok(())
     }
 
-    fn crosses(&self, interval: usize) -> bool {
-        let [a, b] = [interval, interval + 1].map(|i| self.values[(self.oldest + i) % WINDOW]);
-        self.direction.crosses(a, b)
+    #[cold]
+    fn error(&self, failure: StepFailure) -> StepError {
+        StepError { step: self.run.steps() - 1, time: reported(self.step.begun()), failure }
     }
 
-    /// The times of the points since the oldest, in units of the newest step: whole numbers where all steps are alike.
-    fn nodes(&self) -> [R::Scalar; WINDOW] {
-        let per_h = R::Scalar::lift(1.0) / self.run.step_size();
-        let mut time = R::Scalar::lift(0.0);
-        core::array::from_fn(|j| {
-            if j > 0 {
-                time += self.steps[(self.oldest + j) % WINDOW] * per_h;
-            }
-            time
-        })
+    /// g at a part of the step.
+    fn look(&mut self, part: R::Scalar) -> Result<Mark<R::Scalar>, StepFailure> {
+        self.step.reach(self.run, part)?;
+        Ok(Mark { part, g: (self.g)(self.step.q()) })
     }
 
-    /// Sets `probe` to the interpolant at `x`, a time in the units of the nodes.
-    fn interpolate(&mut self, Interpolation { nodes, weights }: &Interpolation<R::Scalar>, x: R::Scalar) {
-        let mut factors = [R::Scalar::lift(0.0); WINDOW];
-        for (j, factor) in factors.iter_mut().enumerate() {
-            let distance = x - nodes[j];
-            if distance == R::Scalar::lift(0.0) {
-                self.probe.copy_from_slice(&self.points[(self.oldest + j) % WINDOW]);
-                return;
-            }
-            *factor = weights[j] / distance;
+    /// Where g has the other sign than at both ends of the step, if such a time is found.
+    fn turn(
+        &mut self,
+        mut a: Mark<R::Scalar>,
+        mut b: Mark<R::Scalar>,
+    ) -> Result<Option<Mark<R::Scalar>>, StepFailure> {
+        let [zero, half, two] = [0.0, 0.5, 2.0].map(R::Scalar::lift);
+        let h = Scalar::abs(self.run.step_size());
+        let mean = Scalar::abs(b.g - a.g) / h;
+        let rate = self.rate.map(|before| larger(mean, R::Scalar::lift(FORGETTING) * before));
+        self.rate = rate.or(Some(mean));
+        let side = a.g > zero;
+        let distance = Scalar::abs(a.g) + Scalar::abs(b.g);
+        let is_far = rate.is_some_and(|rate| distance > R::Scalar::lift(MARGIN) * rate * h);
+        if a.g == zero || b.g == zero || side != (b.g > zero) || is_far {
+            return Ok(None);
         }
-        let total = factors.iter().fold(R::Scalar::lift(0.0), |sum, &w| sum + w);
-        self.probe.fill(R::Scalar::lift(0.0));
-        for (j, &factor) in factors.iter().enumerate() {
-            let (factor, point) = (factor / total, &self.points[(self.oldest + j) % WINDOW]);
-            for (sum, &q) in self.probe.iter_mut().zip(point.iter()) {
-                *sum += factor * q;
+        let mut part = half;
+        let mut between: Option<Mark<R::Scalar>> = None;
+        for _ in 0..LOOKS {
+            let mark = self.look(part)?;
+            if mark.g != zero && (mark.g > zero) != side {
+                return Ok(Some(mark));
+            }
+            // The lowest of all stays between two others.
+            let lowest = match between {
+                None => mark,
+                Some(known) => {
+                    let is_lower = Scalar::abs(mark.g) < Scalar::abs(known.g);
+                    let [lowest, other] = if is_lower { [mark, known] } else { [known, mark] };
+                    let side = if other.part < lowest.part { &mut a } else { &mut b };
+                    *side = other;
+                    lowest
+                }
+            };
+            between = Some(lowest);
+            let [left, right] = [lowest.part - a.part, b.part - lowest.part];
+            let [falls, rises] = [(lowest.g - a.g) / left, (b.g - lowest.g) / right];
+            let steepest = larger(Scalar::abs(falls), Scalar::abs(rises)) / h;
+            self.rate = self.rate.map(|rate| larger(rate, steepest));
+            let curvature = (rises - falls) / (left + right);
+            let slope = (falls * right + rises * left) / (left + right);
+            part = lowest.part - slope / (two * curvature);
+            let vertex = lowest.g - slope * slope / (two * two * curvature);
+            let is_promising = part > a.part
+                && part < b.part
+                && part != lowest.part
+                && ((vertex > zero) != side || Scalar::abs(vertex) < half * Scalar::abs(lowest.g));
+            if !is_promising {
+                return Ok(None);
             }
         }
+        Ok(None)
     }
 
-    /// Sets `velocity` to the time derivative of the interpolant at `x`.
-    fn differentiate(&mut self, Interpolation { nodes, weights }: &Interpolation<R::Scalar>, x: R::Scalar) {
-        // The product of the distances to all nodes but two.
-        let without = |j: usize, m: usize| {
-            let others = (0..WINDOW).filter(|&k| k != j && k != m);
-            others.fold(R::Scalar::lift(1.0), |product, k| product * (x - nodes[k]))
-        };
-        let per_h = R::Scalar::lift(1.0) / self.run.step_size();
-        self.velocity.fill(R::Scalar::lift(0.0));
-        for (j, &weight) in weights.iter().enumerate() {
-            let others = (0..WINDOW).filter(|&m| m != j);
-            let slope = others.fold(R::Scalar::lift(0.0), |sum, m| sum + without(j, m));
-            let (factor, point) = (per_h * weight * slope, &self.points[(self.oldest + j) % WINDOW]);
-            for (sum, &q) in self.velocity.iter_mut().zip(point.iter()) {
-                *sum += factor * q;
-            }
-        }
-    }
-
-    /// The crossing in `interval`, by regula falsi with the damping of Anderson & Björck (1973), and by
-    /// bisection where that is slow.
-    fn locate(&mut self, interval: usize) -> CrossingOf<R> {
-        let interpolation = Interpolation::new(self.nodes());
-        let nodes = &interpolation.nodes;
-        let [mut a, mut b] = [nodes[interval], nodes[interval + 1]];
-        let [mut g_a, mut g_b] = [interval, interval + 1].map(|i| self.values[(self.oldest + i) % WINDOW]);
-        let resolution = interpolation.resolution();
-        // b is always the newest point, and the last one at which the interpolant was taken.
-        self.interpolate(&interpolation, b);
+    /// The crossing between `a` and `b`, by regula falsi with the damping of Anderson & Björck (1973), and
+    /// by bisection where that is slow.
+    fn locate(
+        &mut self,
+        mut a: Mark<R::Scalar>,
+        mut b: Mark<R::Scalar>,
+    ) -> Result<CrossingOf<R>, StepFailure> {
+        let [zero, half, one] = [0.0, 0.5, 1.0].map(R::Scalar::lift);
+        let resolution = PartialStepOf::<R>::resolution();
+        // b is always the newest, and the last one that was reached.
+        self.look(b.part)?;
         for iteration in 0..100 {
-            if g_b == R::Scalar::lift(0.0) || Scalar::abs(b - a) <= resolution {
+            if b.g == zero || Scalar::abs(b.part - a.part) <= resolution {
                 break;
             }
-            let secant = b - g_b * (b - a) / (g_b - g_a);
-            let c = if iteration % 8 == 7 { (a + b) / R::Scalar::lift(2.0) } else { secant };
-            self.interpolate(&interpolation, c);
-            let g_c = (self.g)(&self.probe);
-            if (g_c > R::Scalar::lift(0.0)) != (g_b > R::Scalar::lift(0.0)) {
-                (a, g_a) = (b, g_b);
+            let secant = b.part - b.g * (b.part - a.part) / (b.g - a.g);
+            let c = self.look(if iteration % 8 == 7 { (a.part + b.part) * half } else { secant })?;
+            if (c.g > zero) != (b.g > zero) {
+                a = b;
             } else {
-                let damping = R::Scalar::lift(1.0) - g_c / g_b;
-                g_a *= if damping > R::Scalar::lift(0.0) { damping } else { R::Scalar::lift(0.5) };
+                let damping = one - c.g / b.g;
+                a.g *= if damping > zero { damping } else { half };
             }
-            if c == b {
+            if c.part == b.part {
                 break;
             }
-            (b, g_b) = (c, g_c);
+            b = c;
         }
-        if R::System::REGULAR {
-            self.differentiate(&interpolation, b);
-        }
-        let system = self.run.system();
-        let to_newest = nodes[WINDOW - 1] - b;
-        Crossing {
-            time: self.run.time() - to_newest * self.run.step_size(),
-            state: State::read(|block| system.block_len(block), &self.probe, &self.velocity),
-        }
+        let (time, state) = self.step.state(self.run)?;
+        Ok(Crossing { time, state })
     }
 }
 
@@ -272,26 +271,5 @@ impl<R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Iterator for Section<'_, R, G>
             }
         }
         None
-    }
-}
-
-/// The nodes of the window, and their barycentric weights 1/Πₖ(xⱼ − xₖ).
-struct Interpolation<T> {
-    nodes: [T; WINDOW],
-    weights: [T; WINDOW],
-}
-
-impl<T: Real> Interpolation<T> {
-    fn new(nodes: [T; WINDOW]) -> Self {
-        let weight = |j: usize| {
-            let others = (0..WINDOW).filter(|&k| k != j);
-            T::lift(1.0) / others.fold(T::lift(1.0), |product, k| product * (nodes[j] - nodes[k]))
-        };
-        Self { nodes, weights: core::array::from_fn(weight) }
-    }
-
-    /// The rounding of a time in the window.
-    fn resolution(&self) -> T {
-        T::default_epsilon() * larger(self.nodes[WINDOW - 1], T::lift(WINDOW as f64))
     }
 }

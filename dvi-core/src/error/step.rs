@@ -256,6 +256,16 @@ pub enum StepFailure {
         /// The step, perhaps not finite.
         h: f64,
     },
+    /// A run is asked to [advance to a time](crate::run::ControlledIntegrator::advance_to) that it has
+    /// passed, in the direction in which it goes, or that is not finite. It has taken no step, and can go on
+    /// to another time.
+    #[error("the run is at t = {now} and does not come to t = {target} in its direction of time")]
+    Unreachable {
+        /// The time of the run.
+        now: f64,
+        /// The time that was asked for.
+        target: f64,
+    },
     /// The physical time would stand still or run backwards: the time transformation is not positive any more at the end of
     /// the step, or was negative on the way.
     #[error(

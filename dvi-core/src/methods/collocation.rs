@@ -41,7 +41,7 @@ pub(super) struct Collocation<const S: usize> {
 }
 
 /// P₀, P₁, … at a point of [0, 1], or beyond; those above degree S are not used.
-fn legendre(x: f64) -> [f64; MOST + 1] {
+pub(super) fn legendre(x: f64) -> [f64; MOST + 1] {
     let z = 2.0 * x - 1.0;
     let mut p = [1.0; MOST + 1];
     p[1] = z;
@@ -107,6 +107,21 @@ impl<const S: usize> Collocation<S> {
     pub(super) fn lagrange(&self) -> [[f64; S]; S] {
         let within = self.c.map(legendre);
         core::array::from_fn(|k| core::array::from_fn(|j| self.b[j] * (2 * k + 1) as f64 * within[j][k]))
+    }
+
+    /// Entries (i, j): the j-th Lagrange polynomial at point i, and its integral from 0 to there.
+    pub(super) fn at<const N: usize>(&self, points: [f64; N]) -> [[[f64; S]; N]; 2] {
+        let (lagrange, p) = (self.lagrange(), points.map(legendre));
+        let sum = |j: usize, terms: &dyn Fn(usize) -> f64| (0..S).map(|k| lagrange[k][j] * terms(k)).sum();
+        let values = |i: usize| core::array::from_fn(|j| sum(j, &|k| p[i][k]));
+        let integrals = |i: usize| {
+            let integral = |k: usize| match k {
+                0 => points[i],
+                k => (p[i][k + 1] - p[i][k - 1]) / (4 * k + 2) as f64,
+            };
+            core::array::from_fn(|j| sum(j, &integral))
+        };
+        [core::array::from_fn(values), core::array::from_fn(integrals)]
     }
 
     /// Entry (i, j): the j-th Lagrange polynomial at 1 + cᵢ, to continue a polynomial through the stages into the next step.

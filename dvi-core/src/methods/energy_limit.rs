@@ -111,6 +111,18 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
         verdict
     }
 
+    fn part_of_step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        lengths: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.method.part_of_step(system, &mut memory.inner, q, t, lengths, statistics)
+    }
+
     fn velocity(
         &self,
         system: &S,

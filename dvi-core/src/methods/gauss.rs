@@ -169,7 +169,7 @@ where
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<Option<T>, StepFailure> {
-        memory.local_error(system, t, lengths, tolerance, statistics).map(Some)
+        memory.local_error::<E>(system, t, lengths, tolerance, statistics).map(Some)
     }
 }
 

@@ -333,6 +333,20 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         memory.run.step(&Step { system, method: self, t, h }, q, statistics)
     }
 
+    fn part_of_step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        [h, whole]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let step = Step { system, method: self, t, h };
+        memory.run.shorten(&step, q, whole)?;
+        memory.run.step(&step, q, statistics)
+    }
+
     #[inline]
     fn steps(
         &self,

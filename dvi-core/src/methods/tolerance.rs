@@ -6,8 +6,9 @@ use crate::{Real, Scalar};
 
 /// The error that a step may have: in a coordinate qⱼ absolute + relative |qⱼ|, and in a momentum relative · max|p|.
 ///
-/// Momenta are small where masses are, and have other units than coordinates; so their error is compared with the largest momentum,
-/// that which the step adds included; from rest, with that which its force would make in a step of the usual length.
+/// Momenta are small where masses are, and have other units than coordinates; so their error is compared
+/// with the largest momentum of the last steps, with that which the step adds; from rest, with that which
+/// its force would make in a step of the usual length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// In units of the numbers, and no less than their rounding, 2.3 · 10⁻¹⁶ in double precision.

@@ -48,6 +48,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::Accumulation { .. }
             | StepFailure::Contact { .. }
             | StepFailure::HalfTurn { .. }
+            | StepFailure::Unreachable { .. }
             | StepFailure::Outside(_) => false,
         };
         if !S::HAS_SCALAR_FIELDS || !is_suspect {

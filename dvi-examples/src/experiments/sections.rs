@@ -114,7 +114,7 @@ where
     let mut run = Integrator::new(vortices, method, h, *start)?;
     let initial = run.energy();
     let steps = (end / h) as u64;
-    let mut section = Section::new(&mut run, Direction::Rising, |q| coordinates(q, labels)[2]);
+    let mut section = Section::new(&mut run, Direction::Rising, |q| coordinates(q, labels)[2])?;
     let mut done = 0;
     while done < steps && !job.is_stopping() {
         match section.advance() {

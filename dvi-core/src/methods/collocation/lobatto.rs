@@ -17,10 +17,11 @@ pub(in crate::methods) const FEWEST: usize = 3;
 /// See [`FEWEST`].
 pub(in crate::methods) const MOST: usize = 9;
 
-/// The nodes from the centre on, and their weights, for 3 to 9 nodes; computed in 60 digits as the zeros of P'_{S−1} and as
-/// 1/(S(S−1)P_{S−1}(c)²).
+/// The nodes from the centre on, and their weights, for 2 to 9 nodes; computed in 60 digits as the zeros of
+/// P'_{S−1} and as 1/(S(S−1)P_{S−1}(c)²).
 #[rustfmt::skip]
-const UPPER: [&[[f64; 2]]; MOST + 1 - FEWEST] = [
+const UPPER: [&[[f64; 2]]; MOST - 1] = [
+    &[[1.0,                   0.5]],
     &[[0.5,                   2.0 / 3.0],             [1.0,                   1.0 / 6.0]],
     &[[0.723_606_797_749_978_9, 5.0 / 12.0],          [1.0,                   1.0 / 12.0]],
     &[[0.5,                   16.0 / 45.0],           [0.827_326_835_353_988_5, 49.0 / 180.0],          [1.0, 1.0 / 20.0]],
@@ -34,6 +35,20 @@ const UPPER: [&[[f64; 2]]; MOST + 1 - FEWEST] = [
       [0.838_593_139_755_368_9, 0.137_269_356_250_080_85], [0.949_878_997_705_73, 0.082_747_680_780_402_76],
       [1.0, 1.0 / 72.0]],
 ];
+
+/// The nodes and weights of the rule with S + 1 nodes, but for the first, which is 0 and has the weight of
+/// the last. They are the extrema of P_S: each gap between two of its zeros has one.
+pub(in crate::methods) fn extrema<const S: usize>() -> [[f64; 2]; S] {
+    let upper = UPPER[S - 1];
+    core::array::from_fn(|i| {
+        let (node, mirrored) = (i + 1, S - 1 - i);
+        if let Some(&extremum) = upper.iter().rev().nth(mirrored) {
+            return extremum;
+        }
+        let [c, b] = upper[upper.len() - 1 - node];
+        [1.0 - c, b]
+    })
+}
 
 /// Nodes and weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +74,7 @@ impl<const S: usize> Lobatto<S> {
 
     pub(in crate::methods) fn new() -> Self {
         const { assert!(S >= FEWEST && S <= MOST, "interior displacements are available with 3 to 9 nodes") };
-        let (upper, mut new) = (UPPER[S - FEWEST], Self { c: [0.0; S], b: [0.0; S] });
+        let (upper, mut new) = (UPPER[S - 2], Self { c: [0.0; S], b: [0.0; S] });
         for (place, &[c, b]) in upper.iter().rev().enumerate() {
             // Below the centre a node would have finer digits than 2⁻⁵³; it is what that above leaves of 1.
             new.c[place] = 1.0 - c;

@@ -1,36 +1,52 @@
-//! An estimate of the error of a step of Gauss collocation.
+//! An estimate of the error of a step of Gauss collocation, from its defect all over the step.
 //!
 //! The collocation polynomial u, of degree S, leaves the defect d = X(u, t) − u', which vanishes at the nodes. By the formula of
 //! Alekseev & Gröbner (Hairer, Nørsett & Wanner 1993, theorem I.14.5) the error at the end of the step is, to first order,
 //!
-//! h ∫₀¹ R(s) d(s) ds
+//! h ∫₀¹ R(s) d(s) ds = h Σₖ Rₖ mₖ,    mₖ = ∫₀¹ Pₖ(s) d(s) ds
 //!
-//! with the derivative R of the flow from s to the end. Of both factors the S-th Legendre polynomial P_S is what counts: d = dₛP_S + …
-//! since it vanishes at the zeros of P_S, and what R has below the degree S is orthogonal to that. As ∫P_S² = 1/(2S+1), the error is
+//! with the derivative R of the flow from s to the end, and its coefficients Rₖ in Legendre polynomials Pₖ.
+//! The defect is taken at the S + 1 extrema of P_S: at both ends of the step, and once in each gap between
+//! two nodes. With the nodes, where it vanishes, they are a rule of degree 2S,
 //!
-//! h Rₛdₛ/(2S+1),    with the coefficients Rₛ of R and dₛ of d.
+//! mₖ = S/(2S+1) Σⱼ bⱼ Pₖ(sⱼ) d(sⱼ),    k = 0 … S,
 //!
-//! At the start of the step |P_S| = 1, so |dₛ| is |d(0)| = |X(y, t) − u'(0)| but for terms of higher order. Rₛ is not computed: R follows
-//! the derivative of X, and where X is as 1/r and its S-th coefficient, relative to X, as (ṙh/r)ˢ, that of its derivative is S + 1 times
-//! that. So d(0) is taken for both:
+//! with the weights b of Lobatto's rule: m₀ is S/(2S+1) times what this rule and that of Gauss differ by, an
+//! embedded formula. Where X is smooth d is nearly a multiple of P_S, mₖ is of order h²ˢ⁻ᵏ and Rₖ of order
+//! hᵏ, so that all terms are of the order h²ˢ⁺¹ that the error has. Where X has a jump or a kink in the step,
+//! m₀ is as large as d, and the error is about h m₀.
 //!
-//! |error| ≈ (S+1)/(2S+1) · max|d(0)|/max|X| · h |d(0)|
+//! Rₖ is not computed. R follows the derivative of X, and where X is as 1/r and its S-th coefficient,
+//! relative to X, as (ṙh/r)ˢ, that of its derivative is S + 1 times that. So with the largest defect over
+//! the largest slope for the former
 //!
-//! The estimate is of order h²ˢ⁺¹, as the error is, and costs one evaluation of X.
+//! |error| ≈ h Σₖ ρᵏ |mₖ|,    ρˢ = (S+1) max|d|/max|X|
+//!
+//! It costs S + 1 evaluations of X. A change of X that comes and goes between two of these 2S + 1 points is
+//! seen by none of them.
 
 use super::GaussMemory;
+use super::memory::first_part;
 use crate::error::StepFailure;
-use crate::mechanics::motion::FirstOrder;
+use crate::mechanics::motion::{AtStages, FirstOrder, Slopes, StageEvaluation};
+use crate::methods::Clock;
+use crate::methods::collocation::packs::{combine, sum};
+use crate::methods::collocation::steps::Steps;
 use crate::methods::tolerance::{Tolerance, in_units_of};
-use crate::scalar::norm;
+use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
 use crate::{Real, Scalar, System};
 
+/// Of the largest momentum of late, what is kept from step to step.
+const FORGETTING: f64 = 0.9;
+
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
-    /// The estimated error of the step that has been taken last, from time `t` with length `h`, in units of `tolerance`. A step that begins at
-    /// rest makes all of its momentum, and is as wrong in it however short it is, where a force begins as a power of the time: so the
-    /// momentum is meant that this force makes in a step of the usual length.
-    pub(super) fn local_error(
+    /// The estimated error of the step that has been taken last, from time `t` with length `h`, in units of
+    /// `tolerance`. The momentum is meant that there was of late, also where it is zero for a moment. A step
+    /// that begins at rest makes all of its momentum, and is as wrong in it however short it is, where a
+    /// force begins as a power of the time: so the momentum is meant that this force makes in a step of the
+    /// usual length.
+    pub(super) fn local_error<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
         system: &S,
         t: T,
@@ -38,38 +54,120 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
+        let mut error = T::lift(0.0);
+        E::run(Steps::new(
+            Clock::new(t, h),
+            1,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |interval| {
+                self.evaluate_defects::<E>(system, interval, statistics)?;
+                error = self.estimate([h, usual], tolerance)?;
+                Ok(())
+            },
+        ))
+        .1?;
+        Ok(error)
+    }
+
+    /// Sets `increment` to the defect at the start of the step, and `slopes` to those at the other extrema,
+    /// but for those of q where q' = p/m: there the defect is a multiple of P_S.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluate_defects<E: StageEvaluation<STAGES, S, T>>(
+        &mut self,
+        system: &S,
+        [t, h]: [T; 2],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
         self.set_velocities();
-        let Self { equations, coefficients, slopes, y, increment: defect, next, .. } = self;
-        S::Kind::evaluate(equations, system, y, t, defect, statistics)?;
-        let at_start = coefficients.at_start();
-        let zero = T::lift(0.0);
-        let (mut relative, mut largest) = (zero, zero);
-        for part in 0..y.len() {
-            norm::finite(&defect[part])?;
-            let mut speed = zero;
-            for (defect, slopes) in defect[part].iter_mut().zip(slopes[part].iter()) {
-                let continued = slopes.0.iter().zip(&at_start).fold(zero, |sum, (&k, &l)| sum + l * k);
-                speed = norm::larger(speed, norm::largest(&slopes.0));
-                *defect = h * (*defect - continued);
-            }
-            let increment = Scalar::abs(h) * speed;
-            relative = norm::larger(relative, in_units_of(&defect[part], |_| increment));
-            let size = |j: usize| norm::larger(Scalar::abs(y[part][j]), Scalar::abs(next[part][j]));
-            let error = if part == 0 {
-                in_units_of(&defect[part], |j| tolerance.of_coordinate(size(j)))
-            } else {
-                let most = norm::larger(norm::largest(&y[part]), norm::largest(&next[part]));
-                let is_at_rest = norm::largest(&y[part]) == zero;
-                let made = if is_at_rest {
-                    norm::larger(Scalar::abs(h), Scalar::abs(usual)) * speed
-                } else {
-                    increment
-                };
-                let allowed = tolerance.of_momentum(most + made);
-                in_units_of(&defect[part], |_| allowed)
-            };
-            largest = norm::larger(largest, error);
+        let Self { equations, coefficients, completed, slopes, terms, stages, y, increment, work, .. } = self;
+        let (extrema, first) = (&coefficients.extrema, first_part::<S, T>(equations));
+        S::Kind::evaluate(equations, system, y, t, increment, statistics)?;
+        for part in 0..first {
+            completed[part].copy_from_slice(&slopes[part]);
         }
-        Ok(T::lift((STAGES + 1) as f64 / (2 * STAGES + 1) as f64) * relative * largest)
+        // Forces depend on positions and, where they depend on momenta too, on all parts.
+        let (zero, integrals) =
+            (Lanes::all(T::lift(0.0)), extrema.integrals.map(|column| column * Lanes::all(h)));
+        for part in 0..y.len() - first {
+            combine(&integrals, &completed[part], |k| (y[part][k], zero), &mut stages[part]);
+        }
+        for part in first..y.len() {
+            let at = AtStages { system, y: &*stages, t: Lanes::all(t) + extrema.c * Lanes::all(h) };
+            let (terms, changes) = (&mut terms[part], [T::lift(0.0); STAGES]);
+            let mut renewed = Slopes { slopes, terms, part, weights: zero, changes };
+            E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
+        }
+        for part in 0..y.len() {
+            for (start, slopes) in increment[part].iter_mut().zip(completed[part].iter()) {
+                *start -= sum(&(extrema.at_start * *slopes).0);
+            }
+            if part >= first {
+                for (defects, pack) in slopes[part].iter_mut().zip(completed[part].iter()) {
+                    for (j, &slope) in pack.0.iter().enumerate() {
+                        *defects -= extrema.values[j] * Lanes::all(slope);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The error that the defects lead to, in units of `tolerance`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn estimate(&mut self, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
+        let Self { equations, coefficients, completed, slopes, y, increment, next, .. } = &*self;
+        let (extrema, first, last) = (&coefficients.extrema, first_part::<S, T>(equations), y.len() - 1);
+        let [zero, one] = [0.0, 1.0].map(T::lift);
+        let largest_of = |packs: &[Lanes<STAGES, T>]| {
+            packs.iter().fold(zero, |most, pack| norm::larger(most, norm::largest(&pack.0)))
+        };
+        let sizes = [0, last].map(|part| {
+            let at_start = norm::largest(&increment[part]);
+            let defect =
+                if part < first { at_start } else { norm::larger(at_start, largest_of(&slopes[part])) };
+            [defect, norm::larger(defect, largest_of(&completed[part]))]
+        });
+        let mut relative = zero;
+        for (part, [defect, speed]) in sizes.into_iter().enumerate().take(y.len()) {
+            norm::finite(&increment[part])?;
+            relative = norm::larger(relative, in_units_of(&[defect], |_| speed));
+        }
+        let last_power = T::lift((STAGES + 1) as f64) * relative;
+        let (rho, mut powers) = (Scalar::powf(last_power, T::lift(1.0 / STAGES as f64)), [one; STAGES]);
+        for k in 1..STAGES {
+            powers[k] = powers[k - 1] * rho;
+        }
+        let length = Scalar::abs(h);
+        let [before, after] = [&y[last], &next[last]].map(|momenta| norm::largest(momenta));
+        let during = if before == zero { norm::larger(length, Scalar::abs(usual)) } else { length };
+        let present = norm::larger(before, after) + sizes[1][1] * during;
+        let momentum = norm::larger(present, T::lift(FORGETTING) * self.momentum);
+        let mut largest = zero;
+        for (part, [_, speed]) in sizes.into_iter().enumerate().take(y.len()) {
+            let rounding = T::default_epsilon() * speed;
+            for (j, &start) in increment[part].iter().enumerate() {
+                let moments = if part < first {
+                    last_power * Scalar::abs(start) * T::lift(1.0 / (2 * STAGES + 1) as f64)
+                } else {
+                    let defects = slopes[part][j];
+                    let mut moments = extrema.moments_of_start * Lanes::all(start);
+                    for (column, &defect) in extrema.moments.iter().zip(&defects.0) {
+                        moments += *column * Lanes::all(defect);
+                    }
+                    let (of_points, of_start) = extrema.last_moment;
+                    let last_moment = of_start * start + sum(&(of_points * defects).0);
+                    let terms: [T; STAGES] = core::array::from_fn(|k| powers[k] * Scalar::abs(moments.0[k]));
+                    sum(&terms) + last_power * Scalar::abs(last_moment)
+                };
+                let error = h * norm::larger(zero, moments - rounding);
+                let allowed = match part {
+                    0 => tolerance.of_coordinate(norm::larger(Scalar::abs(y[0][j]), Scalar::abs(next[0][j]))),
+                    _ => tolerance.of_momentum(momentum),
+                };
+                largest = norm::larger(largest, in_units_of(&[error], |_| allowed));
+            }
+        }
+        self.momentum = momentum;
+        Ok(largest)
     }
 }

@@ -29,9 +29,11 @@ pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
     pub(super) equations: EquationsOf<S, T>,
     pub(super) coefficients: Coefficients<STAGES, T>,
     /// The slopes K of the last completed step.
-    completed: StagesOf<STAGES, S, T>,
+    pub(super) completed: StagesOf<STAGES, S, T>,
     /// The length of that step; zero before the first.
     last: T,
+    /// The largest momentum of late, as far as errors have been estimated.
+    pub(super) momentum: T,
     /// What rounding has left out of y, if sums are compensated.
     pub(super) rest: PointOf<S, T>,
     pub(super) slopes: StagesOf<STAGES, S, T>,
@@ -44,13 +46,13 @@ pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
     pub(super) next: PointOf<S, T>,
     /// In which the iteration judges coordinates.
     pub(super) weights: Vector<S, T>,
-    work: StageWork<STAGES, S, T>,
+    pub(super) work: StageWork<STAGES, S, T>,
 }
 
 type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
 
 impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
-    lasting!(T; part equations, packs completed, number last, part rest);
+    lasting!(T; part equations, packs completed, number last, number momentum, part rest);
 }
 
 impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for GaussMemory<STAGES, S, T> {
@@ -75,6 +77,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
             coefficients: Coefficients::new(),
             completed,
             last: T::lift(0.0),
+            momentum: T::lift(0.0),
             rest,
             slopes,
             terms,

@@ -284,6 +284,29 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoStep<S, T> {
         self.aim(system, method, q);
     }
 
+    /// Prepares a step that is a part of one of the length `whole`. On a smooth orbit the defect is of first
+    /// order in that length and, if σ = ½, of second, so that its first term is taken for the whole.
+    pub(super) fn shorten(
+        &mut self,
+        step: &Step<'_, S, T>,
+        q: &Vector<S, T>,
+        whole: T,
+    ) -> Result<(), StepFailure> {
+        let Step { system, method, t, h } = *step;
+        if S::AFFINE {
+            let (matrix, unused) = (fixed_point_matrix::<S, T>(method, h), &mut Statistics::default());
+            self.inverse.prepare(system, q, t, matrix, &mut self.work.trial, unused)?;
+            self.scale = fixed_point_scale(method, h);
+        }
+        let part = h / whole;
+        let factor = if method.is_midpoint() { part * part } else { part };
+        self.defect.iter_mut().for_each(|c| *c *= factor);
+        self.ladder.begin_again();
+        self.work.increment.fill(T::lift(0.0));
+        self.aim(system, method, q);
+        Ok(())
+    }
+
     /// Takes one step from `q`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn step(

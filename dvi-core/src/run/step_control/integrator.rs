@@ -5,11 +5,12 @@ use core::fmt;
 use super::{ControlledRun, ErrorControl, Reversible, StepControl, reversible};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
-use crate::error::{StartError, StepError};
+use crate::error::{StartError, StepError, StepFailure};
 use crate::methods::{Carries, VariableStep};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
 use crate::run::{Run, Stepper};
+use crate::scalar::norm::reported;
 use crate::state::memory::{Memory, lasting};
 use crate::system::start::{evaluate, flatten, named, validate, velocities};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
@@ -196,14 +197,20 @@ where
     M: VariableStep<S, T>,
 {
     /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the rounding of the time. Nothing is
-    /// allocated. A time that the run has reached or passed, in the direction of [its next step](super::ErrorControlMemory::next_step), or that
-    /// is not finite, takes no step.
+    /// allocated. The present time takes no step.
     ///
     /// # Errors
+    /// [`StepFailure::Unreachable`] if `t` is past, in the direction of [the next
+    /// step](super::ErrorControlMemory::next_step), or not finite; the run can go on to another time.
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
     pub fn advance_to(&mut self, t: T) -> Result<(), StepError> {
-        if !t.is_finite() {
-            return Ok(());
+        let now = self.time();
+        // A run that has come to a time may have passed it by rounding.
+        let rounding = T::lift(2.0) * T::default_epsilon() * (Scalar::abs(t) + Scalar::abs(self.h));
+        if !t.is_finite() || !(self.is_before(t) || Scalar::abs(now - t) <= rounding) {
+            let [now, target] = [now, t].map(reported);
+            let failure = StepFailure::Unreachable { now, target };
+            return Err(StepError { step: self.steps(), time: now, failure });
         }
         self.control_memory.set_end(Some(t));
         let result = self.steps_to(t);
@@ -211,16 +218,17 @@ where
         result
     }
 
+    /// Whether time `t` lies ahead, in the direction of the run.
+    fn is_before(&self, t: T) -> bool {
+        let now = self.time();
+        if self.control_memory.next_step() > T::lift(0.0) { now < t } else { now > t }
+    }
+
     fn steps_to(&mut self, t: T) -> Result<(), StepError> {
-        let forward = self.control_memory.next_step() > T::lift(0.0);
-        loop {
-            let now = self.time();
-            let is_ahead = if forward { now < t } else { now > t };
-            if !is_ahead || now + (t - now) == now {
-                return Ok(());
-            }
+        while self.is_before(t) && self.time() + (t - self.time()) != self.time() {
             self.step()?;
         }
+        Ok(())
     }
 }
 
