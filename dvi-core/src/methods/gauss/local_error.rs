@@ -18,7 +18,7 @@
 //!
 //! The estimate is of order h²ˢ⁺¹, as the error is, and costs one evaluation of X.
 
-use super::GaussMemory;
+use super::memory::Path;
 use crate::error::StepFailure;
 use crate::mechanics::motion::FirstOrder;
 use crate::methods::tolerance::{Tolerance, in_units_of};
@@ -26,7 +26,7 @@ use crate::scalar::norm;
 use crate::state::Statistics;
 use crate::{Real, Scalar, System};
 
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
     /// The estimated error of the step that has been taken last, from time `t` with length `h`, in units of `tolerance`. A step that begins at
     /// rest makes all of its momentum, and is as wrong in it however short it is, where a force begins as a power of the time: so the
     /// momentum is meant that this force makes in a step of the usual length.
