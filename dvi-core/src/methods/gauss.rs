@@ -47,8 +47,9 @@ pub use memory::GaussMemory;
 /// and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all quadratic momenta. The stages are found
 /// by a fixed point, which contracts if h is small against the fastest time scale only. It begins on the polynomial through the stages of
 /// the last step and, where that does not lead to a step, once more from the slope at the start. Where neither does, Newton's
-/// method solves for the velocities of all stages at once, with the second derivatives of L: it stands by with about `S`² n² numbers
-/// for n coordinates.
+/// method solves for the velocities of all stages at once, with the second derivatives of L: `S`² n² numbers stand by for n coordinates.
+/// Where n is known when compiled, and they would take more than 128 kilobytes of the stack, and for a fast sum over pairs,
+/// [`Solver::Automatic`] is [`Solver::FixedPoint`].
 ///
 /// Where L = ½ v·M v − V(q, t) with a constant diagonal M, and forces have no velocities in them, the velocities of the stages are
 /// eliminated, and only positions are iterated (Antoñana, Makazaga & Murua 2025): it is the same method, in fewer operations.
@@ -224,26 +225,19 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
         E: StageEvaluation<STAGES, S, T>,
     {
-        let Self { stopping, summation, .. } = *self;
-        let GaussMemory { ladder, path } = memory;
-        ladder.solve(
-            &mut (path, q),
-            statistics,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            |(path, q), statistics| {
-                let mut guess = Guess::Continued;
-                loop {
-                    match self.attempt(system, path, q, [t, h], guess, statistics) {
-                        Err(_) if guess == Guess::Continued && !path.is_first() => guess = Guess::Constant,
-                        result => return result,
-                    }
+        let tried = if memory.ladder.tries_fixed_point() {
+            let (path, mut guess) = (&mut memory.path, Guess::Continued);
+            loop {
+                match self.attempt(system, path, q, [t, h], guess, statistics) {
+                    Ok(()) => return Ok(()),
+                    Err(_) if guess == Guess::Continued && !path.is_first() => guess = Guess::Constant,
+                    failed => break failed,
                 }
-            },
-            |(path, q), newton, guess, statistics| {
-                newton.solve(system, path, q, [t, h], guess, stopping, statistics)?;
-                path.arrive(0, summation, system, q, t, h)
-            },
-        )
+            }
+        } else {
+            Err(StepFailure::NO_MATRIX)
+        };
+        memory.step_by_newton(tried, system, q, [t, h], (self.stopping, self.summation), statistics)
     }
 
     /// The same by the fixed point, with stages that begin at a guess.

@@ -6,7 +6,7 @@
 //! Corrections are measured by what they do to the stages, h Σⱼ aᵢⱼ δVⱼ: where forces are stiff, the velocities have the rounding errors
 //! of positions times (hA)⁻¹, which is 273/h of eight stages, and a step does not see them.
 
-use super::memory::Path;
+use super::memory::{GaussMemory, Path};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, Motion, PointOf, weigh};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
@@ -17,6 +17,7 @@ use crate::solve::{Convergence, Guess, Solver, Stopping, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing};
 use crate::state::Statistics;
 use crate::state::memory::Aside;
+use crate::state::summation::Summation;
 use crate::{Coupled, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// A matrix of fixed size is made on the stack, where threads have two megabytes, and without optimisation in some copies.
@@ -42,6 +43,7 @@ pub(super) struct NewtonStages<const STAGES: usize, S: System<Kind: Motion<S, T>
 pub(super) fn solver<const STAGES: usize, S: System, T: Real>(solver: Solver) -> Result<Solver, StartError> {
     match solver {
         Solver::FixedPoint => {}
+        Solver::Automatic if S::FAST_SUM => return Ok(Solver::FixedPoint),
         _ if size_of::<Coupled<STAGES, S, T>>() <= MOST_BYTES => {}
         Solver::Automatic => return Ok(Solver::FixedPoint),
         Solver::Newton | Solver::NewtonKrylov => {
@@ -77,13 +79,43 @@ where
     storage
 }
 
+impl<const STAGES: usize, S, T: Real> GaussMemory<STAGES, S, T>
+where
+    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
+{
+    /// Takes a step from t to t + h, if Newton's method stands by the fixed point, which has been `tried` or is not to be.
+    ///
+    /// # Errors
+    /// Those of Newton's method, or else of the fixed point.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn step_by_newton(
+        &mut self,
+        tried: Result<(), StepFailure>,
+        system: &S,
+        q: &mut Vector<S, T>,
+        [t, h]: [T; 2],
+        (stopping, summation): (Stopping, Summation),
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { ladder, path } = self;
+        ladder.solve(
+            &mut (path, q),
+            statistics,
+            |_, _| tried,
+            |(path, q), newton, guess, statistics| {
+                newton.solve(system, path, q, [t, h], guess, stopping, statistics)?;
+                path.arrive(0, summation, system, q, t, h)
+            },
+        )
+    }
+}
+
 impl<const STAGES: usize, S, T: Real> NewtonStages<STAGES, S, T>
 where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
     /// Finds the slopes of the step from `q`.
-    #[cold]
-    #[inline(never)]
     #[allow(clippy::too_many_arguments)]
     pub(super) fn solve(
         &mut self,
