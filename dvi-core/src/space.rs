@@ -87,9 +87,10 @@ pub trait Space: Copy + Debug + PartialEq {
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Linear<T>;
-    /// A solver of linear equations for `NODES` − 1 vectors, coupled by blocks with these entries.
+    /// A solver of linear equations for the last `unknown` of `NODES` vectors, coupled by blocks with these entries.
     fn coupled<const NODES: usize, T: Real>(
         self,
+        unknown: usize,
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T>;
@@ -233,6 +234,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn coupled<const NODES: usize, T: Real>(
         self,
+        _unknown: usize,
         _storing: Storing,
         _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T> {
@@ -338,10 +340,11 @@ impl Space for RunTime {
     }
     fn coupled<const NODES: usize, T: Real>(
         self,
+        unknown: usize,
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T> {
-        RunTimeCoupled::new(self, NODES, storing, entries)
+        RunTimeCoupled::new(self, unknown, storing, entries)
     }
     fn permutation(self) -> Self::Permutation {
         alloc::vec![0; self.dimension]

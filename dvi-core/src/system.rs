@@ -128,6 +128,9 @@ pub trait System {
     /// Whether [forces](Lagrangian::applied_force) act on the system.
     const FORCED: bool = false;
 
+    /// Whether second derivatives take a sum over all pairs, where first ones take a fast sum.
+    const FAST_SUM: bool = false;
+
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
     /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`.

@@ -23,6 +23,10 @@ const KEPLER: Kepler = Kepler { mu: 1.0 };
 #[derive(Clone, Debug)]
 struct Polar;
 
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - 1e6 * x * x / 2.0)]
+#[derive(Clone, Debug)]
+struct Stiff;
+
 /// As a text, and back.
 fn written_and_read(checkpoint: &Checkpoint) -> Result<Checkpoint, serde_json::Error> {
     let read = serde_json::from_str(&serde_json::to_string(checkpoint)?)?;
@@ -104,6 +108,12 @@ fn degenerate_runs_go_on() -> Outcome {
     };
     check(&vortices, method, start)?;
     check(&vortices, Gauss::<2>::new(), start)?;
+    check(&vortices, Gauss { solver: Solver::Newton, ..Gauss::<2>::new() }, start)?;
+    check(
+        &Curved { kappa: 0.3 },
+        Gauss { solver: Solver::Newton, ..Gauss::<2>::new() },
+        CurvedState { x: 0.4, y: 0.1 },
+    )?;
     check(&vortices, RungeKutta::midpoint(), start)?;
     let prey = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
     for method in [OneStep::midpoint(), OneStep::trapezoid(), OneStep::scheme_a(), OneStep::scheme_b()] {
@@ -142,6 +152,9 @@ fn regular_runs_go_on() -> Outcome {
     check(&Polar, Galerkin::<3>::new(), particle)?;
     check(&KEPLER, Gauss::<2>::new(), planet)?;
     check(&KEPLER, RungeKutta::classical(), planet)?;
+    // The fixed point does not contract, and is tried again after some steps.
+    check(&Stiff, Gauss::<2>::new(), StiffState { x: 0.7, dot_x: 0.2 })?;
+    check(&Polar, Gauss { solver: Solver::Newton, ..Gauss::<2>::new() }, particle)?;
     check(&Polar, Gauss::<2>::new(), PolarState { dot_phi: 1.9, ..particle })?;
     check(&Polar, RungeKutta::classical(), particle)?;
     let fast = regular::RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };

@@ -20,6 +20,7 @@ mod forces;
 mod galerkin;
 mod gauges;
 mod gauss_guesses;
+mod gauss_newton;
 mod general_step;
 mod impacts;
 mod lanes;

@@ -67,6 +67,7 @@ fn every_sigma_is_of_second_order_on_vortices() -> Outcome {
 #[test]
 fn baselines_have_their_orders_on_vortices() -> Outcome {
     let coarse = [32, 48, 64, 96];
+    let by_newton = Gauss { solver: Solver::Newton, ..Gauss::<3>::new() };
     for (order, expected, name) in [
         (
             observed(chaotic(), General::new(Symmetrised { alpha: 0.25 }), 2.0, [256, 512, 1024, 2048])?,
@@ -79,6 +80,7 @@ fn baselines_have_their_orders_on_vortices() -> Outcome {
         (observed(chaotic(), Gauss::<1>::new(), 2.0, coarse)?, 2.0, "Gauss 1"),
         (observed(chaotic(), Gauss::<2>::new(), 2.0, coarse)?, 4.0, "Gauss 2"),
         (observed(chaotic(), Gauss::<3>::new(), 2.0, [12, 16, 24, 32])?, 6.0, "Gauss 3"),
+        (observed(chaotic(), by_newton, 2.0, [12, 16, 24, 32])?, 6.0, "Gauss 3, Newton"),
     ] {
         assert!((order - expected).abs() < 0.05, "{name}: {order}");
     }

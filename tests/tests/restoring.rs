@@ -62,6 +62,7 @@ fn degenerate_runs_go_on_from_a_copy() -> Outcome {
         }
     }
     check(&vortices, Gauss::<2>::new(), &start, &[])?;
+    check(&vortices, Gauss { solver: Solver::Newton, ..Gauss::<2>::new() }, &start, &[])?;
     check(&vortices, RungeKutta::midpoint(), &start, &[])?;
     let prey = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
     for method in [OneStep::midpoint(), OneStep::trapezoid(), OneStep::scheme_a(), OneStep::scheme_b()] {
@@ -95,6 +96,7 @@ fn regular_runs_go_on_from_a_copy() -> Outcome {
     check(&Polar, Galerkin::<3>::new(), &q, &v)?;
     check(&KEPLER, Gauss::<2>::new(), &q, &v)?;
     check(&Polar, Gauss::<2>::new(), &q, &[0.1, 1.9])?;
+    check(&Polar, Gauss { solver: Solver::Newton, ..Gauss::<2>::new() }, &q, &[0.1, 1.9])?;
     check(&Polar, RungeKutta::midpoint(), &q, &v)?;
     let summation = Summation::Compensated;
     check(&KEPLER, Newmark { summation, ..Newmark::new(0.25) }, &q, &v)?;

@@ -5,6 +5,7 @@
 //! depend on time in α, H and L, have masses that depend on q, magnetic terms, and L that is no
 //! polynomial in v; steps go forwards and backwards and begin at t ≠ 0.
 
+mod collocation;
 mod degenerate;
 mod displaced;
 mod equations;

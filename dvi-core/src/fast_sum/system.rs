@@ -24,6 +24,7 @@ impl<S: System, const D: usize> System for FastSum<'_, S, D> {
     const TIME_TRANSFORMED: bool = S::TIME_TRANSFORMED;
     const AUTONOMOUS: bool = S::AUTONOMOUS;
     const FORCED: bool = S::FORCED;
+    const FAST_SUM: bool = true;
 
     fn space(&self) -> S::Space {
         self.system.space()

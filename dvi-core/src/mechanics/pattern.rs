@@ -53,15 +53,15 @@ pub(crate) fn of_entries<S: Lagrangian<T>, T: Real>(
     system.space().square(|visit| visit_entries(system, [q, v], t, weights, counts, visit))
 }
 
-/// The same for several vectors at once.
+/// The same for the last `unknown` of several vectors at once.
 pub(crate) fn coupled_by_second_derivatives<const NODES: usize, S: Lagrangian<T>, T: Real>(
     system: &S,
-    q: &[T],
-    v: &[T],
+    points: [&[T]; 2],
     t: T,
+    unknown: usize,
     storing: Storing,
 ) -> Coupled<NODES, S, T> {
-    system.space().coupled(storing, |visit| visit_second_derivatives(system, [q, v], t, visit))
+    system.space().coupled(unknown, storing, |visit| visit_second_derivatives(system, points, t, visit))
 }
 
 fn visit_entries<S: Lagrangian<T>, T: Real>(

@@ -4,7 +4,8 @@
 //!
 //! with c the zeros of the shifted Legendre polynomial (Butcher 1964; Hairer, Lubich & Wanner 2006, section II.1.3), written in
 //! the numbers L so that the step is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2017). The stages are iterated as a
-//! fixed point down to rounding errors, from the collocation polynomial of the last step, continued.
+//! fixed point down to rounding errors, from the collocation polynomial of the last step, continued; where that does not contract,
+//! they are found by Newton's method (the module `newton`).
 //!
 //! Of q'' = M⁻¹f(q, t) with a constant diagonal M only forces are evaluated in the iteration (the module `second_order`).
 //!
@@ -14,6 +15,7 @@
 mod coefficients;
 mod local_error;
 mod memory;
+mod newton;
 mod second_order;
 
 use core::marker::PhantomData;
@@ -23,12 +25,12 @@ use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvalu
 use crate::methods::collocation::MOST;
 use crate::methods::collocation::steps::Steps;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, Tolerance, VariableStep};
-use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
+use crate::solve::{Convergence, Due, Iteration, Ladder, Solver, Stopping, repeat};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
 
-use memory::Guess;
+use memory::{Guess, Path};
 
 pub use memory::GaussMemory;
 
@@ -42,9 +44,11 @@ pub use memory::GaussMemory;
 ///
 /// It is symmetric. On Hamilton's equations of a regular system it preserves dq ∧ dp, and all momenta that are bilinear in q
 /// and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all quadratic momenta. The stages are found
-/// by a fixed point, which contracts if h is small against the fastest time scale only:
-/// [`StepFailure::NotConverged`] where it does not. It begins on the polynomial through the stages of the last step and, where that
-/// does not lead to a step, once more from the slope at the start.
+/// by a fixed point, which contracts if h is small against the fastest time scale only. It begins on the polynomial through the stages of
+/// the last step and, where that does not lead to a step, once more from the slope at the start. Where neither does, Newton's
+/// method solves for the velocities of all stages at once, with the second derivatives of L: `S`² n² numbers stand by for n coordinates.
+/// Where n is known when compiled, and they would take more than 128 kilobytes of the stack, and for a fast sum over pairs,
+/// [`Solver::Automatic`] is [`Solver::FixedPoint`].
 ///
 /// Where L = ½ v·M v − V(q, t) with a constant diagonal M, and forces have no velocities in them, the velocities of the stages are
 /// eliminated, and only positions are iterated (Antoñana, Makazaga & Murua 2025): it is the same method, in fewer operations.
@@ -53,6 +57,8 @@ pub use memory::GaussMemory;
 /// order 16, it is the method for energies that are to be kept to rounding errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gauss<const S: usize, E = OneByOne> {
+    /// How steps are solved.
+    pub solver: Solver,
     /// The criterion by which the stages count as converged. Default: to rounding errors.
     pub stopping: Stopping,
     /// How the increments of the steps are added up. Default: [`Summation::Compensated`]; the stages are then iterated until
@@ -66,7 +72,12 @@ impl<const S: usize> Gauss<S> {
     /// The method with default options. A number of stages below 1 or above 8 does not compile.
     pub fn new() -> Self {
         const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1 to 8 stages") };
-        Self { stopping: Stopping::default(), summation: Summation::Compensated, evaluation: OneByOne }
+        Self {
+            solver: Solver::default(),
+            stopping: Stopping::default(),
+            summation: Summation::Compensated,
+            evaluation: OneByOne,
+        }
     }
 
     /// The same with all stages evaluated at once.
@@ -75,8 +86,8 @@ impl<const S: usize> Gauss<S> {
     /// matrix is constant and diagonal. Of other systems forces and ∇H are, and linear equations are solved stage by stage.
     #[must_use]
     pub fn in_lanes(self) -> Gauss<S, InLanes> {
-        let Self { stopping, summation, .. } = self;
-        Gauss { stopping, summation, evaluation: InLanes }
+        let Self { solver, stopping, summation, .. } = self;
+        Gauss { solver, stopping, summation, evaluation: InLanes }
     }
 }
 
@@ -109,7 +120,10 @@ where
 {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        GaussMemory::begin(system, q, v, t)
+        let path = Path::begin(system, q, v, t)?;
+        let solver = newton::solver::<STAGES, S, T>(self.solver)?;
+        let ladder = Ladder::new(solver, || newton::storage(system, [q, v], t, solver.storing()));
+        Ok(GaussMemory { ladder, path })
     }
 
     #[inline]
@@ -147,7 +161,7 @@ where
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        S::Kind::velocity(&memory.equations, system, q, t, v)
+        S::Kind::velocity(&memory.path.equations, system, q, t, v)
     }
 }
 
@@ -169,7 +183,7 @@ where
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<Option<T>, StepFailure> {
-        memory.local_error::<E>(system, t, lengths, tolerance, statistics).map(Some)
+        memory.path.local_error::<E>(system, t, lengths, tolerance, statistics).map(Some)
     }
 }
 
@@ -185,7 +199,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         statistics: &mut Statistics,
     ) -> (u64, Result<(), StepFailure>)
     where
-        S: System<Kind: FirstOrder<S, T>>,
+        S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
         E: StageEvaluation<STAGES, S, T>,
     {
         E::run(Steps::new(
@@ -207,24 +221,30 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
-        S: System<Kind: FirstOrder<S, T>>,
+        S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
         E: StageEvaluation<STAGES, S, T>,
     {
-        let mut guess = Guess::Continued;
-        loop {
-            match self.attempt(system, memory, q, [t, h], guess, statistics) {
-                Err(_) if guess == Guess::Continued && !memory.is_first() => guess = Guess::Constant,
-                result => return result,
+        let tried = if memory.ladder.tries_fixed_point() {
+            let (path, mut guess) = (&mut memory.path, Guess::Continued);
+            loop {
+                match self.attempt(system, path, q, [t, h], guess, statistics) {
+                    Ok(()) => return Ok(()),
+                    Err(_) if guess == Guess::Continued && !path.is_first() => guess = Guess::Constant,
+                    failed => break failed,
+                }
             }
-        }
+        } else {
+            Err(StepFailure::NO_MATRIX)
+        };
+        memory.step_by_newton(tried, system, q, [t, h], (self.stopping, self.summation), statistics)
     }
 
-    /// The same, with stages that begin at a guess.
+    /// The same by the fixed point, with stages that begin at a guess.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn attempt<S, T: Real>(
         &self,
         system: &S,
-        memory: &mut GaussMemory<STAGES, S, T>,
+        path: &mut Path<STAGES, S, T>,
         q: &mut Vector<S, T>,
         [t, h]: [T; 2],
         guess: Guess,
@@ -235,33 +255,34 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         E: StageEvaluation<STAGES, S, T>,
     {
         let Self { stopping, summation, .. } = *self;
-        S::Kind::gather(&mut memory.equations, q, &mut memory.y);
+        S::Kind::gather(&mut path.equations, q, &mut path.y);
         match guess {
-            Guess::Continued => memory.guess_continued(h),
-            Guess::Constant => memory.guess_constant(system, t, h, statistics)?,
+            Guess::Continued => path.guess_continued(h),
+            Guess::Constant => path.guess_constant(system, t, h, statistics)?,
         }
         // Where equations are of second order, this sets the positions that are guessed.
-        memory.place(h);
+        path.place(h);
         let stopping = match summation {
             Summation::Plain => stopping,
             Summation::Compensated => stopping.exhaustive(),
         };
         let convergence = Convergence::fixed_point(stopping, stopping.max_iterations);
-        let stages: Stages<'_, STAGES, E, S, T> = Stages { system, memory, q, t, h, evaluation: PhantomData };
+        let stages: Stages<'_, STAGES, E, S, T> = Stages { system, path, q, t, h, evaluation: PhantomData };
         repeat(convergence, statistics, stages)?;
         if S::Kind::HAS_VELOCITY_FORCES {
             // Those of the last iteration belong to the velocities before it.
-            memory.reach(0);
-            memory.evaluate_part::<E>(1, system, t, h, statistics)?;
+            path.reach(0);
+            path.evaluate_part::<E>(1, system, t, h, statistics)?;
         }
-        memory.arrive(summation, system, q, t, h)
+        path.displace(h);
+        path.arrive(memory::first_part::<S, T>(&path.equations), summation, system, q, t, h)
     }
 }
 
 /// The stages of a step as they are iterated.
 struct Stages<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
     system: &'a S,
-    memory: &'a mut GaussMemory<STAGES, S, T>,
+    path: &'a mut Path<STAGES, S, T>,
     q: &'a [T],
     t: T,
     h: T,
@@ -277,17 +298,17 @@ where
     /// coordinates: the momenta follow from the velocities.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { system, memory, q, t, h, .. } = self;
-        memory.prepare(due, q, *h);
+        let Self { system, path, q, t, h, .. } = self;
+        path.prepare(due, q, *h);
         if S::Kind::OF_SECOND_ORDER {
-            return memory.improve_places::<E>(system, *t, *h, statistics);
+            return path.improve_places::<E>(system, *t, *h, statistics);
         }
         // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
-        for part in (1..memory.y.len()).rev() {
-            memory.reach((part + 1) % memory.y.len());
-            memory.evaluate_part::<E>(part, system, *t, *h, statistics)?;
+        for part in (1..path.y.len()).rev() {
+            path.reach((part + 1) % path.y.len());
+            path.evaluate_part::<E>(part, system, *t, *h, statistics)?;
         }
-        memory.reach(1 % memory.y.len());
-        memory.evaluate_part::<E>(0, system, *t, *h, statistics)
+        path.reach(1 % path.y.len());
+        path.evaluate_part::<E>(0, system, *t, *h, statistics)
     }
 }

@@ -150,7 +150,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
             p,
             rates: Rates::new(system, [rates]),
             orientation: FormOrientation::new(system, q, t),
-            solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
+            solver: coupled_by_second_derivatives(system, [q, &rest], t, NODES - 1, Storing::Always),
             unknowns: system.space().vectors(),
             residuals: system.space().vectors(),
             weights: vector(),
@@ -335,6 +335,8 @@ struct Linearized<'a, S: System, T: Real> {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S, T> {
+    const FIRST: usize = 1;
+
     fn place(&mut self, j: usize) {
         self.node = j;
     }

@@ -69,14 +69,14 @@ pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T
     sums: &mut [T],
 ) -> Result<T, StepFailure> {
     let mut largest = T::lift(0.0);
-    for (r, vector) in vectors.iter().enumerate().skip(1) {
+    for (r, vector) in vectors.iter().enumerate().skip(M::FIRST) {
         sums.fill(T::lift(0.0));
         let sums = RefCell::new(&mut *sums);
         let add = |i: usize, j: usize, entry: T| sums.borrow_mut()[i] += Scalar::abs(entry * size(j));
         for node in 0..NODES {
             matrix.place(node);
             let of = |weight: fn(&Weights<T>) -> T| {
-                (1..NODES).fold(T::lift(0.0), |sum, k| sum + Scalar::abs(weight(&matrix.weights(r, k))))
+                (M::FIRST..NODES).fold(T::lift(0.0), |sum, k| sum + Scalar::abs(weight(&matrix.weights(r, k))))
             };
             let [qq, qv, vq, vv] = [of(|w| w.qq), of(|w| w.qv), of(|w| w.vq), of(|w| w.vv)];
             matrix.second_derivatives(

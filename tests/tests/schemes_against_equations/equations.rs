@@ -7,6 +7,11 @@ use num_dual::Dual64;
 /// A Lagrangian in plain Rust.
 pub(crate) trait Formula {
     fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T;
+
+    /// The forces on the first coordinates; there are none on the others.
+    fn force(&self, _q: &[f64], _v: &[f64], _t: f64) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 /// Nodes, weights, and the frequency of the interpolation, 0 for a linear one.

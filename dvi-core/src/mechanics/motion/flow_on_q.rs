@@ -5,10 +5,11 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
 use crate::scalar::{Lanes, norm};
+use crate::space::sink::Product;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::system::Degenerate;
-use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
+use crate::{DegenerateLagrangian, Real, Scalar, Sink, Space, System, Vector, Weights};
 
 /// The equations of motion of a degenerate system, on Q.
 #[derive(Debug)]
@@ -64,6 +65,44 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         equations.field.evaluate(system, &y.0[0], t, out, statistics)
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {
+        let one = T::lift(1.0);
+        system.flow_source(q, t, force);
+        for (residual, &source) in residual.iter_mut().zip(force.iter()) {
+            *residual = -source;
+        }
+        system.one_form_jacobian(q, t, -one, one, &mut Product { x: v, sum: residual });
+    }
+    fn newton_weights([of_row, of_column]: [bool; 2], [_, after]: [T; 2]) -> Weights<T> {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let omega = if of_column { one } else { zero };
+        if of_row {
+            Weights { qq: after, qv: omega, vq: -omega, vv: -after }
+        } else {
+            Weights { qq: zero, qv: zero, vq: zero, vv: zero }
+        }
+    }
+    /// The rate of Dα is a third derivative of L, and a difference here, to half of the digits: Newton's method gains as many in each
+    /// iteration.
+    fn newton_matrix<K: Sink<T>>(
+        system: &S,
+        [q, v]: [&[T]; 2],
+        [t, h]: [T; 2],
+        [later, _]: &mut [Vector<S, T>; 2],
+        sink: &mut K,
+    ) {
+        if S::AFFINE {
+            return;
+        }
+        let (zero, difference) = (T::lift(0.0), Scalar::sqrt(T::default_epsilon()) * h);
+        let per_time = T::lift(1.0) / difference;
+        for ((later, &q), &v) in later.iter_mut().zip(q).zip(v) {
+            *later = q + difference * v;
+        }
+        system.one_form_jacobian(q, t, -per_time, zero, sink);
+        system.one_form_jacobian(later, t + difference, per_time, zero, sink);
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn compare(

@@ -131,6 +131,8 @@ struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real, E> {
 impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E> NodeSum<NODES, T>
     for Linearized<'_, '_, NODES, S, F, T, E>
 {
+    const FIRST: usize = 1;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, j: usize) {
         let Self { step, rule, coefficients, unknowns, node: [point, velocity, ..], .. } = self;

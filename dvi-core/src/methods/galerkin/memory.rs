@@ -127,11 +127,11 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
 #[inline(never)]
 fn newton_matrix<const NODES: usize, S: Lagrangian<T>, T: Real>(
     system: &S,
-    [q, v]: [&[T]; 2],
+    points: [&[T]; 2],
     t: T,
     storing: Storing,
 ) -> Aside<Coupled<NODES, S, T>> {
-    let matrix = coupled_by_second_derivatives(system, q, v, t, storing);
+    let matrix = coupled_by_second_derivatives(system, points, t, NODES - 1, storing);
     #[cfg(feature = "alloc")]
     let matrix = Aside::new(matrix);
     matrix

@@ -25,8 +25,7 @@
 //! It costs S + 1 evaluations of X. A change of X that comes and goes between two of these 2S + 1 points is
 //! seen by none of them.
 
-use super::GaussMemory;
-use super::memory::first_part;
+use super::memory::{Path, first_part};
 use crate::error::StepFailure;
 use crate::mechanics::motion::{AtStages, FirstOrder, Slopes, StageEvaluation};
 use crate::methods::Clock;
@@ -40,7 +39,7 @@ use crate::{Real, Scalar, System};
 /// Of the largest momentum of late, what is kept from step to step.
 const FORGETTING: f64 = 0.9;
 
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
     /// The estimated error of the step that has been taken last, from time `t` with length `h`, in units of
     /// `tolerance`. The momentum is meant that there was of late, also where it is zero for a moment. A step
     /// that begins at rest makes all of its momentum, and is as wrong in it however short it is, where a
@@ -79,7 +78,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.set_velocities();
-        let Self { equations, coefficients, completed, slopes, terms, stages, y, increment, work, .. } = self;
+        let Self { equations, coefficients, completed, slopes, terms, stages, y, increment, weights: units, work, .. } = self;
         let (extrema, first) = (&coefficients.extrema, first_part::<S, T>(equations));
         S::Kind::evaluate(equations, system, y, t, increment, statistics)?;
         for part in 0..first {
@@ -94,7 +93,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         for part in first..y.len() {
             let at = AtStages { system, y: &*stages, t: Lanes::all(t) + extrema.c * Lanes::all(h) };
             let (terms, changes) = (&mut terms[part], [T::lift(0.0); STAGES]);
-            let mut renewed = Slopes { slopes, terms, part, weights: zero, changes };
+            let mut renewed = Slopes { slopes, terms, part, weights: zero, units, changes };
             E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
         }
         for part in 0..y.len() {

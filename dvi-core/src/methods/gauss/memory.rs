@@ -3,19 +3,20 @@
 use core::fmt;
 
 use super::coefficients::Coefficients;
+use super::newton::NewtonStages;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
     AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, Slopes, StageEvaluation, StageWork, weigh,
 };
 use crate::methods::collocation::packs::{combine, largest_of, sum};
 use crate::scalar::Lanes;
-use crate::solve::Due;
+use crate::solve::{Due, Ladder};
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
+use crate::state::memory::{Aside, Memory, lasting};
 use crate::state::summation::{Summation, left_out};
 use crate::{Real, Space, System, Vector};
 
-/// The slopes of all stages before the first iteration.
+/// The slopes of all stages before the first iteration of the fixed point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Guess {
     /// On the polynomial through those of the last step. Where they have a kink it leads far away, out of the domain of L too.
@@ -26,6 +27,12 @@ pub(super) enum Guess {
 
 /// The stages of a Gauss step, and those of the step before.
 pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    pub(super) ladder: Ladder<Aside<NewtonStages<STAGES, S, T>>>,
+    pub(super) path: Path<STAGES, S, T>,
+}
+
+/// Where the run is, and the polynomial on which it goes on from there.
+pub(super) struct Path<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     pub(super) equations: EquationsOf<S, T>,
     pub(super) coefficients: Coefficients<STAGES, T>,
     /// The slopes K of the last completed step.
@@ -52,16 +59,20 @@ pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
 type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
 
 impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
+    lasting!(T; part path, part ladder);
+}
+
+impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for Path<STAGES, S, T> {
     lasting!(T; part equations, packs completed, number last, number momentum, part rest);
 }
 
 impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for GaussMemory<STAGES, S, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("GaussMemory").field("completed", &self.completed).finish_non_exhaustive()
+        f.debug_struct("GaussMemory").field("completed", &self.path.completed).finish_non_exhaustive()
     }
 }
 
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
     pub(super) fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self, StartError> {
         let mut equations = S::Kind::begin(system, q, v, t)?;
         let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] = S::Kind::points(system);
@@ -176,19 +187,18 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemor
         }
     }
 
-    /// Moves to the end of the step.
+    /// Moves to the end of the step by the terms of the parts from `first`, and by the increments of those before.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn arrive(
         &mut self,
+        first: usize,
         summation: Summation,
         system: &S,
         q: &mut Vector<S, T>,
         t: T,
         h: T,
     ) -> Result<(), StepFailure> {
-        self.displace(h);
         let Self { equations, completed, last, slopes, terms, y, rest, increment, next, .. } = self;
-        let first = first_part::<S, T>(equations);
         for part in 0..y.len() {
             if part >= first {
                 for (increment, terms) in increment[part].iter_mut().zip(terms[part].iter()) {

@@ -6,7 +6,7 @@
 //! It is the same method, a Nyström method (Hairer, Nørsett & Wanner 1993, section II.14), and one combination of stages in each sweep
 //! where that on (q, p) has two. With νᵢⱼ − νⱼᵢ = βⱼ − βᵢ exactly it is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025).
 
-use super::memory::GaussMemory;
+use super::memory::Path;
 use crate::error::StepFailure;
 use crate::mechanics::motion::{FirstOrder, StageEvaluation, weigh};
 use crate::methods::collocation::packs::{combine, sum};
@@ -14,7 +14,7 @@ use crate::scalar::Lanes;
 use crate::state::Statistics;
 use crate::{Real, System};
 
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
     /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the equations are not of second
     /// order.
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -60,9 +60,9 @@ impl<const S: usize> Scheme for OneStepGauss<S> {
     }
 }
 
-/// What a run of a method with `STAGES` = `NODES` − 1 stages carries.
+/// What a run of a method with `STAGES` stages carries.
 #[derive(Debug)]
-pub struct OneStepGaussMemory<const NODES: usize, const STAGES: usize, S: System, T: Real> {
+pub struct OneStepGaussMemory<const STAGES: usize, S: System, T: Real> {
     /// ϑ at the current point, zero along y.
     p: Vector<S, T>,
     /// The velocities V of the last step.
@@ -72,12 +72,12 @@ pub struct OneStepGaussMemory<const NODES: usize, const STAGES: usize, S: System
     tableau: Collocation<STAGES>,
     continuation: [[f64; STAGES]; STAGES],
     split: Split<S, T>,
-    solver: Coupled<NODES, S, T>,
+    solver: Coupled<STAGES, S, T>,
     /// The unknowns W, and F at the stages.
     increments: [Vector<S, T>; STAGES],
     forces: [Vector<S, T>; STAGES],
-    /// The residuals from 1, and then the corrections.
-    residuals: [Vector<S, T>; NODES],
+    /// The residuals, and then the corrections.
+    residuals: [Vector<S, T>; STAGES],
     /// In which the iteration judges coordinates.
     weights: Vector<S, T>,
     work: Work<S, T>,
@@ -94,9 +94,7 @@ struct Work<S: System, T: Real> {
     momentum: Vector<S, T>,
 }
 
-impl<const NODES: usize, const STAGES: usize, S: System, T: Real> Memory<T>
-    for OneStepGaussMemory<NODES, STAGES, S, T>
-{
+impl<const STAGES: usize, S: System, T: Real> Memory<T> for OneStepGaussMemory<STAGES, S, T> {
     lasting!(T; numbers p, vectors completed, number last_step, part orientation);
 }
 
@@ -112,9 +110,7 @@ fn place<const STAGES: usize, T: Real>(
     }
 }
 
-impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
-    OneStepGaussMemory<NODES, STAGES, S, T>
-{
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<STAGES, S, T> {
     fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StartError> {
         let space = system.space();
         let mut p = space.vector();
@@ -130,7 +126,7 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             tableau,
             continuation: tableau.continuation(),
             split: Split::new(system),
-            solver: coupled_by_second_derivatives(system, q, &rest, t, Storing::Always),
+            solver: coupled_by_second_derivatives(system, [q, &rest], t, STAGES, Storing::Always),
             increments: space.vectors(),
             weights: space.vector(),
             forces: space.vectors(),
@@ -232,7 +228,7 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
         iterate(convergence, statistics, |due, statistics| {
             due.prepare_all(&mut self.weights, q, &mut self.increments);
             self.differentiate(system, q, [t, h], statistics);
-            self.residuals[1..].iter().try_for_each(|residual| norm::finite(residual))?;
+            self.residuals.iter().try_for_each(|residual| norm::finite(residual))?;
             statistics.linearizations += STAGES as u64;
             statistics.factorisations += 1;
             let Self { tableau, increments, residuals, weights, solver, work, .. } = &mut *self;
@@ -244,7 +240,7 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             }
             solver.solve(&mut matrix, size, residuals)?;
             let mut correction = T::lift(0.0);
-            for (increment, change) in increments.iter_mut().zip(&residuals[1..]) {
+            for (increment, change) in increments.iter_mut().zip(&*residuals) {
                 correction = norm::larger(correction, sizes::reduce(weights, increment, change));
             }
             Ok(correction)
@@ -263,11 +259,11 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
             }
             system.gradient(point, velocity, t + T::lift(tableau.c[i]) * h, force, one_form);
             statistics.gradients += 1;
-            for ((r, &form), &p) in residuals[i + 1].iter_mut().zip(one_form.iter()).zip(p.iter()) {
+            for ((r, &form), &p) in residuals[i].iter_mut().zip(one_form.iter()).zip(p.iter()) {
                 *r = form - p;
             }
         }
-        for (row, residual) in tableau.a.iter().zip(&mut residuals[1..]) {
+        for (row, residual) in tableau.a.iter().zip(residuals.iter_mut()) {
             for (&a, force) in row.iter().zip(forces.iter()) {
                 let factor = h * T::lift(a);
                 for (r, &force) in residual.iter_mut().zip(force.iter()) {
@@ -278,7 +274,7 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
     }
 }
 
-/// The matrix ∂rᵢ/∂Wₖ at the current increments; node j of the sum is stage j − 1, and node 0 has nothing.
+/// The matrix ∂rᵢ/∂Wₖ at the current increments; a node of the sum is a stage.
 struct Linearized<'a, const STAGES: usize, S: System, T: Real> {
     system: &'a S,
     tableau: &'a Collocation<STAGES>,
@@ -290,25 +286,22 @@ struct Linearized<'a, const STAGES: usize, S: System, T: Real> {
     work: &'a mut Work<S, T>,
 }
 
-impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> NodeSum<NODES, T>
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> NodeSum<STAGES, T>
     for Linearized<'_, STAGES, S, T>
 {
+    const FIRST: usize = 0;
+
     fn place(&mut self, j: usize) {
         self.node = j;
-        let Some(stage) = j.checked_sub(1) else { return };
         let Work { point, velocity, .. } = &mut *self.work;
-        place(&self.tableau.a[stage], self.q, self.increments, point);
-        for (v, &w) in velocity.iter_mut().zip(self.increments[stage].iter()) {
+        place(&self.tableau.a[j], self.q, self.increments, point);
+        for (v, &w) in velocity.iter_mut().zip(self.increments[j].iter()) {
             *v = w / self.h;
         }
     }
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        let zero = T::lift(0.0);
-        let (Some(j), Some(r), Some(k)) = (self.node.checked_sub(1), r.checked_sub(1), k.checked_sub(1))
-        else {
-            return Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        };
+        let (j, zero) = (self.node, T::lift(0.0));
         let a = |i: usize, k: usize| T::lift(self.tableau.a[i][k]);
         Weights {
             qq: -self.h * a(r, j) * a(j, k),
@@ -319,51 +312,36 @@ impl<const NODES: usize, const STAGES: usize, S: ProperlyDegenerate<T>, T: Real>
     }
 
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
-        let Some(stage) = self.node.checked_sub(1) else { return };
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let time = self.t + T::lift(self.tableau.c[stage]) * self.h;
+        let time = self.t + T::lift(self.tableau.c[self.node]) * self.h;
         let Work { point, velocity, gradient, one_form, .. } = &mut *self.work;
         self.system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq);
         self.system.linearize(point, velocity, time, Weights { qv: one, ..none }, gradient, one_form, qv);
     }
 }
 
-/// Stable Rust cannot write `S + 1` as the argument of a type.
-macro_rules! of_stages {
-    ($($stages:literal $nodes:literal),*) => {$(
-        impl<S: System, T: Real> Carries<S, T> for OneStepGauss<$stages> {
-            type Memory = OneStepGaussMemory<$nodes, $stages, S, T>;
-        }
-
-        impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStepGauss<$stages> {
-            fn begin(
-                &self,
-                system: &S,
-                q: &Vector<S, T>,
-                _v: &[T],
-                t: T,
-                _h: T,
-            ) -> Result<Self::Memory, StartError> {
-                self.stopping.validate()?;
-                OneStepGaussMemory::new(system, q, t)
-            }
-
-            fn step(
-                &self,
-                system: &S,
-                memory: &mut Self::Memory,
-                q: &mut Vector<S, T>,
-                t: T,
-                h: T,
-                statistics: &mut Statistics,
-            ) -> Result<(), StepFailure> {
-                memory.step(system, q, [t, h], self.stopping, statistics)
-            }
-        }
-
-        impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<$stages> {}
-    )*};
+impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for OneStepGauss<STAGES> {
+    type Memory = OneStepGaussMemory<STAGES, S, T>;
 }
 
-of_stages!(1 2, 2 3, 3 4, 4 5);
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStepGauss<STAGES> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+        self.stopping.validate()?;
+        OneStepGaussMemory::new(system, q, t)
+    }
+
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        q: &mut Vector<S, T>,
+        t: T,
+        h: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        memory.step(system, q, [t, h], self.stopping, statistics)
+    }
+}
+
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {}

@@ -17,11 +17,14 @@ use crate::space::sink::Places;
 use crate::space::{Fixed, FixedMatrix, FixedVector};
 use crate::{Real, Scalar, Sink, Space, Weights};
 
-/// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k, both from 1: a sum over
-/// the nodes of a rule,
+/// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k: a sum over the nodes of a
+/// rule,
 ///
 /// Σⱼ qqⱼᵣₖ L_qq + qvⱼᵣₖ L_qv + vqⱼᵣₖ L_vq + vvⱼᵣₖ L_vv.
 pub trait NodeSum<const NODES: usize, T> {
+    /// The first unknown vector, and the first equation.
+    const FIRST: usize;
+
     /// Goes to node `j`.
     fn place(&mut self, j: usize);
     /// The weights of the second derivatives at the node in block (`r`, `k`).
@@ -35,9 +38,10 @@ pub trait NodeSum<const NODES: usize, T> {
     fn momentum_by_position(&mut self, _vq: &mut impl Sink<T>) {}
 }
 
-/// What solves for `NODES` − 1 vectors, with the storage that it needs.
+/// What solves for the vectors from [`NodeSum::FIRST`] to `NODES`, with the storage that it needs.
 pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
-    /// Overwrites the vectors, but the first, with the solution: changes of unknowns of the size |`size`(j)| at coordinate j.
+    /// Overwrites the vectors from the first unknown one with the solution: changes of unknowns of the size |`size`(j)| at coordinate
+    /// j.
     ///
     /// # Errors
     /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).
@@ -53,7 +57,7 @@ pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
 #[derive(Debug)]
 pub struct FixedCoupled<T, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>
 {
-    /// Transposed; the first row and column are not used.
+    /// Transposed; those before the first unknown vector are not used.
     rows: [[FixedMatrix<T, BLOCKS, N, SINGLES>; NODES]; NODES],
     /// L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
     second: [FixedMatrix<T, BLOCKS, N, SINGLES>; 4],
@@ -82,7 +86,7 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { rows, second, permutation } = self;
-        rows[1..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
+        rows[M::FIRST..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
         for j in 0..NODES {
             matrix.place(j);
             let [qq, qv, vv, vq] = &mut *second;
@@ -94,8 +98,8 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
                 vq.fill(T::lift(0.0));
                 matrix.momentum_by_position(vq);
             }
-            for (r, row) in rows.iter_mut().enumerate().skip(1) {
-                for (k, block) in row.iter_mut().enumerate().skip(1) {
+            for (r, row) in rows.iter_mut().enumerate().skip(M::FIRST) {
+                for (k, block) in row.iter_mut().enumerate().skip(M::FIRST) {
                     let (w, n) = (matrix.weights(r, k), Fixed::<BLOCKS, N, SINGLES>::DIMENSION);
                     add_transposed::<_, _, M, NODES>(w, second, n, block);
                 }
@@ -104,10 +108,10 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
         let space = Fixed::<BLOCKS, N, SINGLES>;
         let [mut sizes, units]: [FixedVector<T, BLOCKS, N, SINGLES>; 2] = space.vectors();
         sizes.iter_mut().enumerate().for_each(|(j, entry)| *entry = size(j));
-        for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(1) {
-            scale_rows(&mut row[1..], &sizes, units, vector);
+        for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(M::FIRST) {
+            scale_rows(&mut row[M::FIRST..], &sizes, units, vector);
         }
-        blocks::eliminate(rows, permutation, vectors, 1..NODES)
+        blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)
     }
 }
 
@@ -157,14 +161,14 @@ pub struct RunTimeCoupled<T> {
 
 #[cfg(feature = "alloc")]
 impl<T: Scalar> RunTimeCoupled<T> {
-    /// For blocks that each have the entries that `entries` visits.
+    /// For so many unknown vectors, and blocks that each have the entries that `entries` visits.
     pub(crate) fn new(
         space: RunTime,
-        nodes: usize,
+        unknown: usize,
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self {
-        let (n, unknown) = (space.dimension, nodes - 1);
+        let n = space.dimension;
         let all = RunTime { dimension: n * unknown };
         let solver = RunTimeSolver::new(all.dimension, storing, |visit| {
             entries(&mut |i, j| {
@@ -199,9 +203,10 @@ impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for F
                 core::array::from_fn(|r| core::array::from_fn(|k| matrix.weights(r, k)));
             // Adds an entry to each block, times what is asked of its weights.
             let add = |i: usize, j: usize, entry: T, weight: fn(&Weights<T>) -> T| {
-                for (r, row) in weights.iter().enumerate().skip(1) {
-                    for (k, w) in row.iter().enumerate().skip(1) {
-                        sink.borrow_mut().add((r - 1) * *n + i, (k - 1) * *n + j, weight(w) * entry);
+                for (r, row) in weights.iter().enumerate().skip(M::FIRST) {
+                    for (k, w) in row.iter().enumerate().skip(M::FIRST) {
+                        let (row, column) = ((r - M::FIRST) * *n + i, (k - M::FIRST) * *n + j);
+                        sink.borrow_mut().add(row, column, weight(w) * entry);
                     }
                 }
             };
@@ -236,11 +241,11 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
         if n == 0 {
             return Ok(());
         }
-        for (b, vector) in b.chunks_exact_mut(n).zip(&vectors[1..]) {
+        for (b, vector) in b.chunks_exact_mut(n).zip(&vectors[M::FIRST..]) {
             b.copy_from_slice(vector);
         }
         solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, |k| size(k % n), x)?;
-        for (x, vector) in x.chunks_exact(n).zip(&mut vectors[1..]) {
+        for (x, vector) in x.chunks_exact(n).zip(&mut vectors[M::FIRST..]) {
             vector.copy_from_slice(x);
         }
         Ok(())
