@@ -86,6 +86,11 @@ const STEPS_BEFORE_RETRY: u32 = 32;
 
 /// What is iterated.
 pub(crate) trait Iteration<T> {
+    /// Does what is due, in a loop of its own: what an improvement reads and does not change can stay in registers then. What is left to
+    /// do is left to [`improve`](Self::improve).
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare(&mut self, _due: &mut Due) {}
+
     /// Applies a correction and returns the largest of its sizes in the units of the coordinates, after it has done what is `due`.
     ///
     /// # Errors
@@ -128,21 +133,26 @@ pub(crate) fn repeat<T: Real>(
     mut iteration: impl Iteration<T>,
 ) -> Result<(), StepFailure> {
     // The second is how many improvements there were beside the iterations.
-    let (result, more) = loop {
-        let correction = match iteration.improve(&mut convergence.due, statistics) {
-            Ok(correction) => correction,
-            Err(failure) => break (Err(failure), 1),
-        };
-        match convergence.judge(correction) {
-            Verdict::Continue => {}
-            // Comparisons have not seen the derivatives that numbers may carry.
-            Verdict::Accept if carries_derivatives::<T>() => {
-                let due = &mut convergence.due;
-                let mut improve = |_| iteration.improve(due, statistics).map(drop);
-                break ((0..convergence.more).try_for_each(&mut improve), convergence.more as u64);
+    let (result, more) = 'iterated: loop {
+        iteration.prepare(&mut convergence.due);
+        loop {
+            let correction = match iteration.improve(&mut convergence.due, statistics) {
+                Ok(correction) => correction,
+                Err(failure) => break 'iterated (Err(failure), 1),
+            };
+            match convergence.judge(correction) {
+                Verdict::Continue if convergence.due == Due::Nothing => {}
+                Verdict::Continue => break,
+                // Comparisons have not seen the derivatives that numbers may carry.
+                Verdict::Accept if carries_derivatives::<T>() => {
+                    let due = &mut convergence.due;
+                    let mut improve = |_| iteration.improve(due, statistics).map(drop);
+                    let more = convergence.more;
+                    break 'iterated ((0..more).try_for_each(&mut improve), more as u64);
+                }
+                Verdict::Accept => break 'iterated (Ok(()), 0),
+                Verdict::GiveUp => break 'iterated (Err(convergence.failure()), 0),
             }
-            Verdict::Accept => break (Ok(()), 0),
-            Verdict::GiveUp => break (Err(convergence.failure()), 0),
         }
     };
     let iterations = convergence.iterations as u64;

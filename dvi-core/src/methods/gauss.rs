@@ -297,9 +297,13 @@ where
     /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity, in units of the
     /// coordinates: the momenta follow from the velocities.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { system, path, q, t, h, .. } = self;
-        path.prepare(due, q, *h);
+    fn prepare(&mut self, due: &mut Due) {
+        self.path.prepare(due, self.q, self.h);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { system, path, t, h, .. } = self;
         if S::Kind::OF_SECOND_ORDER {
             return path.improve_places::<E>(system, *t, *h, statistics);
         }

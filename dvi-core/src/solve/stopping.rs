@@ -92,11 +92,11 @@ const LARGE: f64 = 0.5;
 
 /// What is known of an iterate that no longer improves.
 #[derive(Clone, Copy, Debug)]
-enum Trial<T> {
+enum Trial {
     /// It improves, as far as is known.
     None,
-    /// It has been moved, and the next correction says how it responds; the tolerance is this one again after it.
-    Shaken(T),
+    /// It has been moved, and the next correction says how it responds.
+    Shaken,
     /// Sizes contain what its rounding errors are relative to.
     Loose,
     /// Instead of a correction it is asked for its residual.
@@ -114,10 +114,9 @@ pub(crate) struct Convergence<T> {
     least: T,
     in_vain: usize,
     pub(crate) iterations: usize,
-    budget: usize,
     /// The iteration by which it has to be decided.
     last: usize,
-    trial: Trial<T>,
+    trial: Trial,
     is_fixed_point: bool,
     /// A correction that has shrunk by no more than so many times itself no longer counts as shrinking, where it is a rounding error.
     stalling: T,
@@ -150,7 +149,6 @@ impl<T: Real> Convergence<T> {
             in_vain: 0,
             is_fixed_point: false,
             iterations: 0,
-            budget,
             last: budget,
             trial: Trial::None,
             stalling: T::lift(1.0),
@@ -200,7 +198,7 @@ impl<T: Real> Convergence<T> {
     #[inline]
     fn hesitate(&mut self, before: T) -> Option<Verdict> {
         let is_noise = self.correction <= T::lift(FLOOR) * T::default_epsilon();
-        if is_noise && !matches!(self.trial, Trial::Shaken(_)) {
+        if is_noise && !matches!(self.trial, Trial::Shaken) {
             return Some(Verdict::Accept);
         }
         // What another function sees has no place in registers.
@@ -213,8 +211,10 @@ impl<T: Real> Convergence<T> {
     #[cold]
     #[inline(never)]
     fn doubt(mut self, before: T) -> (Self, Option<Verdict>) {
-        if let Trial::Shaken(tolerance) = self.trial {
-            (self.tolerance, self.stalling, self.trial) = (tolerance, T::lift(0.0), Trial::Loose);
+        if matches!(self.trial, Trial::Shaken) {
+            // Where it is kept while no correction counts.
+            (self.tolerance, self.least) = (self.least, T::lift(f64::INFINITY));
+            (self.trial, self.stalling) = (Trial::Loose, T::lift(0.0));
             (self.due, self.correction) = (Due::Response, T::lift(f64::INFINITY));
             return (self, None);
         }
@@ -228,15 +228,13 @@ impl<T: Real> Convergence<T> {
         match self.trial {
             Trial::Asked => return (self, Some(Verdict::GiveUp)),
             Trial::Loose => return (self, is_in_vain.then_some(Verdict::GiveUp)),
-            Trial::Shaken(_) | Trial::None if is_noise || is_in_vain => {}
-            Trial::Shaken(_) | Trial::None => return (self, None),
+            Trial::Shaken | Trial::None if is_noise || is_in_vain => {}
+            Trial::Shaken | Trial::None => return (self, None),
         }
-        (self.least, self.in_vain) = (T::lift(f64::INFINITY), 0);
-        self.last = self.iterations + self.budget;
+        (self.least, self.in_vain, self.last) = (T::lift(f64::INFINITY), 0, self.iterations + self.last);
         if self.is_fixed_point {
-            // What the next correction is does not matter.
-            (self.trial, self.due) = (Trial::Shaken(self.tolerance), Due::Shake);
-            self.tolerance = T::lift(-1.0);
+            (self.trial, self.due) = (Trial::Shaken, Due::Shake);
+            (self.least, self.tolerance) = (self.tolerance, T::lift(-1.0));
         } else {
             (self.trial, self.due) = (Trial::Asked, Due::Residual);
         }

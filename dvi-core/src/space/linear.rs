@@ -76,7 +76,8 @@ pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T
         for node in 0..NODES {
             matrix.place(node);
             let of = |weight: fn(&Weights<T>) -> T| {
-                (M::FIRST..NODES).fold(T::lift(0.0), |sum, k| sum + Scalar::abs(weight(&matrix.weights(r, k))))
+                (M::FIRST..NODES)
+                    .fold(T::lift(0.0), |sum, k| sum + Scalar::abs(weight(&matrix.weights(r, k))))
             };
             let [qq, qv, vq, vv] = [of(|w| w.qq), of(|w| w.qv), of(|w| w.vq), of(|w| w.vv)];
             matrix.second_derivatives(

@@ -78,7 +78,19 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.set_velocities();
-        let Self { equations, coefficients, completed, slopes, terms, stages, y, increment, weights: units, work, .. } = self;
+        let Self {
+            equations,
+            coefficients,
+            completed,
+            slopes,
+            terms,
+            stages,
+            y,
+            increment,
+            weights: units,
+            work,
+            ..
+        } = self;
         let (extrema, first) = (&coefficients.extrema, first_part::<S, T>(equations));
         S::Kind::evaluate(equations, system, y, t, increment, statistics)?;
         for part in 0..first {

@@ -144,9 +144,13 @@ struct Newton<'a, S: System, T: Real> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn prepare(&mut self, due: &mut Due) {
+        due.prepare_alone(&mut self.split.weights, self.q);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { split, system, q, t, p } = self;
-        due.prepare_alone(&mut split.weights, q);
         system.one_form(q, *t, &mut split.form);
         for (form, &p) in split.form.iter_mut().zip(p.iter()) {
             *form -= p;

@@ -244,12 +244,16 @@ struct Newton<'a, S: System, T: Real> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare(&mut self, due: &mut Due) {
+        due.prepare(&mut self.stage.weights, self.step.q, &mut self.stage.unknown);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { step, stage } = self;
         if *due == Due::Residual {
             return stage.residual(step);
         }
-        due.prepare(&mut stage.weights, step.q, &mut stage.unknown);
         let (mut equations, solver, correction) = stage.equations(step);
         let unknown = &*equations.unknown;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);

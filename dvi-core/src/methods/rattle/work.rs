@@ -266,10 +266,14 @@ struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Step { system, q: q0, here, t, h, .. } = *self.step;
+    fn prepare(&mut self, due: &mut Due) {
+        due.prepare_end(&mut self.work.weights, self.step.q, &mut self.work.q);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn improve(&mut self, _due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Step { system, here, t, h, .. } = *self.step;
         let Work { q, place: Place { rows, .. }, impulses, vector, weights, values, gram } = &mut *self.work;
-        due.prepare_end(weights, q0, q);
         constrain(system, q, t + h, values, rows);
         if self.step.trusts_pivot() {
             let pivot = dot(&rows[0], &here.solved[0]);

@@ -15,7 +15,7 @@ use crate::mechanics::combination::Inverse;
 use crate::methods::Clock;
 use crate::scalar::norm;
 use crate::scalar::simd::{apart_if, widest_if};
-use crate::solve::{Convergence, Guess, iterate, sizes};
+use crate::solve::{Convergence, Due, Guess, Iteration, iterate, repeat, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
@@ -171,7 +171,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn repeat(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
-        let (sigma, node_time) = (step.method.sigma, step.node_time());
+        let sigma = step.method.sigma;
         let node = &mut l_d.work;
         scratch!(increment = step.system, node.velocity);
         scratch!(trial = step.system, work.trial);
@@ -189,43 +189,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             &work.next
         };
         let convergence = Convergence::fixed_point(step.method.stopping, *budget);
-        // Long vectors are passed over once: each block of the next point is placed as soon as its s is known.
-        let is_long = !<S::Space as Space>::ON_STACK;
-        if is_long {
-            place([origin, increment], sigma, point);
-        }
-        iterate(
-            convergence,
-            statistics,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            |due, statistics| {
-                let has_moved = due.prepare(weights, q, increment);
-                if has_moved || !is_long {
-                    place([origin, increment], sigma, point);
-                }
-                apart_if(
-                    is_long,
-                    #[cfg_attr(not(debug_assertions), inline(always))]
-                    || step.system.hamiltonian_gradient(point, node_time, gradient),
-                );
-                statistics.gradients += 1;
-                let mut largest = T::lift(0.0);
-                inverse.solve_in_blocks(
-                    step.system,
-                    gradient,
-                    trial,
-                    #[cfg_attr(not(debug_assertions), inline(always))]
-                    |block, s| {
-                        let (origin, increment) = (&origin[block.clone()], &mut increment[block.clone()]);
-                        largest = norm::larger(largest, sizes::renew(&weights[block.clone()], increment, s));
-                        if is_long {
-                            place([origin, increment], sigma, &mut point[block]);
-                        }
-                    },
-                );
-                Ok(largest)
-            },
-        )?;
+        let midpoints = Placed { step, inverse, q, origin, increment, trial, weights, point, gradient };
+        repeat(convergence, statistics, midpoints)?;
         work.increment.copy_from_slice(increment);
         node.gradient.copy_from_slice(gradient);
         norm::finite(increment)
@@ -299,6 +264,64 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             }
         }
         Ok(())
+    }
+}
+
+/// The fixed point as it is iterated. Long vectors are passed over once: each block of the next point is placed as soon as its s is
+/// known.
+struct Placed<'a, S: DegenerateLagrangian<T>, T: Real> {
+    step: &'a Step<'a, S, T>,
+    inverse: &'a Inverse<S, T>,
+    q: &'a [T],
+    origin: &'a [T],
+    increment: &'a mut [T],
+    trial: &'a mut [T],
+    weights: &'a mut [T],
+    point: &'a mut [T],
+    gradient: &'a mut [T],
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> Placed<'_, S, T> {
+    const IS_LONG: bool = !<S::Space as Space>::ON_STACK;
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> Iteration<T> for Placed<'_, S, T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare(&mut self, due: &mut Due) {
+        due.prepare(self.weights, self.q, self.increment);
+        if Self::IS_LONG {
+            place([self.origin, self.increment], self.step.method.sigma, self.point);
+        }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { step, inverse, origin, increment, trial, weights, point, gradient, .. } = self;
+        let (system, sigma, time) = (step.system, step.method.sigma, step.node_time());
+        if !Self::IS_LONG {
+            place([origin, increment], sigma, point);
+        }
+        apart_if(
+            Self::IS_LONG,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            || system.hamiltonian_gradient(point, time, gradient),
+        );
+        statistics.gradients += 1;
+        let mut largest = T::lift(0.0);
+        inverse.solve_in_blocks(
+            system,
+            gradient,
+            trial,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |block, s| {
+                let (origin, increment) = (&origin[block.clone()], &mut increment[block.clone()]);
+                largest = norm::larger(largest, sizes::renew(&weights[block.clone()], increment, s));
+                if Self::IS_LONG {
+                    place([origin, increment], sigma, &mut point[block]);
+                }
+            },
+        );
+        Ok(largest)
     }
 }
 

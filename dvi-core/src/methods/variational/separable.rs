@@ -20,7 +20,7 @@ use crate::mechanics::phase::PhasePoint;
 use crate::scalar::blocks::blocks;
 use crate::scalar::norm;
 use crate::scalar::simd::widest_if;
-use crate::solve::{Convergence, iterate, sizes};
+use crate::solve::{Convergence, Due, Iteration, repeat, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, Vector};
@@ -176,18 +176,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     ) -> Result<(), StepFailure> {
         self.phase.guess(Some(self.mass), &self.phase.p, self.step.h, &mut self.work.increment);
         let convergence = Convergence::fixed_point(self.step.method.stopping, budget);
-        iterate(
-            convergence,
-            statistics,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            |due, _| {
-                self.is_placed &= !due.prepare(weights, self.q, &mut self.work.increment);
-                if self.step.method.reads_both_ends() {
-                    self.read_both_ends()?;
-                }
-                Ok(self.improve(weights))
-            },
-        )?;
+        repeat(convergence, statistics, Judged { attempt: self, weights })?;
         norm::finite(&self.work.increment)
     }
 
@@ -400,6 +389,30 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
             self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
         }
         Ok(())
+    }
+}
+
+/// The iteration, and what judges it.
+struct Judged<'a, 'b, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
+    attempt: &'a mut Attempt<'b, S, F, R, C, T>,
+    weights: &'a mut [T],
+}
+
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real> Iteration<T>
+    for Judged<'_, '_, S, F, R, C, T>
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare(&mut self, due: &mut Due) {
+        let Self { attempt, weights } = self;
+        attempt.is_placed &= !due.prepare(weights, attempt.q, &mut attempt.work.increment);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn improve(&mut self, _due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
+        if self.attempt.step.method.reads_both_ends() {
+            self.attempt.read_both_ends()?;
+        }
+        Ok(self.attempt.improve(self.weights))
     }
 }
 
