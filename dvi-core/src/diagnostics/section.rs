@@ -5,7 +5,8 @@
 //! of the run and that of one step of its method more, whatever the length of its steps.
 //!
 //! A step that begins and ends on one side may cross twice. Whether it does is looked at in its middle and,
-//! as long as the parabola through three values of g comes close to zero, at its vertex.
+//! as long as the parabola through three values of g comes close to zero, at its vertex. A value on the
+//! other side counts if it is larger than what two steps over that place miss the end of the step by.
 
 use crate::error::{StartError, StepError, StepFailure};
 use crate::run::{PartialStep, PartialStepOf, Run};
@@ -59,9 +60,9 @@ pub type CrossingOf<R> =
 /// begins on the section does not cross it there.
 ///
 /// A step that begins and ends on one side of the section and crosses it twice in between is seen if g turns
-/// once on the way, and so far that a parabola through three of its values tells. That is looked for in
-/// steps that are near enough to the section, as the changes of g in the steps before say. What crosses more
-/// often within one step, or touches the section, may pass unseen.
+/// once on the way, so far that a parabola through three of its values tells, and by more than the error of
+/// the step. That is looked for in steps that are near enough to the section, as the changes of g in the
+/// steps before say. What crosses more often within one step, or touches the section, may pass unseen.
 pub struct Section<'r, R: Run, G> {
     run: &'r mut R,
     g: G,
@@ -179,7 +180,7 @@ impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
         let mean = Scalar::abs(b.g - a.g) / h;
         let rate = self.rate.map(|before| larger(mean, R::Scalar::lift(FORGETTING) * before));
         self.rate = rate.or(Some(mean));
-        let side = a.g > zero;
+        let (side, end) = (a.g > zero, b.g);
         let distance = Scalar::abs(a.g) + Scalar::abs(b.g);
         let is_far = rate.is_some_and(|rate| distance > R::Scalar::lift(MARGIN) * rate * h);
         if a.g == zero || b.g == zero || side != (b.g > zero) || is_far {
@@ -190,7 +191,10 @@ impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
         for _ in 0..LOOKS {
             let mark = self.look(part)?;
             if mark.g != zero && (mark.g > zero) != side {
-                return Ok(Some(mark));
+                // What is not more than the error of the step is no crossing of the motion.
+                self.step.go_on(self.run, part)?;
+                let error = Scalar::abs((self.g)(self.step.q()) - end);
+                return Ok((error < Scalar::abs(mark.g)).then_some(mark));
             }
             // The lowest of all stays between two others.
             let lowest = match between {

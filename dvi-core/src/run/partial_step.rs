@@ -81,6 +81,23 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> PartialStep<S, M, T> {
         run.method().part_of_step(run.system(), memory, q, begun.t, [h, whole], unused)
     }
 
+    /// Goes on from the `part` that has been reached to the end of the step. That it is not where `run` is
+    /// tells the error of both.
+    ///
+    /// # Errors
+    /// As [`Method::step`].
+    pub(crate) fn go_on<R>(&mut self, run: &R, part: T) -> Result<(), StepFailure>
+    where
+        R: Run<System = S, Method = M, Scalar = T>,
+    {
+        let Point { t, q, memory } = &mut self.reached;
+        let (whole, unused) = (run.step_size(), &mut Statistics::default());
+        let [before, rest] = [part * whole, (T::lift(1.0) - part) * whole];
+        run.method().part_of_step(run.system(), memory, q, *t, [rest, before], unused)?;
+        *t += rest;
+        Ok(())
+    }
+
     /// The coordinates that have been reached.
     pub(crate) fn q(&self) -> &[T] {
         &self.reached.q
