@@ -82,7 +82,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 }
                 Ok(())
             }
-            Self::Factors(..) if S::MATCHING => Err(StepFailure::NO_MATRIX),
             Self::Factors(matrix, work) => {
                 statistics.factorisations += 1;
                 system.one_form_jacobian(q, t, a, b, matrix.cleared());
@@ -99,7 +98,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
         match self {
             Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
-            // `prepare` refuses these; saying so keeps elimination out of the steps. To write what is no number costs 15 instructions.
+            // Never built for such a system; saying so keeps elimination out of its steps.
             Self::Factors(..) if S::MATCHING => {}
             Self::Factors(matrix, _) => {
                 x.copy_from_slice(rhs);
@@ -252,7 +251,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
                     *out = x[system.conjugate(i)] * entry;
                 }
             }
-            // `new`, which alone builds these, has built none; what that saves is as in `Inverse::solve`.
             Self::Coefficients(_) if S::MATCHING => {}
             Self::Coefficients(Combination { a, b }) => {
                 out.fill(T::lift(0.0));
