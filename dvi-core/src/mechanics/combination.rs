@@ -82,7 +82,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 }
                 Ok(())
             }
-            Self::Factors(..) if S::MATCHING => Err(StepFailure::NO_MATRIX),
             Self::Factors(matrix, [units, work]) => {
                 statistics.factorisations += 1;
                 let mut evaluate = |matrix: &mut Square<S, T>| {
@@ -104,7 +103,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
         match self {
             Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
-            // `prepare` refuses these; saying so keeps elimination out of the steps. To write what is no number costs 15 instructions.
+            // Never built for such a system; saying so keeps elimination out of its steps.
             Self::Factors(..) if S::MATCHING => {}
             Self::Factors(matrix, [units, _]) => {
                 for ((x, &rhs), &unit) in x.iter_mut().zip(rhs).zip(units.iter()) {
@@ -259,7 +258,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
                     *out = x[system.conjugate(i)] * entry;
                 }
             }
-            // `new`, which alone builds these, has built none; what that saves is as in `Inverse::solve`.
             Self::Coefficients(_) if S::MATCHING => {}
             Self::Coefficients(Combination { a, b }) => {
                 out.fill(T::lift(0.0));

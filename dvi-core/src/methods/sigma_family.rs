@@ -362,9 +362,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
             statistics.steps += taken;
             return result;
         }
-        if S::AFFINE
-            && let Some((taken, result)) = leapfrog::steps(system, &mut memory.run, q, clock, count)
-        {
+        if S::AFFINE && self.sigma == T::lift(0.0) {
+            let (taken, result) = leapfrog::steps(system, &mut memory.run, q, clock, count);
             statistics.steps += taken;
             statistics.gradients += taken;
             result

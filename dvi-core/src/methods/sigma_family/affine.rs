@@ -29,8 +29,8 @@ pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let clock = Clock::new(step.t, step.h);
-    if let Some((taken, result)) = leapfrog::steps(step.system, memory, q, clock, 1) {
+    if step.method.sigma == T::lift(0.0) {
+        let (taken, result) = leapfrog::steps(step.system, memory, q, Clock::new(step.t, step.h), 1);
         statistics.gradients += taken;
         return result;
     }

@@ -26,7 +26,7 @@ pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
 }
 
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
-/// good point. `None` unless σ = 0.
+/// good point.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
@@ -34,9 +34,12 @@ pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
-) -> Option<(u64, Result<(), StepFailure>)> {
+) -> (u64, Result<(), StepFailure>) {
     let TwoStep { defect, inverse, product, ahead, scale, l_d, work, monitor, .. } = memory;
-    let (Some(product), Some(ahead)) = (product, ahead) else { return None };
+    // A run with σ = 0 and affine α has both.
+    let (Some(product), Some(ahead)) = (product, ahead) else {
+        return (0, Err(StepFailure::NO_MATRIX));
+    };
     let from = monitor.steps;
     let node = &mut l_d.work;
     let run = Run { system, inverse, product, node, work, monitor: &mut *monitor, defect, q, clock, count };
@@ -60,7 +63,7 @@ pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
         }),
     };
     monitor.steps = from + taken;
-    Some((taken, result))
+    (taken, result)
 }
 
 /// What the steps work on.

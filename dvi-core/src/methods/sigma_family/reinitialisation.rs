@@ -206,9 +206,8 @@ fn some_steps<S: DegenerateLagrangian<T>, T: Real>(
     count: u64,
     statistics: &mut Statistics,
 ) -> (u64, Result<(), StepFailure>) {
-    if S::AFFINE
-        && let Some((taken, result)) = leapfrog::steps(step.system, run, q, clock, count)
-    {
+    if S::AFFINE && step.method.sigma == T::lift(0.0) {
+        let (taken, result) = leapfrog::steps(step.system, run, q, clock, count);
         statistics.gradients += taken;
         return (taken, result);
     }
