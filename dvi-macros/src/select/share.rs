@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap as HashMap;
 
 use super::{Builder, Factor, Pair};
 use crate::internal::internal;
+use crate::work::step;
 
 /// A factor by its place in the order of factors.
 type Number = usize;
@@ -95,6 +96,7 @@ impl Sharing {
         let powers = &mut self.products[product];
         powers.push((factor, exponent));
         for (other, times) in powers {
+            step();
             let count = if *other == factor { exponent / 2 } else { exponent.min(*times) };
             if count > 0 {
                 let pair = (*other, factor);
@@ -117,6 +119,7 @@ impl Sharing {
         let before = powers[position].1;
         let after = before - times;
         for (other, exponent) in powers.iter() {
+            step();
             let lost = if *other == factor {
                 before / 2 - after / 2
             } else {
@@ -135,6 +138,7 @@ impl Sharing {
     fn replace(&mut self, a: Number, b: Number, pair: Number) {
         let occurrences = self.pairs.remove(&(a, b)).unwrap_or_default();
         for product in occurrences.products {
+            step();
             let exponent = |factor: Number| {
                 self.products[product]
                     .iter()
@@ -166,6 +170,7 @@ impl Sharing {
     /// The pair that occurs most often, if it does so twice.
     fn next(&mut self) -> Option<(Number, Number)> {
         loop {
+            step();
             let (waiting, Reverse(rank)) = self.queue.pop()?;
             let pair = (rank.2, rank.3);
             let count = self.pairs[&pair].count;
