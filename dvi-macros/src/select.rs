@@ -332,8 +332,8 @@ impl Builder<'_> {
                 self.out.push(Instruction::Power(base, exponent))
             }
             Factor::Pair(pair) => {
-                let factors = self.pairs[pair as usize].factors;
-                self.multiplied(&factors)
+                let [a, b] = self.pairs[pair as usize].factors;
+                self.multiplied(&[a, b])
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Pairs of factors that occur in several products.
 //!
-//! Each pair knows how often it occurs and in which products, so that to share one touches these products only. Once all
-//! products are counted, a pair occurs less and less often, as other pairs take its factors: no count in the queue is too
-//! small, and the first one that is right is the largest.
+//! Each pair knows how often it occurs and in which products, so that to share one touches these products
+//! only. Once all products are counted, a pair occurs less and less often, as other pairs take its factors:
+//! no count in the queue is too small, and the first one that is right is the largest.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -23,8 +23,8 @@ struct Occurrences {
     products: Vec<usize>,
 }
 
-/// What decides between pairs that occur equally often: a division should come last, because its result is waited for longest,
-/// and what is known further outside comes first.
+/// What decides between pairs that occur equally often: a division should come last, because its result is
+/// waited for longest, and what is known further outside comes first.
 type Rank = (bool, u32, Number, Number);
 
 #[derive(Default)]

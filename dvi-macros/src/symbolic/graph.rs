@@ -59,7 +59,7 @@ pub(crate) enum Binary {
     Powf,
     /// w/R for a root R ≥ |w|, 0 where R is; the compiler makes it, users do not write it.
     OverRoot,
-    /// u/(u² + w²), of which the derivatives of `atan2` are made; the compiler makes it, users do not write it.
+    /// u/(u² + w²), of which derivatives of `atan2` are made; the compiler makes it, users do not write it.
     OverSquares,
 }
 

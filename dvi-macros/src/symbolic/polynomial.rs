@@ -139,7 +139,10 @@ impl Graph {
                 }
                 Some(sum)
             }
-            _ => self.in_other_functions(id, 1, loose).or_else(|| Some(Polynomial::term(1.0, vec![(id, 1)]))),
+            _ => {
+                let other = self.in_other_functions(id, 1, loose);
+                other.or_else(|| Some(Polynomial::term(1.0, vec![(id, 1)])))
+            }
         }
     }
 
@@ -168,8 +171,8 @@ impl Graph {
         (1..exponent).try_fold(base.clone(), |power, _| power.times(&base))
     }
 
-    /// A derivative of `atan2` as the quotient that it is; loosely also tanh as sinh/cosh, and a power with a broken exponent as
-    /// a whole power times one with an exponent below 1, rounded.
+    /// A derivative of `atan2` as the quotient that it is; loosely also tanh as sinh/cosh, and a power with a
+    /// broken exponent as a whole power times one with an exponent below 1, rounded.
     fn in_other_functions(&mut self, factor: Id, exponent: i32, loose: bool) -> Option<Polynomial> {
         /// Of exponents, 40 bits are compared.
         const GRID: f64 = (1_u64 << 40) as f64;

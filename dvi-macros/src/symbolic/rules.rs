@@ -110,9 +110,10 @@ impl Graph {
                     let squared = self.power(b, 2);
                     slope = self.where_asked(squared, slope);
                 }
-                // At a = 0 and b > 0 the logarithm is infinite, and the product has the limit 0, which f is.
-                let (size, product) = (self.unary(Unary::Abs, f), self.multiply(f, logarithm));
-                [slope, self.choose(size, Relation::HasMore, Expr::ZERO, product, f)]
+                // Where a and f are 0 the logarithm is infinite, and the product has the limit 0, which f is.
+                let [size, of_base] = [f, a].map(|of| self.unary(Unary::Abs, of));
+                let (sizes, product) = (self.add(size, of_base), self.multiply(f, logarithm));
+                [slope, self.choose(sizes, Relation::HasMore, Expr::ZERO, product, f)]
             }
             Binary::OverRoot => {
                 let over = self.reciprocal(b);

@@ -154,15 +154,18 @@ fn between<'a>(first: &'a [bool], second: &'a [bool]) -> Directions<'a> {
     Directions { first: Support::Blocks(first), second: Support::Blocks(second) }
 }
 
-/// All blocks in two parts, so often that any two with different numbers are apart once: by the digits of their numbers.
+/// All blocks in two parts, so often that any two with different numbers are apart once: by the digits of
+/// their numbers.
 fn splits(numbers: Vec<usize>) -> Vec<[Vec<bool>; 2]> {
     let digits = numbers.iter().max().map_or(0, |largest| usize::BITS - largest.leading_zeros());
-    let part = |digit: u32, value: usize| numbers.iter().map(|number| number >> digit & 1 == value).collect();
+    let part = |digit: u32, value: usize| -> Vec<bool> {
+        numbers.iter().map(|number| number >> digit & 1 == value).collect()
+    };
     (0..digits).map(|digit| [part(digit, 0), part(digit, 1)]).collect()
 }
 
-/// Directions between which a symmetric matrix vanishes that couples nothing across these splits, and no entry of an array to
-/// another one.
+/// Directions between which a symmetric matrix vanishes that couples nothing across these splits, and no
+/// entry of an array to another one.
 fn apart(splits: &[[Vec<bool>; 2]], seed: u64) -> Vec<Directions<'_>> {
     let halves = Directions { first: Support::Half(seed), second: Support::OtherHalf(seed) };
     splits.iter().map(|[one, other]| between(one, other)).chain([halves]).collect()
