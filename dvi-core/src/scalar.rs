@@ -89,6 +89,17 @@ macro_rules! scalar {
                 let zero = Self::lift(0.0);
                 Self::choose(root, Comparison::LessOrEqual, zero, zero * self, self / root)
             }
+            /// `self`/(`self`² + `other`²) without undue overflow: derivatives of [`atan2`](Self::atan2) are
+            /// made of it. The larger of the two is taken out of the squares (Smith 1962, algorithm 116).
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn over_squares(self, other: Self) -> Self {
+                let (size, other_size) = (self.abs(), other.abs());
+                let if_less =
+                    |then, otherwise| Self::choose(size, Comparison::Less, other_size, then, otherwise);
+                let (less, more) = (if_less(self, other), if_less(other, self));
+                let quotient = less / more;
+                if_less(quotient, Self::lift(1.0)) / (more + less * quotient)
+            }
             /// The error function 2/√π ∫ e^(−s²) ds from 0 to `self`.
             fn erf(self) -> Self {
                 crate::scalar::error_function::erf(self)

@@ -18,6 +18,7 @@
 
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
+use rustc_hash::FxHashSet as HashSet;
 use syn::{Ident, Path};
 
 use self::inlining::ForceInline;
@@ -136,11 +137,11 @@ fn count_uses(
     elsewhere: &mut [bool],
 ) -> Vec<Register> {
     let mut used = Vec::new();
-    let mut defined = Vec::new();
+    let mut defined = HashSet::default();
     for step in steps {
         match step {
             Step::Let(register) => {
-                defined.push(*register);
+                defined.insert(*register);
                 used.extend(code.get(*register).operands());
             }
             Step::Write(_, value) => used.push(value.register),

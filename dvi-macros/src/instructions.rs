@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap as HashMap;
 
 use crate::internal::internal;
 use crate::symbolic::{Binary, Fold, Free, Id, Loop, Partial, Relation, Unary};
+use crate::work::step;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Register(pub(crate) u32);
@@ -119,6 +120,7 @@ impl Instructions {
         let mut seen = vec![false; self.list.len()];
         roots.into_iter().for_each(|root| seen[root.0 as usize] = true);
         for position in (0..seen.len()).rev() {
+            step();
             if seen[position] {
                 self.list[position]
                     .operands()

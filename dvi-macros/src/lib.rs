@@ -31,6 +31,7 @@ mod syntax;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod work;
 
 use proc_macro::TokenStream;
 

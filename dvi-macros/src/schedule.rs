@@ -8,6 +8,7 @@ use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
 use crate::program::Statement;
 use crate::symbolic::{Fold, Loop};
+use crate::work::step;
 
 #[derive(Debug)]
 pub(crate) enum Step {
@@ -118,6 +119,7 @@ impl<'a> Scheduler<'a> {
         let mut wanted = vec![false; self.code.len()];
         duties.iter().for_each(|duty| wanted[duty.register().0 as usize] = true);
         for position in (0..wanted.len()).rev() {
+            step();
             wanted[position] &= !outside[position];
             if wanted[position] {
                 let operands = self.code.get(Register(position as u32)).operands();

@@ -8,6 +8,7 @@
 //! product inside is computed anyway, as it is when a sum and a scatter share their loop.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::iter::repeat_n;
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
@@ -17,8 +18,6 @@ use crate::program::Statement;
 use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node, signed_exponent};
 
 mod share;
-
-use share::remove;
 
 /// Above this exponent a power is a call of `powi`.
 const LARGEST_EXPANDED: u32 = 32;
@@ -34,15 +33,24 @@ enum Factor {
 /// |scale|·node.
 type Key = (u64, Id);
 
+/// Distinct factors and how often each occurs.
+type Powers = Vec<(Factor, u32)>;
+
+struct Pair {
+    factors: [Factor; 2],
+    /// The indices on which it depends.
+    free: Free,
+}
+
 struct Builder<'a> {
     graph: &'a mut Graph,
-    /// Products whose factors are shared, as multisets. Every other product is what its node says.
-    products: BTreeMap<Key, Vec<Factor>>,
+    /// Products whose factors are shared. Every other product is what its node says.
+    products: BTreeMap<Key, Powers>,
     /// Products of a sum that are sums of this product.
     absorbed: HashMap<Key, (Loop, Key)>,
     /// Sums and products over a range as loops, each with its body inside of that loop.
     loops: HashMap<Id, (Fold, Loop, Expr)>,
-    pairs: Vec<(Factor, Factor)>,
+    pairs: Vec<Pair>,
     /// Reciprocals with a single use.
     divisors: HashSet<Id>,
     out: Instructions,
@@ -156,21 +164,22 @@ impl Builder<'_> {
         let outer: Vec<Key> = self
             .products
             .iter()
-            .filter(|(_, factors)| factors.contains(&Factor::Node(sum)))
+            .filter(|(_, powers)| powers.iter().any(|(factor, _)| *factor == Factor::Node(sum)))
             .map(|(key, _)| *key)
             .collect();
         let mut all = !outer.is_empty() && body.scale > 0.0;
         for key in outer.into_iter().filter(|_| body.scale > 0.0) {
-            let mut merged = self.products[&key].clone();
-            remove(&mut merged, Factor::Node(sum));
+            let mut merged = BTreeMap::from_iter(self.products[&key].iter().copied());
+            merged.entry(Factor::Node(sum)).and_modify(|exponent| *exponent -= 1);
+            merged.retain(|_, exponent| *exponent > 0);
             // A factor that is known only further inside than the sum cannot enter it.
-            if merged.iter().any(|factor| self.depth(*factor) > over.depth) {
+            if merged.keys().any(|factor| self.depth(*factor) > over.depth) {
                 all = false;
                 continue;
             }
-            merged.extend_from_slice(&inner);
-            merged.sort_unstable();
-            match self.products.iter().find(|(_, factors)| **factors == merged).map(|(known, _)| *known) {
+            inner.iter().for_each(|(factor, exponent)| *merged.entry(*factor).or_default() += exponent);
+            let merged = Powers::from_iter(merged);
+            match self.products.iter().find(|(_, powers)| **powers == merged).map(|(known, _)| *known) {
                 Some(known) => {
                     self.products.remove(&key);
                     self.absorbed.insert(key, (over.clone(), known));
@@ -183,27 +192,29 @@ impl Builder<'_> {
 
     fn note(&mut self, expr: Expr) {
         if let Some(key) = self.product_key(expr) {
-            let factors = self.expand(key);
-            self.products.entry(key).or_insert(factors);
+            let powers = self.expand(key);
+            self.products.entry(key).or_insert(powers);
         }
     }
 
     /// The factors of |scale|·node, in order.
-    fn expand(&self, key: Key) -> Vec<Factor> {
-        let mut factors = Vec::new();
+    fn expand(&self, key: Key) -> Powers {
+        let mut powers = Vec::new();
         if f64::from_bits(key.0) != 1.0 {
-            factors.push(Factor::Literal(key.0));
+            powers.push((Factor::Literal(key.0), 1));
         }
-        let mut add = |id: Id, exponent: u32| match exponent {
-            0..=LARGEST_EXPANDED => factors.extend(std::iter::repeat_n(Factor::Node(id), exponent as usize)),
-            _ => factors.push(Factor::Power(id, signed_exponent(exponent))),
+        let mut add = |id: Id, exponent: u32| {
+            powers.push(match exponent {
+                0..=LARGEST_EXPANDED => (Factor::Node(id), exponent),
+                _ => (Factor::Power(id, signed_exponent(exponent)), 1),
+            });
         };
         match self.graph.node(key.1) {
             Node::Product(powers) => powers.iter().for_each(|(id, exponent)| add(*id, *exponent)),
             _ => add(key.1, 1),
         }
-        factors.sort_unstable();
-        factors
+        powers.sort_unstable();
+        powers
     }
 
     /// The key of the product that an expression is, if it is one.
@@ -214,11 +225,11 @@ impl Builder<'_> {
     }
 
     fn find_divisors(&mut self) {
-        let mut uses: HashMap<Id, usize> = HashMap::default();
-        let pairs = self.pairs.iter().flat_map(|(a, b)| [*a, *b]);
-        for factor in self.products.values().flatten().copied().chain(pairs) {
+        let mut uses: HashMap<Id, u32> = HashMap::default();
+        let pairs = self.pairs.iter().flat_map(|pair| pair.factors).map(|factor| (factor, 1));
+        for (factor, exponent) in self.products.values().flatten().copied().chain(pairs) {
             if let Factor::Node(id) = factor {
-                *uses.entry(id).or_default() += 1;
+                *uses.entry(id).or_default() += exponent;
             }
         }
         let reciprocal = |id: &Id| matches!(self.graph.node(*id), Node::Reciprocal(_));
@@ -237,10 +248,7 @@ impl Builder<'_> {
         match factor {
             Factor::Literal(_) => Free::default(),
             Factor::Node(id) | Factor::Power(id, _) => self.graph.free(id),
-            Factor::Pair(pair) => {
-                let (a, b) = self.pairs[pair as usize];
-                self.free(a).and(self.free(b))
-            }
+            Factor::Pair(pair) => self.pairs[pair as usize].free,
         }
     }
 
@@ -269,10 +277,12 @@ impl Builder<'_> {
             let body = Signed { negative: false, register: self.product(body) };
             return self.out.push(Instruction::Reduce(Fold::Sum, over, body));
         }
-        let mut factors = match self.products.get(&key) {
+        let powers = match self.products.get(&key) {
             Some(shared) => shared.clone(),
             None => self.expand(key),
         };
+        let repeated = powers.into_iter().flat_map(|(factor, exponent)| repeat_n(factor, exponent as usize));
+        let mut factors: Vec<Factor> = repeated.collect();
         factors.sort_by_key(|factor| (self.depth(*factor), *factor));
         self.multiplied(&factors)
     }
@@ -322,7 +332,7 @@ impl Builder<'_> {
                 self.out.push(Instruction::Power(base, exponent))
             }
             Factor::Pair(pair) => {
-                let (a, b) = self.pairs[pair as usize];
+                let [a, b] = self.pairs[pair as usize].factors;
                 self.multiplied(&[a, b])
             }
         }

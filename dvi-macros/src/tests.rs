@@ -8,6 +8,7 @@ use syn::visit::Visit;
 
 use crate::expand::degenerate_lagrangian;
 
+mod growth;
 mod regular;
 
 /// All functions of an expansion, those inside of `const _` included.

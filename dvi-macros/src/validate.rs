@@ -196,12 +196,12 @@ impl Check<'_> {
             let size = point.length(&model.block_size(block)).unwrap_or(0).min(MOST);
             (0..size).map(move |index| Support::Entry(block, index))
         });
-        let entries: Vec<Support> = entries.collect();
+        let entries: Vec<Support<'_>> = entries.collect();
         let rows = functions.constraint_lengths().iter().enumerate().flat_map(|(number, length)| {
             let length = point.length(length).unwrap_or(0).min(MOST);
             (0..length).map(move |member| Support::Constraint(number, member))
         });
-        let rows: Vec<Support> = if output.is_by_constraint() { rows.collect() } else { entries.clone() };
+        let rows: Vec<Support<'_>> = if output.is_by_constraint() { rows.collect() } else { entries.clone() };
         let mut worst: Option<(f64, Difference)> = None;
         for first in &rows {
             for second in if output.is_matrix { entries.as_slice() } else { std::slice::from_ref(first) } {
@@ -228,8 +228,8 @@ impl Check<'_> {
         worst.map(|(_, difference)| difference)
     }
 
-    fn named(&self, directions: Directions, is_matrix: bool) -> String {
-        let name = |support: Support| match support {
+    fn named(&self, directions: Directions<'_>, is_matrix: bool) -> String {
+        let name = |support: Support<'_>| match support {
             Support::Entry(block, index) => {
                 let block = &self.system.model.blocks[block];
                 match &block.array {
@@ -238,11 +238,7 @@ impl Check<'_> {
                 }
             }
             Support::Constraint(number, member) => format!("constraint {number}, member {member}"),
-            Support::All
-            | Support::Block(_)
-            | Support::Except(..)
-            | Support::Half(..)
-            | Support::OtherHalf(..) => String::new(),
+            Support::All | Support::Blocks(_) | Support::Half(_) | Support::OtherHalf(_) => String::new(),
         };
         if is_matrix {
             format!("({}, {})", name(directions.first), name(directions.second))

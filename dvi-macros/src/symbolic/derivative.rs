@@ -12,6 +12,7 @@ use super::functions::Unary;
 use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node};
 use super::index::{Atom, Index, Loop, Range, Renaming};
 use crate::internal::internal;
+use crate::work::step;
 
 /// `value`, added to the entry `target` in every pass of the loops.
 #[derive(Clone, Debug)]
@@ -59,11 +60,12 @@ impl Graph {
     }
 
     pub(super) fn node_derivative(&mut self, of: Id, by: Id) -> Expr {
+        step();
         if of == by {
             return Expr::ONE;
         }
         // An operand has a smaller id than the node that uses it.
-        if of < by {
+        if of < by || self.is_free_of(of, by) {
             return Expr::ZERO;
         }
         if let Some(known) = self.derivatives.get(&(of, by)) {

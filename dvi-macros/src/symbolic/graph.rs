@@ -10,7 +10,9 @@ use std::hash::{Hash, Hasher};
 use super::functions::Unary;
 use super::index::{Atom, Free, Index, Range};
 use super::partial::Partial;
+use super::variables::Variables;
 use crate::internal::internal;
+use crate::work::step;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Id(pub(crate) u32);
@@ -57,6 +59,8 @@ pub(crate) enum Binary {
     Powf,
     /// w/R for a root R ≥ |w|, 0 where R is; the compiler makes it, users do not write it.
     OverRoot,
+    /// u/(u² + w²), of which derivatives of `atan2` are made; the compiler makes it, users do not write it.
+    OverSquares,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -124,6 +128,9 @@ pub(crate) struct Graph {
     /// The height that a fold around each node takes.
     heights: Vec<u32>,
     known: HashMap<Node, Id>,
+    /// What each node depends on, of what has a number.
+    pub(super) variables: Vec<Variables>,
+    pub(super) numbers: HashMap<Id, usize>,
     /// Sums that derivatives made and that stand in no formula as written.
     pub(super) unsigned_sums: HashSet<Id>,
     pub(super) derivatives: HashMap<(Id, Id), Expr>,
@@ -211,6 +218,8 @@ impl Graph {
             free: Vec::new(),
             heights: Vec::new(),
             known: HashMap::default(),
+            variables: Vec::new(),
+            numbers: HashMap::default(),
             unsigned_sums: HashSet::default(),
             derivatives: HashMap::default(),
             block_sizes,
@@ -257,6 +266,8 @@ impl Graph {
         };
         let Ok(number) = u32::try_from(self.nodes.len()) else { internal("the graph is full") };
         let id = Id(number);
+        let variables = self.variables_below(&node, &operands);
+        self.variables.push(variables);
         self.nodes.push(node.clone());
         self.free.push(free);
         self.heights.push(height);
@@ -275,6 +286,7 @@ impl Graph {
         let mut found: Vec<Id> = roots.into_iter().filter(|root| seen.insert(*root)).collect();
         let mut next = 0;
         while let Some(id) = found.get(next) {
+            step();
             let operands = self.node(*id).operands();
             found.extend(operands.into_iter().filter(|operand| seen.insert(*operand)));
             next += 1;

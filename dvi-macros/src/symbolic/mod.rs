@@ -23,6 +23,7 @@ mod rules;
 mod simplify;
 #[cfg(test)]
 mod tests;
+mod variables;
 
 pub(crate) use antiderivative::Terms;
 pub(crate) use derivative::{Contribution, SecondContribution};

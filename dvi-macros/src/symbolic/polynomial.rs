@@ -139,10 +139,10 @@ impl Graph {
                 }
                 Some(sum)
             }
-            _ if loose => {
-                self.in_other_functions(id, 1).or_else(|| Some(Polynomial::term(1.0, vec![(id, 1)])))
+            _ => {
+                let other = self.in_other_functions(id, 1, loose);
+                other.or_else(|| Some(Polynomial::term(1.0, vec![(id, 1)])))
             }
-            _ => Some(Polynomial::term(1.0, vec![(id, 1)])),
         }
     }
 
@@ -154,8 +154,7 @@ impl Graph {
                 Node::Sum(_) | Node::Reduce { fold: Fold::Sum, .. } if exponent > 0 => {
                     self.polynomial_of_power(factor.node, exponent, loose)
                 }
-                _ if loose => self.in_other_functions(factor.node, exponent),
-                _ => None,
+                _ => self.in_other_functions(factor.node, exponent, loose),
             };
             // What is too long stays one factor.
             product = match power.and_then(|power| product.times(&power)) {
@@ -172,17 +171,25 @@ impl Graph {
         (1..exponent).try_fold(base.clone(), |power, _| power.times(&base))
     }
 
-    /// tanh as sinh/cosh, and a power with a broken exponent as a whole power times one with an exponent below 1, rounded.
-    fn in_other_functions(&mut self, factor: Id, exponent: i32) -> Option<Polynomial> {
+    /// A derivative of `atan2` as the quotient that it is; loosely also tanh as sinh/cosh, and a power with a
+    /// broken exponent as a whole power times one with an exponent below 1, rounded.
+    fn in_other_functions(&mut self, factor: Id, exponent: i32, loose: bool) -> Option<Polynomial> {
         /// Of exponents, 40 bits are compared.
         const GRID: f64 = (1_u64 << 40) as f64;
         match *self.node(factor) {
-            Node::Unary(Unary::Tanh, w) => {
+            Node::Binary(Binary::OverSquares, u, w) => {
+                let [square, other] = [u, w].map(|of| self.power(of, 2));
+                let squares = self.add(square, other);
+                let quotient = self.divide(u, squares);
+                let power = self.powi(quotient, exponent);
+                self.polynomial_of(power.node, loose)?.times(&Polynomial::term(power.scale, Vec::new()))
+            }
+            Node::Unary(Unary::Tanh, w) if loose => {
                 let [sinh, cosh] = [Unary::Sinh, Unary::Cosh].map(|function| self.unary(function, w));
                 let factors = joined(&[(sinh.node, exponent)], &[(cosh.node, -exponent)]);
                 Some(Polynomial::term(sinh.scale.powi(exponent), factors))
             }
-            Node::Binary(Binary::Powf, w, power) if w.scale == 1.0 => {
+            Node::Binary(Binary::Powf, w, power) if loose && w.scale == 1.0 => {
                 let power = (power.as_number()? * GRID).round() / GRID;
                 let whole = power.floor();
                 let broken = self.binary(Binary::Powf, w, Expr::number(power - whole));

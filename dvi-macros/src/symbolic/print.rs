@@ -292,6 +292,7 @@ impl Printer<'_> {
             Node::Product(factors) => (self.quotient(factors), Strength::Product),
             Node::Reciprocal(_) => (self.quotient(&[(id, 1)]), Strength::Product),
             Node::Unary(function, u) => self.call(function.name(), &[*u]),
+            Node::Binary(Binary::OverSquares, ..) => (self.quotient(&[(id, 1)]), Strength::Product),
             Node::Binary(function, a, b) => self.call(function.name(), &[*a, *b]),
             Node::Call(function, order, u) => {
                 let name =
@@ -354,19 +355,23 @@ impl Printer<'_> {
     }
 
     fn quotient(&self, factors: &[(Id, u32)]) -> String {
-        let power = |id: Id, exponent: u32| {
-            let base = self.expr(id.into(), Strength::Atom);
-            match (exponent, self.letters.notation) {
-                (1, _) => base,
-                (_, Notation::Paper) => format!("{base}^{exponent}"),
-                (_, Notation::Language) => format!("{base}.powi({exponent})"),
-            }
+        let raised = |base: String, exponent: u32| match (exponent, self.letters.notation) {
+            (1, _) => base,
+            (_, Notation::Paper) => format!("{base}^{exponent}"),
+            (_, Notation::Language) => format!("{base}.powi({exponent})"),
         };
+        let power = |of: Expr, exponent: u32| raised(self.expr(of, Strength::Atom), exponent);
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (factor, exponent) in factors {
             match self.graph.node(*factor) {
-                Node::Reciprocal(of) => below.push(power(*of, *exponent)),
-                _ => above.push(power(*factor, *exponent)),
+                Node::Reciprocal(of) => below.push(power((*of).into(), *exponent)),
+                Node::Binary(Binary::OverSquares, u, w) => {
+                    let (first, second) = if u.node < w.node { (*u, *w) } else { (*w, *u) };
+                    let squares = format!("({} + {})", power(first, 2), power(second, 2));
+                    above.push(power(*u, *exponent));
+                    below.push(raised(squares, *exponent));
+                }
+                _ => above.push(power((*factor).into(), *exponent)),
             }
         }
         let times = self.letters.times();

@@ -12,10 +12,17 @@ pub(super) const BINARY: &[BinaryRow] = &[
     ("hypot", Binary::Hypot, f64::hypot),
     ("powf",  Binary::Powf,  f64::powf),
     ("over_root", Binary::OverRoot, over_root),
+    ("over_squares", Binary::OverSquares, over_squares),
 ];
 
 fn over_root(w: f64, root: f64) -> f64 {
     if root <= 0.0 { 0.0 * w } else { w / root }
+}
+
+fn over_squares(u: f64, w: f64) -> f64 {
+    let (less, more) = if u.abs() < w.abs() { (u, w) } else { (w, u) };
+    let quotient = less / more;
+    (if u.abs() < w.abs() { quotient } else { 1.0 }) / (more + less * quotient)
 }
 
 fn binary_row(function: Binary) -> &'static BinaryRow {
@@ -34,7 +41,7 @@ pub(crate) fn binary_by_name(name: &str) -> Option<Binary> {
 
 /// Those that a formula may use.
 fn written() -> impl Iterator<Item = &'static BinaryRow> {
-    BINARY.iter().filter(|(_, function, _)| *function != Binary::OverRoot)
+    BINARY.iter().filter(|(_, function, _)| !matches!(function, Binary::OverRoot | Binary::OverSquares))
 }
 
 /// Their names, in the order of the table.
@@ -84,10 +91,8 @@ impl Graph {
     pub(super) fn binary_derivatives(&mut self, function: Binary, a: Expr, b: Expr, f: Expr) -> [Expr; 2] {
         match function {
             Binary::Atan2 => {
-                let (squares_a, squares_b) = (self.power(a, 2), self.power(b, 2));
-                let squares = self.add(squares_a, squares_b);
-                let over = self.reciprocal(squares);
-                [self.multiply(b, over), self.multiply(a, over).negated()]
+                let [along, across] = [(b, a), (a, b)].map(|(u, w)| self.binary(Binary::OverSquares, u, w));
+                [along, across.negated()]
             }
             Binary::Hypot => {
                 let over = self.reciprocal(f);
@@ -105,11 +110,20 @@ impl Graph {
                     let squared = self.power(b, 2);
                     slope = self.where_asked(squared, slope);
                 }
-                [slope, self.multiply(f, logarithm)]
+                // Where a and f are 0 the logarithm is infinite, and the product has the limit 0, which f is.
+                let [size, of_base] = [f, a].map(|of| self.unary(Unary::Abs, of));
+                let (sizes, product) = (self.add(size, of_base), self.multiply(f, logarithm));
+                [slope, self.choose(sizes, Relation::HasMore, Expr::ZERO, product, f)]
             }
             Binary::OverRoot => {
                 let over = self.reciprocal(b);
                 [over, self.multiply(f, over).negated()]
+            }
+            Binary::OverSquares => {
+                // f = u/(u² + w²) and g = w/(u² + w²): g² − f² and −2fg.
+                let g = self.binary(Binary::OverSquares, b, a);
+                let (less, more) = (self.subtract(g, f), self.add(g, f));
+                [self.multiply(less, more), self.multiply(f, g).scaled(-2.0)]
             }
         }
     }

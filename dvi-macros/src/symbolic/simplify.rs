@@ -189,6 +189,7 @@ impl Graph {
             return Expr::number(rules::evaluate_binary(function, a, b));
         }
         match (function, b.as_number()) {
+            (Binary::OverSquares, _) if a.is_zero() => Expr::ZERO,
             (Binary::Powf, Some(exponent))
                 if exponent.abs() <= 64.0
                     && (2.0 * exponent).fract() == 0.0

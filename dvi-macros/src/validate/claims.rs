@@ -45,10 +45,8 @@ impl System<'_> {
             (Claims::Degenerate(form), Functions::Degenerate(programs)) => {
                 self.check_form(form, point)?;
                 if form.canonical {
-                    let blocks = form.conjugates.iter().enumerate();
-                    for (block, conjugate) in blocks {
-                        let first = Support::Block(block);
-                        let directions = Directions { first, second: Support::Block(*conjugate) };
+                    let [one, other] = conjugates(form);
+                    for directions in [between(&one, &other), between(&other, &one)] {
                         let Some(outputs) = self.at(point, directions) else { continue };
                         let conjugates = Some(form.conjugates.as_slice());
                         let machine = Machine { graph, model: self.model, point, directions, conjugates };
@@ -71,7 +69,7 @@ impl System<'_> {
     }
 
     /// The values along these directions, where they exist.
-    fn at(&self, point: &Point, directions: Directions) -> Option<Outputs> {
+    fn at(&self, point: &Point, directions: Directions<'_>) -> Option<Outputs> {
         self.outputs(point, directions, Part::Form, u64::MAX).ok().filter(Outputs::is_moderate)
     }
 
@@ -83,25 +81,27 @@ impl System<'_> {
                 vanishes("AFFINE", "∂α/∂t", here.form_rate())?;
             }
         }
-        for (block, components) in form.class.components.iter().enumerate() {
-            let directions = Directions { first: Support::Block(block), ..Directions::ALL };
-            if *components == Components::Block(false)
-                && let Some(outputs) = self.at(point, directions)
-            {
-                vanishes(
-                    "ProperlyDegenerate",
-                    "a component of α that is said to vanish",
-                    outputs.form_along(),
-                )?;
-            }
+        let components = form.class.components.iter();
+        let vanishing: Vec<bool> =
+            components.map(|components| *components == Components::Block(false)).collect();
+        let directions = Directions { first: Support::Blocks(&vanishing), ..Directions::ALL };
+        if vanishing.contains(&true)
+            && let Some(outputs) = self.at(point, directions)
+        {
+            let what = "a component of α that is said to vanish";
+            vanishes("ProperlyDegenerate", what, outputs.form_along())?;
         }
         if form.canonical {
-            for (block, conjugate) in form.conjugates.iter().enumerate() {
+            // A coordinate and its conjugate stay together.
+            let blocks = form.conjugates.iter().enumerate();
+            let splits = splits(blocks.map(|(block, conjugate)| block.min(*conjugate)).collect());
+            let [one, other] = conjugates(form);
+            let itself = [between(&one, &one), between(&other, &other)];
+            let apart = apart(&splits, point.seed());
+            for directions in apart.into_iter().chain(itself.into_iter().filter(|_| form.matching)) {
                 let what = "an entry of Dα away from the conjugate coordinate";
-                for directions in away_from(block, *conjugate, form.matching, point.seed()) {
-                    if let Some(outputs) = self.at(point, directions) {
-                        vanishes("CANONICAL", what, outputs.form_jacobian(point))?;
-                    }
+                if let Some(outputs) = self.at(point, directions) {
+                    vanishes("CANONICAL", what, outputs.form_jacobian(point))?;
                 }
             }
         }
@@ -130,11 +130,10 @@ impl System<'_> {
             }
         }
         if mass.diagonal {
-            for block in 0..self.model.blocks.len() {
-                for directions in away_from(block, block, false, point.seed()) {
-                    if let Some(outputs) = self.at(point, directions) {
-                        vanishes("DIAGONAL_MASS", "∂²L/∂v∂v off the diagonal", outputs.mass())?;
-                    }
+            let splits = splits((0..self.model.blocks.len()).collect());
+            for directions in apart(&splits, point.seed()) {
+                if let Some(outputs) = self.at(point, directions) {
+                    vanishes("DIAGONAL_MASS", "∂²L/∂v∂v off the diagonal", outputs.mass())?;
                 }
             }
         }
@@ -142,17 +141,32 @@ impl System<'_> {
     }
 }
 
-/// Directions between which a matrix vanishes that couples each entry of `block` to the same entry of
-/// `conjugate` only, and to itself unless `is_off_diagonal`.
-fn away_from(block: usize, conjugate: usize, is_off_diagonal: bool, seed: u64) -> Vec<Directions> {
-    let pair = |first, second| Directions { first, second };
-    let mut directions = vec![
-        pair(Support::Block(block), Support::Except(block, conjugate)),
-        pair(Support::Half(block, seed), Support::OtherHalf(block, seed)),
-        pair(Support::Half(block, seed), Support::OtherHalf(conjugate, seed)),
-    ];
-    if is_off_diagonal {
-        directions.push(pair(Support::Block(block), Support::Block(block)));
-    }
-    directions
+/// Of each pair of conjugate blocks, one and the other.
+fn conjugates(form: &OneForm) -> [Vec<bool>; 2] {
+    let blocks = || form.conjugates.iter().enumerate();
+    [
+        blocks().map(|(block, conjugate)| block < *conjugate).collect(),
+        blocks().map(|(block, conjugate)| block > *conjugate).collect(),
+    ]
+}
+
+fn between<'a>(first: &'a [bool], second: &'a [bool]) -> Directions<'a> {
+    Directions { first: Support::Blocks(first), second: Support::Blocks(second) }
+}
+
+/// All blocks in two parts, so often that any two with different numbers are apart once: by the digits of
+/// their numbers.
+fn splits(numbers: Vec<usize>) -> Vec<[Vec<bool>; 2]> {
+    let digits = numbers.iter().max().map_or(0, |largest| usize::BITS - largest.leading_zeros());
+    let part = |digit: u32, value: usize| -> Vec<bool> {
+        numbers.iter().map(|number| number >> digit & 1 == value).collect()
+    };
+    (0..digits).map(|digit| [part(digit, 0), part(digit, 1)]).collect()
+}
+
+/// Directions between which a symmetric matrix vanishes that couples nothing across these splits, and no
+/// entry of an array to another one.
+fn apart(splits: &[[Vec<bool>; 2]], seed: u64) -> Vec<Directions<'_>> {
+    let halves = Directions { first: Support::Half(seed), second: Support::OtherHalf(seed) };
+    splits.iter().map(|[one, other]| between(one, other)).chain([halves]).collect()
 }

@@ -13,6 +13,7 @@ use super::point::{Branches, Directions, Point, Variable};
 use crate::internal::internal;
 use crate::model::{Extended, Model};
 use crate::syntax::Force;
+use crate::work::step;
 
 mod calls;
 mod constraints;
@@ -40,6 +41,31 @@ enum Binding {
     Index(i64),
 }
 
+/// The names of the scopes that are open.
+#[derive(Default)]
+struct Scope {
+    names: Vec<Rc<str>>,
+    /// What each of them stands for, the bindings scope last.
+    bindings: HashMap<Rc<str>, Vec<Binding>>,
+}
+
+impl Scope {
+    fn push(&mut self, name: Rc<str>, binding: Binding) {
+        self.bindings.entry(name.clone()).or_default().push(binding);
+        self.names.push(name);
+    }
+
+    fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    fn truncate(&mut self, outside: usize) {
+        for name in self.names.drain(outside..) {
+            self.bindings.entry(name).or_default().pop();
+        }
+    }
+}
+
 /// The names in the text, each made once: by the place of the node that it is the text of. The formulas
 /// stay where they are as long as they are checked.
 #[derive(Debug, Default)]
@@ -62,10 +88,11 @@ pub(super) type Sides = HashSet<(usize, bool)>;
 pub(super) struct Evaluation<'a> {
     pub(super) model: &'a Model,
     texts: &'a Texts,
-    blocks: Vec<Rc<str>>,
+    blocks: HashMap<Rc<str>, usize>,
+    parameters: HashSet<&'a str>,
     functions: Vec<Rc<str>>,
     pub(super) point: &'a Point,
-    pub(super) directions: Directions,
+    pub(super) directions: Directions<'a>,
     /// Velocities are zero, and no direction changes them.
     pub(super) is_still: bool,
     /// Positions move with their velocities, and the time with 1.
@@ -78,7 +105,7 @@ pub(super) struct Evaluation<'a> {
     /// Whether rounding may decide what comes out: some part of the formulas has a huge value, even if the whole has not, or
     /// two sides of a comparison cannot be told apart.
     pub(super) is_delicate: bool,
-    scope: Vec<(Rc<str>, Binding)>,
+    scope: Scope,
 }
 
 impl<'a> Evaluation<'a> {
@@ -86,17 +113,17 @@ impl<'a> Evaluation<'a> {
         model: &'a Model,
         texts: &'a Texts,
         point: &'a Point,
-        directions: Directions,
+        directions: Directions<'a>,
         budget: u64,
     ) -> Self {
-        let blocks =
-            model.blocks.iter().map(|block| texts.of(&block.name, || block.name.to_string())).collect();
+        let names = model.blocks.iter().map(|block| texts.of(&block.name, || block.name.to_string()));
         let own = model.functions.iter();
         let functions = own.map(|own| texts.of(&own.name, || own.name.to_string())).collect();
         Self {
             model,
             texts,
-            blocks,
+            blocks: names.zip(0..).collect(),
+            parameters: model.parameters.iter().map(|parameter| parameter.text.as_str()).collect(),
             functions,
             point,
             directions,
@@ -106,7 +133,7 @@ impl<'a> Evaluation<'a> {
             budget,
             sides: Sides::default(),
             is_delicate: false,
-            scope: Vec::new(),
+            scope: Scope::default(),
         }
     }
 
@@ -178,6 +205,7 @@ impl<'a> Evaluation<'a> {
     }
 
     pub(super) fn number(&mut self, syntax: &Expr) -> Value<Jet> {
+        step();
         self.budget = self.budget.checked_sub(1).ok_or(NoValue::TooLong)?;
         let value = self.evaluate(syntax)?;
         self.is_delicate |= value.is_huge();
@@ -227,7 +255,7 @@ impl<'a> Evaluation<'a> {
                     let Some(init) = &local.init else { unknown(local) };
                     let bound = self.number(&init.expr)?;
                     let name = self.texts.of(&local.pat, || pattern(&local.pat));
-                    self.scope.push((name, Binding::Number(bound)));
+                    self.scope.push(name, Binding::Number(bound));
                 }
                 Stmt::Expr(expr, None) => value = Some(self.number(expr)?),
                 _ => unknown(statement),
@@ -269,7 +297,7 @@ impl<'a> Evaluation<'a> {
     }
 
     fn bound(&self, name: &str) -> Option<Binding> {
-        self.scope.iter().rev().find(|(known, _)| **known == *name).map(|(_, binding)| binding.clone())
+        self.scope.bindings.get(name).and_then(|bindings| bindings.last()).cloned()
     }
 
     fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Jet> {
@@ -296,12 +324,11 @@ impl<'a> Evaluation<'a> {
     }
 
     fn block(&self, name: &str) -> Option<usize> {
-        self.blocks.iter().position(|block| **block == *name)
+        self.blocks.get(name).copied()
     }
 
-    fn parameter(&self, name: &str) -> Option<&str> {
-        let mut names = self.model.parameters.iter().map(|parameter| parameter.text.as_str());
-        names.find(|known| *known == name)
+    fn parameter(&self, name: &str) -> Option<&'a str> {
+        self.parameters.get(name).copied()
     }
 
     fn size(&self, name: &str) -> Option<i64> {

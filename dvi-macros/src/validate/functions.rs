@@ -169,6 +169,7 @@ pub(super) fn printed_binary(name: &str, a: f64, b: f64) -> f64 {
                 a / b
             }
         }
+        "over_squares" => a / (a * a + b * b),
         "hypot" => a.hypot(b),
         "powf" => a.powf(b),
         "atan2" => a.atan2(b),

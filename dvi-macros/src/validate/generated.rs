@@ -42,7 +42,7 @@ impl Functions<'_> {
         graph: &Graph,
         model: &Model,
         point: &Point,
-        directions: Directions,
+        directions: Directions<'_>,
     ) -> Vec<(Output, f64)> {
         let machine = Machine { graph, model, point, directions, conjugates: None };
         let mut found = Vec::new();

@@ -11,6 +11,7 @@ use crate::program::{Output, Place, Row};
 use crate::routine::Routine;
 use crate::schedule::Step;
 use crate::symbolic::{Atom, Coordinate, Fold, Graph, Id, Index, Node, Relation};
+use crate::work::step;
 
 /// What a routine gives: what it returns, its vectors along the first direction, and its matrix between
 /// the first and the second.
@@ -39,7 +40,7 @@ pub(super) struct Machine<'a> {
     pub(super) graph: &'a Graph,
     pub(super) model: &'a Model,
     pub(super) point: &'a Point,
-    pub(super) directions: Directions,
+    pub(super) directions: Directions<'a>,
     /// For a vector of the entries (i, conjugate of i): the conjugate of each block.
     pub(super) conjugates: Option<&'a [usize]>,
 }
@@ -160,6 +161,7 @@ impl Run<'_> {
     }
 
     fn instruction(&mut self, instruction: &Instruction) -> f64 {
+        step();
         match instruction {
             Instruction::Leaf(id) => self.leaf(*id),
             Instruction::Literal(bits) => f64::from_bits(*bits),

@@ -18,14 +18,13 @@ pub(super) enum Variable {
 
 /// The entries along which a direction goes; elsewhere it is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Support {
+pub(super) enum Support<'a> {
     All,
-    Block(usize),
-    /// All blocks but these two.
-    Except(usize, usize),
-    /// About half of the entries of a block, drawn by a number, and its other half.
-    Half(usize, u64),
-    OtherHalf(usize, u64),
+    /// Those blocks for which this holds.
+    Blocks(&'a [bool]),
+    /// About half of the entries of each block, drawn by a number, and their other half.
+    Half(u64),
+    OtherHalf(u64),
     /// A single entry of a block.
     Entry(usize, i64),
     /// No coordinate, but a single constraint: a declared one, and a member of it.
@@ -34,12 +33,12 @@ pub(super) enum Support {
 
 /// Two directions of displacement, both for positions and for velocities.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Directions {
-    pub(super) first: Support,
-    pub(super) second: Support,
+pub(super) struct Directions<'a> {
+    pub(super) first: Support<'a>,
+    pub(super) second: Support<'a>,
 }
 
-impl Directions {
+impl Directions<'_> {
     pub(super) const ALL: Self = Self { first: Support::All, second: Support::All };
 }
 
@@ -208,14 +207,13 @@ impl Point {
     }
 
     /// The component of a direction; the second one is another draw.
-    pub(super) fn direction(&self, support: Support, is_second: bool, block: usize, index: i64) -> f64 {
+    pub(super) fn direction(&self, support: Support<'_>, is_second: bool, block: usize, index: i64) -> f64 {
         let half = |number: u64| mix(mix(number) ^ mix(index as u64)) & 1 == 0;
         let counts = match support {
             Support::All => true,
-            Support::Block(only) => block == only,
-            Support::Except(one, other) => block != one && block != other,
-            Support::Half(only, number) => block == only && half(number),
-            Support::OtherHalf(only, number) => block == only && !half(number),
+            Support::Blocks(holds) => holds[block],
+            Support::Half(number) => half(number),
+            Support::OtherHalf(number) => !half(number),
             Support::Entry(only, at) => return f64::from(u8::from(block == only && index == at)),
             Support::Constraint(..) => false,
         };
@@ -224,15 +222,11 @@ impl Point {
     }
 
     /// The component of the first direction in the row of a constraint.
-    pub(super) fn row(&self, support: Support, constraint: usize, member: i64) -> f64 {
+    pub(super) fn row(&self, support: Support<'_>, constraint: usize, member: i64) -> f64 {
         match support {
             Support::All => signed(mix(self.seed ^ mix(60) ^ mix(mix(constraint as u64) ^ member as u64))),
             Support::Constraint(only, at) => f64::from(u8::from(constraint == only && member == at)),
-            Support::Block(_)
-            | Support::Except(..)
-            | Support::Half(..)
-            | Support::OtherHalf(..)
-            | Support::Entry(..) => 0.0,
+            Support::Blocks(_) | Support::Half(_) | Support::OtherHalf(_) | Support::Entry(..) => 0.0,
         }
     }
 

@@ -49,7 +49,7 @@ impl System<'_> {
     pub(super) fn outputs(
         &self,
         point: &Point,
-        along: Directions,
+        along: Directions<'_>,
         part: Part,
         budget: u64,
     ) -> Result<Outputs, NoValue> {

@@ -61,6 +61,7 @@ limits! {
     SizeTimesSine: x.abs() * x.abs().sin() + y.abs().hypot(1.0) => [2.0, 0.0, 0.0, 1.0];
     ReciprocalOfSize: 1 / (1 + x.abs().powi(2)) - (x - y).abs().powi(2) => [-4.0, 2.0, 2.0, -2.0];
     Fifth: x.hypot(y).powi(5) * (1 + x) + y.powi(2) => [0.0, 0.0, 0.0, 2.0];
+    PowerThatVaries: y * y - x.powf(2 + y) => [-2.0, 0.0, 0.0, 2.0];
 }
 
 /// The first derivative alone has a limit that the compiler finds; the second is not a number, never another number.

@@ -49,8 +49,13 @@ const UNARY: &[UnaryRow] = &[
     ("sinc", |x| bessel(0, x)), ("sinc1", |x| bessel(1, x)), ("sinc2", |x| bessel(2, x)),
 ];
 
-const BINARY: &[BinaryRow] =
-    &[("atan2", f64::atan2), ("hypot", f64::hypot), ("powf", f64::powf), ("over_root", over_root)];
+const BINARY: &[BinaryRow] = &[
+    ("atan2", f64::atan2),
+    ("hypot", f64::hypot),
+    ("powf", f64::powf),
+    ("over_root", over_root),
+    ("over_squares", |u, w| u / (u * u + w * w)),
+];
 
 /// Zero where the root is, as the documentation of `dvi_core::Scalar` has it.
 fn over_root(w: f64, root: f64) -> f64 {

@@ -242,3 +242,67 @@ fn hypot_across_and_far_away() {
         }
     }
 }
+
+/// The angle of a point, near the origin, far from it, and close to an axis: c/r, −s/r and their derivatives
+/// with s = a/r, c = b/r.
+#[test]
+fn angles_near_and_far() {
+    let mut plane = Plane::new();
+    let f = plane.graph.binary(Binary::Atan2, plane.x.into(), plane.y.into());
+    let points = [
+        (3.0, 4.0),
+        (5e-160, 2e-160),
+        (-5e160, 2e160),
+        (1e-300, -3e-300),
+        (1e-300, 1e-300),
+        (3e300, 1e300),
+        (1e-200, -3.0),
+        (3.0, 1e-200),
+        (0.0, 2.0),
+        (0.0, -1e-170),
+        (2e160, 0.0),
+    ];
+    for (a, b) in points {
+        let r = f64::hypot(a, b);
+        let (s, c) = (a / r, b / r);
+        let (twice, difference) = (2.0 * s * c / r / r, (s - c) * (s + c) / r / r);
+        let expected = [a.atan2(b), c / r, -s / r, -twice, difference, difference, twice];
+        for (entry, (found, expected)) in plane.expanded(f, a, b).into_iter().zip(expected).enumerate() {
+            agree(&format!("atan2 [{entry}] at ({a:e}, {b:e})"), found, expected);
+        }
+    }
+}
+
+/// x^y at x = 0: xʸ·ln x and xʸ·ln² x vanish for y > 0, xʸ⁻¹·(1 + y·ln x) for y > 1; elsewhere there is no
+/// derivative.
+#[test]
+fn powers_with_exponents_that_vary_at_zero() {
+    const NONE: f64 = f64::NAN;
+    let mut plane = Plane::new();
+    let f = plane.graph.binary(Binary::Powf, plane.x.into(), plane.y.into());
+    let at_zero = [
+        (3.5, [0.0; 7]),
+        (2.0, [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0]),
+        (1.5, [0.0, 0.0, 0.0, NONE, 0.0, 0.0, 0.0]),
+        (0.5, [0.0, NONE, 0.0, NONE, NONE, NONE, 0.0]),
+        (0.0, [1.0, NONE, NONE, NONE, NONE, NONE, NONE]),
+        (-1.0, [NONE; 7]),
+    ];
+    for (y, expected) in at_zero {
+        for (entry, (found, expected)) in plane.expanded(f, 0.0, y).into_iter().zip(expected).enumerate() {
+            agree(&format!("x^y [{entry}] at (0, {y})"), found, expected);
+        }
+    }
+    for (x, y) in [(1e-100, 2.0), (1e-200, 3.0), (1e-300, 1.0), (0.3, -2.5), (1e100, 2.5)] {
+        let (x, y): (f64, f64) = (x, y);
+        let (power, slope, ln) = (x.powf(y), x.powf(y - 1.0), x.ln());
+        let mixed = slope * (1.0 + y * ln);
+        let expected =
+            [power, y * slope, power * ln, y * (y - 1.0) * x.powf(y - 2.0), mixed, mixed, power * ln * ln];
+        for (entry, (found, expected)) in plane.expanded(f, x, y).into_iter().zip(expected).enumerate() {
+            agree(&format!("x^y [{entry}] at ({x:e}, {y})"), found, expected);
+        }
+    }
+    // A power of a negative number has no derivative by its exponent, be it too small for a number or not.
+    assert!([-1.0, -1e-200].into_iter().all(|x| plane.expanded(f, x, 2.0)[2].is_nan()));
+}

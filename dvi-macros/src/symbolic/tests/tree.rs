@@ -140,6 +140,7 @@ impl Tree {
                     Binary::Hypot => F::unary(Unary::Sqrt, a * a + b * b),
                     Binary::Powf => F::unary(Unary::Exp, b * F::unary(Unary::Ln, a)),
                     Binary::OverRoot => a / b,
+                    Binary::OverSquares => a / (a * a + b * b),
                 }
             }
             Self::Choose(parts, relation) => {

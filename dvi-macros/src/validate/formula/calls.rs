@@ -120,7 +120,7 @@ impl Evaluation<'_> {
         let outside = self.scope.len();
         for (input, index) in closure.inputs.iter().zip(indices) {
             let name = self.texts.of(input, || pattern(input));
-            self.scope.push((name, Binding::Index(*index)));
+            self.scope.push(name, Binding::Index(*index));
         }
         let value = self.number(&closure.body);
         self.scope.truncate(outside);

@@ -72,9 +72,10 @@ impl Evaluation<'_> {
         let name = self.texts.of(index, || index.to_string());
         let mut members = Vec::new();
         for at in self.point.visited(lower, upper) {
-            self.scope.push((name.clone(), Binding::Index(at)));
+            let outside = self.scope.len();
+            self.scope.push(name.clone(), Binding::Index(at));
             let value = self.number(formula);
-            self.scope.pop();
+            self.scope.truncate(outside);
             members.push((at - lower, value?));
         }
         Ok(members)

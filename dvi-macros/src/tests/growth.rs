@@ -1,0 +1,97 @@
+//! How the work of the compiler grows with the size of a system: with the number of its terms.
+
+use quote::quote;
+
+use crate::expand::lagrangian;
+use crate::work::steps_of;
+
+/// A sum, cut into `let`s of 50 terms, each with its kinetic energy beside it.
+fn system(coordinates: &[String], terms: &[String]) -> u64 {
+    let kinetic: Vec<String> = coordinates.iter().map(|name| format!("dot({name}).powi(2)")).collect();
+    let mut text = String::new();
+    let mut total = Vec::new();
+    for (sign, list) in [("0.5 *", &kinetic), ("-", &terms.to_vec())] {
+        for part in list.chunks(50) {
+            let name = format!("part{}", total.len());
+            text += &format!("let {name} = {};\n", part.join(" + "));
+            total.push(format!("{sign} {name}"));
+        }
+    }
+    let formula = format!("{{ {text} {} }}", total.join(" + "));
+    let attribute = format!("coordinates({}), lagrangian = {formula}", coordinates.join(", "));
+    let attribute = attribute.parse().expect("it is Rust");
+    steps_of(|| {
+        let expansion = lagrangian(
+            attribute,
+            quote!(
+                struct System;
+            ),
+        )
+        .to_string();
+        assert!(!expansion.contains("compile_error"), "{expansion}");
+    })
+}
+
+/// Numbers without a pattern (Park & Miller 1988).
+fn random() -> impl FnMut(u64) -> u64 {
+    let mut state = 20_u64;
+    move |below| {
+        state = state * 48_271 % 2_147_483_647;
+        state % below
+    }
+}
+
+/// Σ a xⁱyʲ
+fn monomials(count: usize) -> u64 {
+    let mut random = random();
+    let terms = (0..count).map(|_| {
+        let (a, i, j) = (1 + random(999_999), random(71), random(71));
+        format!("{}e-6 * x.powi({i}) * y.powi({j})", a)
+    });
+    system(&["x".to_string(), "y".to_string()], &terms.collect::<Vec<_>>())
+}
+
+/// As many springs, each between a coordinate and the next one.
+fn chain(count: usize) -> u64 {
+    let names: Vec<String> = (0..=count).map(|number| format!("x{number}")).collect();
+    let springs = names.windows(2).map(|pair| format!("({} - {}).powi(4)", pair[0], pair[1]));
+    system(&names, &springs.collect::<Vec<_>>())
+}
+
+/// Charges on a line, each two of them with a term of their own.
+fn pairs(count: usize) -> u64 {
+    let mut random = random();
+    let bodies = (2.0 * count as f64).sqrt().ceil() as usize;
+    let names: Vec<String> = (0..bodies).map(|number| format!("x{number}")).collect();
+    let pairs = (0..bodies).flat_map(|j| (0..j).map(move |k| (j, k))).take(count);
+    let terms = pairs.map(|(j, k)| format!("{}e-3 / (1.0 + (x{j} - x{k}).powi(2)).sqrt()", 1 + random(999)));
+    system(&names, &terms.collect::<Vec<_>>())
+}
+
+/// Twice as many terms are little more than twice the work.
+fn grows_with_the_terms(name: &str, work: impl Fn(usize) -> u64, sizes: [usize; 3]) {
+    let steps = sizes.map(&work);
+    for (size, pair) in sizes.iter().zip(steps.windows(2)) {
+        let ratio = pair[1] as f64 / pair[0] as f64;
+        assert!(
+            ratio < 2.4,
+            "{name}: {size} terms take {} steps, twice as many {ratio:.2} times that",
+            pair[0]
+        );
+    }
+}
+
+#[test]
+fn monomials_without_end() {
+    grows_with_the_terms("monomials", monomials, [500, 1000, 2000]);
+}
+
+#[test]
+fn neighbours_without_end() {
+    grows_with_the_terms("a chain", chain, [50, 100, 200]);
+}
+
+#[test]
+fn pairs_without_end() {
+    grows_with_the_terms("pairs", pairs, [250, 500, 1000]);
+}
