@@ -13,7 +13,10 @@ use crate::RunTime;
 use crate::error::StepFailure;
 #[cfg(feature = "alloc")]
 use crate::space::sink::Places;
-use crate::space::{Fixed, FixedMatrix, FixedVector};
+use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room};
+#[cfg(feature = "alloc")]
+use crate::space::{lines, lines_mut};
+use crate::state::memory::Aside;
 use crate::{Real, Scalar, Sink, Space, Weights};
 
 /// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k, both from 1: a sum over
@@ -49,29 +52,36 @@ pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
 
 /// The solver of a [`Fixed`] space: block by block.
 #[derive(Debug)]
-pub struct FixedCoupled<T, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>
-{
+pub struct FixedCoupled<
+    T: Clone + Debug,
+    const NODES: usize,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+> {
     /// Transposed; the first row and column are not used.
-    rows: [[FixedMatrix<T, BLOCKS, N, SINGLES>; NODES]; NODES],
+    rows: Aside<[[FixedMatrix<T, BLOCKS, N, SINGLES, R>; NODES]; NODES]>,
     /// L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
-    second: [FixedMatrix<T, BLOCKS, N, SINGLES>; 4],
-    permutation: FixedVector<usize, BLOCKS, N, SINGLES>,
+    second: [FixedMatrix<T, BLOCKS, N, SINGLES, R>; 4],
+    permutation: FixedVector<usize, BLOCKS, N, SINGLES, R>,
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize>
-    FixedCoupled<T, NODES, BLOCKS, N, SINGLES>
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
+    FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>
 {
-    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES>) -> Self {
+    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES, R>) -> Self {
+        let rows: [[_; NODES]; NODES] = core::array::from_fn(|_| core::array::from_fn(|_| space.matrix()));
         Self {
-            rows: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
+            rows: rows.into(),
             second: core::array::from_fn(|_| space.matrix()),
             permutation: space.permutation(),
         }
     }
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize>
-    CoupledSolver<NODES, T> for FixedCoupled<T, NODES, BLOCKS, N, SINGLES>
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
+    CoupledSolver<NODES, T> for FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>
 {
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
@@ -93,7 +103,7 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
             }
             for (r, row) in rows.iter_mut().enumerate().skip(1) {
                 for (k, block) in row.iter_mut().enumerate().skip(1) {
-                    let (w, n) = (matrix.weights(r, k), Fixed::<BLOCKS, N, SINGLES>::DIMENSION);
+                    let (w, n) = (matrix.weights(r, k), Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION);
                     add_transposed::<_, _, M, NODES>(w, second, n, block);
                 }
             }
@@ -205,14 +215,11 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
     ) -> Result<(), StepFailure> {
         let Self { solver, b, x } = self;
         let n = vectors[0].len();
-        if n == 0 {
-            return Ok(());
-        }
-        for (b, vector) in b.chunks_exact_mut(n).zip(&vectors[1..]) {
+        for (b, vector) in lines_mut(b, n).zip(&vectors[1..]) {
             b.copy_from_slice(vector);
         }
         solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, x)?;
-        for (x, vector) in x.chunks_exact(n).zip(&mut vectors[1..]) {
+        for (x, vector) in lines(x, n).zip(&mut vectors[1..]) {
             vector.copy_from_slice(x);
         }
         Ok(())
