@@ -10,7 +10,7 @@ const MU: f64 = 0.012_277_471;
 /// Where it begins, at rest along x, and its period (Hairer, Nørsett & Wanner 1993, section II.0).
 const X: f64 = 0.994;
 const DOT_Y: f64 = -2.001_585_106_379_082_5;
-const PERIOD: f64 = 17.065_216_560_157_962_5;
+const PERIOD: f64 = 17.065_216_560_157_964;
 const STEPS: u64 = 20_000;
 
 /// The coordinates after a share of the period, and the velocities or momenta.
