@@ -2,16 +2,17 @@
 //!
 //! A [`Space`] says how many coordinates there are and how a point, and a matrix over points, are
 //! stored. Everything else in this crate sees flat slices, so that one body of code serves both: with
-//! [`Fixed`] every length is a constant and all storage lives on the stack; with [`RunTime`] each
+//! [`Fixed`] every length is a constant, and what is small lives on the stack; with [`RunTime`], and with what is large, each
 //! array is allocated once, before the first step.
 //!
 //! A fixed space is `BLOCKS` blocks of `N` coordinates, `SINGLES` of which have one coordinate only. Stable Rust can write
-//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so that is the storage, and the
+//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so that is the storage in a value, and the
 //! entries beyond the dimension are never seen.
 
 pub(crate) mod elimination;
 pub(crate) mod inertia;
 pub(crate) mod linear;
+mod room;
 mod rows;
 pub mod sink;
 pub(crate) mod square;
@@ -21,6 +22,7 @@ pub(crate) mod square;
 #[doc(no_inline)]
 pub use alloc::vec::Vec;
 use core::fmt::Debug;
+use core::marker::PhantomData;
 use core::ops::{Deref, DerefMut};
 
 use crate::{Real, Scalar};
@@ -28,6 +30,7 @@ use crate::{Real, Scalar};
 pub use linear::{CoupledSolver, FixedCoupled, LinearEquations, LinearSolver, NodeSum, Storing};
 #[cfg(feature = "alloc")]
 pub use linear::{RunTimeCoupled, RunTimeSolver};
+pub use room::{FewInPlace, InPlace, Room, Store};
 #[cfg(feature = "alloc")]
 pub use rows::SparseRows;
 pub use rows::{FullRows, RowMatrix};
@@ -43,6 +46,8 @@ pub trait Space: Copy + Debug + PartialEq {
     const ON_STACK: bool;
     /// A point, a velocity or a covector: `dimension` numbers.
     type Vector<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug;
+    /// A vector for the time of a function, where [`ON_STACK`](Self::ON_STACK) holds.
+    type Local<T: Scalar>: Store<T>;
     /// A square matrix, `dimension`² numbers row by row.
     type Matrix<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug + Sink<T>;
     /// A square matrix that is solved with, in the storage that its pattern needs.
@@ -98,14 +103,30 @@ pub trait Space: Copy + Debug + PartialEq {
     fn permutation(self) -> Self::Permutation;
 }
 
+/// The rows of a row-major matrix with so many columns: none where there are none.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn lines<T>(matrix: &[T], columns: usize) -> core::slice::ChunksExact<'_, T> {
+    matrix.chunks_exact(columns.max(1))
+}
+
+/// The same, to be written.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn lines_mut<T>(matrix: &mut [T], columns: usize) -> core::slice::ChunksExactMut<'_, T> {
+    matrix.chunks_exact_mut(columns.max(1))
+}
+
 /// `scratch!(name = system, field)`: a vector to work in, on the stack if that is where vectors of the
 /// system live, so that it can stay in registers, and else the given field.
 macro_rules! scratch {
     ($name:ident = $system:expr, $field:expr) => {
         let mut on_stack;
         let $name: &mut [T] = if <S::Space as $crate::Space>::ON_STACK {
-            on_stack = $crate::Space::vector($system.space());
-            &mut on_stack
+            let dimension = $crate::Space::dimension($system.space());
+            on_stack =
+                <<S::Space as $crate::Space>::Local<T> as $crate::space::Store<T>>::new(dimension, || {
+                    T::lift(0.0)
+                });
+            $crate::space::Store::entries_mut(&mut on_stack, dimension)
         } else {
             &mut $field
         };
@@ -113,88 +134,118 @@ macro_rules! scratch {
 }
 pub(crate) use scratch;
 
-/// A space on the stack, of `BLOCKS` blocks of `N` coordinates, of which `SINGLES` have one coordinate only:
-/// (`BLOCKS` − `SINGLES`) `N` + `SINGLES` coordinates. With `SINGLES` > 0, an `N` of zero does not compile.
+/// A space of `BLOCKS` blocks of `N` coordinates, of which `SINGLES` have one coordinate only:
+/// (`BLOCKS` − `SINGLES`) `N` + `SINGLES` coordinates. [`Room`] says where vectors and matrices are kept.
+///
+/// Of systems with attributes, those of up to twelve coordinates are on the stack where sizes are literals, and those of up to eight
+/// where one is a const generic. All others are on the heap. Without the feature `alloc` there is none: all are on the stack, more than 64
+/// coordinates do not compile, and neither does, beside single coordinates, an `N` of zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Fixed<const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>;
+pub struct Fixed<const BLOCKS: usize, const N: usize, const SINGLES: usize = 0, R = InPlace>(PhantomData<R>);
 
-impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Fixed<BLOCKS, N, SINGLES> {
+impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Fixed<BLOCKS, N, SINGLES, R> {
+    /// The space.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
     const DIMENSION: usize = {
         assert!(SINGLES <= BLOCKS, "more single coordinates than blocks");
-        assert!(N > 0 || SINGLES == 0, "an array of coordinates beside single ones needs one entry at least");
-        (BLOCKS - SINGLES) * N + SINGLES
+        let dimension = (BLOCKS - SINGLES) * N + SINGLES;
+        assert!(
+            dimension <= BLOCKS * N || R::LARGEST < usize::MAX,
+            "an array of coordinates beside single ones needs one entry at least"
+        );
+        assert!(
+            dimension <= 64 || cfg!(feature = "alloc"),
+            "more than 64 coordinates need a heap: switch on the feature `alloc` of `dvi-core`"
+        );
+        dimension
     };
 }
 
 /// The vector of a [`Fixed`] space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FixedVector<T, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>([[T; N]; BLOCKS]);
+#[derive(Clone, Debug)]
+pub struct FixedVector<
+    T: Clone + Debug,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+>(R::Vector<T, BLOCKS, N>);
 
 /// The matrix of a [`Fixed`] space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FixedMatrix<T, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>(
-    [[[[T; N]; BLOCKS]; N]; BLOCKS],
-);
+#[derive(Clone, Debug)]
+pub struct FixedMatrix<
+    T: Clone + Debug,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+>(R::Matrix<T, BLOCKS, N>);
 
-impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
-    for FixedVector<T, BLOCKS, N, SINGLES>
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
+    for FixedVector<T, BLOCKS, N, SINGLES, R>
 {
     type Target = [T];
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref(&self) -> &[T] {
-        &self.0.as_flattened()[..Fixed::<BLOCKS, N, SINGLES>::DIMENSION]
+        self.0.entries(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
     }
 }
 
-impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> DerefMut
-    for FixedVector<T, BLOCKS, N, SINGLES>
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
+    for FixedVector<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref_mut(&mut self) -> &mut [T] {
-        &mut self.0.as_flattened_mut()[..Fixed::<BLOCKS, N, SINGLES>::DIMENSION]
+        self.0.entries_mut(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
     }
 }
 
-impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> Deref
-    for FixedMatrix<T, BLOCKS, N, SINGLES>
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
+    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
     type Target = [T];
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref(&self) -> &[T] {
-        let dimension = Fixed::<BLOCKS, N, SINGLES>::DIMENSION;
-        &self.0.as_flattened().as_flattened().as_flattened()[..dimension * dimension]
+        let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
+        self.0.entries(dimension * dimension)
     }
 }
 
-impl<T, const BLOCKS: usize, const N: usize, const SINGLES: usize> DerefMut
-    for FixedMatrix<T, BLOCKS, N, SINGLES>
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
+    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref_mut(&mut self) -> &mut [T] {
-        let dimension = Fixed::<BLOCKS, N, SINGLES>::DIMENSION;
-        &mut self.0.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..dimension * dimension]
+        let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
+        self.0.entries_mut(dimension * dimension)
     }
 }
 
-impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize> Sink<T>
-    for FixedMatrix<T, BLOCKS, N, SINGLES>
+impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Sink<T>
+    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
-        self[row * Fixed::<BLOCKS, N, SINGLES>::DIMENSION + column] += entry;
+        self[row * Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION + column] += entry;
     }
 }
 
-impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<BLOCKS, N, SINGLES> {
-    const ON_STACK: bool = true;
-    type Vector<T: Scalar> = FixedVector<T, BLOCKS, N, SINGLES>;
-    type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N, SINGLES>;
-    type Square<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES>;
-    type Linear<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES>;
-    type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N, SINGLES>;
-    type Array<E: Clone + Debug> = FixedVector<E, BLOCKS, N, SINGLES>;
-    type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES>>>;
-    type Permutation = FixedVector<usize, BLOCKS, N, SINGLES>;
+impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
+    for Fixed<BLOCKS, N, SINGLES, R>
+{
+    const ON_STACK: bool = Self::DIMENSION <= R::LARGEST;
+    type Vector<T: Scalar> = FixedVector<T, BLOCKS, N, SINGLES, R>;
+    type Local<T: Scalar> = R::Local<T, BLOCKS, N>;
+    type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N, SINGLES, R>;
+    type Square<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES, R>;
+    type Linear<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES, R>;
+    type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>;
+    type Array<E: Clone + Debug> = FixedVector<E, BLOCKS, N, SINGLES, R>;
+    type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES, R>>>;
+    type Permutation = FixedVector<usize, BLOCKS, N, SINGLES, R>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn dimension(self) -> usize {
@@ -202,11 +253,11 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
-        FixedVector([[T::lift(0.0); N]; BLOCKS])
+        FixedVector(Store::new(Self::DIMENSION, || T::lift(0.0)))
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn array<E: Clone + Debug>(self, mut of: impl FnMut() -> E) -> FixedVector<E, BLOCKS, N, SINGLES> {
-        FixedVector(core::array::from_fn(|_| core::array::from_fn(|_| of())))
+    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> FixedVector<E, BLOCKS, N, SINGLES, R> {
+        FixedVector(Store::new(Self::DIMENSION, of))
     }
     fn rows<C: Space, T: Scalar>(
         self,
@@ -217,7 +268,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
-        FixedMatrix([[[[T::lift(0.0); N]; BLOCKS]; N]; BLOCKS])
+        FixedMatrix(Store::new(Self::DIMENSION * Self::DIMENSION, || T::lift(0.0)))
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
@@ -242,7 +293,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize> Space for Fixed<
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn permutation(self) -> Self::Permutation {
-        FixedVector([[0; N]; BLOCKS])
+        FixedVector(Store::new(Self::DIMENSION, || 0))
     }
 }
 
@@ -300,6 +351,7 @@ impl RunTime {
 impl Space for RunTime {
     const ON_STACK: bool = false;
     type Vector<T: Scalar> = alloc::vec::Vec<T>;
+    type Local<T: Scalar> = alloc::vec::Vec<T>;
     type Matrix<T: Scalar> = RunTimeMatrix<T>;
     type Square<T: Real> = RunTimeSquare<T>;
     type Linear<T: Real> = RunTimeSolver<T>;

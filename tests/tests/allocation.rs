@@ -6,7 +6,9 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_tests::configurations;
-use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState};
+use dvi_tests::systems::{
+    LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState, PointVortices, PointVorticesState,
+};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
@@ -202,6 +204,20 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_none!(many, many_start, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
     let gauss_by_newton = Gauss { solver: Solver::Newton, ..Gauss::<2>::new() };
     assert_none!(many, many_start, RungeKutta::classical(), Gauss::<3>::new(), gauss_by_newton, compensated);
+
+    // Of a fixed size for which the stack is too small.
+    let eleven = |f: fn(f64) -> f64| core::array::from_fn(|j| f(std::f64::consts::TAU * j as f64 / 11.0));
+    let vortices_11 = PointVortices::<11> { gamma: [1.0; 11] };
+    let start_11 = PointVorticesState { x: eleven(f64::cos), y: eleven(f64::sin) };
+    assert_none!(vortices_11, start_11, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
+    assert_none!(
+        vortices_11,
+        start_11,
+        RungeKutta::classical(),
+        Gauss::<3>::new(),
+        Gauss::<4>::new().in_lanes()
+    );
+    assert_none!(vortices_11, start_11, Projected::symmetric(), compensated);
 
     let renewed =
         |method| Sigma { reinitialisation: Reinitialisation::Every(3), start: Start::Smooth, ..method };

@@ -76,6 +76,36 @@ fn baselines_have_their_orders_on_regular_systems() -> Outcome {
     Ok(())
 }
 
+/// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y: the motion is that
+/// without it, and p = M v + ∂F/∂q.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - x * x - y * y) / 2.0 + 0.3 * (dot(x) * dot(y) - x * y)
+        + x * y + (t * y + 3.0 * x * x * y) * dot(x) + (t * x + x.powi(3)) * dot(y),
+)]
+struct Gauged;
+
+#[test]
+fn momenta_beside_those_of_a_constant_mass_matrix_are_taken_off() -> Outcome {
+    const { assert!(<Gauged as NondegenerateLagrangian>::UNIFORM_MASS) };
+    const { assert!(!<Gauged as NondegenerateLagrangian>::CONSTANT_MASS) };
+    fn check<M: Method<Gauged, f64>>(method: M, steps: u64, tolerance: f64) -> Outcome {
+        let start = GaugedState { x: 0.8, y: -0.3, dot_x: 0.5, dot_y: 1.1 };
+        let mut run = Integrator::new(&Gauged, method, 2.0 / steps as f64, start)?;
+        run.take_steps(steps)?;
+        let ((sin, cos), end) = (2.0_f64.sin_cos(), run.state());
+        let found = [end.x, end.y, end.dot_x, end.dot_y];
+        let exact =
+            [0.8 * cos + 0.5 * sin, -0.3 * cos + 1.1 * sin, 0.5 * cos - 0.8 * sin, 1.1 * cos + 0.3 * sin];
+        assert!(apart(&found, &exact) < tolerance, "{found:?}, not {exact:?}");
+        Ok(())
+    }
+    check(Gauss::<4>::new(), 40, 1e-12)?;
+    check(Gauss::<8>::new().in_lanes(), 10, 1e-12)?;
+    check(Gauss { summation: Summation::Compensated, ..Gauss::<4>::new() }, 40, 1e-12)?;
+    check(RungeKutta::classical(), 400, 1e-9)
+}
+
 /// A position-dependent mass, so that p = ∂L/∂v is not a multiple of v.
 #[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x).powi(2) / 2.0 - x.powi(2) - x.powi(4) / 2.0)]
 struct Heavier;

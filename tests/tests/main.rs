@@ -44,6 +44,7 @@ mod schemes_against_equations;
 mod sections;
 mod singular_forms;
 mod singular_masses;
+mod sizes;
 mod smallest_numbers;
 mod smooth_orbits;
 mod splines;

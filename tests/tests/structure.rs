@@ -227,7 +227,7 @@ fn the_tangent_map_agrees_with_differences_of_steps() -> Outcome {
             let (plus, minus) = (third(1.0)?, third(-1.0)?);
             let difference: Vec<_> =
                 plus.iter().zip(&minus).map(|(a, b)| (a - b) / (2.0 * epsilon)).collect();
-            let mut dq: [_; 2] = core::array::from_fn(|_| dvi_core::Space::vector(dvi_core::Fixed::<2, 4>));
+            let mut dq: [_; 2] = core::array::from_fn(|_| dvi_core::Space::vector(system.space()));
             dq[direction / 8][direction % 8] = 1.0;
             let [dq0, dq1] = &mut dq;
             map.apply(dq0, dq1);

@@ -11,6 +11,8 @@ use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add};
+#[cfg(feature = "alloc")]
+use crate::space::lines;
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δq1) ↦ (δq1, δq2) of one step of the discrete Lagrangian `L`.
@@ -104,7 +106,7 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap
 fn pairing<T: Real, V: core::ops::Deref<Target = [T]>>(d: &[T], u: &[V; 2], w: &[V; 2]) -> T {
     let n = u[0].len();
     let form = |x: &[T], y: &[T]| {
-        let rows = x.iter().zip(d.chunks_exact(n));
+        let rows = x.iter().zip(lines(d, n));
         rows.fold(T::lift(0.0), |sum, (&x, row)| row.iter().zip(y).fold(sum, |sum, (&d, &y)| sum + x * d * y))
     };
     form(&u[0], &w[1]) - form(&w[0], &u[1])

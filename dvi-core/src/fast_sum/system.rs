@@ -165,6 +165,7 @@ where
     S: RegularPairSum<f64, D> + PairSum<Pack, D> + Sync,
 {
     const CONSTANT_MASS: bool = <S as NondegenerateLagrangian<f64>>::CONSTANT_MASS;
+    const UNIFORM_MASS: bool = <S as NondegenerateLagrangian<f64>>::UNIFORM_MASS;
     const SEPARABLE: bool = <S as NondegenerateLagrangian<f64>>::SEPARABLE;
     const DIAGONAL_MASS: bool = <S as NondegenerateLagrangian<f64>>::DIAGONAL_MASS;
     const QUADRATIC: bool = <S as NondegenerateLagrangian<f64>>::QUADRATIC;
@@ -172,6 +173,9 @@ where
     fn force(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
         self.system.rest_force(q, v, t, out);
         self.add_pairs(q, -1.0, out);
+    }
+    fn conjugate_momentum(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
+        self.system.conjugate_momentum(q, v, t, out);
     }
     fn momentum_rate(&self, q: &[f64], v: &[f64], t: f64, out: &mut [f64]) {
         self.system.momentum_rate(q, v, t, out);

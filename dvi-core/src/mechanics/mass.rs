@@ -1,6 +1,6 @@
-//! The constant mass matrix of a separable system, ready to be solved with.
+//! A constant mass matrix, ready to be solved with.
 //!
-//! L = ½ v·M v − V(q, t), p = M v. M is inverted once: by one reciprocal per coordinate if it is diagonal, by
+//! L = ½ v·M v + a(q, t)·v − V(q, t), p = M v + a(q, t), mostly without a. M is inverted once: by one reciprocal per coordinate if it is diagonal, by
 //! elimination otherwise.
 
 use super::pattern::of_entries;
@@ -31,23 +31,32 @@ struct Coupled<S: System, T: Real> {
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
-    /// Of a separable `system`; M does not depend on the point (`q`, `t`) at which it is evaluated.
+    /// Of a `system` with a constant M, which does not depend on the point (`q`, `t`) at which it is evaluated.
     ///
     /// # Errors
     /// [`StepFailure::Singular`].
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Result<Self, StepFailure> {
         let space = system.space();
-        let [mut v, mut l_q, mut l_v]: [Vector<S, T>; 3] = space.vectors();
+        let [mut v, mut l_q, mut l_v, mut masses]: [Vector<S, T>; 4] = space.vectors();
+        let zero = T::lift(0.0);
         if S::DIAGONAL_MASS {
-            v.fill(T::lift(1.0));
-            system.gradient(q, &v, t, &mut l_q, &mut l_v);
-            let (masses, mut reciprocals) = (l_v, v);
+            if S::CONSTANT_MASS {
+                v.fill(T::lift(1.0));
+                system.conjugate_momentum(q, &v, t, &mut masses);
+            } else {
+                let mut sink = Places(|row: usize, column: usize, entry: T| {
+                    if row == column && entry != zero {
+                        masses[row] += entry;
+                    }
+                });
+                system.linearize(q, &v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
+            }
+            let mut reciprocals = v;
             for (column, (&mass, reciprocal)) in masses.iter().zip(reciprocals.iter_mut()).enumerate() {
                 *reciprocal = norm::reciprocal(mass, column)?;
             }
             return Ok(Self { masses, reciprocals, coupled: None });
         }
-        let zero = T::lift(0.0);
         let weights = Weights::mass();
         let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
         let entries = matrix.cleared();
@@ -85,16 +94,30 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         x.iter().zip(self.masses.iter()).fold(T::lift(-0.0), |sum, (&x, &mass)| sum + mass * x * x)
     }
 
+    /// Overwrites `p` with M⁻¹`p`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn solve_in_place(&self, p: &mut [T]) {
+        match &self.coupled {
+            Some(Coupled { factors, units, .. }) if !S::DIAGONAL_MASS => {
+                p.iter_mut().zip(units.iter()).for_each(|(p, &unit)| *p *= unit);
+                factors.solve(p);
+            }
+            _ => {
+                for (p, &reciprocal) in p.iter_mut().zip(self.reciprocals.iter()) {
+                    *p *= reciprocal;
+                }
+            }
+        }
+    }
+
     /// Sets `v` to M⁻¹`p`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {
         // What is known when compiled keeps elimination out of the steps with a diagonal matrix.
         match &self.coupled {
-            Some(Coupled { factors, units, .. }) if !S::DIAGONAL_MASS => {
-                for ((v, &p), &unit) in v.iter_mut().zip(p).zip(units.iter()) {
-                    *v = unit * p;
-                }
-                factors.solve(v);
+            Some(_) if !S::DIAGONAL_MASS => {
+                v.copy_from_slice(p);
+                self.solve_in_place(v);
             }
             _ => {
                 for ((v, &p), &reciprocal) in v.iter_mut().zip(p).zip(self.reciprocals.iter()) {

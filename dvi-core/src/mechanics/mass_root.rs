@@ -3,6 +3,7 @@
 use super::mass::Mass;
 use crate::error::StepFailure;
 use crate::scalar::norm;
+use crate::space::{lines, lines_mut};
 use crate::{Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 /// A root of a constant mass matrix.
@@ -31,7 +32,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> MassRoot<S, T> {
         }
         let mut matrix = space.matrix();
         let n = unit.len();
-        for (j, row) in matrix.chunks_exact_mut(n).enumerate() {
+        for (j, row) in lines_mut(&mut matrix, n).enumerate() {
             unit.fill(T::lift(0.0));
             unit[j] = one;
             // M is symmetric: its column is its row.
@@ -50,7 +51,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> MassRoot<S, T> {
                 }
             }
             Self::Lower(rows) => {
-                let rows = rows.chunks_exact(x.len()).enumerate();
+                let rows = lines(rows, x.len()).enumerate();
                 for (out, (i, row)) in out.iter_mut().zip(rows) {
                     *out = row[..=i].iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x);
                 }

@@ -13,6 +13,7 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm::{finite, larger, singular};
+use crate::space::lines;
 use crate::{Real, Scalar};
 
 /// What a pivot is compared with at least: n ε times this still has a finite reciprocal.
@@ -294,7 +295,7 @@ fn by_elimination<T: Real>(mut matrix: [T; 4], mut x: [T; 2]) -> Result<[T; 2], 
 #[inline]
 pub(crate) fn multiply_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
     let n = x.len();
-    for (out, line) in out.iter_mut().zip(matrix.chunks_exact(n)) {
+    for (out, line) in out.iter_mut().zip(lines(matrix, n)) {
         *out = line.iter().zip(x).fold(*out, |sum, (&a, &x)| sum + a * x);
     }
 }

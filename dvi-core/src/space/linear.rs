@@ -14,7 +14,7 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::sink::Places;
 use crate::space::square::SquareMatrix;
-use crate::space::{FixedSquare, Sink};
+use crate::space::{FixedSquare, Room, Sink};
 
 #[cfg(feature = "alloc")]
 use crate::space::square::{Layout, Pattern, RunTimeSquare};
@@ -153,8 +153,8 @@ fn by_factors<T: Real, M: SquareMatrix<T>>(
     Ok(())
 }
 
-impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> LinearSolver<T>
-    for FixedSquare<T, BLOCKS, N, SINGLES>
+impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> LinearSolver<T>
+    for FixedSquare<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(

@@ -1,6 +1,6 @@
 //! Square matrices that a sink fills and that are then solved with, in the storage that their pattern needs.
 //!
-//! With a dimension fixed at compile time they are dense and on the stack. With one that is known at run time only, they
+//! With a dimension fixed at compile time they are dense. With one that is known at run time only, they
 //! are stored in the way in which their elimination takes the least work. They are banded where the entries, in the best order
 //! that is found, lie close enough to the diagonal: chains and rings, whose coordinates may stand in several blocks. With n
 //! coordinates and b diagonals on each side, storage grows as n b and the time of a solution as n b². They are sparse where
@@ -27,9 +27,9 @@ mod sparse;
 use core::fmt::Debug;
 
 use crate::error::StepFailure;
-use crate::space::elimination;
 use crate::space::sink::Sink;
-use crate::space::{FixedMatrix, FixedVector};
+use crate::space::{FixedMatrix, FixedVector, InPlace, Room};
+use crate::space::{elimination, lines};
 use crate::{Real, Scalar, Space};
 
 #[cfg(feature = "alloc")]
@@ -95,25 +95,33 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
 }
 
 /// The square matrix of a [`Fixed`](crate::Fixed) space: dense.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FixedSquare<T, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0> {
-    matrix: FixedMatrix<T, BLOCKS, N, SINGLES>,
-    permutation: FixedVector<usize, BLOCKS, N, SINGLES>,
+#[derive(Clone, Debug)]
+pub struct FixedSquare<
+    T: Clone + Debug,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+> {
+    matrix: FixedMatrix<T, BLOCKS, N, SINGLES, R>,
+    permutation: FixedVector<usize, BLOCKS, N, SINGLES, R>,
+    /// Work space: the sizes of the unknowns.
+    sizes: FixedVector<T, BLOCKS, N, SINGLES, R>,
 }
 
-impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize>
-    FixedSquare<T, BLOCKS, N, SINGLES>
+impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
+    FixedSquare<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn new(space: crate::Fixed<BLOCKS, N, SINGLES>) -> Self {
-        Self { matrix: space.matrix(), permutation: space.permutation() }
+    pub(crate) fn new(space: crate::Fixed<BLOCKS, N, SINGLES, R>) -> Self {
+        Self { matrix: space.matrix(), permutation: space.permutation(), sizes: space.vector() }
     }
 }
 
-impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareMatrix<T>
-    for FixedSquare<T, BLOCKS, N, SINGLES>
+impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> SquareMatrix<T>
+    for FixedSquare<T, BLOCKS, N, SINGLES, R>
 {
-    type Entries = FixedMatrix<T, BLOCKS, N, SINGLES>;
+    type Entries = FixedMatrix<T, BLOCKS, N, SINGLES, R>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn cleared(&mut self) -> &mut Self::Entries {
@@ -123,9 +131,9 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn scale_rows(&mut self, size: impl Fn(usize) -> T, x: &mut [T]) {
-        let mut sizes = crate::Fixed::<BLOCKS, N, SINGLES>.vector();
+        let Self { matrix, sizes, .. } = self;
         sizes.iter_mut().enumerate().for_each(|(j, entry)| *entry = size(j));
-        elimination::scale_rows(&mut self.matrix, &sizes, x);
+        elimination::scale_rows(matrix, sizes, x);
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
@@ -161,7 +169,7 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize> SquareM
 
 /// Adds `factor` A x to `sum`, for a row-major A.
 fn multiply_add<T: Real>(matrix: &[T], factor: T, x: &[T], sum: &mut [T]) {
-    for (sum, row) in sum.iter_mut().zip(matrix.chunks_exact(x.len())) {
+    for (sum, row) in sum.iter_mut().zip(lines(matrix, x.len())) {
         let product = row.iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x);
         *sum += factor * product;
     }

@@ -69,10 +69,12 @@ impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> ProperlyDegenerate<T> fo
 #[diagnostic::do_not_recommend]
 impl<S: StandIn, T: Scalar> NondegenerateLagrangian<T> for S {
     const CONSTANT_MASS: bool = false;
+    const UNIFORM_MASS: bool = false;
     const SEPARABLE: bool = false;
     const DIAGONAL_MASS: bool = false;
     const QUADRATIC: bool = false;
     fn force(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
+    fn conjugate_momentum(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
     fn momentum_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
 }
 

@@ -68,19 +68,23 @@ fn account(
 
 /// The implementation of `NondegenerateLagrangian`, and of what the system is beyond that.
 fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: &MassMatrix) -> TokenStream {
-    let MassMatrix { constant, separable, diagonal, quadratic, .. } = *structure;
-    let (force, rate) = (emitter.vector(&programs.force), emitter.vector(&programs.momentum_rate));
+    let MassMatrix { constant, uniform, separable, diagonal, quadratic, .. } = *structure;
+    let [force, momentum, rate] =
+        [&programs.force, &programs.momentum, &programs.momentum_rate].map(|routine| emitter.vector(routine));
     let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
     let traits = traits.map(|structure| in_numbers(emitter, &structure, &TokenStream::new()));
     let lagrangian = quote! {
         const CONSTANT_MASS: bool = #constant;
+        const UNIFORM_MASS: bool = #uniform;
         const SEPARABLE: bool = #separable;
         const DIAGONAL_MASS: bool = #diagonal;
         const QUADRATIC: bool = #quadratic;
 
         #ForceInline
         fn force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }
+        #ForceInline
+        fn conjugate_momentum(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #momentum }
         #[inline]
         fn momentum_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #rate }
     };

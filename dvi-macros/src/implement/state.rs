@@ -20,8 +20,11 @@ pub(crate) struct State {
 }
 
 /// With so many coordinates of known number beside arrays of a const generic `N`, each of which takes the place of `N`, a
-/// state is still on the stack.
+/// space is still one of fixed size.
 const MOST_SINGLES: usize = 16;
+
+/// So many numbers, if they are known when the macro runs, are kept on the stack together with matrices of them.
+const FEW: usize = 12;
 
 /// The space of the coordinates.
 fn space(emitter: &Emitter<'_>) -> (TokenStream, TokenStream) {
@@ -48,11 +51,16 @@ pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Index]) -> (TokenStream, 
             }
         }
     }
+    let fixed = |blocks: TokenStream, size: TokenStream, singles: usize| {
+        let space = quote!(#krate::Fixed<#blocks, { #size }, #singles, #krate::space::FewInPlace>);
+        (space, quote!(#krate::Fixed::new()))
+    };
     match names.as_slice() {
-        [] => (quote!(#krate::Fixed<1usize, { #singles }>), quote!(#krate::Fixed)),
+        [] if singles <= FEW => (quote!(#krate::Fixed<1usize, { #singles }>), quote!(#krate::Fixed::new())),
+        [] => fixed(quote!(1usize), quote!(#singles), 0),
         [size] if constant && is_name(size) && singles <= MOST_SINGLES => {
-            let (blocks, size) = (arrays + singles, emitter.index(size));
-            (quote!(#krate::Fixed<#blocks, { #size }, #singles>), quote!(#krate::Fixed))
+            let blocks = arrays + singles;
+            fixed(quote!(#blocks), emitter.index(size), singles)
         }
         _ => {
             let dimension = dimension(emitter, sizes);

@@ -321,6 +321,9 @@ impl<'a> Comparison<'a> {
         self.same("energy", &[], wanted, energy)?;
         let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]).run("force")?;
         self.same_vector("force", &slices[2], |i| expected.first(i))?;
+        let (_, slices) =
+            self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]).run("conjugate_momentum")?;
+        self.same_vector("conjugate_momentum", &slices[2], |i| jet.gradient(n + i))?;
         let call = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]);
         let (_, slices) = call.run("momentum_rate")?;
         self.same_vector("momentum_rate", &slices[2], |i| jet.hessian(n + i, 2 * n))

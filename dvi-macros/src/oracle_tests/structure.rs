@@ -38,7 +38,12 @@ pub(super) fn hold(
         }
         claims.push((name, declared, possible));
     }
-    let implied = [("MATCHING", "CANONICAL"), ("SEPARABLE", "CONSTANT_MASS"), ("CONSTANT_MASS", "QUADRATIC")];
+    let implied = [
+        ("MATCHING", "CANONICAL"),
+        ("SEPARABLE", "CONSTANT_MASS"),
+        ("CONSTANT_MASS", "UNIFORM_MASS"),
+        ("UNIFORM_MASS", "QUADRATIC"),
+    ];
     for (one, other) in implied {
         if expansion.constants.get(one) == Some(&true) && !expansion.constants[other] {
             return Err((one.into(), format!("{one} is declared without {other}")));
@@ -100,6 +105,7 @@ fn regular(n: usize, points: &[Expected]) -> Vec<(&'static str, bool)> {
     let at_rest =
         |at: &Expected| at.forces.iter().all(|force| (n..2 * n).all(|j| is_zero(force.gradient(j))));
     vec![
+        ("UNIFORM_MASS", constant),
         ("CONSTANT_MASS", constant && points.iter().all(fixed)),
         ("SEPARABLE", constant && points.iter().all(|at| fixed(at) && at_rest(at))),
         ("DIAGONAL_MASS", diagonal),

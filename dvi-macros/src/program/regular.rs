@@ -24,6 +24,8 @@ pub(crate) struct RegularPrograms {
     pub(crate) energy: Routine,
     /// ∂L/∂q + F
     pub(crate) force: Routine,
+    /// ∂L/∂v
+    pub(crate) momentum: Routine,
     /// ∂²L/∂t∂v
     pub(crate) momentum_rate: Routine,
     pub(crate) pairs: Option<RegularPairs>,
@@ -44,9 +46,10 @@ impl RegularPrograms {
         let [force, momentum]: [Vec<Statement>; 2] =
             [Output::Lq, Output::Lv].map(|output| part(output).collect());
         let rate = rates(graph, &momentum);
-        let [energy, force, momentum_rate] = [energy, force, rate].map(|s| Routine::new(graph, s));
+        let [energy, force, momentum, momentum_rate] =
+            [energy, force, momentum, rate].map(|s| Routine::new(graph, s));
         let pairs = pairs.map(|sum| RegularPairs::new(graph, formulas, sum));
-        Self { shared, energy, force, momentum_rate, pairs }
+        Self { shared, energy, force, momentum, momentum_rate, pairs }
     }
 }
 

@@ -17,6 +17,8 @@ pub(crate) struct MassMatrix {
     pub(crate) separable: bool,
     /// L is, whatever the forces.
     pub(crate) constant: bool,
+    /// L is, but for terms that are linear in v.
+    pub(crate) uniform: bool,
     pub(crate) diagonal: bool,
     pub(crate) quadratic: bool,
     /// What M depends on, of `q`, `v` and `t`.
@@ -53,8 +55,8 @@ impl MassMatrix {
         let block_of = |coordinate: &Coordinate| coordinate.block as usize;
         let depends_on = depends_on(graph, &mass);
         let diagonal = mass.iter().all(|entry| entry.row == entry.column);
-        let constant = formulas.quadratic
-            && depends_on.is_empty()
+        let uniform = formulas.quadratic && depends_on.is_empty();
+        let constant = uniform
             && !mixes_position_and_velocity(graph, entries)
             && force_is_at_rest(graph, formulas.lagrangian)
             && momentum_vanishes_at_rest(graph, formulas.lagrangian);
@@ -72,6 +74,7 @@ impl MassMatrix {
         Self {
             separable,
             constant,
+            uniform,
             diagonal,
             quadratic: formulas.quadratic,
             depends_on,

@@ -118,10 +118,12 @@ impl System<'_> {
         if mass.separable {
             vanishes("SEPARABLE", "∂F/∂v", here.friction())?;
         }
+        if mass.uniform
+            && let Some(there) = self.at(&point.elsewhere(true, true, true), Directions::ALL)
+        {
+            is_same("UNIFORM_MASS", "∂²L/∂v∂v elsewhere", here.mass(), there.mass())?;
+        }
         if mass.constant {
-            if let Some(there) = self.at(&point.elsewhere(true, true, true), Directions::ALL) {
-                is_same("CONSTANT_MASS", "∂²L/∂v∂v elsewhere", here.mass(), there.mass())?;
-            }
             for coupling in here.coupling() {
                 vanishes("CONSTANT_MASS", "∂²L/∂q∂v", coupling)?;
             }

@@ -118,6 +118,7 @@ impl Functions<'_> {
             Self::Regular(programs) => {
                 add("energy", Quantity::Energy, value(&programs.energy));
                 add("force", Quantity::Force, vector(&programs.force));
+                add("conjugate_momentum", Quantity::Lv, vector(&programs.momentum));
                 let rate = machine.run(&programs.momentum_rate).along_second(program::Output::Vector);
                 add("momentum_rate", Quantity::MomentumRate, rate);
                 if let Some(pairs) = &programs.pairs {

@@ -11,6 +11,7 @@ mod nonholonomic;
 mod one_step;
 mod parasitic;
 mod projected;
+mod rotating_frame;
 mod round_off;
 mod second_order;
 mod smooth_orbits;

@@ -1,6 +1,6 @@
 //! Regular Lagrangians: separable and not, quadratic in the velocities and not, with arrays and time.
 
-use dvi_core::lagrangian;
+use dvi_core::{degenerate_lagrangian, lagrangian};
 
 /// A planet around a fixed sun.
 #[lagrangian(
@@ -145,6 +145,31 @@ pub struct MagneticParticle {
     pub m: f64,
     /// Field at the origin.
     pub b: f64,
+}
+
+/// A small body in the plane of two that go round each other, in the frame that turns with them: L has terms linear in v.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = ((dot(x) - y).powi(2) + (dot(y) + x).powi(2)) / 2.0
+        + (1.0 - mu) / (x + mu).hypot(y) + mu / (x - 1.0 + mu).hypot(y),
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestrictedThreeBody {
+    /// The share of the smaller one in the mass of both.
+    pub mu: f64,
+}
+
+/// The same as p dq − H.
+#[degenerate_lagrangian(
+    coordinates(x, y, p_x, p_y),
+    one_form = p_x * d(x) + p_y * d(y),
+    hamiltonian = (p_x * p_x + p_y * p_y) / 2.0 + p_x * y - p_y * x
+        - (1.0 - mu) / (x + mu).hypot(y) - mu / (x - 1.0 + mu).hypot(y),
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestrictedThreeBodyForm {
+    /// As of [`RestrictedThreeBody`].
+    pub mu: f64,
 }
 
 /// N bodies in the plane that attract each other.

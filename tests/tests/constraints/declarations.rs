@@ -111,9 +111,9 @@ fn is<S: ConstrainedSystem<Multipliers = M, Augmented = A>, M: Space, A: Space>(
 
 #[test]
 fn spaces_are_fixed_where_stable_rust_can_count() {
-    is(&Pendulum { g: 1.0, length: 1.0 }, Fixed::<1, 1>, Fixed::<1, 3>);
-    is(&Three, Fixed::<1, 2>, Fixed::<1, 8>);
-    is(&Linked::<5>, Fixed::<3, 5, 2>, Fixed::<6, 5, 3>);
+    is(&Pendulum { g: 1.0, length: 1.0 }, Fixed::<1, 1>::new(), Fixed::<1, 3>::new());
+    is(&Three, Fixed::<1, 2>::new(), Fixed::<1, 8>::new());
+    is(&Linked::<5>, Fixed::<3, 5, 2, _>::new(), Fixed::<6, 5, 3, _>::new());
     let run_time = |dimension: usize| RunTime { dimension };
     let chain = Chain::<4> { rods: vec![1.0; 3] };
     is(&chain, run_time(3), run_time(11));

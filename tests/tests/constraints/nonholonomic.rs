@@ -198,9 +198,9 @@ fn is<S: ConstrainedSystem<Multipliers = M, Augmented = A>, M: Space, A: Space>(
 
 #[test]
 fn members_are_numbered_in_the_order_of_declaration() {
-    is(&KnifeEdge { inertia: 1.0, slope: 0.0 }, Fixed::<1, 1>, Fixed::<1, 4>);
-    is(&Disc { radius: 1.0 }, Fixed::<1, 2>, Fixed::<1, 6>);
-    is(&Ring::<5>, Fixed::<1, 5>, Fixed::<3, 5>);
+    is(&KnifeEdge { inertia: 1.0, slope: 0.0 }, Fixed::<1, 1>::new(), Fixed::<1, 4>::new());
+    is(&Disc { radius: 1.0 }, Fixed::<1, 2>::new(), Fixed::<1, 6>::new());
+    is(&Ring::<5>, Fixed::<1, 5, 0, _>::new(), Fixed::<3, 5, 0, _>::new());
     let run_time = |dimension: usize| RunTime { dimension };
     let train = |sledges: usize| Train { headings: vec![0.0; sledges] };
     is(&train(4), run_time(7), run_time(16));

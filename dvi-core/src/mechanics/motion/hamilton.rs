@@ -33,9 +33,33 @@ pub struct HamiltonsEquations<S: System, T: Real> {
 /// What finds the velocity that belongs to a momentum.
 #[derive(Debug)]
 enum Velocities<S: System, T: Real> {
-    /// p = M v with a constant M.
-    Constant(Mass<S, T>),
+    /// p = M v + a(q, t) with a constant M.
+    Uniform(Uniform<S, T>),
     Varying(Transform<S, T>),
+}
+
+/// A constant mass matrix, beside terms of L that are linear in v.
+#[derive(Debug)]
+struct Uniform<S: System, T: Real> {
+    mass: Mass<S, T>,
+    /// No velocity: p is a(q, t) there.
+    rest: Vector<S, T>,
+    work: Vector<S, T>,
+}
+
+impl<S: NondegenerateLagrangian<T>, T: Real> Uniform<S, T> {
+    /// Sets `v` to M⁻¹(`p` − a).
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn velocity(&self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) {
+        if S::CONSTANT_MASS {
+            return self.mass.solve(p, v);
+        }
+        system.conjugate_momentum(q, &self.rest, t, v);
+        for (v, &p) in v.iter_mut().zip(p) {
+            *v = p - *v;
+        }
+        self.mass.solve_in_place(v);
+    }
 }
 
 /// The Legendre transform at the points of a step.
@@ -56,9 +80,9 @@ impl<S: RegularLagrangian<T>, T: Real> Velocities<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         match self {
-            Self::Constant(mass) => mass.solve(p, v),
+            Self::Uniform(uniform) => uniform.velocity(system, q, p, t, v),
             // Not compiled where the mass is constant.
-            Self::Varying(Transform { legendre, latest, .. }) if !S::CONSTANT_MASS => {
+            Self::Varying(Transform { legendre, latest, .. }) if !S::UNIFORM_MASS => {
                 legendre.solve(system, q, p, t, v, S::QUADRATIC)?;
                 latest.copy_from_slice(v);
             }
@@ -87,7 +111,7 @@ impl<S: System, T: Real> Memory<T> for Velocities<S, T> {
     #[cfg(feature = "alloc")]
     fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
         match self {
-            Self::Constant(_) => Ok(()),
+            Self::Uniform(_) => Ok(()),
             Self::Varying(transform) => transform.load(reader),
         }
     }
@@ -114,8 +138,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         let [mut force, mut p, mut velocity, latest, between]: [Vector<S, T>; 5] = system.space().vectors();
         system.gradient(q, v, t, &mut force, &mut p);
         velocity.copy_from_slice(v);
-        let inverse = if S::CONSTANT_MASS {
-            Velocities::Constant(Mass::new(system, q, t).map_err(StartError::Starter)?)
+        let inverse = if S::UNIFORM_MASS {
+            let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
+            Velocities::Uniform(Uniform { mass, rest: between, work: latest })
         } else {
             let orientation = MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?;
             let legendre = Legendre::new(system, q, v, t);
@@ -173,8 +198,8 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
         match &equations.inverse {
-            Velocities::Constant(mass) if S::SEPARABLE => mass.reciprocals(),
-            Velocities::Constant(_) | Velocities::Varying(_) => None,
+            Velocities::Uniform(uniform) if S::SEPARABLE => uniform.mass.reciprocals(),
+            Velocities::Uniform(_) | Velocities::Varying(_) => None,
         }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -218,7 +243,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     ) -> Result<(), StepFailure> {
         let [arrival, momentum] = &y.0;
         norm::finite(arrival).and(norm::finite(momentum))?;
-        if !S::CONSTANT_MASS
+        if !S::UNIFORM_MASS
             && let Velocities::Varying(Transform { legendre, orientation, velocity, latest, between }) =
                 &mut equations.inverse
         {
@@ -236,21 +261,16 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     }
     fn velocity(
         equations: &HamiltonsEquations<S, T>,
-        _system: &S,
-        _q: &Vector<S, T>,
-        _t: T,
+        system: &S,
+        q: &Vector<S, T>,
+        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         match &equations.inverse {
-            Velocities::Constant(mass) => {
-                mass.solve(&equations.p, v);
-                Ok(())
-            }
-            Velocities::Varying(Transform { velocity, .. }) => {
-                v.copy_from_slice(velocity);
-                Ok(())
-            }
+            Velocities::Uniform(uniform) => uniform.velocity(system, q, &equations.p, t, v),
+            Velocities::Varying(Transform { velocity, .. }) => v.copy_from_slice(velocity),
         }
+        Ok(())
     }
 }
 
@@ -274,14 +294,22 @@ where
             statistics.gradients += W as u64;
             return Ok(());
         }
-        let Velocities::Constant(mass) = &equations.inverse else {
+        let Velocities::Uniform(uniform) = &equations.inverse else {
             return one_by_one(equations, at, work, slopes, statistics);
         };
-        let Some(reciprocals) = mass.reciprocals() else {
+        let Some(reciprocals) = uniform.mass.reciprocals() else {
             return one_by_one(equations, at, work, slopes, statistics);
         };
-        for (j, (&p, &reciprocal)) in p.iter().zip(reciprocals).enumerate() {
-            slopes.renew(j, p * Lanes::all(reciprocal));
+        if <S as NondegenerateLagrangian<T>>::CONSTANT_MASS {
+            for (j, (&p, &reciprocal)) in p.iter().zip(reciprocals).enumerate() {
+                slopes.renew(j, p * Lanes::all(reciprocal));
+            }
+            return Ok(());
+        }
+        let StageWork { gradient: linear, entries: rest, .. } = work;
+        at.system.conjugate_momentum(q, rest, at.t, linear);
+        for (j, ((&p, &a), &reciprocal)) in p.iter().zip(linear.iter()).zip(reciprocals).enumerate() {
+            slopes.renew(j, (p - a) * Lanes::all(reciprocal));
         }
         Ok(())
     }

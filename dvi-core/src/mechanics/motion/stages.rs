@@ -26,8 +26,9 @@ pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     slope: PointOf<S, T>,
     vector: Vector<S, T>,
     /// All stages: forces or ∇H, or X itself.
-    gradient: Vector<S, Lanes<W, T>>,
-    entries: Vector<S, Lanes<W, T>>,
+    pub(super) gradient: Vector<S, Lanes<W, T>>,
+    /// Of Ω; of a regular system, the velocity zero.
+    pub(super) entries: Vector<S, Lanes<W, T>>,
 }
 
 impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> {

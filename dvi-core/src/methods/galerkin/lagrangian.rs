@@ -18,8 +18,10 @@ use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Stopping, iterate, sizes};
 use crate::space::linear::blocks;
+use crate::space::lines;
 use crate::space::sink::{Sink, Transposed};
 use crate::state::Statistics;
+use crate::state::memory::Aside;
 use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector, Weights};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.
@@ -39,7 +41,7 @@ struct Storage<const NODES: usize, S: System, T: Real> {
     residuals: [Vector<S, T>; NODES],
     /// In which iterations judge coordinates.
     weights: Vector<S, T>,
-    blocks: [[Matrix<S, T>; NODES]; NODES],
+    blocks: Aside<[[Matrix<S, T>; NODES]; NODES]>,
     permutation: Permutation<S>,
     node: NodeWork<S, T>,
 }
@@ -179,7 +181,7 @@ type Settled<'a, const NODES: usize, S, T> = (Path<'a, NODES, S, T>, &'a mut Sto
 
 /// Adds a block that is stored transposed.
 fn add_block<T: Real, K: Sink<T>>(transposed: &[T], n: usize, sink: &mut K) {
-    for (column, entries) in transposed.chunks_exact(n).enumerate() {
+    for (column, entries) in lines(transposed, n).enumerate() {
         for (row, &entry) in entries.iter().enumerate() {
             sink.add(row, column, entry);
         }
@@ -283,11 +285,12 @@ where
 
     fn discrete_lagrangian(&self, system: &S) -> GalerkinLagrangian<NODES, S, F, T> {
         let (space, rule) = (system.space(), Lobatto::new());
+        let blocks: [[_; NODES]; NODES] = core::array::from_fn(|_| core::array::from_fn(|_| space.matrix()));
         let storage = Storage {
             displacements: space.vectors(),
             residuals: space.vectors(),
             weights: space.vector(),
-            blocks: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
+            blocks: blocks.into(),
             permutation: space.permutation(),
             node: NodeWork::new(system),
         };

@@ -8,7 +8,7 @@
 
 use crate::Real;
 use crate::error::StepFailure;
-use crate::space::elimination;
+use crate::space::{elimination, lines, lines_mut};
 use core::ops::{DerefMut, Range};
 
 /// Overwrites the entries `pivots` of `x` with the solution of A y = x in these rows and columns, and A with nothing of use
@@ -34,7 +34,7 @@ where
         transpose(pivot, n);
         elimination::factor_in_any_units(pivot, permutation)?;
         for block in right.iter_mut() {
-            for column in block.chunks_exact_mut(n) {
+            for column in lines_mut(block, n) {
                 elimination::solve(pivot, permutation, column);
             }
         }
@@ -44,7 +44,7 @@ where
             let (factors, targets) = row.split_at_mut(k + 1);
             subtract_product(&factors[k], &x_done[k], x);
             for (target, block) in targets.iter_mut().zip(right.iter()) {
-                for (target, column) in target.chunks_exact_mut(n).zip(block.chunks_exact(n)) {
+                for (target, column) in lines_mut(target, n).zip(lines(block, n)) {
                     subtract_product(&factors[k], column, target);
                 }
             }
@@ -63,7 +63,7 @@ where
 /// Subtracts A x from `out`, for an A that is stored transposed.
 #[inline]
 fn subtract_product<T: Real>(transposed: &[T], x: &[T], out: &mut [T]) {
-    for (column, &x) in transposed.chunks_exact(x.len()).zip(x) {
+    for (column, &x) in lines(transposed, x.len()).zip(x) {
         for (out, &a) in out.iter_mut().zip(column) {
             *out -= a * x;
         }

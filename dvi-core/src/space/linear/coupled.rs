@@ -14,7 +14,10 @@ use crate::error::StepFailure;
 use crate::space::elimination::unit_of_row;
 #[cfg(feature = "alloc")]
 use crate::space::sink::Places;
-use crate::space::{Fixed, FixedMatrix, FixedVector};
+use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room};
+#[cfg(feature = "alloc")]
+use crate::space::{lines, lines_mut};
+use crate::state::memory::Aside;
 use crate::{Real, Scalar, Sink, Space, Weights};
 
 /// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k: a sum over the nodes of a
@@ -55,29 +58,41 @@ pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
 
 /// The solver of a [`Fixed`] space: block by block.
 #[derive(Debug)]
-pub struct FixedCoupled<T, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize = 0>
-{
+pub struct FixedCoupled<
+    T: Clone + Debug,
+    const NODES: usize,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+> {
     /// Transposed; those before the first unknown vector are not used.
-    rows: [[FixedMatrix<T, BLOCKS, N, SINGLES>; NODES]; NODES],
+    rows: Aside<[[FixedMatrix<T, BLOCKS, N, SINGLES, R>; NODES]; NODES]>,
     /// L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
-    second: [FixedMatrix<T, BLOCKS, N, SINGLES>; 4],
-    permutation: FixedVector<usize, BLOCKS, N, SINGLES>,
+    second: [FixedMatrix<T, BLOCKS, N, SINGLES, R>; 4],
+    permutation: FixedVector<usize, BLOCKS, N, SINGLES, R>,
+    /// Work space: the sizes of the unknowns, and the units of the rows of a block.
+    sizes: FixedVector<T, BLOCKS, N, SINGLES, R>,
+    units: FixedVector<T, BLOCKS, N, SINGLES, R>,
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize>
-    FixedCoupled<T, NODES, BLOCKS, N, SINGLES>
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
+    FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>
 {
-    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES>) -> Self {
+    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES, R>) -> Self {
+        let rows: [[_; NODES]; NODES] = core::array::from_fn(|_| core::array::from_fn(|_| space.matrix()));
         Self {
-            rows: core::array::from_fn(|_| core::array::from_fn(|_| space.matrix())),
+            rows: rows.into(),
             second: core::array::from_fn(|_| space.matrix()),
             permutation: space.permutation(),
+            sizes: space.vector(),
+            units: space.vector(),
         }
     }
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize>
-    CoupledSolver<NODES, T> for FixedCoupled<T, NODES, BLOCKS, N, SINGLES>
+impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
+    CoupledSolver<NODES, T> for FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>
 {
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
@@ -85,7 +100,7 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
         size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
-        let Self { rows, second, permutation } = self;
+        let Self { rows, second, permutation, sizes, units } = self;
         rows[M::FIRST..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
         for j in 0..NODES {
             matrix.place(j);
@@ -100,16 +115,14 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
             }
             for (r, row) in rows.iter_mut().enumerate().skip(M::FIRST) {
                 for (k, block) in row.iter_mut().enumerate().skip(M::FIRST) {
-                    let (w, n) = (matrix.weights(r, k), Fixed::<BLOCKS, N, SINGLES>::DIMENSION);
+                    let (w, n) = (matrix.weights(r, k), Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION);
                     add_transposed::<_, _, M, NODES>(w, second, n, block);
                 }
             }
         }
-        let space = Fixed::<BLOCKS, N, SINGLES>;
-        let [mut sizes, units]: [FixedVector<T, BLOCKS, N, SINGLES>; 2] = space.vectors();
         sizes.iter_mut().enumerate().for_each(|(j, entry)| *entry = size(j));
         for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(M::FIRST) {
-            scale_rows(&mut row[M::FIRST..], &sizes, units, vector);
+            scale_rows(&mut row[M::FIRST..], sizes, units, vector);
         }
         blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)
     }
@@ -119,9 +132,10 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
 fn scale_rows<T: Real, B: DerefMut<Target = [T]>>(
     blocks: &mut [B],
     sizes: &[T],
-    mut units: impl DerefMut<Target = [T]>,
+    units: &mut [T],
     x: &mut [T],
 ) {
+    units.fill(T::lift(0.0));
     let n = sizes.len().max(1);
     for (column, &size) in blocks.iter().flat_map(|block| block.chunks_exact(n).zip(sizes)) {
         units.iter_mut().zip(column).for_each(|(unit, &a)| *unit += Scalar::abs(a * size));
@@ -238,14 +252,11 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
     ) -> Result<(), StepFailure> {
         let Self { solver, b, x } = self;
         let n = vectors[0].len();
-        if n == 0 {
-            return Ok(());
-        }
-        for (b, vector) in b.chunks_exact_mut(n).zip(&vectors[M::FIRST..]) {
+        for (b, vector) in lines_mut(b, n).zip(&vectors[M::FIRST..]) {
             b.copy_from_slice(vector);
         }
         solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, |k| size(k % n), x)?;
-        for (x, vector) in x.chunks_exact(n).zip(&mut vectors[M::FIRST..]) {
+        for (x, vector) in lines(x, n).zip(&mut vectors[M::FIRST..]) {
             vector.copy_from_slice(x);
         }
         Ok(())
