@@ -13,8 +13,9 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 
 pub(crate) use sizes::Due;
+pub(crate) use stopping::Judge;
 pub use stopping::Stopping;
-pub(crate) use stopping::{Convergence, Convergences, Verdict};
+pub(crate) use stopping::{Convergence, Convergences, Quick, Verdict};
 
 /// The iteration that solves an implicit step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -115,7 +116,7 @@ impl<T, F: FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>> Iteration
 /// [`StepFailure::NotConverged`], or that of an iteration.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn iterate<T: Real>(
-    convergence: Convergence<T>,
+    convergence: impl Judge<T>,
     statistics: &mut Statistics,
     improve: impl FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>,
 ) -> Result<(), StepFailure> {
@@ -128,26 +129,26 @@ pub(crate) fn iterate<T: Real>(
 /// [`StepFailure::NotConverged`], or that of an iteration.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn repeat<T: Real>(
-    mut convergence: Convergence<T>,
+    mut convergence: impl Judge<T>,
     statistics: &mut Statistics,
     mut iteration: impl Iteration<T>,
 ) -> Result<(), StepFailure> {
     // The second is how many improvements there were beside the iterations.
     let (result, more) = 'iterated: loop {
-        iteration.prepare(&mut convergence.due);
+        iteration.prepare(convergence.due());
         loop {
-            let correction = match iteration.improve(&mut convergence.due, statistics) {
+            let correction = match iteration.improve(convergence.due(), statistics) {
                 Ok(correction) => correction,
                 Err(failure) => break 'iterated (Err(failure), 1),
             };
             match convergence.judge(correction) {
-                Verdict::Continue if convergence.due == Due::Nothing => {}
+                Verdict::Continue if *convergence.due() == Due::Nothing => {}
                 Verdict::Continue => break,
                 // Comparisons have not seen the derivatives that numbers may carry.
                 Verdict::Accept if carries_derivatives::<T>() => {
-                    let due = &mut convergence.due;
+                    let more = convergence.more();
+                    let due = convergence.due();
                     let mut improve = |_| iteration.improve(due, statistics).map(drop);
-                    let more = convergence.more;
                     break 'iterated ((0..more).try_for_each(&mut improve), more as u64);
                 }
                 Verdict::Accept => break 'iterated (Ok(()), 0),
@@ -155,7 +156,7 @@ pub(crate) fn repeat<T: Real>(
             }
         }
     };
-    let iterations = convergence.iterations as u64;
+    let iterations = convergence.iterations() as u64;
     statistics.iterations += iterations;
     iteration.count(iterations + more, statistics);
     result

@@ -124,6 +124,109 @@ pub(crate) struct Convergence<T> {
     pub(crate) more: usize,
 }
 
+/// What judges the corrections of an iteration.
+pub(crate) trait Judge<T> {
+    /// Takes note of the size of the latest correction and decides.
+    fn judge(&mut self, correction: T) -> Verdict;
+    /// What the next iteration does first.
+    fn due(&mut self) -> &mut Due;
+    /// How many iterations there were.
+    fn iterations(&self) -> usize;
+    /// How many more derivatives take that come with the numbers.
+    fn more(&self) -> usize;
+    /// The failure to report after [`Verdict::GiveUp`].
+    fn failure(&self) -> StepFailure;
+}
+
+/// The same where an iterate that is to be put to the test, or whose sizes are to be taken again, is given up: what it takes to do that
+/// costs a short step a tenth of its instructions. A [`Convergence`] judges the step again then.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quick<T> {
+    due: Due,
+    tolerance: T,
+    correction: T,
+    growths: usize,
+    iterations: usize,
+    budget: usize,
+    stalling: T,
+    more: usize,
+}
+
+impl<T: Real> Quick<T> {
+    /// As [`Convergence::new`].
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn new(stopping: Stopping, budget: usize) -> Self {
+        Self::of(Convergence::new(stopping, budget))
+    }
+
+    /// As [`Convergence::fixed_point`].
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
+        Self::of(Convergence::fixed_point(stopping, budget))
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(convergence: Convergence<T>) -> Self {
+        let Convergence { due, tolerance, correction, iterations, last, stalling, more, .. } = convergence;
+        Self { due, tolerance, correction, growths: 0, iterations, budget: last, stalling, more }
+    }
+}
+
+impl<T: Real> Judge<T> for Quick<T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn judge(&mut self, correction: T) -> Verdict {
+        let shrunk = self.correction - correction;
+        self.correction = correction;
+        self.iterations += 1;
+        if correction <= self.tolerance {
+            return Verdict::Accept;
+        }
+        // What is not a number is not small.
+        let is_small = correction <= T::lift(LARGE);
+        if !is_small {
+            return Verdict::GiveUp;
+        }
+        if self.iterations > 1 {
+            if correction * correction < self.tolerance * shrunk {
+                return Verdict::Accept;
+            }
+            let is_shrinking = shrunk > self.stalling * correction;
+            if !is_shrinking {
+                if correction <= T::lift(FLOOR) * T::default_epsilon() {
+                    return Verdict::Accept;
+                }
+                self.growths += 1;
+                if self.growths > MOST_IN_VAIN {
+                    return Verdict::GiveUp;
+                }
+            }
+        }
+        if self.iterations >= self.budget { Verdict::GiveUp } else { Verdict::Continue }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn due(&mut self) -> &mut Due {
+        &mut self.due
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn more(&self) -> usize {
+        self.more
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn failure(&self) -> StepFailure {
+        let Self { iterations, correction, tolerance, .. } = *self;
+        let [correction, tolerance] = [correction, tolerance].map(reported);
+        StepFailure::NotConverged { iterations, correction, tolerance }
+    }
+}
+
 /// How many iterations of Newton's method after the last bring derivatives of up to third order: each doubles the order.
 const MORE_BY_NEWTON: usize = 2;
 
@@ -163,35 +266,6 @@ impl<T: Real> Convergence<T> {
             new.more = MORE_BY_FIXED_POINT;
         }
         if is_below_rounding::<T>(stopping) { Self { stalling: T::lift(0.0), ..new } } else { new }
-    }
-
-    /// Takes note of the size of the latest correction and decides.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn judge(&mut self, correction: T) -> Verdict {
-        let before = self.correction;
-        let shrunk = before - correction;
-        self.correction = correction;
-        self.iterations += 1;
-        if correction <= self.tolerance {
-            return Verdict::Accept;
-        }
-        let is_small = correction <= T::lift(LARGE);
-        // While an iterate is put to the test, sizes stay as they are.
-        if !is_small && matches!(self.trial, Trial::None) {
-            self.due = Due::Sizes;
-        }
-        if self.iterations > 1 {
-            // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow. Where both sides are so
-            // small that they are 0, nothing is known, and neither where sizes have changed.
-            if correction * correction < self.tolerance * shrunk && before <= T::lift(LARGE) {
-                return Verdict::Accept;
-            }
-            let is_shrinking = shrunk > self.stalling * correction;
-            if !is_shrinking && let Some(verdict) = self.hesitate(before) {
-                return verdict;
-            }
-        }
-        if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
     }
 
     /// Decides where corrections no longer shrink as they should, the last one from `before`.
@@ -241,10 +315,54 @@ impl<T: Real> Convergence<T> {
         (self.correction, self.stalling) = (T::lift(f64::INFINITY), T::lift(f64::INFINITY));
         (self, None)
     }
+}
 
-    /// The failure to report after [`Verdict::GiveUp`].
+impl<T: Real> Judge<T> for Convergence<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn failure(&self) -> StepFailure {
+    fn judge(&mut self, correction: T) -> Verdict {
+        let before = self.correction;
+        let shrunk = before - correction;
+        self.correction = correction;
+        self.iterations += 1;
+        if correction <= self.tolerance {
+            return Verdict::Accept;
+        }
+        let is_small = correction <= T::lift(LARGE);
+        // While an iterate is put to the test, sizes stay as they are.
+        if !is_small && matches!(self.trial, Trial::None) {
+            self.due = Due::Sizes;
+        }
+        if self.iterations > 1 {
+            // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow. Where both sides are so
+            // small that they are 0, nothing is known, and neither where sizes have changed.
+            if correction * correction < self.tolerance * shrunk && before <= T::lift(LARGE) {
+                return Verdict::Accept;
+            }
+            let is_shrinking = shrunk > self.stalling * correction;
+            if !is_shrinking && let Some(verdict) = self.hesitate(before) {
+                return verdict;
+            }
+        }
+        if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn due(&mut self) -> &mut Due {
+        &mut self.due
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn more(&self) -> usize {
+        self.more
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn failure(&self) -> StepFailure {
         StepFailure::NotConverged {
             iterations: self.iterations,
             correction: reported(self.correction),

@@ -44,7 +44,6 @@ struct Uniform<S: System, T: Real> {
     mass: Mass<S, T>,
     /// No velocity: p is a(q, t) there.
     rest: Vector<S, T>,
-    work: Vector<S, T>,
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Uniform<S, T> {
@@ -140,7 +139,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         velocity.copy_from_slice(v);
         let inverse = if S::UNIFORM_MASS {
             let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
-            Velocities::Uniform(Uniform { mass, rest: between, work: latest })
+            Velocities::Uniform(Uniform { mass, rest: between })
         } else {
             let orientation = MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?;
             let legendre = Legendre::new(system, q, v, t);

@@ -10,7 +10,7 @@ use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
+use crate::solve::{Convergence, Due, Iteration, Quick, Stopping, repeat};
 use crate::space::sink::{Product, Scaled};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
 use crate::state::Statistics;
@@ -116,36 +116,49 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        repeat(convergence, statistics, Newton { step, stage: self })
-    }
-
-    /// The residual at the unknowns, against what it is made of.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn residual(&mut self, step: &Step<'_, S, T>) -> Result<T, StepFailure> {
+        let quick = Quick::new(stopping, stopping.max_iterations);
+        match repeat(quick, statistics, Newton { step, stage: self }) {
+            Err(StepFailure::NotConverged { .. }) => {}
+            solved => return solved,
+        }
         let Step { system, q, t, h, nodes } = *step;
         if !S::Space::ON_STACK {
-            return self.residual_of(system, q, [t, h], nodes);
+            return self.carefully((system, nodes), q, [t, h], stopping, statistics);
         }
         // What another function sees has no place in registers.
         let mut apart = Self::new(system, q, t);
         apart.unknown.copy_from_slice(&self.unknown);
         apart.momentum.copy_from_slice(&self.momentum);
-        apart.residual_of(system, q, [t, h], nodes)
+        let solved = apart.carefully((system, nodes), q, [t, h], stopping, statistics);
+        self.unknown.copy_from_slice(&apart.unknown);
+        self.correction.copy_from_slice(&apart.correction);
+        self.gradient.copy_from_slice(&apart.gradient);
+        self.one_form.copy_from_slice(&apart.one_form);
+        self.point.copy_from_slice(&apart.point);
+        solved
     }
 
+    /// The same where the quick look has given up.
     #[cold]
     #[inline(never)]
-    fn residual_of(
+    fn carefully(
         &mut self,
-        system: &S,
+        (system, nodes): (&S, &[Node]),
         q: &Vector<S, T>,
         [t, h]: [T; 2],
-        nodes: &[Node],
-    ) -> Result<T, StepFailure> {
+        stopping: Stopping,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
         let step = &Step { system, q, t, h, nodes };
+        let convergence = Convergence::new(stopping, stopping.max_iterations);
+        repeat(convergence, statistics, Newton { step, stage: self })
+    }
+
+    /// The residual at the unknowns, against what it is made of.
+    #[cold]
+    fn residual(&mut self, step: &Step<'_, S, T>) -> Result<T, StepFailure> {
         let Self { unknown, momentum, gradient, one_form, point, velocity, correction, weights, .. } = self;
-        let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(unknown[j]);
+        let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
         let work = [point, velocity, gradient, one_form];
         linear::residual(&mut Equations { step, unknown, momentum, work }, size, [correction, weights])
     }

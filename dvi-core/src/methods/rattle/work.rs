@@ -7,7 +7,7 @@ use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::mass::Mass;
 use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Iteration, Stopping, repeat, sizes};
+use crate::solve::{Convergence, Due, Iteration, Quick, Stopping, repeat, sizes};
 use crate::space::SquareMatrix;
 use crate::space::sink::Places;
 use crate::state::Statistics;
@@ -192,8 +192,11 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         mass.displace(h, &place.p, vector);
         combine(&here.solved, first, vector);
         add(q, vector, q1);
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        repeat(convergence, statistics, Newton { step, work: self })?;
+        let (budget, newton) = (stopping.max_iterations, Newton { step, work: self });
+        match step.look {
+            Look::Quick => repeat(Quick::new(stopping, budget), statistics, newton)?,
+            Look::Close => repeat(Convergence::new(stopping, budget), statistics, newton)?,
+        }
         let Self { q: q1, place, impulses: Impulses { first, .. }, vector, values, gram, .. } = self;
         constrain(system, q1, t1, values, &mut place.rows);
         place.measure(mass);

@@ -15,7 +15,7 @@ use crate::mechanics::combination::Inverse;
 use crate::methods::Clock;
 use crate::scalar::norm;
 use crate::scalar::simd::{apart_if, widest_if};
-use crate::solve::{Convergence, Due, Guess, Iteration, iterate, repeat, sizes};
+use crate::solve::{Convergence, Due, Guess, Iteration, Judge, Quick, iterate, repeat, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
@@ -164,13 +164,22 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         widest_if(
             !<S::Space as Space>::ON_STACK,
             #[cfg_attr(not(debug_assertions), inline(always))]
-            || self.repeat(statistics),
+            || self.repeat(Quick::fixed_point(self.step.method.stopping, self.budget), statistics),
         )
+        .or_else(|failure| self.carefully(failure, statistics))
+    }
+
+    /// The same where the quick look has given up.
+    #[cold]
+    #[inline(never)]
+    fn carefully(&mut self, failure: StepFailure, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let StepFailure::NotConverged { .. } = failure else { return Err(failure) };
+        self.repeat(Convergence::fixed_point(self.step.method.stopping, self.budget), statistics)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn repeat(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { step, q, defect, history, inverse, l_d, work, budget, .. } = self;
+    fn repeat(&mut self, convergence: impl Judge<T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { step, q, defect, history, inverse, l_d, work, .. } = self;
         let sigma = step.method.sigma;
         let node = &mut l_d.work;
         scratch!(increment = step.system, node.velocity);
@@ -188,7 +197,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             }
             &work.next
         };
-        let convergence = Convergence::fixed_point(step.method.stopping, *budget);
         let midpoints = Placed { step, inverse, q, origin, increment, trial, weights, point, gradient };
         repeat(convergence, statistics, midpoints)?;
         work.increment.copy_from_slice(increment);
