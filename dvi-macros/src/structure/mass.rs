@@ -1,6 +1,7 @@
 //! The mass matrix M = ∂²L/∂v∂v of a regular system.
 
 use syn::Expr as Syntax;
+use syn::ext::IdentExt as _;
 
 use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
@@ -163,10 +164,11 @@ impl MassMatrix {
         if model.is_on_manifold() {
             let block = |block: &Block| match block.factor {
                 Factor::Line => None,
-                Factor::Rotation => {
-                    Some(format!("`{}` is in SO(3), and its velocity is that in the body.", block.name))
-                }
-                Factor::Sphere => Some(format!("`{}` is in S².", block.name)),
+                Factor::Rotation => Some(format!(
+                    "`{}` is in SO(3), and its velocity is that in the body.",
+                    block.name.unraw()
+                )),
+                Factor::Sphere => Some(format!("`{}` is in S².", block.name.unraw())),
             };
             let step = "A step moves along a geodesic, and solves for its velocity.".to_string();
             let begin = "Begin with `Geodesic::trapezoid()`.".to_string();
