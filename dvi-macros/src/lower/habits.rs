@@ -189,7 +189,10 @@ impl Lowering<'_> {
         while let Syntax::Binary(product) = exponent {
             exponent = &product.left;
         }
-        let is_name = |syntax: &Syntax, is: &dyn Fn(&Ident) -> bool| matches!(syntax, Syntax::Path(path) if path.path.get_ident().is_some_and(is));
+        let is_name = |syntax: &Syntax, is: &dyn Fn(&Ident) -> bool| match syntax {
+            Syntax::Path(path) => path.path.get_ident().is_some_and(is),
+            _ => false,
+        };
         let is_differential = |syntax: &Syntax| matches!(syntax, Syntax::Call(call) if is_name(&call.func, &|name| name == "d"));
         let literal = self.literal_index(exponent);
         let (function, power) = (if literal.is_some() { "powi" } else { "powf" }, text(exponent));
