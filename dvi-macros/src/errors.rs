@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashSet as HashSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 
 /// Errors of all stages, in the order in which they were found.
@@ -42,19 +42,29 @@ impl Errors {
     pub(crate) fn take_first(&mut self) -> TokenStream {
         match self.found.is_empty() {
             true => TokenStream::new(),
-            false => self.found.remove(0).into_compile_error(),
+            false => compile_error(self.found.remove(0)),
         }
     }
 
     pub(crate) fn into_tokens(self) -> TokenStream {
-        self.found.into_iter().map(|error| error.into_compile_error()).collect()
+        self.found.into_iter().map(compile_error).collect()
     }
 }
 
-/// The nearest of the declared names, if one is near: a few letters apart, and not all of them.
+/// `compile_error! { "…" }` where the errors are. In a crate of the edition 2015 `::core` in front of it would be a module of that crate.
+fn compile_error(errors: syn::Error) -> TokenStream {
+    let is_path = |token: &TokenTree| !matches!(token, TokenTree::Ident(name) if name == "compile_error");
+    errors.into_iter().flat_map(|error| error.into_compile_error().into_iter().skip_while(is_path)).collect()
+}
+
+/// The nearest of the declared names, if one is a slip of the pen away: one letter more, less, other, or in the place of its neighbour;
+/// two in a long name. Of a short name one letter is too much of it.
 pub(crate) fn nearest<'a>(name: &str, declared: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let length = name.chars().count();
-    let allowed = (1 + length / 4).min(length.saturating_sub(1));
+    let allowed = match name.chars().count() {
+        0..=1 => 0,
+        2..=7 => 1,
+        _ => 2,
+    };
     declared
         .into_iter()
         .map(|candidate| (edit_distance(name, candidate), candidate))
@@ -63,29 +73,33 @@ pub(crate) fn nearest<'a>(name: &str, declared: impl IntoIterator<Item = &'a str
         .map(|(_, candidate)| candidate)
 }
 
-/// The three declared names that are nearest.
-pub(crate) fn similar<'a>(name: &str, declared: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut names: Vec<&str> = declared.into_iter().collect();
-    names.sort_by_key(|candidate| edit_distance(name, candidate));
-    names.truncate(3);
-    names
+/// The distance of Damerau and Levenshtein between neighbours, case folded.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let [a, b] = [a, b].map(|name| name.to_lowercase().chars().collect::<Vec<char>>());
+    let first: Vec<usize> = (0..=b.len()).collect();
+    let mut rows = vec![first];
+    for (i, from) in a.iter().enumerate() {
+        let mut row = vec![i + 1];
+        for (j, to) in b.iter().enumerate() {
+            let replaced = rows[i][j] + usize::from(from != to);
+            let mut least = replaced.min(rows[i][j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i - 1] == *to && b[j - 1] == *from {
+                least = least.min(rows[i - 1][j - 1] + 1);
+            }
+            row.push(least);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
 }
 
-/// Levenshtein's distance, case folded.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) =
-        (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, to) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(from != to);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(row[j + 1] + 1);
-        }
+/// `none`, `one`, `2`, behind `here is` or `here are`.
+pub(crate) fn here(count: usize) -> String {
+    match count {
+        0 => "here are none".into(),
+        1 => "here is one".into(),
+        many => format!("here are {many}"),
     }
-    row[b.len()]
 }
 
 /// `a`, `b` and `c`
@@ -114,4 +128,27 @@ pub(crate) fn text(code: &impl ToTokens) -> String {
         text = text.replace(spaced, tight);
     }
     text
+}
+
+#[test]
+fn the_nearest_name_is_a_slip_of_the_pen_away() {
+    let names = ["omega", "x", "sin", "cos", "coordinates", "sinh"];
+    let near = |name| nearest(name, names);
+    assert_eq!(near("omgea"), Some("omega"));
+    assert_eq!(near("omega0"), Some("omega"));
+    assert_eq!(near("sni"), Some("sin"));
+    assert_eq!(near("cordinate"), Some("coordinates"));
+    for name in ["y", "sec", "sincos", "theta", "amigo", "heaviside", "norm"] {
+        assert_eq!(near(name), None, "{name}");
+    }
+}
+
+#[test]
+fn an_error_is_no_path_of_one_edition() {
+    let error = || syn::Error::new(proc_macro2::Span::call_site(), "what to write");
+    let mut errors = error();
+    errors.combine(error());
+    let text = compile_error(errors).to_string();
+    assert_eq!(text.matches("compile_error").count(), 2, "{text}");
+    assert!(!text.contains(':'), "{text}");
 }

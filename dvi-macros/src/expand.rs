@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm, PairSum};
 use crate::symbolic::Graph;
-use crate::syntax::{Attribute, Kind, depth, parse_attribute};
+use crate::syntax::{Attribute, Kind, depth, parse_attribute, tidy};
 use crate::validate::{self, Checked, Difference};
 
 mod formulas;
@@ -114,11 +114,12 @@ fn expanded(
     item: TokenStream,
     ending: impl FnOnce(&mut Stages) -> Option<TokenStream>,
 ) -> TokenStream {
-    let item = match read_item(kind, item) {
+    let item = match read_item(kind, tidy::names(item)) {
         Ok(item) => item,
         Err(refused) => return refused,
     };
     let mut errors = Errors::default();
+    let item = once(item, &mut errors);
     let mut attribute = parse_attribute(kind, attribute, &mut errors);
     let model = Model::new(&mut attribute, item, &mut errors);
     let block_sizes = (0..model.blocks.len()).map(|block| model.block_size(block)).collect();
@@ -139,11 +140,28 @@ fn expanded(
     }
 }
 
+/// The struct without the attributes that declare a second system on it.
+fn once(mut item: ItemStruct, errors: &mut Errors) -> ItemStruct {
+    let declares = |attribute: &syn::Attribute| {
+        let name = attribute.path().segments.last().map(|last| &last.ident);
+        name.is_some_and(|name| Kind::BOTH.iter().any(|kind| name == kind.name()))
+    };
+    for again in item.attrs.iter().filter(|attribute| declares(attribute)) {
+        let message = format!(
+            "`{}` is a system by the attribute above: a struct has one Lagrangian; write another struct for this one",
+            item.ident
+        );
+        errors.push(again.path(), message);
+    }
+    item.attrs.retain(|attribute| !declares(attribute));
+    item
+}
+
 /// The struct, or what to emit in place of a system: the item as it is, with an error.
 fn read_item(kind: Kind, item: TokenStream) -> Result<ItemStruct, TokenStream> {
     let advice =
         format!("`{}` stands on a struct whose fields are the parameters of the system", kind.attribute());
-    let parsed = depth::check(&item).and_then(|()| syn::parse2::<Item>(item.clone()));
+    let parsed = depth::check_item(&item).and_then(|()| syn::parse2::<Item>(item.clone()));
     let mut errors = Errors::default();
     let replaced = match parsed {
         Ok(Item::Struct(item)) => return Ok(item),

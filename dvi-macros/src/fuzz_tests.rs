@@ -357,3 +357,23 @@ fn lifetimes_named_as_types() {
         assert!(is_kept && output.contains("Packable"), "{output}");
     }
 }
+
+/// As long as a formula may be, and one token longer.
+#[test]
+fn the_longest_sum_is_expanded() {
+    let sum = |terms: usize| {
+        let of = |n: usize| {
+            format!("{} {n}.5 * {}", if n.is_multiple_of(3) { "-" } else { "+" }, ["x", "y"][n % 2])
+        };
+        (1..terms).map(of).collect::<String>()
+    };
+    let expanded = |terms| {
+        let attribute = format!("coordinates(x, y), one_form = x * d(y), hamiltonian = x{}", sum(terms));
+        expand_text(Kind::Degenerate, attribute, "struct System;".to_string())
+    };
+    // A sign, a number, `*` and a name, and in front of the first `hamiltonian = x`.
+    let longest = (100_000 - 3) / 4 + 1;
+    let output = expanded(longest);
+    assert!(!output.contains("compile_error"), "{output:.300}");
+    assert!(expanded(longest + 1).contains("longer than 100000 tokens"));
+}

@@ -89,7 +89,7 @@ impl Emitter<'_> {
         let mut tokens = TokenStream::new();
         for block in 0..self.model.blocks.len() {
             let (name, value) = (local(format_args!("offset{block}")), self.index(&offset));
-            tokens.extend(quote!(let #name: usize = #value;));
+            tokens.extend(quote!(let #name: ::core::primitive::usize = #value;));
             offset = offset.plus(&self.model.block_size(block), 1);
         }
         tokens
@@ -303,16 +303,16 @@ fn configuration(
             type Kind = #kind;
             type State<__T: #krate::Scalar> = #type_in_trait;
             const REPORT: #krate::Report = #report;
-            const HAS_SCALAR_FIELDS: bool = #has_scalar_fields;
+            const HAS_SCALAR_FIELDS: ::core::primitive::bool = #has_scalar_fields;
             #has_domain
-            const TIME_TRANSFORMED: bool = #time_transformed;
-            const FORCED: bool = #forced;
-            const AUTONOMOUS: bool = #autonomous;
+            const TIME_TRANSFORMED: ::core::primitive::bool = #time_transformed;
+            const FORCED: ::core::primitive::bool = #forced;
+            const AUTONOMOUS: ::core::primitive::bool = #autonomous;
 
             #ForceInline
             fn space(&self) -> Self::Space { #space_value }
             #[inline]
-            fn block_len(&self, __block: usize) -> usize {
+            fn block_len(&self, __block: ::core::primitive::usize) -> ::core::primitive::usize {
                 match __block { #(#blocks => #lengths,)* _ => 0usize }
             }
             fn check(&self) -> ::core::result::Result<(), #krate::IndexError> { #check }
@@ -380,23 +380,24 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             #domain
             #members
             #[inline]
-            fn momentum(&self, __index: usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
+            fn momentum(&self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
                 match __index {
                     #(#indices => { #momenta })*
-                    _ => <__T as #krate::Scalar>::lift(f64::NAN),
+                    _ => <__T as #krate::Scalar>::lift(::core::primitive::f64::NAN),
                 }
             }
     };
     in_numbers(emitter, &quote!(Lagrangian), &items)
 }
 
-/// Generated code answers to no style lint.
+/// Generated code answers to no style lint: its names are those of the user's struct, with more behind them, and its paths are written as
+/// formulas need them.
 pub(crate) fn allow() -> TokenStream {
     quote! {
         #[allow(
             clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction,
             unused_variables, unused_mut, unused_parens, unused_braces, unreachable_code,
-            non_snake_case, non_upper_case_globals
+            non_snake_case, non_upper_case_globals, non_camel_case_types, unused_qualifications
         )]
     }
 }

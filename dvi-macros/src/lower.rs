@@ -191,7 +191,6 @@ impl<'a> Lowering<'a> {
         match syntax {
             Syntax::Lit(literal) => self.literal(&literal.lit),
             Syntax::Paren(inner) => self.expr(&inner.expr),
-            Syntax::Group(inner) => self.expr(&inner.expr),
             Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
                 Some(self.expr(&unary.expr)?.negated())
             }
@@ -215,6 +214,10 @@ impl<'a> Lowering<'a> {
         let (digits, suffix) = match literal {
             Lit::Float(value) => (value.base10_digits(), value.suffix()),
             Lit::Int(value) => (value.base10_digits(), value.suffix()),
+            Lit::Str(_) => {
+                self.errors.push(literal, "a formula is written as it is, without quotes");
+                return None;
+            }
             _ => {
                 self.errors.push(literal, "expected a number");
                 return None;
@@ -223,6 +226,10 @@ impl<'a> Lowering<'a> {
         if !matches!(suffix, "" | "f64" | "f32") {
             let message = if is_number_type(suffix) {
                 format!("formulas are real: write this number without `{suffix}`")
+            } else if let Some(exponent) =
+                suffix.strip_prefix(['d', 'D']).filter(|e| e.parse::<i32>().is_ok())
+            {
+                format!("an exponent of ten is written with `e`: `{digits}e{exponent}`")
             } else {
                 format!("a product is written with `*`: `{digits} * {suffix}`")
             };
@@ -240,8 +247,11 @@ impl<'a> Lowering<'a> {
         if let (BinOp::Mul(_), Syntax::Unary(power)) = (syntax.op, &*syntax.right)
             && matches!(power.op, UnOp::Deref(_))
         {
-            self.expr(&syntax.left);
-            self.not_a_power(syntax, &syntax.left, &power.expr);
+            self.not_a_power(&syntax.left, &power.expr);
+            return None;
+        }
+        if let BinOp::BitXor(_) = syntax.op {
+            self.not_a_power(&syntax.left, &syntax.right);
             return None;
         }
         let (left, right) = (self.expr(&syntax.left), self.expr(&syntax.right));
@@ -303,6 +313,10 @@ impl<'a> Lowering<'a> {
         if let Some(written) = self.velocity_called(name) {
             let message = format!("{what} `{name}`; {written}");
             self.errors.push_once(&format!("name {name}"), at, message);
+            return;
+        }
+        if let Some(written) = self.name_called(name) {
+            self.errors.push_once(&format!("name {name}"), at, format!("{what} `{name}`; {written}"));
             return;
         }
         let hint = match nearest(name, declared.iter().map(String::as_str)) {

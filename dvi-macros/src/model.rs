@@ -213,7 +213,7 @@ impl Model {
                 self.lost_coordinates = true;
                 Index::literal(1)
             });
-            (index, size.to_token_stream().to_string().replace(' ', ""))
+            (index, size.to_token_stream().to_string().replace("r#", "").replace(' ', ""))
         });
         let array = factor.coordinates().map_or(array, |size| Some((Index::literal(size), size.to_string())));
         self.blocks.push(Block { name: name.clone(), array, factor });
@@ -251,6 +251,11 @@ impl Model {
             self.parameters.len() - 1
         });
         position as u32
+    }
+
+    /// Whether a function of several variables of this name is declared by its path.
+    pub(crate) fn is_declared_scalar_field(&self, name: &Ident) -> bool {
+        self.declared_scalar_fields.iter().any(|field| field.name == *name)
     }
 
     /// The function of several variables of this name, called with so many arguments; `None` if there is none, and another

@@ -6,6 +6,7 @@
 use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::spanned::Spanned;
+use syn::visit_mut::VisitMut as _;
 use syn::{Expr, Path};
 
 use crate::errors::{Errors, listed, nearest};
@@ -14,11 +15,17 @@ mod argument;
 mod constraint;
 mod declared;
 pub(crate) mod depth;
+mod elsewhere;
+mod library;
 mod rotation;
+pub(crate) mod tidy;
 
 use argument::{Argument, Value};
 pub(crate) use constraint::{Constrained, Constraint, Family};
 use declared::Declared;
+use elsewhere::mistaken;
+use tidy::Ungrouped;
+
 pub(crate) use declared::{
     Declaration, Factor, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform,
 };
@@ -78,8 +85,19 @@ const ARGUMENTS: [(&str, &str); 14] = [
     ("crate",       "crate = ::path"),
 ];
 
-/// Words for what is a force.
-const FORCES: [&str; 6] = ["damping", "drag", "drive", "forces", "forcing", "friction"];
+/// Other words, and the argument that is meant.
+#[rustfmt::skip]
+const OTHER_WORDS: [(&str, &[&str]); 6] = [
+    ("coordinates", &["coords", "variables", "vars", "q", "positions", "unknowns"]),
+    ("lagrangian",  &["L", "l", "lagrange", "kinetic", "potential", "T", "V", "U"]),
+    ("hamiltonian", &["H", "h", "energy"]),
+    ("one_form",    &["alpha", "theta", "vartheta", "α", "ϑ", "θ", "symplectic"]),
+    ("force",       &["damping", "dissipation", "drag", "drive", "forces", "forcing", "friction", "rayleigh"]),
+    ("momenta",     &["conserved", "integrals", "invariants", "momentum"]),
+];
+
+/// Words for what stands in the struct.
+const FIELDS: [&str; 5] = ["constants", "parameter", "parameters", "params", "fields"];
 
 /// The arguments that a regular system does not have.
 const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
@@ -88,6 +106,8 @@ const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_tr
 const REGULAR_ONLY: [&str; 3] = ["constraint", "nonholonomic", "impact"];
 
 impl Kind {
+    pub(crate) const BOTH: [Self; 2] = [Self::Degenerate, Self::Regular];
+
     /// The attribute as it is written.
     pub(crate) fn attribute(self) -> &'static str {
         match self {
@@ -96,10 +116,37 @@ impl Kind {
         }
     }
 
+    /// The name of the attribute.
+    pub(crate) fn name(self) -> &'static str {
+        self.attribute().trim_start_matches("#[").trim_end_matches(']')
+    }
+
     fn takes(self, argument: &str) -> bool {
         match self {
             Self::Degenerate => !REGULAR_ONLY.contains(&argument),
             Self::Regular => !DEGENERATE_ONLY.contains(&argument),
+        }
+    }
+
+    /// What is meant by an argument that is none.
+    fn meant(self, keyword: &str) -> String {
+        let other = other_word(keyword);
+        if self == Self::Degenerate && ["kinetic", "potential", "T", "V", "U"].contains(&keyword) {
+            return "write `one_form = …` and `hamiltonian = …`, or all of L as `lagrangian = …`".to_string();
+        }
+        if other == "force" && other != keyword {
+            return "a force is written `force(x) = …`".to_string();
+        }
+        if other != keyword {
+            return format!("write `{}`", form_of(other));
+        }
+        if FIELDS.contains(&keyword) {
+            return "parameters are the fields of the struct, and formulas know them by their names"
+                .to_string();
+        }
+        match nearest(keyword, self.arguments()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the arguments are {}", listed(self.arguments())),
         }
     }
 
@@ -110,11 +157,12 @@ impl Kind {
 
 pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Errors) -> Attribute {
     let mut attribute = Attribute { kind, ..Attribute::default() };
-    if let Err(error) = depth::check(&tokens) {
+    if let Err(error) = depth::check_formulas(&tokens) {
         errors.push_syn(error);
         attribute.lost_coordinates = true;
         return attribute;
     }
+    let tokens = tidy::sums(tidy::names(tokens));
     let mut given: Vec<String> = Vec::new();
     for piece in split_at_commas(tokens) {
         match read_by(piece, |input| Argument::parse(input, kind)) {
@@ -131,6 +179,7 @@ pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Erro
         }
     }
     attribute.lost_coordinates |= attribute.coordinates.is_empty();
+    attribute.admit_library(errors);
     attribute.admit_factors(errors);
     attribute
 }
@@ -192,7 +241,7 @@ impl Attribute {
             return;
         }
         match (keyword.as_str(), value) {
-            (other, _) if !self.kind.takes(other) => {
+            (other, _) if !self.kind.takes(other_word(other)) => {
                 let message = format!(
                     "`{}` takes all of L as `lagrangian = …`; {} are arguments of `{}`",
                     self.kind.attribute(),
@@ -258,17 +307,7 @@ impl Attribute {
                 self.lost_functions |= known == "functions";
                 errors.push(&name, format!("`{known}` is written `{}`", form_of(known)));
             }
-            _ if FORCES.contains(&keyword.as_str()) => {
-                errors
-                    .push(&name, format!("unknown argument `{keyword}`; a force is written `force(x) = …`"));
-            }
-            _ => {
-                let hint = nearest(&keyword, self.kind.arguments()).map_or_else(
-                    || format!("the arguments are {}", listed(self.kind.arguments())),
-                    |near| format!("did you mean `{near}`?"),
-                );
-                errors.push(&name, format!("unknown argument `{keyword}`; {hint}"));
-            }
+            _ => errors.push(&name, format!("unknown argument `{keyword}`; {}", self.kind.meant(&keyword))),
         }
     }
 
@@ -284,6 +323,11 @@ impl Attribute {
             self.forces.push(force);
         }
     }
+}
+
+/// The argument that a word of another book stands for, or the word itself.
+fn other_word(word: &str) -> &str {
+    OTHER_WORDS.iter().find(|(_, others)| others.contains(&word)).map_or(word, |(argument, _)| argument)
 }
 
 /// How an argument is written.
@@ -310,7 +354,14 @@ fn value_of(name: &Ident, tokens: TokenStream, errors: &mut Errors) -> Option<Ex
         errors.push(name, format!("`{name} =` has no value"));
         return None;
     }
-    read(tokens).map_err(|error| errors.push_syn(error)).ok()
+    errors.taken(read_by(tokens, expression))
+}
+
+/// With what macros have put into it in its place.
+fn expression(input: ParseStream<'_>) -> syn::Result<Expr> {
+    let mut expression = input.parse()?;
+    Ungrouped.visit_expr_mut(&mut expression);
+    Ok(expression)
 }
 
 fn read<T: Parse>(tokens: TokenStream) -> syn::Result<T> {
@@ -321,7 +372,7 @@ fn read<T: Parse>(tokens: TokenStream) -> syn::Result<T> {
 /// left to itself would report it on the whole attribute.
 fn read_by<T>(tokens: TokenStream, parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>) -> syn::Result<T> {
     let last = tokens.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
-    let mut group = Group::new(Delimiter::Parenthesis, tokens);
+    let mut group = Group::new(Delimiter::Parenthesis, tokens.clone());
     group.set_span(last);
     let all = |input: ParseStream<'_>| {
         let content;
@@ -330,9 +381,13 @@ fn read_by<T>(tokens: TokenStream, parser: impl FnOnce(ParseStream<'_>) -> syn::
             let ended = error.to_string().starts_with("unexpected end of input");
             if ended { syn::Error::new(error.span(), "something is missing after this") } else { error }
         })?;
-        if content.is_empty() { Ok(value) } else { Err(content.error("expected an operator or `,`")) }
+        if content.is_empty() {
+            Ok(value)
+        } else {
+            Err(content.error("expected an operator, `*` for a product, or `,`"))
+        }
     };
-    all.parse2(TokenTree::Group(group).into())
+    all.parse2(TokenTree::Group(group).into()).map_err(|error| mistaken(tokens).unwrap_or(error))
 }
 
 /// Commas inside of brackets are inside of token trees and do not count; nor do those between the

@@ -33,8 +33,15 @@ fn check_expansion(expansion: TokenStream, name: &str, expected: &Expect) {
     let found = functions.0.iter().find(|function| function.sig.ident == name).expect("it is generated");
     let (ident, block) = (&found.sig.ident, &found.block);
     let file = syn::parse2(quote!(fn #ident() #block)).expect("a function");
-    expected
-        .assert_eq(&prettyplease::unparse(&file).replace("::dvi_core::", "").replace("<T as Scalar>", "T"));
+    expected.assert_eq(&without_paths(&prettyplease::unparse(&file)));
+}
+
+/// What the paths of generated code lead to.
+fn without_paths(code: &str) -> String {
+    ["::dvi_core::", "::core::primitive::"]
+        .iter()
+        .fold(code.to_string(), |code, path| code.replace(path, ""))
+        .replace("<T as Scalar>", "T")
 }
 
 #[test]

@@ -53,4 +53,5 @@ mod tables;
 mod time_transform;
 mod together;
 mod together_parameters;
+mod units;
 mod variational;

@@ -70,12 +70,12 @@ impl Emitter<'_> {
 
     /// An index as an expression of type `i64`.
     pub(crate) fn signed_index(&self, index: &Index) -> TokenStream {
-        self.integer(index, &quote!(i64), Literal::i64_suffixed)
+        self.integer(index, &quote!(::core::primitive::i64), Literal::i64_suffixed)
     }
 
     /// An index as an expression of type `i128`, which no size makes overflow.
     pub(crate) fn wide_index(&self, index: &Index) -> TokenStream {
-        self.integer(index, &quote!(i128), |value| Literal::i128_suffixed(value.into()))
+        self.integer(index, &quote!(::core::primitive::i128), |value| Literal::i128_suffixed(value.into()))
     }
 
     fn integer(&self, index: &Index, kind: &TokenStream, literal: fn(i64) -> Literal) -> TokenStream {

@@ -134,8 +134,8 @@ impl Function<'_> {
                     [#(&mut #arrays[..]),*],
                     #ForceInline
                     |
-                        #body: usize,
-                        [#lower, #upper, #first]: [usize; 3],
+                        #body: ::core::primitive::usize,
+                        [#lower, #upper, #first]: [::core::primitive::usize; 3],
                         [#(#arrays),*]: &mut [&mut [__T]; #count],
                     | { #part },
                 );

@@ -119,7 +119,7 @@ impl Function<'_> {
             Node::Parameter(parameter) => self.parameter(parameter),
             Node::Count(index) => {
                 let index = self.emitter.signed_index(index);
-                quote!(<__T as #krate::Scalar>::lift(#index as f64))
+                quote!(<__T as #krate::Scalar>::lift(#index as ::core::primitive::f64))
             }
             Node::Weight(weight) => match weight {
                 Weight::Qq => quote!(__w.qq),
@@ -190,8 +190,8 @@ fn literal(value: f64) -> TokenStream {
         let literal = Literal::f64_suffixed(value);
         quote!(#literal)
     } else if value.is_nan() {
-        quote!(f64::NAN)
+        quote!(::core::primitive::f64::NAN)
     } else {
-        quote!(f64::INFINITY)
+        quote!(::core::primitive::f64::INFINITY)
     }
 }

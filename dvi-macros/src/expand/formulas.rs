@@ -239,6 +239,12 @@ fn one_form_and_hamiltonian(
 fn lower_one_form(lowering: &mut Lowering<'_>, one_form: &Syntax) -> Option<Expr> {
     match one_form {
         Syntax::Array(components) => lowering.components(components),
+        Syntax::Tuple(list) => {
+            lowering
+                .errors
+                .push(list, "components of a one-form are listed in brackets: `one_form = [a, b]`");
+            None
+        }
         _ => {
             let value = lowering.formula(one_form, Role::OneForm)?;
             let (stray, _) = split_parts(lowering.graph, value);

@@ -88,7 +88,7 @@ impl StandIn<'_> {
                     const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[]);
                     type Kind = #kind;
                     fn space(&self) -> Self::Space #never
-                    fn block_len(&self, _: usize) -> usize #never
+                    fn block_len(&self, _: ::core::primitive::usize) -> ::core::primitive::usize #never
                     fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
                 }
                 impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause {}
@@ -160,10 +160,11 @@ fn lost_state(
         _ => None,
     });
     let (constants, types): (Vec<_>, Vec<_>) = constants.unzip();
-    let error = errors.take_first();
+    let (error, allow) = (errors.take_first(), implement::allow());
     let item = quote! {
         #[doc(hidden)]
-        #visibility type #name<#(const #constants: #types,)* __T = f64> =
+        #allow
+        #visibility type #name<#(const #constants: #types,)* __T = ::core::primitive::f64> =
             <[__T; { #error }] as ::core::iter::IntoIterator>::Item;
     };
     (quote!(#krate::Fixed<1usize, 1usize>), quote!(#name<#(#constants,)* __T>), item)

@@ -8,6 +8,7 @@ use rustc_hash::FxHashSet as HashSet;
 
 use proc_macro2::TokenStream;
 use quote::quote;
+use syn::ext::IdentExt as _;
 
 use crate::emit::Emitter;
 use crate::program::Programs;
@@ -85,7 +86,7 @@ impl Walk<'_> {
                     if !self.emitter.stays_inside(&index, &size, &place.loops) {
                         let length = self.emitter.index(&size);
                         let length = Length { tokens: length, free: Free::default() };
-                        self.access(place, block.name.to_string(), &length, &index);
+                        self.access(place, block.name.unraw().to_string(), &length, &index);
                     }
                 }
             }
@@ -96,7 +97,7 @@ impl Walk<'_> {
                 for index in &p.indices {
                     let index = place.index(index);
                     let length = Length { tokens: quote!(#tokens.len()), free };
-                    self.access(place, parameter.text.clone(), &length, &index);
+                    self.access(place, parameter.text.replace("r#", ""), &length, &index);
                     free = free.and(index.free());
                     let index = self.emitter.index(&index);
                     tokens = quote!(#tokens[#index]);

@@ -33,7 +33,7 @@ impl Emitter<'_> {
         let mut tokens = TokenStream::new();
         for (constraint, length) in constraints.lengths.iter().enumerate() {
             let (name, length) = (local(first_constraint(constraint as u32)), self.range_bound(length));
-            tokens.extend(quote!(let #name: usize = #first;));
+            tokens.extend(quote!(let #name: ::core::primitive::usize = #first;));
             first = quote!(#name + #length);
         }
         tokens

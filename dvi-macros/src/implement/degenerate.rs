@@ -135,9 +135,9 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
     let affine = linear.then(|| in_numbers(emitter, &quote!(AffineOneForm), &TokenStream::new()));
     let items = quote! {
-            const AFFINE: bool = #linear;
-            const MATCHING: bool = #matching;
-            const CANONICAL: bool = #canonical;
+            const AFFINE: ::core::primitive::bool = #linear;
+            const MATCHING: ::core::primitive::bool = #matching;
+            const CANONICAL: ::core::primitive::bool = #canonical;
 
             #[inline]
             fn hamiltonian(&self, __q: &[__T], __t: __T) -> __T { #hamiltonian }
@@ -164,16 +164,16 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
                 #conjugate_entries
             }
             #ForceInline
-            fn conjugate(&self, __i: usize) -> usize { #conjugate }
+            fn conjugate(&self, __i: ::core::primitive::usize) -> ::core::primitive::usize { #conjugate }
             #ForceInline
-            fn conjugates_end(&self, __i: usize) -> usize { #conjugates_end }
+            fn conjugates_end(&self, __i: ::core::primitive::usize) -> ::core::primitive::usize { #conjugates_end }
             #[inline]
             fn momentum_gradient(
-                &self, __index: usize, __q: &[__T], __t: __T, __vector: &mut [__T],
+                &self, __index: ::core::primitive::usize, __q: &[__T], __t: __T, __vector: &mut [__T],
             ) {
                 match __index {
                     #(#indices => { #gradients })*
-                    _ => __vector.fill(<__T as #krate::Scalar>::lift(f64::NAN)),
+                    _ => __vector.fill(<__T as #krate::Scalar>::lift(::core::primitive::f64::NAN)),
                 }
             }
     };
@@ -207,7 +207,7 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
         let place = place(emitter, class);
         let items = quote! {
             #ForceInline
-            fn place(&self, __coordinate: usize) -> usize { #place }
+            fn place(&self, __coordinate: ::core::primitive::usize) -> ::core::primitive::usize { #place }
         };
         return in_numbers(emitter, &quote!(ProperlyDegenerate), &items);
     }
@@ -241,7 +241,7 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
         trait #lacking {}
         #allow
         impl #impl_generics #krate::ProperlyDegenerate<__T> for #name #type_generics #where_clause {
-            fn place(&self, __coordinate: usize) -> usize { __coordinate }
+            fn place(&self, __coordinate: ::core::primitive::usize) -> ::core::primitive::usize { __coordinate }
         }
     }
 }
@@ -267,8 +267,8 @@ fn place(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
                 let ranks = (0..entries.len()).map(rank);
                 let size = entries.len();
                 quote!({
-                    const __HAS: [bool; #size] = [#(#entries),*];
-                    const __RANK: [usize; #size] = [#(#ranks),*];
+                    const __HAS: [::core::primitive::bool; #size] = [#(#entries),*];
+                    const __RANK: [::core::primitive::usize; #size] = [#(#ranks),*];
                     let __entry = __coordinate - (#start);
                     __RANK[__entry] + if __HAS[__entry] { #with } else { #without }
                 })

@@ -50,7 +50,7 @@ fn generic(item: &ItemStruct) -> Option<&TypeParam> {
 fn as_one(krate: &Path, item: &ItemStruct) -> TokenStream {
     let (name, allow) = (&item.ident, allow());
     let mut generics = item.generics.clone();
-    generics.params.push(syn::parse_quote!(const __W: usize));
+    generics.params.push(syn::parse_quote!(const __W: ::core::primitive::usize));
     let (impl_generics, _, where_clause) = generics.split_for_impl();
     let (_, type_generics, _) = item.generics.split_for_impl();
     quote! {
@@ -68,7 +68,7 @@ fn as_one(krate: &Path, item: &ItemStruct) -> TokenStream {
 /// Systems whose parameters of type `generic` are packed.
 fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream {
     let (name, allow) = (&item.ident, allow());
-    let (private, number) = (quote!(#krate::__private), quote!(f64));
+    let (private, number) = (quote!(#krate::__private), quote!(::core::primitive::f64));
     let pack = quote!(#krate::Varied<#krate::scalar::Lanes<__W>>);
     let constants = item.generics.const_params().map(|constant| {
         let mut constant = constant.clone();
@@ -101,11 +101,11 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
         #[automatically_derived]
         #allow
         #[allow(deprecated)]
-        impl<#(#constants,)* const __W: usize> #krate::system::Packable<__W> for #name #of_numbers
+        impl<#(#constants,)* const __W: ::core::primitive::usize> #krate::system::Packable<__W> for #name #of_numbers
         where #(#bounds),*
         {
             type Packed = #name #of_packs;
-            fn fits(&self, __other: &Self) -> ::core::option::Option<bool> {
+            fn fits(&self, __other: &Self) -> ::core::option::Option<::core::primitive::bool> {
                 ::core::option::Option::Some(#(#fits)&&*)
             }
             fn packed<__R>(

@@ -52,12 +52,12 @@ fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
     let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
     let offsets = emitter.offsets();
     let items = quote! {
-        fn bodies(&self) -> usize { #bodies }
-        fn place(&self, __axis: usize) -> usize {
+        fn bodies(&self) -> ::core::primitive::usize { #bodies }
+        fn place(&self, __axis: ::core::primitive::usize) -> ::core::primitive::usize {
             match __axis { #(#places)* _ => 0usize }
         }
         #ForceInline
-        fn weight(&self, __body: usize) -> __T { #weight }
+        fn weight(&self, __body: ::core::primitive::usize) -> __T { #weight }
         #ForceInline
         fn kernel(&self, __r2: __T) -> __T {
             let #square = [__r2];

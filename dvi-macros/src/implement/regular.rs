@@ -75,11 +75,11 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
     let traits = traits.map(|structure| in_numbers(emitter, &structure, &TokenStream::new()));
     let lagrangian = quote! {
-        const CONSTANT_MASS: bool = #constant;
-        const UNIFORM_MASS: bool = #uniform;
-        const SEPARABLE: bool = #separable;
-        const DIAGONAL_MASS: bool = #diagonal;
-        const QUADRATIC: bool = #quadratic;
+        const CONSTANT_MASS: ::core::primitive::bool = #constant;
+        const UNIFORM_MASS: ::core::primitive::bool = #uniform;
+        const SEPARABLE: ::core::primitive::bool = #separable;
+        const DIAGONAL_MASS: ::core::primitive::bool = #diagonal;
+        const QUADRATIC: ::core::primitive::bool = #quadratic;
 
         #ForceInline
         fn force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }

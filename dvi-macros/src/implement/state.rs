@@ -2,6 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
+use syn::ext::IdentExt as _;
 use syn::{GenericParam, Ident};
 
 use crate::emit::{Emitter, local};
@@ -91,7 +92,7 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let name = format_ident!("{}State", model.item.ident);
     let visibility = &model.item.vis;
     let constants = constants(emitter);
-    let declarations = constants.iter().map(|name| quote!(const #name: usize));
+    let declarations = constants.iter().map(|name| quote!(const #name: ::core::primitive::usize));
     let declarations: Vec<TokenStream> = declarations.collect();
     let (space, space_value) = space(emitter);
     let (fields, docs): (Vec<Ident>, Vec<String>) = fields(model).into_iter().unzip();
@@ -109,9 +110,9 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let conversions = conversions(&name, &declarations, &constants, &fields, &types);
     let item = quote! {
         #[doc = #summary]
-        #[allow(non_snake_case, non_upper_case_globals)]
+        #allow
         #[derive(#copy ::core::clone::Clone, ::core::fmt::Debug, ::core::cmp::PartialEq, #(#derives),*)]
-        #visibility struct #name<#(#declarations,)* __T = f64> {
+        #visibility struct #name<#(#declarations,)* __T = ::core::primitive::f64> {
             #(#[doc = #docs] pub #fields: #types,)*
         }
         #[automatically_derived]
@@ -119,14 +120,14 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
         impl<#(#declarations,)* __T: #krate::Scalar> #krate::State<__T> for #name<#(#constants,)* __T> {
             fn write(
                 &self,
-                __len: impl ::core::ops::Fn(usize) -> usize,
+                __len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize,
                 __q: &mut [__T],
                 __v: &mut [__T],
             ) -> ::core::result::Result<(), #krate::LengthError> {
                 #write
                 ::core::result::Result::Ok(())
             }
-            fn read(__len: impl ::core::ops::Fn(usize) -> usize, __q: &[__T], __v: &[__T]) -> Self {
+            fn read(__len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize, __q: &[__T], __v: &[__T]) -> Self {
                 #read
                 Self { #(#fields: #values),* }
             }
@@ -138,20 +139,20 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
 
 /// The fields with their documentation: all coordinates, then all velocities if there are any.
 fn fields(model: &Model) -> Vec<(Ident, String)> {
-    let described = |block: &Block, what: &str| match &block.array {
-        Some((_, size)) => format!("{what}s `{}[0]` to `{}[{size} - 1]`.", block.name, block.name),
-        None => format!("{what} `{}`.", block.name),
+    let described = |block: &Block, what: &str| match (&block.array, block.name.unraw()) {
+        (Some((_, size)), name) => format!("{what}s `{name}[0]` to `{name}[{size} - 1]`."),
+        (None, name) => format!("{what} `{name}`."),
     };
     let coordinate = |block: &Block| match block.factor {
         Factor::Line => described(block, "Coordinate"),
         Factor::Rotation => {
-            format!("The rotation matrix `{}`, row by row: from the body to space.", block.name)
+            format!("The rotation matrix `{}`, row by row: from the body to space.", block.name.unraw())
         }
-        Factor::Sphere => format!("The unit vector `{}`.", block.name),
+        Factor::Sphere => format!("The unit vector `{}`.", block.name.unraw()),
     };
     let velocity = |block: &Block| match block.factor {
         Factor::Line | Factor::Sphere => described(block, "Velocity of coordinate"),
-        Factor::Rotation => format!("The angular velocity of `{}`, in the body.", block.name),
+        Factor::Rotation => format!("The angular velocity of `{}`, in the body.", block.name.unraw()),
     };
     let coordinates = model.blocks.iter().map(|block| (block.name.clone(), coordinate(block)));
     let velocities = model.blocks.iter().filter(|_| model.has_velocities());
@@ -171,16 +172,17 @@ fn conversions(
         return TokenStream::new();
     }
     let values: Vec<Ident> = (0..fields.len()).map(value_name).collect();
+    let allow = super::allow();
     quote! {
         #[automatically_derived]
-        #[allow(non_upper_case_globals)]
+        #allow
         impl<#(#declarations,)* __T> ::core::convert::From<(#(#types,)*)> for #name<#(#constants,)* __T> {
             fn from((#(#values,)*): (#(#types,)*)) -> Self {
                 Self { #(#fields: #values),* }
             }
         }
         #[automatically_derived]
-        #[allow(non_upper_case_globals)]
+        #allow
         impl<#(#declarations,)* __T> ::core::convert::From<#name<#(#constants,)* __T>> for (#(#types,)*) {
             fn from(__state: #name<#(#constants,)* __T>) -> Self {
                 (#(__state.#fields,)*)
@@ -257,7 +259,7 @@ fn transfer(
     field: &Ident,
     flat: &TokenStream,
 ) -> (TokenStream, TokenStream) {
-    let (krate, text) = (emitter.krate(), field.to_string());
+    let (krate, text) = (emitter.krate(), field.unraw().to_string());
     if emitter.model.blocks[block].array.is_none() {
         let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
         return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);

@@ -7,7 +7,7 @@ use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
 use super::words::{Arithmetic, Method, SUMS, VELOCITIES, callable, is_method};
 use super::{Lowering, Role};
-use crate::errors::{listed, nearest, similar, text};
+use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Node, Partial, Relation};
@@ -33,6 +33,17 @@ impl Lowering<'_> {
             return None;
         }
         let Some(method) = Method::by_name(&name) else {
+            if let Syntax::Path(of) = &*call.receiver
+                && let Some(function) = of.path.get_ident().filter(|function| self.is_scalar_field(function))
+            {
+                let listed = call.args.iter().map(text).collect::<Vec<_>>().join(", ");
+                let message = format!(
+                    "a function of several variables is called by its name, and derivatives are taken of it where they are needed: \
+                     write `{function}({listed})`"
+                );
+                self.errors.push(&call.method, message);
+                return None;
+            }
             let arguments: Vec<&Syntax> = call.args.iter().collect();
             self.unknown_function(&call.method, &name, Some(&call.receiver), &arguments);
             for argument in &call.args {
@@ -40,9 +51,17 @@ impl Lowering<'_> {
             }
             return None;
         };
+        if call.args.len() == method.arity() + 1
+            && let Syntax::Path(module) = &*call.receiver
+            && module.path.get_ident().is_some_and(|module| !self.is_declared(&module.to_string()))
+        {
+            let rest: Vec<&Syntax> = call.args.iter().skip(1).collect();
+            let written = Self::as_method(&name, call.args.first(), &rest);
+            self.errors.push(call, format!("functions are written as methods: `{written}`"));
+            return None;
+        }
         if call.args.len() != method.arity() {
-            let message =
-                format!("`{name}` takes {}; here are {}", arguments(method.arity()), call.args.len());
+            let message = format!("`{name}` takes {}; {}", arguments(method.arity()), here(call.args.len()));
             self.errors.push(&call.method, message);
             return None;
         }
@@ -100,6 +119,17 @@ impl Lowering<'_> {
     }
 
     pub(super) fn call(&mut self, call: &ExprCall) -> Option<Expr> {
+        let is_factor = match &*call.func {
+            Syntax::Lit(_) => true,
+            Syntax::Paren(inner) => matches!(&*inner.expr, Syntax::Path(_) | Syntax::Binary(_)),
+            _ => false,
+        };
+        if is_factor {
+            let factors = [text(&call.func), call.args.iter().map(text).collect::<Vec<_>>().join(", ")];
+            self.errors
+                .push(call, format!("a product is written with `*`: `{} * ({})`", factors[0], factors[1]));
+            return None;
+        }
         let Syntax::Path(path) = &*call.func else {
             self.errors.push(&call.func, "a function is called by its name, as in `x.sin()` or `f(x)`");
             return None;
@@ -123,6 +153,14 @@ impl Lowering<'_> {
     fn path_call(&mut self, call: &ExprCall, path: &syn::Path) -> Option<Expr> {
         let segments: Vec<&Ident> = path.segments.iter().map(|segment| &segment.ident).collect();
         match (segments.as_slice(), call.args.first()) {
+            ([.., function], receiver)
+                if is_method(&function.to_string()) && *segments[0] != "f64" && *segments[0] != "f32" =>
+            {
+                let arguments: Vec<&Syntax> = call.args.iter().skip(1).collect();
+                let written = Self::as_method(&function.to_string(), receiver, &arguments);
+                self.errors.push(path, format!("functions are written as methods: `{written}`"));
+                None
+            }
             ([float, method], Some(receiver)) if *float == "f64" || *float == "f32" => {
                 self.method(&ExprMethodCall {
                     attrs: Vec::new(),
@@ -149,10 +187,8 @@ impl Lowering<'_> {
                 return value;
             }
             let (receiver, arguments) = (call.args.first(), call.args.iter().skip(1).collect::<Vec<_>>());
-            if Method::by_name(name).is_some() {
-                let receiver = receiver.map_or_else(|| "x".to_string(), as_receiver);
-                let arguments: Vec<String> = arguments.into_iter().map(text).collect();
-                let written = format!("{receiver}.{name}({})", arguments.join(", "));
+            if is_method(name) {
+                let written = Self::as_method(name, receiver, &arguments);
                 self.errors.push(&call.func, format!("functions are written as methods: `{written}`"));
             } else {
                 self.unknown_function(&call.func, name, receiver, &arguments);
@@ -160,13 +196,32 @@ impl Lowering<'_> {
             return None;
         };
         if call.args.len() != 1 {
-            self.errors
-                .push(&call.func, format!("`{name}` takes one argument; here are {}", call.args.len()));
+            self.errors.push(&call.func, format!("`{name}` takes one argument; {}", here(call.args.len())));
             return None;
         }
         let argument = self.expr(&call.args[0])?;
         let value = self.graph.call(function as u32, 0, argument);
         self.admitted(call, value)
+    }
+
+    /// A call as it is written; with other arguments if there are too many or too few.
+    fn as_method(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]) -> String {
+        let arity = Method::by_name(name).map_or(0, Method::arity);
+        match receiver {
+            Some(receiver) if arguments.len() == arity => {
+                let arguments: Vec<String> = arguments.iter().map(text).collect();
+                format!("{}.{name}({})", as_receiver(receiver), arguments.join(", "))
+            }
+            _ => format!("x.{name}({})", ["a", "b"][..arity.min(2)].join(", ")),
+        }
+    }
+
+    /// Whether this is a function of several variables: one that is declared, or a field of the struct that holds no numbers.
+    fn is_scalar_field(&self, name: &Ident) -> bool {
+        let is_field = self.model.parameters.iter().any(|parameter| {
+            *name == parameter.text && matches!(parameter.shape, Shape::Unknown | Shape::Other)
+        });
+        is_field || self.model.is_declared_scalar_field(name)
     }
 
     /// A function of several variables, if there is one of this name; nothing inside if it is called in a wrong way.
@@ -185,6 +240,17 @@ impl Lowering<'_> {
             self.errors.push(&call.func, message);
             return Some(None);
         }
+        let list = match call.args.first() {
+            Some(Syntax::Array(list)) => Some(&list.elems),
+            Some(Syntax::Tuple(list)) => Some(&list.elems),
+            _ => None,
+        };
+        if let (Some(list), 1, true) = (list, call.args.len(), self.is_scalar_field(ident)) {
+            let listed = list.iter().map(text).collect::<Vec<_>>().join(", ");
+            let message = format!("arguments are written one by one: `{name}({listed})`");
+            self.errors.push(&call.args[0], message);
+            return Some(None);
+        }
         let arity = call.args.len();
         let field = self.model.scalar_field(ident, arity)?;
         let at: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
@@ -196,7 +262,7 @@ impl Lowering<'_> {
             Ok(field) => field,
             Err(before) => {
                 let message =
-                    format!("`{name}` is called with {} elsewhere; here are {arity}", arguments(before));
+                    format!("`{name}` is called with {} elsewhere; {}", arguments(before), here(arity));
                 self.errors.push(call, message);
                 return Some(None);
             }
@@ -227,6 +293,10 @@ impl Lowering<'_> {
             self.errors.push_once(&kind, at, message);
             return;
         }
+        if let Some(message) = self.call_called(name, receiver, arguments) {
+            self.errors.push_once(&kind, at, message);
+            return;
+        }
         if let Some(meant) = meant(name, receiver, arguments) {
             self.errors.push_once(&kind, at, format!("unknown function `{name}`; write `{meant}`"));
             return;
@@ -239,12 +309,9 @@ impl Lowering<'_> {
         match nearest(name, known.iter().copied()) {
             Some(near) => message += &format!("; did you mean `{near}`?"),
             None => {
-                let near = similar(name, known);
                 message += &format!(
-                    "; a function of your own is declared with its derivatives: \
-                     `functions({name} = [{name}, d{name}, d2{name}])`; one of several numbers, or from a table, is a field \
-                     of the struct that implements `ScalarField`\nsimilar names are {}",
-                    listed(near)
+                    "; a function of your own is declared with its derivatives: `functions({name} = [{name}, d{name}, d2{name}])`; one \
+                     of several numbers, or from a table, is a field of the struct that implements `ScalarField`"
                 );
             }
         }
@@ -253,6 +320,15 @@ impl Lowering<'_> {
 
     /// `d(x)` in a one-form, `dot(x)` in a Lagrangian.
     fn velocity(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
+        if let ("dot", [x, y]) = (name, call.args.iter().collect::<Vec<_>>().as_slice()) {
+            let message = format!(
+                "`dot` is the velocity of one coordinate; a scalar product is written `sum(0..n, |j| {}[j] * {}[j])`",
+                text(x),
+                text(y)
+            );
+            self.errors.push(call, message);
+            return None;
+        }
         let wanted = match self.role {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
@@ -293,8 +369,7 @@ impl Lowering<'_> {
             return None;
         }
         if call.args.len() != 1 {
-            self.errors
-                .push(&call.func, format!("`{name}` takes one coordinate; here are {}", call.args.len()));
+            self.errors.push(&call.func, format!("`{name}` takes one coordinate; {}", here(call.args.len())));
             return None;
         }
         let coordinate = self.expr(&call.args[0])?;

@@ -3,7 +3,7 @@
 use syn::{Expr as Syntax, Ident};
 
 use super::{Lowering, Role};
-use crate::errors::{listed, nearest};
+use crate::errors::{here, listed, nearest};
 use crate::symbolic::{Atom, Contribution, Coordinate, Expr, Fold, Index, Loop, Node, Range};
 use crate::syntax::Force;
 
@@ -86,7 +86,7 @@ impl Lowering<'_> {
                 let names: Vec<String> = blocks.iter().map(|b| b.name.to_string()).collect();
                 let names = listed(names.iter().map(String::as_str));
                 let message =
-                    format!("expected {expected} components, one for each of {names}; here are {found}");
+                    format!("expected {expected} components, one for each of {names}; {}", here(found));
                 self.errors.push(list, message);
             }
             return None;

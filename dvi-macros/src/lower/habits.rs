@@ -1,32 +1,75 @@
 //! What people write who come from paper, Python, Mathematica or C, and what to write instead.
 
-use syn::{Expr as Syntax, ExprMethodCall, Pat};
+use syn::{BinOp, Expr as Syntax, ExprLit, ExprMethodCall, Ident, Lit, Pat};
 
-use super::{Lowering, Role};
+use super::words::{Method, is_method};
+use super::{Lowering, Role, is_number_type};
 use crate::errors::text;
 use crate::syntax::{Constrained, Factor};
 
-/// Functions by other names.
+/// Functions by other names, and functions of functions, as they are written behind a number.
 #[rustfmt::skip]
-const OTHER_NAMES: [(&str, &str); 18] = [
-    ("log",      "ln"),
-    ("loge",     "ln"),
-    ("lg",       "log10"),
-    ("lb",       "log2"),
-    ("log1p",    "ln_1p"),
-    ("expm1",    "exp_m1"),
-    ("root",     "sqrt"),
-    ("arcsin",   "asin"),
-    ("arccos",   "acos"),
-    ("arctan",   "atan"),
-    ("arctan2",  "atan2"),
-    ("arsinh",   "asinh"),
-    ("arcosh",   "acosh"),
-    ("artanh",   "atanh"),
-    ("sgn",      "signum"),
-    ("sign",     "signum"),
-    ("fabs",     "abs"),
-    ("inv",      "recip"),
+const OTHER_NAMES: [(&str, &str); 43] = [
+    ("log",      "ln()"),
+    ("loge",     "ln()"),
+    ("lg",       "log10()"),
+    ("lb",       "log2()"),
+    ("log1p",    "ln_1p()"),
+    ("expm1",    "exp_m1()"),
+    ("root",     "sqrt()"),
+    ("arcsin",   "asin()"),
+    ("arccos",   "acos()"),
+    ("arctan",   "atan()"),
+    ("arctan2",  "atan2()"),
+    ("arsinh",   "asinh()"),
+    ("arcsinh",  "asinh()"),
+    ("arcosh",   "acosh()"),
+    ("arccosh",  "acosh()"),
+    ("artanh",   "atanh()"),
+    ("arctanh",  "atanh()"),
+    ("sgn",      "signum()"),
+    ("sign",     "signum()"),
+    ("fabs",     "abs()"),
+    ("inv",      "recip()"),
+    ("cot",      "tan().recip()"),
+    ("sec",      "cos().recip()"),
+    ("csc",      "sin().recip()"),
+    ("cosec",    "sin().recip()"),
+    ("coth",     "tanh().recip()"),
+    ("sech",     "cosh().recip()"),
+    ("csch",     "sinh().recip()"),
+    ("acot",     "recip().atan()"),
+    ("arccot",   "recip().atan()"),
+    ("asec",     "recip().acos()"),
+    ("acsc",     "recip().asin()"),
+    ("acoth",    "recip().atanh()"),
+    ("sq",       "powi(2)"),
+    ("sqr",      "powi(2)"),
+    ("square",   "powi(2)"),
+    ("squared",  "powi(2)"),
+    ("cube",     "powi(3)"),
+    ("cubed",    "powi(3)"),
+    ("clone",    ""),
+    ("into",     ""),
+    ("to_owned", ""),
+    ("from",     ""),
+];
+
+/// Functions that jump.
+const JUMPING: [&str; 13] = [
+    "ceil",
+    "floor",
+    "fract",
+    "heaviside",
+    "mod",
+    "rem_euclid",
+    "rint",
+    "round",
+    "step",
+    "theta",
+    "trunc",
+    "unit_step",
+    "unitstep",
 ];
 
 /// What is meant by a function of another language with this receiver and these arguments.
@@ -34,30 +77,88 @@ pub(super) fn meant(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]
     let x = receiver.map_or_else(|| "x".to_string(), as_receiver);
     let texts: Vec<String> = arguments.iter().map(text).collect();
     let arguments: Vec<&str> = texts.iter().map(String::as_str).collect();
-    let written = match (name, arguments.as_slice()) {
+    // Functions of Mathematica begin with a capital letter.
+    let lower = name.to_lowercase();
+    let written = match (lower.as_str(), arguments.as_slice()) {
         ("dot", []) => match receiver {
             Some(Syntax::Paren(inner)) => format!("dot({})", text(&inner.expr)),
             _ => format!("dot({x})"),
         },
+        ("dot", [y]) => format!("sum(0..n, |j| {x}[j] * {y}[j])"),
         ("log", ["2" | "2." | "2.0"]) => format!("{x}.log2()"),
         ("log", ["10" | "10." | "10.0"]) => format!("{x}.log10()"),
         ("log", [base]) => format!("{x}.ln() / ({base}).ln()"),
         ("clamp", [least, most]) => format!("{x}.max({least}).min({most})"),
         ("copysign", [sign]) => format!("{x}.abs() * ({sign}).signum()"),
+        ("arctan2", [other]) => format!("{x}.atan2({other})"),
         ("pow", [exponent]) if exponent.parse::<i32>().is_ok() => format!("{x}.powi({exponent})"),
         ("pow", [exponent]) => format!("{x}.powf({exponent})"),
-        ("sqr" | "square" | "squared", []) => format!("{x}.powi(2)"),
-        _ => {
-            let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == name)?;
-            format!("{x}.{meant}({})", arguments.join(", "))
+        ("erfc", []) => format!("1.0 - {x}.erf()"),
+        ("sinpi", []) => format!("({x} * PI).sin()"),
+        ("cospi", []) => format!("({x} * PI).cos()"),
+        ("pow2" | "pow3" | "pow4", []) => format!("{x}.powi({})", lower.trim_start_matches("pow")),
+        (other, []) if OTHER_NAMES.iter().any(|(known, _)| *known == other) => {
+            let (_, meant) = OTHER_NAMES.iter().find(|(known, _)| *known == other)?;
+            if meant.is_empty() { x } else { format!("{x}.{meant}") }
+        }
+        (other, given) => {
+            // `dsqrt` is that of Fortran, `sin2` the square.
+            let without_type = other.strip_prefix('d').unwrap_or(other);
+            let base = other.trim_end_matches(|digit: char| digit.is_ascii_digit());
+            let known = [other, without_type].into_iter().find(|name| Method::by_name(name).is_some());
+            match known {
+                Some(known) => format!("{x}.{known}({})", given.join(", ")),
+                None if given.is_empty() && base != other && Method::by_name(base).is_some() => {
+                    format!("{x}.{base}().powi({})", &other[base.len()..])
+                }
+                None => return None,
+            }
         }
     };
     Some(written)
 }
 
+/// What is said of a function that has no derivative where it jumps.
+pub(super) fn jumps(name: &str) -> Option<String> {
+    JUMPING.contains(&name.to_lowercase().as_str()).then(|| {
+        format!(
+            "`{name}` has no derivative where it jumps: write the formulas on both sides with a condition, as in \
+             `if x < 0.0 {{ 0.0 }} else {{ 1.0 }}`"
+        )
+    })
+}
+
+/// `x` for `ẋ`, which is one letter or two.
+fn undotted(name: &str) -> Option<String> {
+    const DOTTED: &str = "ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż";
+    const PLAIN: &str = "abcdefghmnoprstwxyz";
+    if let Some((before, after)) = name.split_once('\u{307}') {
+        return Some(format!("{before}{after}"));
+    }
+    let first = name.chars().next()?;
+    let (_, plain) = DOTTED.chars().zip(PLAIN.chars()).find(|(dotted, _)| *dotted == first)?;
+    Some(format!("{plain}{}", &name[first.len_utf8()..]))
+}
+
+/// The root of a sum of squares, called by one of its names.
+fn is_norm(name: &str) -> bool {
+    ["norm", "norm2", "length", "magnitude", "mag"].contains(&name.to_lowercase().as_str())
+}
+
+/// Whether numbers have a method of this name.
+fn is_function(name: &Ident) -> bool {
+    is_method(&name.to_string())
+}
+
 /// An expression in front of a method.
 pub(super) fn as_receiver(syntax: &Syntax) -> String {
     match syntax {
+        Syntax::Call(call) if matches!(&*call.func, Syntax::Path(path) if path.path.get_ident().is_some_and(is_function)) =>
+        {
+            let (first, rest) = (call.args.first(), call.args.iter().skip(1).map(text));
+            let first = first.map_or_else(|| "x".to_string(), as_receiver);
+            format!("{first}.{}({})", text(&call.func), rest.collect::<Vec<_>>().join(", "))
+        }
         Syntax::Path(_)
         | Syntax::Paren(_)
         | Syntax::Call(_)
@@ -65,35 +166,148 @@ pub(super) fn as_receiver(syntax: &Syntax) -> String {
         | Syntax::Index(_)
         | Syntax::Field(_) => text(syntax),
         Syntax::Lit(literal) if text(literal).contains('.') => text(syntax),
+        Syntax::Lit(ExprLit { lit: Lit::Int(value), .. }) if value.suffix().is_empty() => {
+            format!("{}.0", value.base10_digits())
+        }
+        // What is no power is reported where it stands.
+        _ if text(syntax).contains(['^', '|']) => "(…)".to_string(),
         _ => format!("({})", text(syntax)),
     }
 }
 
 impl Lowering<'_> {
     /// `x ** 2` and `x ^ 2`, where the right side binds more loosely than a power does.
-    pub(super) fn not_a_power(&mut self, whole: &impl quote::ToTokens, base: &Syntax, exponent: &Syntax) {
+    pub(super) fn not_a_power(&mut self, base: &Syntax, exponent: &Syntax) {
         // `^` binds more loosely than `+` and `*`: what is meant are the operands beside it.
         let (mut base, mut exponent) = (base, exponent);
         while let Syntax::Binary(product) = base {
+            if matches!(product.op, BinOp::BitXor(_)) {
+                self.not_a_power(&product.left, &product.right);
+            }
             base = &product.right;
         }
         while let Syntax::Binary(product) = exponent {
             exponent = &product.left;
         }
-        let function = match self.literal_index(exponent) {
-            Some(_) => "powi",
-            None => "powf",
+        let is_name = |syntax: &Syntax, is: &dyn Fn(&Ident) -> bool| match syntax {
+            Syntax::Path(path) => path.path.get_ident().is_some_and(is),
+            _ => false,
         };
-        let message = match base {
-            Syntax::Unary(negative) => {
-                format!("a power is written `-{}.{function}({})`", text(&negative.expr), text(exponent))
+        let is_differential = |syntax: &Syntax| matches!(syntax, Syntax::Call(call) if is_name(&call.func, &|name| name == "d"));
+        let literal = self.literal_index(exponent);
+        let (function, power) = (if literal.is_some() { "powi" } else { "powf" }, text(exponent));
+        let meant = match (base, exponent) {
+            // sin^2(x)
+            (Syntax::Path(name), Syntax::Call(call))
+                if is_name(base, &is_function) && matches!(&*call.func, Syntax::Lit(_)) =>
+            {
+                let x = call.args.first().map_or_else(|| "x".to_string(), as_receiver);
+                format!("{x}.{}().powi({})", text(name), text(&call.func))
             }
-            Syntax::Cast(_) => {
-                format!("a power is written `(…).{function}({})`", text(exponent))
+            (Syntax::Path(_), _) if is_name(base, &|name| self.is_euler(name)) => {
+                format!("{}.exp()", as_receiver(exponent))
             }
-            _ => format!("a power is written `{}.{function}({})`", text(base), text(exponent)),
+            _ if self.role == Role::OneForm && is_differential(base) => {
+                let message =
+                    "a one-form is linear in d(·), and Ω is made of it: write α, as `x * d(y)` for dx ∧ dy";
+                self.errors.push(quote::quote!(#base #exponent), message);
+                return;
+            }
+            (Syntax::Unary(negative), _) => format!("-{}.{function}({power})", as_receiver(&negative.expr)),
+            (Syntax::Cast(_), _) => format!("(…).{function}({power})"),
+            (Syntax::Lit(literal), _) => match &literal.lit {
+                // 2x^2
+                Lit::Int(value) if !value.suffix().is_empty() && !is_number_type(value.suffix()) => {
+                    format!("{} * {}.{function}({power})", value.base10_digits(), value.suffix())
+                }
+                Lit::Int(value) => format!("{}.0_f64.{function}({power})", value.base10_digits()),
+                _ => format!("{}.{function}({power})", text(base)),
+            },
+            _ => format!("{}.{function}({power})", as_receiver(base)),
         };
-        self.errors.push(whole, message);
+        self.errors.push(quote::quote!(#base #exponent), format!("a power is written `{meant}`"));
+    }
+
+    /// Whether a name is that of 2.718… on paper, and of nothing here.
+    fn is_euler(&self, name: &Ident) -> bool {
+        (name == "e" || name == "E") && !self.is_declared(&name.to_string())
+    }
+
+    /// Whether something has this name here.
+    pub(super) fn is_declared(&self, name: &str) -> bool {
+        self.binding_of(name).is_some()
+            || self.model.blocks.iter().any(|block| block.name == name)
+            || self.model.parameters.iter().any(|parameter| parameter.text == name)
+            || self.model.sizes.iter().any(|size| size.text == name)
+    }
+
+    /// What to write for a name that is none here, if it is known from elsewhere.
+    pub(super) fn name_called(&self, name: &str) -> Option<&'static str> {
+        Some(match name {
+            "e" => "write `std::f64::consts::E`, and `x.exp()` for a power of it",
+            "pi" | "Pi" | "π" => "write `PI`",
+            "τ" | "tau" => "write `std::f64::consts::TAU`",
+            "inf" | "Inf" | "infinity" | "Infinity" | "∞" => {
+                "a formula has finite values: leave out what is infinitely far"
+            }
+            "time" => "the time is written `t`",
+            _ => return None,
+        })
+    }
+
+    /// What is wrong with a call of what is no function of the language, if that is known from elsewhere.
+    pub(super) fn call_called(
+        &self,
+        name: &str,
+        receiver: Option<&Syntax>,
+        arguments: &[&Syntax],
+    ) -> Option<String> {
+        let all: Vec<&Syntax> = receiver.into_iter().chain(arguments.iter().copied()).collect();
+        let block = |syntax: &Syntax| self.model.blocks.iter().find(|block| block.name == text(syntax));
+        if let Some(block) = self.model.blocks.iter().find(|block| block.name == name) {
+            let listed = all.iter().map(text).collect::<Vec<_>>().join(", ");
+            return Some(match block.array {
+                Some(_) => format!("an entry of `{name}` is written `{name}[{listed}]`"),
+                None => format!(
+                    "`{name}` is a coordinate, it is no function: a product is written `{name} * ({listed})`"
+                ),
+            });
+        }
+        if let Some(jumps) = jumps(name) {
+            return Some(jumps);
+        }
+        if is_norm(name) {
+            let list = match all.as_slice() {
+                [Syntax::Array(list)] => list.elems.iter().collect(),
+                [Syntax::Tuple(list)] => list.elems.iter().collect(),
+                _ => all,
+            };
+            let written = match list.as_slice() {
+                [one] if block(one).is_some_and(|block| block.array.is_some()) => {
+                    format!("sum(0..n, |j| {}[j].powi(2)).sqrt()", text(one))
+                }
+                [one] => format!("{}.abs()", as_receiver(one)),
+                [x, y] => format!("{}.hypot({})", as_receiver(x), text(y)),
+                several => {
+                    let squares = several.iter().map(|x| format!("{}.powi(2)", as_receiver(x)));
+                    format!("({}).sqrt()", squares.collect::<Vec<_>>().join(" + "))
+                }
+            };
+            return Some(format!("unknown function `{name}`; write `{written}`"));
+        }
+        let of = all.first().copied().and_then(block)?;
+        let is_derivative = ["dt", "ddt", "diff", "derivative", "der", "vel", "velocity"]
+            .contains(&name.to_lowercase().as_str())
+            || name == "D";
+        if is_derivative {
+            return self
+                .velocity_called(&format!("dot_{}", of.name))
+                .map(|written| format!("unknown function `{name}`; {written}"));
+        }
+        let is_second = ["ddot", "dddot", "acc", "acceleration"].contains(&name);
+        is_second.then(|| {
+            format!("unknown function `{name}`: no second derivative stands in {}", self.role.name())
+        })
     }
 
     /// What to write for `xdot`, `x_dot`, `dot_x`, `vx`, and `dy` of a coordinate.
@@ -113,8 +327,13 @@ impl Lowering<'_> {
         };
         let block = self.model.blocks.iter().find(|block| {
             let (dot, of) = (block.velocity_name(), &block.name);
-            let others = [format!("{of}dot"), format!("{of}_dot"), format!("dot{of}"), format!("d{of}")];
-            dot == *name || others.iter().any(|other| other == name)
+            let before = ["dot", "d", "v", "v_"].map(|prefix| format!("{prefix}{of}"));
+            let behind =
+                ["dot", "_dot", "d", "_d", "_t", "p", "_prime"].map(|suffix| format!("{of}{suffix}"));
+            let others = [before.as_slice(), &behind].concat();
+            dot == *name
+                || others.iter().any(|other| other == name)
+                || undotted(name).is_some_and(|name| *of == name)
         })?;
         let entry = if block.array.is_some() { "[j]" } else { "" };
         if block.factor == Factor::Rotation {

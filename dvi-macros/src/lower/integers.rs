@@ -51,7 +51,6 @@ impl Lowering<'_> {
                 _ => None,
             },
             Syntax::Paren(inner) => self.integer_division(&inner.expr),
-            Syntax::Group(inner) => self.integer_division(&inner.expr),
             Syntax::Unary(unary) => self.integer_division(&unary.expr),
             Syntax::Binary(binary) => {
                 let inside = self.integer_division(&binary.left);
@@ -108,7 +107,6 @@ impl Lowering<'_> {
                 matches!(&literal.lit, Lit::Int(value) if !value.suffix().starts_with('f'))
             }
             Syntax::Paren(inner) => self.is_integer(&inner.expr),
-            Syntax::Group(inner) => self.is_integer(&inner.expr),
             Syntax::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && self.is_integer(&unary.expr),
             Syntax::Binary(binary) => self.is_integer(&binary.left) && self.is_integer(&binary.right),
             Syntax::Path(path) => match path.path.get_ident() {
@@ -162,7 +160,6 @@ impl Lowering<'_> {
 fn block_with_names(syntax: &Syntax) -> Option<&syn::ExprBlock> {
     match syntax {
         Syntax::Paren(inner) => block_with_names(&inner.expr),
-        Syntax::Group(inner) => block_with_names(&inner.expr),
         Syntax::Block(block) => (block.block.stmts.len() > 1).then_some(block),
         _ => None,
     }

@@ -4,6 +4,7 @@ use std::f64::consts;
 
 use syn::{Expr as Syntax, ExprField, Path};
 
+use super::habits::as_receiver;
 use super::{Binding, Lowering, words};
 use crate::model::Shape;
 use crate::symbolic::{Coordinate, Expr, Index, Node};
@@ -153,6 +154,17 @@ impl Lowering<'_> {
             self.errors.push(base, "only coordinates and fields of the struct take an index");
             return None;
         };
+        if matches!(base, Syntax::Path(_)) && self.binding_of(&name.to_string()).is_some() {
+            self.errors.push(base, format!("`{name}` is a number or an index here: it takes no index"));
+            return None;
+        }
+        let function = name.to_string().to_lowercase();
+        if words::is_method(&function) && !self.is_declared(&name.to_string()) {
+            let message =
+                format!("functions are written as methods: `{}.{function}()`", as_receiver(indices[0]));
+            self.errors.push(syntax, message);
+            return None;
+        }
         let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
         if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
             return self.indexed_coordinate(syntax, block, &indices, lowered);

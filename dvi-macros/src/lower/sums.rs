@@ -4,6 +4,7 @@ use quote::ToTokens;
 use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
 use super::{Binding, DEEPEST_SUM, Lowering, Role, bound_name};
+use crate::errors::here;
 use crate::symbolic::{Atom, Expr, Fold, Index, Loop, Range};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
@@ -120,7 +121,7 @@ impl Lowering<'_> {
         if names.is_none() {
             let expected = if COUNT == 1 { "one index: `|j| …`" } else { "two indices: `|j, k| …`" };
             let inputs = &closure.inputs;
-            let message = format!("expected {expected}; here are {found}");
+            let message = format!("expected {expected}; {}", here(found));
             if inputs.is_empty() {
                 self.errors.push(closure, message);
             } else {
@@ -196,7 +197,6 @@ impl Lowering<'_> {
                 _ => self.errors.push(syntax, "an index is an integer"),
             },
             Syntax::Paren(inner) => return self.index(&inner.expr),
-            Syntax::Group(inner) => return self.index(&inner.expr),
             Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
                 return Some(self.index(&unary.expr)?.times(-1));
             }
@@ -294,7 +294,6 @@ impl Lowering<'_> {
                 self.literal_index(&unary.expr).map(|value| -value)
             }
             Syntax::Paren(inner) => self.literal_index(&inner.expr),
-            Syntax::Group(inner) => self.literal_index(&inner.expr),
             _ => None,
         }
     }

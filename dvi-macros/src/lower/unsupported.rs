@@ -1,19 +1,47 @@
 //! Rust that a formula cannot hold: each kind of it is reported once, with what to write instead.
 
-use syn::{BinOp, Expr as Syntax, UnOp};
+use syn::{BinOp, Expr as Syntax, Member, Pat, UnOp};
 
 use super::Lowering;
+use crate::errors::text;
 
 impl Lowering<'_> {
     pub(super) fn unsupported(&mut self, syntax: &Syntax) {
-        if let Syntax::Binary(binary) = syntax
-            && matches!(binary.op, BinOp::BitXor(_))
-        {
-            self.not_a_power(binary, &binary.left, &binary.right);
+        if let Some(message) = self.meant_by(syntax) {
+            self.errors.push(syntax, message);
             return;
         }
         let (kind, advice) = describe(syntax);
         self.errors.push_once(kind, syntax, format!("a formula cannot hold {kind}{advice}"));
+    }
+}
+
+impl Lowering<'_> {
+    /// What to write for that which comes from elsewhere.
+    fn meant_by(&self, syntax: &Syntax) -> Option<String> {
+        match syntax {
+            // |x| * y
+            Syntax::Closure(closure) => match closure.inputs.first() {
+                Some(Pat::Ident(of))
+                    if closure.inputs.len() == 1 && self.is_declared(&of.ident.to_string()) =>
+                {
+                    Some(format!("an absolute value is written `{}.abs()`", of.ident))
+                }
+                _ => None,
+            },
+            Syntax::Field(field) => {
+                let of = text(&field.base);
+                let block = self.model.blocks.iter().find(|block| block.name == of)?;
+                match &field.member {
+                    Member::Unnamed(index) => Some(format!("an entry is written `{of}[{}]`", index.index)),
+                    Member::Named(name) if name == "dot" => {
+                        self.velocity_called(&block.velocity_name().to_string())
+                    }
+                    Member::Named(_) => None,
+                }
+            }
+            _ => None,
+        }
     }
 }
 
@@ -52,7 +80,7 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
             BinOp::And(_) | BinOp::Or(_) => {
                 ("logic outside of a condition", "; write `if a < b && c < d { … } else { … }`")
             }
-            BinOp::BitXor(_) | BinOp::BitAnd(_) | BinOp::BitOr(_) | BinOp::Shl(_) | BinOp::Shr(_) => {
+            BinOp::BitAnd(_) | BinOp::BitOr(_) | BinOp::Shl(_) | BinOp::Shr(_) => {
                 ("bit operations", "; all values are real numbers")
             }
             _ => ("an assignment", "; name a value with `let`"),

@@ -47,6 +47,7 @@ impl Model {
                 Some(Index::literal(value.base10_digits().parse().unwrap_or(i64::MAX)))
             }
             Expr::Paren(inner) => self.size(&inner.expr),
+            Expr::Group(inner) => self.size(&inner.expr),
             Expr::Path(path) => self.named_size(&path.path.get_ident()?.to_string()),
             Expr::MethodCall(call) if call.method == "len" && call.args.is_empty() => {
                 let known = self.place(&call.receiver)?;
@@ -117,7 +118,6 @@ impl Model {
     fn size_form(&mut self, expr: &Expr) -> Result<Index, Option<Ident>> {
         match expr {
             Expr::Paren(inner) => self.size_form(&inner.expr),
-            Expr::Group(inner) => self.size_form(&inner.expr),
             Expr::Binary(binary) => {
                 let (left, right) = (self.size_form(&binary.left)?, self.size_form(&binary.right)?);
                 match (binary.op, left.as_literal(), right.as_literal()) {

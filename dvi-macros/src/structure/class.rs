@@ -3,6 +3,8 @@
 //! With α = ϑ(x, y)·dx the discrete equations of such schemes couple two points and not three (Ellison et al. 2018). It is
 //! a property of the one-form as it is written: α and α + dF have the same motion.
 
+use syn::ext::IdentExt as _;
+
 use super::gauge::{self, Effort, Found, Search};
 use crate::model::Model;
 use crate::program::{Variable, variable};
@@ -131,12 +133,13 @@ impl Class {
     pub(crate) fn names(&self, model: &Model, with: bool) -> Vec<String> {
         let mut names = Vec::new();
         for (block, known) in model.blocks.iter().zip(&self.components) {
+            let name = block.name.unraw();
             match known {
-                Components::Block(known) if *known == with => names.push(format!("`{}`", block.name)),
+                Components::Block(known) if *known == with => names.push(format!("`{name}`")),
                 Components::Block(_) => {}
                 Components::Entries(entries) => {
                     let these = entries.iter().enumerate().filter(|(_, entry)| **entry == with);
-                    names.extend(these.map(|(index, _)| format!("`{}[{index}]`", block.name)));
+                    names.extend(these.map(|(index, _)| format!("`{name}[{index}]`")));
                 }
             }
         }

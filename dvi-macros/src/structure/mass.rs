@@ -1,13 +1,16 @@
 //! The mass matrix M = ∂²L/∂v∂v of a regular system.
 
 use syn::Expr as Syntax;
+use syn::ext::IdentExt as _;
 
 use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
 use crate::errors::{Errors, listed};
 use crate::model::{Block, Model};
 use crate::program::{RegularFormulas, Variable, variable};
-use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution};
+use crate::symbolic::{
+    Binary, Contribution, Coordinate, Expr, Graph, Id, Index, Loop, Node, SecondContribution, Unary,
+};
 use crate::syntax::{Constrained, Factor, Kind};
 
 /// The structure of a regular L; see the constants of `dvi_core::NondegenerateLagrangian`.
@@ -21,6 +24,8 @@ pub(crate) struct MassMatrix {
     pub(crate) uniform: bool,
     pub(crate) diagonal: bool,
     pub(crate) quadratic: bool,
+    /// Whether L has a pole where bodies meet.
+    pole: bool,
     /// What M depends on, of `q`, `v` and `t`.
     depends_on: Vec<&'static str>,
     /// Blocks that M does not involve, and whether L mentions their velocities at all.
@@ -77,6 +82,7 @@ impl MassMatrix {
             uniform,
             diagonal,
             quadratic: formulas.quadratic,
+            pole: has_pole_where_bodies_meet(graph, formulas.lagrangian),
             depends_on,
             massless,
             skipped: skipped(model, &mass),
@@ -166,10 +172,11 @@ impl MassMatrix {
         if model.is_on_manifold() {
             let block = |block: &Block| match block.factor {
                 Factor::Line => None,
-                Factor::Rotation => {
-                    Some(format!("`{}` is in SO(3), and its velocity is that in the body.", block.name))
-                }
-                Factor::Sphere => Some(format!("`{}` is in S².", block.name)),
+                Factor::Rotation => Some(format!(
+                    "`{}` is in SO(3), and its velocity is that in the body.",
+                    block.name.unraw()
+                )),
+                Factor::Sphere => Some(format!("`{}` is in S².", block.name.unraw())),
             };
             let step = "A step moves along a geodesic, and solves for its velocity.".to_string();
             let begin = "Begin with `Geodesic::trapezoid()`.".to_string();
@@ -205,7 +212,14 @@ impl MassMatrix {
                 "Begin with `Constrained` around `Variational::midpoint()`."
             }
         };
-        vec![form, step.to_string(), degree.to_string(), begin.to_string()]
+        let encounters = "Where bodies meet, L has a pole, and steps of one length lose the energy in close encounters: \
+                          `ControlledIntegrator` makes them shorter there, with `Reversible` symmetrically in time, or with \
+                          `ErrorControl` and `Gauss` to a given error.";
+        let encounters = (constrained.is_none() && self.pole).then(|| encounters.to_string());
+        [form, step.to_string(), degree.to_string(), begin.to_string()]
+            .into_iter()
+            .chain(encounters)
+            .collect()
     }
 }
 
@@ -251,6 +265,30 @@ fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
         ("t", any(|node| matches!(node, Node::Time))),
     ];
     found.into_iter().filter(|(_, found)| *found).map(|(name, _)| name).collect()
+}
+
+/// Whether a denominator, or what a logarithm is taken of, is zero where all coordinates are equal: that of a potential between
+/// two bodies is, if nothing softens it, and that of a potential around a fixed centre is not.
+fn has_pole_where_bodies_meet(graph: &Graph, lagrangian: Expr) -> bool {
+    let is_pole = |id: Id| match *graph.node(id) {
+        Node::Reciprocal(of) => Some(of),
+        Node::Unary(Unary::Ln | Unary::Log2 | Unary::Log10, of) => Some(of.node),
+        Node::Binary(Binary::Powf, base, exponent) if exponent.as_number().is_some_and(|e| e < 0.0) => {
+            Some(base.node)
+        }
+        _ => None,
+    };
+    let poles: Vec<Id> = graph.reachable([lagrangian.node]).into_iter().filter_map(is_pole).collect();
+    if poles.is_empty() {
+        return false;
+    }
+    let mut graph = graph.clone();
+    let place = Coordinate { block: 0, index: Index::literal(0) };
+    let place: Expr = graph.intern(Node::Coordinate(place)).into();
+    poles.into_iter().any(|of| {
+        let meeting = |graph: &mut Graph, id| matches!(graph.node(id), Node::Coordinate(_)).then_some(place);
+        graph.rebuild(of, meeting).is_zero()
+    })
 }
 
 fn mixes_position_and_velocity(graph: &Graph, entries: &[SecondContribution]) -> bool {

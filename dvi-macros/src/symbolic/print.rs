@@ -71,6 +71,14 @@ impl Letters<'_> {
         Self { sums, ..self.clone() }
     }
 
+    /// A name that is a keyword of Rust is one on paper without more ado.
+    fn name(&self, name: &str) -> String {
+        match self.notation {
+            Notation::Paper => name.replace("r#", ""),
+            Notation::Language => name.to_string(),
+        }
+    }
+
     fn letter(&self, number: usize) -> String {
         match self.notation {
             Notation::Paper => letter(number),
@@ -97,7 +105,7 @@ impl Letters<'_> {
                     Some(position) => self.letter(self.depth + position),
                     None => internal("an index outside of its sum"),
                 },
-                Atom::Size(size) => self.names.size(size.0).to_string(),
+                Atom::Size(size) => self.name(self.names.size(size.0)),
                 Atom::Remainder(value, modulus) => {
                     let [value, modulus] = [value, modulus].map(|index| self.index(index));
                     match self.notation {
@@ -136,16 +144,17 @@ impl Letters<'_> {
 
     fn coordinate(&self, coordinate: &Coordinate) -> String {
         let entry = coordinate.index.as_literal().filter(|_| self.names.is_rotation(coordinate.block));
-        match (self.names.coordinate(coordinate.block), entry) {
-            ((name, _), Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
-            ((name, true), None) => format!("{name}[{}]", self.index(&coordinate.index)),
-            ((name, false), None) => name,
+        let (name, is_array) = self.names.coordinate(coordinate.block);
+        match (self.name(&name), is_array, entry) {
+            (name, _, Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
+            (name, true, None) => format!("{name}[{}]", self.index(&coordinate.index)),
+            (name, false, None) => name,
         }
     }
 
     fn velocity(&self, coordinate: &Coordinate) -> String {
         if self.names.is_rotation(coordinate.block) {
-            let (name, _) = self.names.coordinate(coordinate.block);
+            let name = self.name(&self.names.coordinate(coordinate.block).0);
             return format!("omega({name})[{}]", self.index(&coordinate.index));
         }
         format!("{}({})", self.names.velocity(), self.coordinate(coordinate))
@@ -277,7 +286,10 @@ impl Printer<'_> {
             Node::Parameter(p) => {
                 let indices: String =
                     p.indices.iter().map(|index| format!("[{}]", self.letters.index(index))).collect();
-                (format!("{}{indices}", self.letters.names.parameter(p.field)), Strength::Atom)
+                (
+                    format!("{}{indices}", self.letters.name(self.letters.names.parameter(p.field))),
+                    Strength::Atom,
+                )
             }
             Node::Count(index) => {
                 let index = self.letters.index(index);
@@ -295,12 +307,12 @@ impl Printer<'_> {
             Node::Binary(Binary::OverSquares, ..) => (self.quotient(&[(id, 1)]), Strength::Product),
             Node::Binary(function, a, b) => self.call(function.name(), &[*a, *b]),
             Node::Call(function, order, u) => {
-                let name =
-                    format!("{}{}", self.letters.names.function(*function), "'".repeat(*order as usize));
+                let name = self.letters.name(&self.letters.names.function(*function));
+                let name = format!("{name}{}", "'".repeat(*order as usize));
                 (format!("{name}({})", self.expr(*u, Strength::Sum)), Strength::Atom)
             }
             Node::ScalarField(field, partial, at) => {
-                let name = self.letters.names.scalar_field(*field);
+                let name = self.letters.name(self.letters.names.scalar_field(*field));
                 let arguments: Vec<String> = at.iter().map(|a| self.expr(*a, Strength::Sum)).collect();
                 (format!("{}{name}({})", derivatives(*partial), arguments.join(", ")), Strength::Atom)
             }

@@ -6,7 +6,8 @@ use quote::ToTokens;
 use syn::parse::ParseStream;
 use syn::{BinOp, Expr, Lit, Token};
 
-use super::{Attribute, Kind, Value, form_of, read_by, value_of};
+use super::rotation::unwrapped;
+use super::{Attribute, Kind, Value, expression, form_of, read_by, value_of};
 use crate::errors::{Errors, text};
 
 /// What the constraints of a system are functions of; the word of the argument says it.
@@ -275,7 +276,7 @@ impl Family {
             return Err(input.error(advice));
         }
         input.parse::<Token![in]>()?;
-        let range = input.parse()?;
+        let range = expression(input)?;
         if !input.is_empty() {
             return Err(input.error(format!("a family of {} has one index, {form}", of.nouns()[1])));
         }
@@ -347,15 +348,6 @@ impl Constraint {
             }
             _ => Ok(Self { family, formula }),
         }
-    }
-}
-
-/// An expression without the parentheses around it.
-fn unwrapped(formula: &Expr) -> &Expr {
-    match formula {
-        Expr::Paren(inner) => unwrapped(&inner.expr),
-        Expr::Group(inner) => unwrapped(&inner.expr),
-        other => other,
     }
 }
 

@@ -1,11 +1,14 @@
 //! What is declared by name in the arguments: coordinates, momenta, functions, forces.
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
-use syn::{Expr, Path, Token};
+use syn::{Expr, Path, Token, Type};
+
+use super::expression;
+use crate::errors::text;
 
 /// `x`, `x[n]`, `R: SO3` or `s: S2`.
 #[derive(Debug)]
@@ -148,7 +151,12 @@ impl Parse for Declaration {
                     format!("`{keyword}` is a keyword of Rust: write `r#{keyword}`, or another name");
                 return Err(syn::Error::new(keyword.span(), message));
             }
-            Err(error) => return Err(syn::Error::new(error.span(), "expected the name of a coordinate")),
+            Err(error) => {
+                return Err(syn::Error::new(
+                    error.span(),
+                    "expected the name of a coordinate, as in `coordinates(x, y)`",
+                ));
+            }
         };
         let size = if input.peek(syn::token::Bracket) {
             let content;
@@ -157,7 +165,7 @@ impl Parse for Declaration {
                 let message = format!("`{name}[]` has no size: write `{name}[n]`");
                 return Err(syn::Error::new(bracket.span.join(), message));
             }
-            Some(content.parse()?)
+            Some(expression(&content)?)
         } else {
             None
         };
@@ -184,21 +192,42 @@ fn factor(input: ParseStream<'_>, name: &Ident, is_array: bool) -> syn::Result<F
         "what a coordinate is, if it is no number, is `{name}: SO3`, a rotation matrix, or `{name}: S2`, a unit vector"
     );
     let at = input.span();
-    let word: Ident = input.parse().map_err(|_| syn::Error::new(at, &advice))?;
-    Factor::named(&word.to_string()).ok_or_else(|| syn::Error::new(word.span(), &advice))
+    match input.parse::<Type>().map_err(|_| syn::Error::new(at, &advice))? {
+        Type::Array(array) => {
+            let message = format!(
+                "an array of coordinates is declared by its size alone: `{name}[{}]`",
+                text(&array.len)
+            );
+            Err(syn::Error::new_spanned(array, message))
+        }
+        Type::Path(path) if path.path.is_ident("f64") || path.path.is_ident("f32") => {
+            let message = format!("a coordinate is a number where nothing else is said: write `{name}`");
+            Err(syn::Error::new_spanned(path, message))
+        }
+        word => {
+            let factor = Factor::named(&word.to_token_stream().to_string());
+            factor.ok_or_else(|| syn::Error::new_spanned(word, &advice))
+        }
+    }
 }
 
 impl Parse for Momentum {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let name: Ident = input.parse()?;
+        let (all, at) = (input.fork(), input.span());
+        let unnamed = |input: ParseStream<'_>| {
+            let formula = input.parse::<TokenStream>()?;
+            let message = format!("a momentum has a name: write `name = {}`", text(&formula));
+            Err(syn::Error::new_spanned(formula, message))
+        };
+        let Ok(name) = input.parse::<Ident>() else { return unnamed(&all) };
+        if input.peek(Token![:]) || input.is_empty() {
+            return Err(syn::Error::new(at, format!("this momentum has no formula: write `{name} = …`")));
+        }
         if !input.peek(Token![=]) {
-            return Err(syn::Error::new(
-                name.span(),
-                format!("this momentum has no formula: write `{name} = …`"),
-            ));
+            return unnamed(&all);
         }
         input.parse::<Token![=]>()?;
-        Ok(Self { name, formula: input.parse()? })
+        Ok(Self { name, formula: expression(input)? })
     }
 }
 

@@ -6,7 +6,7 @@
 use proc_macro2::{Ident, Literal};
 use syn::spanned::Spanned;
 use syn::visit_mut::{self, VisitMut};
-use syn::{Expr, Lit, parse_quote_spanned};
+use syn::{Block, Expr, ExprClosure, Lit, Local, Pat, parse_quote_spanned};
 
 use super::{Attribute, Declaration, Factor, Kind};
 use crate::errors::Errors;
@@ -47,7 +47,7 @@ impl Attribute {
         let rotations: Vec<Ident> = rotations.map(|Declaration { name, .. }| name.clone()).collect();
         let others = self.coordinates.iter().filter(|declaration| declaration.factor != Factor::Rotation);
         let others: Vec<Ident> = others.map(|Declaration { name, .. }| name.clone()).collect();
-        let mut entries = Entries { rotations: &rotations, others: &others, errors };
+        let mut entries = Entries { rotations: &rotations, others: &others, hidden: Vec::new(), errors };
         self.formulas_mut().for_each(|formula| entries.visit_expr_mut(formula));
     }
 }
@@ -58,14 +58,15 @@ struct Entries<'a> {
     rotations: &'a [Ident],
     /// The other coordinates.
     others: &'a [Ident],
+    /// The names that a `let` or a closure around has given to something else.
+    hidden: Vec<Ident>,
     errors: &'a mut Errors,
 }
 
 /// An expression without the parentheses around it.
-fn unwrapped(syntax: &Expr) -> &Expr {
+pub(super) fn unwrapped(syntax: &Expr) -> &Expr {
     match syntax {
         Expr::Paren(inner) => unwrapped(&inner.expr),
-        Expr::Group(inner) => unwrapped(&inner.expr),
         other => other,
     }
 }
@@ -99,7 +100,7 @@ fn indexed(syntax: &Expr) -> Option<[&Expr; 2]> {
 impl Entries<'_> {
     /// The rotation that this is the name of.
     fn rotation<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
-        name(syntax).filter(|name| self.rotations.contains(name))
+        name(syntax).filter(|name| self.rotations.contains(name) && !self.hidden.contains(name))
     }
 
     /// The rotation that this is the angular velocity of.
@@ -119,7 +120,7 @@ impl Entries<'_> {
 
     /// An index of a matrix or vector of three; 0 where it is reported as none.
     fn index(&mut self, syntax: &Expr) -> usize {
-        let value = match syntax {
+        let value = match unwrapped(syntax) {
             Expr::Lit(literal) => match &literal.lit {
                 Lit::Int(value) => value.base10_parse().ok(),
                 _ => None,
@@ -178,7 +179,7 @@ impl Entries<'_> {
     fn no_rotation<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
         let whole = indexed(syntax).map_or(syntax, |[of, _]| of);
         match called(ANGULAR_VELOCITY, whole)?.as_slice() {
-            [of] => name(of).filter(|name| self.others.contains(name)),
+            [of] => name(of).filter(|name| self.others.contains(name) && !self.hidden.contains(name)),
             _ => None,
         }
     }
@@ -194,6 +195,15 @@ impl Entries<'_> {
             Expr::MethodCall(call) => used(&call.receiver),
             Expr::Index(index) => used(&index.index),
             _ => None,
+        }
+    }
+
+    fn hide(&mut self, pattern: &Pat) {
+        match pattern {
+            Pat::Ident(name) => self.hidden.push(name.ident.clone()),
+            Pat::Type(typed) => self.hide(&typed.pat),
+            // Refused where formulas are read.
+            _ => {}
         }
     }
 
@@ -213,5 +223,24 @@ impl VisitMut for Entries<'_> {
             Some(replacement) => *syntax = replacement,
             None => visit_mut::visit_expr_mut(self, syntax),
         }
+    }
+
+    fn visit_block_mut(&mut self, block: &mut Block) {
+        let outside = self.hidden.len();
+        visit_mut::visit_block_mut(self, block);
+        self.hidden.truncate(outside);
+    }
+
+    /// Its name is hidden from here on, not in its value.
+    fn visit_local_mut(&mut self, local: &mut Local) {
+        visit_mut::visit_local_mut(self, local);
+        self.hide(&local.pat);
+    }
+
+    fn visit_expr_closure_mut(&mut self, closure: &mut ExprClosure) {
+        let outside = self.hidden.len();
+        closure.inputs.iter().for_each(|input| self.hide(input));
+        visit_mut::visit_expr_closure_mut(self, closure);
+        self.hidden.truncate(outside);
     }
 }

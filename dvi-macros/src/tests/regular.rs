@@ -466,3 +466,47 @@ fn constraints_of_velocities_along_a_motion() {
     "#]],
     );
 }
+
+/// Whether the report of seven bodies in the plane with this potential speaks of close encounters.
+fn speaks_of_encounters(potential: &str) -> bool {
+    let potential: TokenStream = potential.parse().expect("tokens");
+    let attribute = quote!(
+        coordinates(x[7], y[7]),
+        lagrangian = sum(0..7, |j| m[j] * (dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0) - (#potential),
+    );
+    let output = lagrangian(
+        attribute,
+        quote!(
+            struct Bodies {
+                m: [f64; 7],
+                a: f64,
+            }
+        ),
+    )
+    .to_string();
+    assert!(output.contains("Begin with `Variational::trapezoid()`."), "{output:.300}");
+    output.contains("`Reversible`") && output.contains("`ErrorControl`")
+}
+
+#[test]
+fn a_pole_where_bodies_meet_is_seen() {
+    for pole in [
+        // Pleiades
+        "-sum_pairs(0..7, |j, k| m[j] * m[k] / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).sqrt())",
+        "-sum_pairs(0..7, |j, k| m[j] * m[k] / (x[j] - x[k]).hypot(y[j] - y[k]))",
+        "-sum_ordered_pairs(0..7, |j, k| m[j] * (x[j] - x[k]).hypot(y[k] - y[j]).powf(-0.7))",
+        "sum_pairs(0..7, |j, k| (x[j] - x[k]).hypot(y[j] - y[k]).ln())",
+        "sum(0..6, |j| (a / (x[j + 1] - x[j])).powi(12) - (a / (x[j + 1] - x[j])).powi(6))",
+    ] {
+        assert!(speaks_of_encounters(pole), "{pole}");
+    }
+    for smooth in [
+        // Softened, around a fixed centre, springs, and a lattice whose bodies may pass.
+        "-sum_pairs(0..7, |j, k| m[j] * m[k] / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) + a * a).sqrt())",
+        "-sum(0..7, |j| m[j] / x[j].hypot(y[j]))",
+        "sum_pairs(0..7, |j, k| (x[j] - x[k]).powi(2) / a + (y[j] - y[k]).cosh().ln())",
+        "sum(0..6, |j| (x[j + 1] - x[j]).exp() / m[j])",
+    ] {
+        assert!(!speaks_of_encounters(smooth), "{smooth}");
+    }
+}

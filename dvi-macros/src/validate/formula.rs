@@ -216,7 +216,6 @@ impl<'a> Evaluation<'a> {
         match syntax {
             Expr::Lit(literal) => Ok(Jet::number(literal_number(&literal.lit))),
             Expr::Paren(inner) => self.number(&inner.expr),
-            Expr::Group(inner) => self.number(&inner.expr),
             Expr::Unary(unary) => Ok(self.number(&unary.expr)?.scaled(-1.0)),
             Expr::Binary(binary) => {
                 let (left, right) = (self.number(&binary.left)?, self.number(&binary.right)?);
@@ -269,7 +268,6 @@ impl<'a> Evaluation<'a> {
     fn holds(&mut self, condition: &Expr) -> Value<bool> {
         match condition {
             Expr::Paren(inner) => self.holds(&inner.expr),
-            Expr::Group(inner) => self.holds(&inner.expr),
             Expr::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => Ok(!self.holds(&unary.expr)?),
             Expr::Binary(binary) => {
                 let compared = match binary.op {
@@ -368,7 +366,6 @@ impl<'a> Evaluation<'a> {
                 Ok((name, indices))
             }
             Expr::Paren(inner) => self.place(&inner.expr),
-            Expr::Group(inner) => self.place(&inner.expr),
             _ => unknown(syntax),
         }
     }

@@ -1,10 +1,19 @@
 //! Generated code among unfriendly names, lints and places. It is a test that this file compiles.
 #![deny(warnings, missing_docs, unsafe_code, missing_debug_implementations)]
-#![deny(clippy::all, clippy::pedantic)]
+#![deny(clippy::all, clippy::pedantic, clippy::nursery)]
+#![deny(
+    unused_qualifications,
+    single_use_lifetimes,
+    unused_lifetimes,
+    explicit_outlives_requirements,
+    trivial_casts
+)]
 #![allow(unreachable_pub)]
 
 mod constraints;
+mod primitives;
 mod regular;
+mod spellings;
 
 use dvi_core::Lagrangian;
 use dvi_core::methods::Sigma;

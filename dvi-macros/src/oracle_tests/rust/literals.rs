@@ -7,7 +7,7 @@ use super::parse::unknown;
 use super::value::{Kind, Value};
 
 pub(super) fn kind(ty: &Type) -> Kind {
-    match ty.to_token_stream().to_string().as_str() {
+    match ty.to_token_stream().to_string().trim_start_matches(":: core :: primitive :: ") {
         "usize" => Kind::Usize,
         "i64" | "i128" => Kind::I64,
         "i32" => Kind::I32,

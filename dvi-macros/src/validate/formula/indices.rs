@@ -16,7 +16,6 @@ impl Evaluation<'_> {
                 }
             }
             Expr::Paren(inner) => self.is_index(&inner.expr),
-            Expr::Group(inner) => self.is_index(&inner.expr),
             Expr::Binary(binary) => self.is_index(&binary.left) || self.is_index(&binary.right),
             Expr::MethodCall(call) => call.method == "len",
             _ => false,
@@ -30,7 +29,6 @@ impl Evaluation<'_> {
                 _ => unknown(syntax),
             },
             Expr::Paren(inner) => self.index(&inner.expr),
-            Expr::Group(inner) => self.index(&inner.expr),
             Expr::Unary(unary) => Ok(-self.index(&unary.expr)?),
             Expr::Binary(binary) => {
                 let (left, right) = (self.index(&binary.left)?, self.index(&binary.right)?);

@@ -17,7 +17,6 @@ pub(super) fn literal_number(literal: &Lit) -> f64 {
 pub(super) fn exponent(syntax: &Expr) -> i32 {
     match syntax {
         Expr::Paren(inner) => exponent(&inner.expr),
-        Expr::Group(inner) => exponent(&inner.expr),
         Expr::Unary(unary) => -exponent(&unary.expr),
         Expr::Lit(syn::ExprLit { lit: Lit::Int(value), .. }) => {
             value.base10_parse().unwrap_or_else(|_| unknown(syntax))
