@@ -287,7 +287,7 @@ fn configuration(
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
     let has_domain = programs.domain.is_some().then(|| {
         quote!(
-            const HAS_DOMAIN: bool = true;
+            const HAS_DOMAIN: ::core::primitive::bool = true;
         )
     });
     let constrained = programs.constraints.as_ref().map(|constraints| constraints.of);
