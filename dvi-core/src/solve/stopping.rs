@@ -195,7 +195,7 @@ impl<T: Real> Judge<T> for Quick<T> {
                 if correction <= T::lift(FLOOR) * T::default_epsilon() {
                     return Verdict::Accept;
                 }
-                self.growths += 1;
+                self.growths += usize::from(shrunk <= T::lift(0.0));
                 if self.growths > MOST_IN_VAIN {
                     return Verdict::GiveUp;
                 }

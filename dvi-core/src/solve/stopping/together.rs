@@ -80,7 +80,7 @@ impl<const W: usize> Convergences<W> {
             let floor = Lanes::all(FLOOR * f64::EPSILON);
             let are_noise = Lanes::choose(corrections, Comparison::LessOrEqual, floor, stands, no);
             is_last += self.are_small_later(shrunk) + are_noise;
-            self.growths += stands;
+            self.growths += Lanes::choose(shrunk, Comparison::LessOrEqual, no, stands, no);
             is_alone +=
                 Lanes::choose(self.growths, Comparison::Greater, Lanes::all(MOST_IN_VAIN as f64), stands, no);
         }
