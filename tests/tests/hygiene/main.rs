@@ -9,6 +9,13 @@
     trivial_casts
 )]
 #![allow(unreachable_pub)]
+// What is written by hand here.
+#![allow(
+    clippy::imprecise_flops,
+    clippy::missing_const_for_fn,
+    clippy::redundant_pub_crate,
+    clippy::suboptimal_flops
+)]
 
 mod constraints;
 mod primitives;
