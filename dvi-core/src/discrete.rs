@@ -181,7 +181,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
         if *due == Due::Residual {
             return linear::residual(&mut equations, size, [residual, weights]);
         }
-        solver.solve(&mut equations, size, residual)?;
+        solver.solve(&mut equations, residual)?;
         Ok(sizes::reduce(weights, delta, residual))
     })?;
     norm::finite(delta)

@@ -33,15 +33,15 @@ impl<T: Real> Combination<T> {
 pub(crate) enum Inverse<S: System, T: Real> {
     /// Entry j is one over the only entry of column j.
     Reciprocals(Vector<S, T>),
-    /// The factors of the matrix with its rows in units of their own, these, and work space.
-    Factors(Square<S, T>, [Vector<S, T>; 2]),
+    /// The factors of the matrix, and work space.
+    Factors(Square<S, T>, Vector<S, T>),
 }
 
 impl<S: System, T: Real> Clone for Inverse<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
-            Self::Factors(matrix, vectors) => Self::Factors(matrix.clone(), vectors.clone()),
+            Self::Factors(matrix, work) => Self::Factors(matrix.clone(), work.clone()),
         }
     }
 }
@@ -58,7 +58,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 let mut places = Places(|row: usize, column: usize, _| visit(row, column));
                 system.one_form_jacobian(q, t, a, b, &mut places);
             });
-            Self::Factors(matrix, space.vectors())
+            Self::Factors(matrix, space.vector())
         }
     }
 
@@ -82,16 +82,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 }
                 Ok(())
             }
-            Self::Factors(matrix, [units, work]) => {
+            Self::Factors(matrix, work) => {
                 statistics.factorisations += 1;
-                let mut evaluate = |matrix: &mut Square<S, T>| {
-                    system.one_form_jacobian(q, t, a, b, matrix.cleared());
-                    units.fill(T::lift(1.0));
-                    matrix.scale_rows(|j| q[j], units);
-                };
-                evaluate(matrix);
+                system.one_form_jacobian(q, t, a, b, matrix.cleared());
                 matrix.factor().or_else(|_| {
-                    evaluate(matrix);
+                    system.one_form_jacobian(q, t, a, b, matrix.cleared());
                     matrix.factor_with_care([entries, work])
                 })
             }
@@ -105,10 +100,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
             // Never built for such a system; saying so keeps elimination out of its steps.
             Self::Factors(..) if S::MATCHING => {}
-            Self::Factors(matrix, [units, _]) => {
-                for ((x, &rhs), &unit) in x.iter_mut().zip(rhs).zip(units.iter()) {
-                    *x = unit * rhs;
-                }
+            Self::Factors(matrix, _) => {
+                x.copy_from_slice(rhs);
                 matrix.solve(x);
             }
         }

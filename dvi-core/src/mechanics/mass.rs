@@ -7,9 +7,8 @@ use super::pattern::of_entries;
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::SquareMatrix;
-use crate::space::elimination::unit_of_row;
 use crate::space::sink::{Places, Sink};
-use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Space, Square, System, Vector, Weights};
 
 /// M and M⁻¹.
 #[derive(Debug)]
@@ -25,9 +24,7 @@ pub(crate) struct Mass<S: System, T: Real> {
 #[derive(Debug)]
 struct Coupled<S: System, T: Real> {
     matrix: Square<S, T>,
-    /// Of the matrix whose rows are in these units.
     factors: Square<S, T>,
-    units: Vector<S, T>,
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
@@ -66,20 +63,13 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
             if entry != zero {
                 entries.add(row, column, entry);
             }
-            if row == column {
-                masses[row] += entry;
-            }
         });
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
         let mut factors = matrix.clone();
-        // In units in which a velocity has an energy of one, as long as its mass is positive.
-        let mut units: Vector<S, T> = space.vector();
-        units.fill(T::lift(1.0));
-        factors.scale_rows(|j| unit_of_row([Scalar::sqrt(Scalar::abs(masses[j]))].into_iter()), &mut units);
         factors.factor_with_care([&mut l_q, &mut l_v])?;
         masses.fill(T::lift(f64::NAN));
         reciprocals.fill(T::lift(f64::NAN));
-        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, units }) })
+        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
     }
 
     /// 1/m of each coordinate, if M is diagonal.
@@ -98,10 +88,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve_in_place(&self, p: &mut [T]) {
         match &self.coupled {
-            Some(Coupled { factors, units, .. }) if !S::DIAGONAL_MASS => {
-                p.iter_mut().zip(units.iter()).for_each(|(p, &unit)| *p *= unit);
-                factors.solve(p);
-            }
+            Some(Coupled { factors, .. }) if !S::DIAGONAL_MASS => factors.solve(p),
             _ => {
                 for (p, &reciprocal) in p.iter_mut().zip(self.reciprocals.iter()) {
                     *p *= reciprocal;

@@ -207,7 +207,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         if due == Due::Residual {
             return linear::residual(&mut equations, size, [correction, weights]);
         }
-        solver.solve(&mut equations, size, correction)?;
+        solver.solve(&mut equations, correction)?;
         Ok(sizes::reduce(weights, increment, correction))
     }
 }

@@ -170,41 +170,6 @@ pub(crate) fn is_positive<T: Real>(matrix: &[T], permutation: &[usize]) -> bool 
     (0..n).fold(true, |positive, k| positive ^ is_negative(k) ^ (permutation[k] != k))
 }
 
-/// One over the size of a row, the sum of the terms |aⱼ| sⱼ.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn unit_of_row<T: Real>(terms: impl Iterator<Item = T>) -> T {
-    unit(terms.fold(T::lift(0.0), |sum, term| sum + Scalar::abs(term)))
-}
-
-/// One over `size`, or one if that is zero.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn unit<T: Real>(size: T) -> T {
-    let one = T::lift(1.0);
-    one / if size > T::lift(0.0) { size } else { one }
-}
-
-/// Multiplies each row of the row-major `matrix`, and its entry of `x`, by one over its size in terms of the `sizes` of the unknowns.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn scale_rows<T: Real>(matrix: &mut [T], sizes: &[T], x: &mut [T]) {
-    for (i, x) in x.iter_mut().enumerate() {
-        let line = &mut matrix[i * sizes.len()..(i + 1) * sizes.len()];
-        let (fours, rest) = line.as_chunks::<4>();
-        let (sizes_of_fours, sizes_of_rest) = sizes.as_chunks::<4>();
-        let begin =
-            rest.iter().zip(sizes_of_rest).fold(T::lift(0.0), |sum, (&a, &size)| sum + Scalar::abs(a * size));
-        // Four partial sums do not wait for one another.
-        let sums = fours
-            .iter()
-            .zip(sizes_of_fours)
-            .fold([begin, T::lift(0.0), T::lift(0.0), T::lift(0.0)], |sums, (a, size)| {
-                [0, 1, 2, 3].map(|k| sums[k] + Scalar::abs(a[k] * size[k]))
-            });
-        let unit = unit((sums[0] + sums[2]) + (sums[1] + sums[3]));
-        line.iter_mut().for_each(|a| *a *= unit);
-        *x *= unit;
-    }
-}
-
 /// The length of a row below which its end is not worth a loop of its own.
 const SHORT: usize = 8;
 

@@ -101,7 +101,7 @@ pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T
 
 /// What solves linear equations, with the storage that it needs.
 pub trait LinearSolver<T: Real>: Debug {
-    /// Sets `x` to the solution, where xⱼ are changes of unknowns of the size |`size`(j)|.
+    /// Sets `x` to the solution.
     ///
     /// # Errors
     /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if b is no number
@@ -110,7 +110,6 @@ pub trait LinearSolver<T: Real>: Debug {
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
         x: &mut [T],
     ) -> Result<(), StepFailure>;
 }
@@ -119,7 +118,6 @@ pub trait LinearSolver<T: Real>: Debug {
 fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
     matrix: &mut M,
     equations: &mut E,
-    size: impl Fn(usize) -> T,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
@@ -127,11 +125,10 @@ fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
         return solved;
     }
     let finite = norm::finite(x);
-    matrix.scale_rows(&size, x);
     match matrix.eliminate(x) {
         Ok(()) => Ok(()),
         Err(StepFailure::Singular { .. }) if finite.is_ok() && E::IN_ANY_UNITS => {
-            by_factors(matrix, equations, size, x)
+            by_factors(matrix, equations, x)
         }
         Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
@@ -143,11 +140,9 @@ fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
 fn by_factors<T: Real, M: SquareMatrix<T>>(
     matrix: &mut M,
     equations: &mut impl LinearEquations<T>,
-    size: impl Fn(usize) -> T,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
-    matrix.scale_rows(size, x);
     matrix.factor_in_any_units()?;
     matrix.solve(x);
     Ok(())
@@ -160,10 +155,9 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        eliminate(self, equations, size, x)
+        eliminate(self, equations, x)
     }
 }
 
@@ -222,12 +216,11 @@ impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
         x: &mut [T],
     ) -> Result<(), StepFailure> {
         match &mut self.0 {
-            Storage::Matrix(matrix) => eliminate(matrix, equations, size, x),
-            Storage::Products(krylov) => krylov.solve(equations, size, x),
+            Storage::Matrix(matrix) => eliminate(matrix, equations, x),
+            Storage::Products(krylov) => krylov.solve(equations, x),
         }
     }
 }

@@ -48,10 +48,6 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// when it is solved with.
     fn cleared(&mut self) -> &mut Self::Entries;
 
-    /// Multiplies each row of A, and its entry of `x`, by one over its size Σⱼ |Aᵢⱼ| sⱼ, where sⱼ = `size`(j) ≥ 0 is that of unknown j. Of
-    /// rows that are of one size pivots may be compared, whatever units equations and unknowns have.
-    fn scale_rows(&mut self, size: impl Fn(usize) -> T, x: &mut [T]);
-
     /// Overwrites `x` with the solution of A y = x, and A with nothing of use.
     ///
     /// # Errors
@@ -105,8 +101,6 @@ pub struct FixedSquare<
 > {
     matrix: FixedMatrix<T, BLOCKS, N, SINGLES, R>,
     permutation: FixedVector<usize, BLOCKS, N, SINGLES, R>,
-    /// Work space: the sizes of the unknowns.
-    sizes: FixedVector<T, BLOCKS, N, SINGLES, R>,
 }
 
 impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
@@ -114,7 +108,7 @@ impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Ro
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(space: crate::Fixed<BLOCKS, N, SINGLES, R>) -> Self {
-        Self { matrix: space.matrix(), permutation: space.permutation(), sizes: space.vector() }
+        Self { matrix: space.matrix(), permutation: space.permutation() }
     }
 }
 
@@ -128,12 +122,6 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
         // −0 is neutral for every number, so that the first addition to an entry may be dropped.
         self.matrix.fill(T::lift(-0.0));
         &mut self.matrix
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn scale_rows(&mut self, size: impl Fn(usize) -> T, x: &mut [T]) {
-        let Self { matrix, sizes, .. } = self;
-        sizes.iter_mut().enumerate().for_each(|(j, entry)| *entry = size(j));
-        elimination::scale_rows(matrix, sizes, x);
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {

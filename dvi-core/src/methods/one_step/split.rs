@@ -122,14 +122,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
                 change[system.place(i)] = form;
             }
         }
-        let (change, sizes) = change.split_at_mut(half);
-        for (i, &q) in q.iter().enumerate() {
-            if let Some(y) = system.place(i).checked_sub(half) {
-                sizes[y] = q;
-            }
-        }
-        elimination::scale_rows(block, sizes, change);
-        elimination::eliminate(block, change)
+        elimination::eliminate(block, &mut change[..half])
     }
 }
 

@@ -11,7 +11,6 @@ use super::{LinearEquations, LinearSolver, RunTimeSolver, Storing};
 #[cfg(feature = "alloc")]
 use crate::RunTime;
 use crate::error::StepFailure;
-use crate::space::elimination::unit_of_row;
 #[cfg(feature = "alloc")]
 use crate::space::sink::Places;
 use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room};
@@ -43,15 +42,13 @@ pub trait NodeSum<const NODES: usize, T> {
 
 /// What solves for the vectors from [`NodeSum::FIRST`] to `NODES`, with the storage that it needs.
 pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
-    /// Overwrites the vectors from the first unknown one with the solution: changes of unknowns of the size |`size`(j)| at coordinate
-    /// j.
+    /// Overwrites the vectors from the first unknown one with the solution.
     ///
     /// # Errors
     /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
-        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure>;
 }
@@ -71,9 +68,6 @@ pub struct FixedCoupled<
     /// L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
     second: [FixedMatrix<T, BLOCKS, N, SINGLES, R>; 4],
     permutation: FixedVector<usize, BLOCKS, N, SINGLES, R>,
-    /// Work space: the sizes of the unknowns, and the units of the rows of a block.
-    sizes: FixedVector<T, BLOCKS, N, SINGLES, R>,
-    units: FixedVector<T, BLOCKS, N, SINGLES, R>,
 }
 
 impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
@@ -85,8 +79,6 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
             rows: rows.into(),
             second: core::array::from_fn(|_| space.matrix()),
             permutation: space.permutation(),
-            sizes: space.vector(),
-            units: space.vector(),
         }
     }
 }
@@ -97,10 +89,9 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
-        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
-        let Self { rows, second, permutation, sizes, units } = self;
+        let Self { rows, second, permutation } = self;
         rows[M::FIRST..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
         for j in 0..NODES {
             matrix.place(j);
@@ -120,31 +111,8 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
                 }
             }
         }
-        sizes.iter_mut().enumerate().for_each(|(j, entry)| *entry = size(j));
-        for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(M::FIRST) {
-            scale_rows(&mut row[M::FIRST..], sizes, units, vector);
-        }
         blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)
     }
-}
-
-/// Multiplies rows that go through all `blocks`, which are stored transposed, and their entries of `x` by one over their sizes.
-fn scale_rows<T: Real, B: DerefMut<Target = [T]>>(
-    blocks: &mut [B],
-    sizes: &[T],
-    units: &mut [T],
-    x: &mut [T],
-) {
-    units.fill(T::lift(0.0));
-    let n = sizes.len().max(1);
-    for (column, &size) in blocks.iter().flat_map(|block| block.chunks_exact(n).zip(sizes)) {
-        units.iter_mut().zip(column).for_each(|(unit, &a)| *unit += Scalar::abs(a * size));
-    }
-    units.iter_mut().for_each(|unit| *unit = unit_of_row(core::iter::once(*unit)));
-    for column in blocks.iter_mut().flat_map(|block| block.chunks_exact_mut(n)) {
-        column.iter_mut().zip(units.iter()).for_each(|(a, &unit)| *a *= unit);
-    }
-    x.iter_mut().zip(units.iter()).for_each(|(x, &unit)| *x *= unit);
 }
 
 /// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq.
@@ -247,7 +215,6 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
-        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { solver, b, x } = self;
@@ -255,7 +222,7 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
         for (b, vector) in lines_mut(b, n).zip(&vectors[M::FIRST..]) {
             b.copy_from_slice(vector);
         }
-        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, |k| size(k % n), x)?;
+        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, x)?;
         for (x, vector) in lines(x, n).zip(&mut vectors[M::FIRST..]) {
             vector.copy_from_slice(x);
         }

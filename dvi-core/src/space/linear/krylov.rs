@@ -10,7 +10,6 @@ use alloc::vec::Vec;
 use super::LinearEquations;
 use crate::error::StepFailure;
 use crate::scalar::norm::{self, reported};
-use crate::space::elimination::unit_of_row;
 use crate::space::sink::{Places, Product};
 use crate::{Real, Scalar};
 
@@ -36,8 +35,6 @@ pub(super) struct Krylov<T> {
     rotations: [[T; 2]; BASIS],
     /// The column of the largest entry of each row, and one over that entry.
     pivots: Vec<(usize, T)>,
-    /// The units of the rows: one over Σⱼ |Aᵢⱼ| sⱼ, where sⱼ is the size of unknown j.
-    units: Vec<T>,
     /// b, which is overwritten at each evaluation of the equations.
     unused: Vec<T>,
     solution: Vec<T>,
@@ -53,7 +50,6 @@ impl<T: Scalar> Krylov<T> {
             columns: vec![[zero; BASIS + 1]; BASIS],
             rotations: [[zero; 2]; BASIS],
             pivots: vec![(0, zero); dimension],
-            units: vector(),
             unused: vector(),
             solution: vector(),
             work: [vector(), vector()],
@@ -62,14 +58,13 @@ impl<T: Scalar> Krylov<T> {
 }
 
 impl<T: Real> Krylov<T> {
-    /// Sets `x` to the solution of A x = b, whose entries are changes of unknowns of the size |`size`(j)|.
+    /// Sets `x` to the solution of A x = b.
     pub(super) fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        self.find_pivots(equations, size, x)?;
+        self.find_pivots(equations, x)?;
         self.solution.fill(T::lift(0.0));
         let begin = length(x);
         let (mut left, mut products) = (begin, 0);
@@ -92,23 +87,18 @@ impl<T: Real> Krylov<T> {
         Ok(())
     }
 
-    /// Sets the units of rows, `b` in these, and the preconditioner: the sizes of unknowns if two rows have their largest entry in one
-    /// column.
+    /// Sets `b`, and the preconditioner: the identity if two rows have their largest entry in one column.
     fn find_pivots(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
         b: &mut [T],
     ) -> Result<(), StepFailure> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let Self { pivots, units, unused, work: [diagonal, taken], .. } = self;
-        units.fill(zero);
+        let Self { pivots, unused, work: [diagonal, taken], .. } = self;
         pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, zero));
         diagonal.fill(zero);
         // Beside the diagonal, the largest part of an entry has to do for the entry.
         let mut largest = Places(|row: usize, column: usize, entry: T| {
-            let entry = entry * size(column);
-            units[row] += Scalar::abs(entry);
             if row == column {
                 diagonal[row] += entry;
             } else if Scalar::abs(entry) > Scalar::abs(pivots[row].1) {
@@ -117,10 +107,6 @@ impl<T: Real> Krylov<T> {
         });
         equations.evaluate(b, &mut largest)?;
         norm::finite(b)?;
-        for (unit, b) in units.iter_mut().zip(b.iter_mut()) {
-            *unit = unit_of_row(core::iter::once(*unit));
-            *b *= *unit;
-        }
         taken.fill(zero);
         for (row, pivot) in pivots.iter_mut().enumerate() {
             if T::lift(2.0) * Scalar::abs(diagonal[row]) >= Scalar::abs(pivot.1) {
@@ -130,18 +116,18 @@ impl<T: Real> Krylov<T> {
             taken[pivot.0] += one;
         }
         if taken.iter().any(|&count| count != one) {
-            pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, usable(size(row))));
+            pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, one));
             return Ok(());
         }
         let mut sum = Places(|row: usize, column: usize, entry: T| {
             if column == pivots[row].0 {
-                pivots[row].1 += units[row] * entry;
+                pivots[row].1 += entry;
             }
         });
         equations.evaluate(unused, &mut sum)?;
-        let all_usable = pivots.iter().all(|pivot| (one / pivot.1).is_finite());
+        let usable = pivots.iter().all(|pivot| (one / pivot.1).is_finite());
         for (row, pivot) in pivots.iter_mut().enumerate() {
-            *pivot = if all_usable { (pivot.0, one / pivot.1) } else { (row, usable(size(row))) };
+            *pivot = if usable { (pivot.0, one / pivot.1) } else { (row, one) };
         }
         Ok(())
     }
@@ -163,11 +149,9 @@ impl<T: Real> Krylov<T> {
         let mut size = 0;
         while size < BASIS && Scalar::abs(rhs[size]) > target {
             self.precondition(size * n);
-            let Self { basis, columns, rotations, units, unused, work: [direction, product], .. } =
-                &mut *self;
+            let Self { basis, columns, rotations, unused, work: [direction, product], .. } = &mut *self;
             product.fill(T::lift(0.0));
             equations.evaluate(unused, &mut Product { x: direction, sum: product })?;
-            product.iter_mut().zip(units.iter()).for_each(|(product, &unit)| *product *= unit);
             let column = &mut columns[size];
             for (v, entry) in basis.chunks_exact(n).zip(column.iter_mut()).take(size + 1) {
                 *entry = dot(v, product);
@@ -228,12 +212,12 @@ impl<T: Real> Krylov<T> {
             }
         }
         self.precondition(BASIS * n);
-        let Self { solution, units, unused, work: [direction, product], .. } = self;
+        let Self { solution, unused, work: [direction, product], .. } = self;
         product.fill(T::lift(0.0));
         equations.evaluate(unused, &mut Product { x: direction, sum: product })?;
         for i in 0..n {
             solution[i] += direction[i];
-            residual[i] -= units[i] * product[i];
+            residual[i] -= product[i];
         }
         Ok(())
     }
@@ -245,11 +229,6 @@ impl<T: Real> Krylov<T> {
             direction[column] = reciprocal * v;
         }
     }
-}
-
-/// A size, or one if it is none.
-fn usable<T: Real>(size: T) -> T {
-    if size > T::lift(0.0) { size } else { T::lift(1.0) }
 }
 
 fn dot<T: Real>(x: &[T], y: &[T]) -> T {
@@ -299,7 +278,7 @@ mod tests {
 
     fn solve(matrix: &DMatrix<f64>, b: &[f64]) -> Result<Vec<f64>, StepFailure> {
         let mut x = vec![0.0; b.len()];
-        Krylov::new(b.len()).solve(&mut Given { matrix, b }, |_| 1.0, &mut x)?;
+        Krylov::new(b.len()).solve(&mut Given { matrix, b }, &mut x)?;
         Ok(x)
     }
 

@@ -12,7 +12,7 @@ use super::exchanges::Exchanges;
 use super::ordering::Order;
 use crate::error::StepFailure;
 use crate::scalar::norm::{larger, singular};
-use crate::space::elimination::{LEAST, unit_of_row};
+use crate::space::elimination::LEAST;
 use crate::{Real, Scalar};
 
 /// A banded matrix, in an order of its own.
@@ -83,19 +83,6 @@ impl<T: Scalar> Banded<T> {
 }
 
 impl<T: Real> Banded<T> {
-    /// As [`SquareMatrix::scale_rows`](super::SquareMatrix::scale_rows).
-    pub(super) fn scale_rows(&mut self, size: impl Fn(usize) -> T, x: &mut [T]) {
-        let (width, b) = (self.width(), self.bandwidth);
-        for (row, &i) in self.coordinate.iter().enumerate() {
-            let columns = self.columns(row);
-            let line = &mut self.entries[row * width..][b + columns.start - row..b + columns.end - row];
-            let sizes = columns.map(|column| size(self.coordinate[column] as usize));
-            let unit = unit_of_row(line.iter().zip(sizes).map(|(&a, size)| a * size));
-            line.iter_mut().for_each(|a| *a *= unit);
-            x[i as usize] *= unit;
-        }
-    }
-
     pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
         if let Some((row, column)) = self.outside {
             return Err(StepFailure::Pattern { row, column });

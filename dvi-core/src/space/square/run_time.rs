@@ -16,11 +16,7 @@ use crate::{Real, RunTime, Scalar, Space};
 
 /// The square matrix of a [`RunTime`] space.
 #[derive(Clone, Debug)]
-pub struct RunTimeSquare<T> {
-    storage: Storage<T>,
-    /// Work space: the sizes of the unknowns.
-    sizes: Vec<T>,
-}
+pub struct RunTimeSquare<T>(Storage<T>);
 
 #[derive(Clone, Debug)]
 enum Storage<T> {
@@ -43,24 +39,23 @@ impl<T: Scalar> RunTimeSquare<T> {
     /// Stored in this way.
     pub(crate) fn in_layout(dimension: usize, layout: Layout) -> Self {
         let space = RunTime { dimension };
-        let storage = match layout {
+        Self(match layout {
             Layout::Full => Storage::Dense(space.matrix(), space.permutation()),
             Layout::Banded(order) => Storage::Banded(Banded::new(order)),
             Layout::Sparse(rows, fronts) => Storage::Sparse(Box::new(Sparse::new(&rows, fronts))),
-        };
-        Self { storage, sizes: space.vector() }
+        })
     }
 
     #[cfg(test)]
     pub(super) fn is_banded(&self) -> bool {
-        matches!(self.storage, Storage::Banded(_))
+        matches!(self.0, Storage::Banded(_))
     }
 }
 
 impl<T: Scalar> Sink<T> for RunTimeSquare<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
-        match &mut self.storage {
+        match &mut self.0 {
             Storage::Dense(matrix, _) => matrix.add(row, column, entry),
             Storage::Banded(banded) => banded.add(row, column, entry),
             Storage::Sparse(sparse) => sparse.add(row, column, entry),
@@ -72,26 +67,15 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
     type Entries = Self;
 
     fn cleared(&mut self) -> &mut Self {
-        match &mut self.storage {
+        match &mut self.0 {
             Storage::Dense(matrix, _) => matrix.fill(T::lift(0.0)),
             Storage::Banded(banded) => banded.clear(),
             Storage::Sparse(sparse) => sparse.clear(),
         }
         self
     }
-    fn scale_rows(&mut self, size: impl Fn(usize) -> T, x: &mut [T]) {
-        let Self { storage, sizes } = self;
-        match storage {
-            Storage::Dense(matrix, _) => {
-                sizes.iter_mut().enumerate().for_each(|(j, entry)| *entry = size(j));
-                elimination::scale_rows(matrix, sizes, x);
-            }
-            Storage::Banded(banded) => banded.scale_rows(size, x),
-            Storage::Sparse(sparse) => sparse.scale_rows(size, x),
-        }
-    }
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
-        match &mut self.storage {
+        match &mut self.0 {
             Storage::Dense(matrix, _) => elimination::eliminate(matrix, x),
             Storage::Banded(banded) => {
                 banded.factor()?;
@@ -106,48 +90,48 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
         }
     }
     fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>> {
-        match &self.storage {
+        match &self.0 {
             Storage::Dense(matrix, _) => elimination::eliminate_two(matrix, x),
             Storage::Banded(_) | Storage::Sparse(_) => None,
         }
     }
     fn factor(&mut self) -> Result<(), StepFailure> {
-        match &mut self.storage {
+        match &mut self.0 {
             Storage::Dense(matrix, permutation) => elimination::factor(matrix, permutation),
             Storage::Banded(banded) => banded.factor(),
             Storage::Sparse(sparse) => sparse.factor(),
         }
     }
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
-        match &mut self.storage {
+        match &mut self.0 {
             Storage::Dense(matrix, permutation) => elimination::factor_in_any_units(matrix, permutation),
             Storage::Banded(banded) => banded.factor(),
             Storage::Sparse(sparse) => sparse.factor(),
         }
     }
     fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
-        match &mut self.storage {
+        match &mut self.0 {
             Storage::Dense(matrix, permutation) => elimination::factor_with_care(matrix, permutation, work),
             Storage::Banded(banded) => banded.factor(),
             Storage::Sparse(sparse) => sparse.factor(),
         }
     }
     fn solve(&self, x: &mut [T]) {
-        match &self.storage {
+        match &self.0 {
             Storage::Dense(matrix, permutation) => elimination::solve(matrix, permutation, x),
             Storage::Banded(banded) => banded.solve(x),
             Storage::Sparse(sparse) => sparse.solve(x),
         }
     }
     fn is_positive(&self) -> bool {
-        match &self.storage {
+        match &self.0 {
             Storage::Dense(matrix, permutation) => elimination::is_positive(matrix, permutation),
             Storage::Banded(banded) => banded.is_positive(),
             Storage::Sparse(sparse) => sparse.is_positive(),
         }
     }
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        match &self.storage {
+        match &self.0 {
             Storage::Dense(matrix, _) => super::multiply_add(matrix, factor, x, sum),
             Storage::Banded(banded) => banded.multiply_add(factor, x, sum),
             Storage::Sparse(sparse) => sparse.multiply_add(factor, x, sum),

@@ -13,7 +13,7 @@ use super::exchanges::Exchanges;
 use super::fronts::{Front, Fronts};
 use crate::error::StepFailure;
 use crate::scalar::norm::{larger, singular};
-use crate::space::elimination::{LEAST, unit_of_row};
+use crate::space::elimination::LEAST;
 use crate::{Real, Scalar};
 
 /// A sparse matrix.
@@ -127,16 +127,6 @@ impl<T: Scalar> Entries<T> {
 }
 
 impl<T: Real> Sparse<T> {
-    /// As [`SquareMatrix::scale_rows`](super::SquareMatrix::scale_rows).
-    pub(super) fn scale_rows(&mut self, size: impl Fn(usize) -> T, x: &mut [T]) {
-        for (row, x) in x.iter_mut().enumerate() {
-            let unit = unit_of_row(self.entries.row(row).map(|(column, a)| a * size(column)));
-            let Entries { begins, values, .. } = &mut self.entries;
-            values[begins[row]..begins[row + 1]].iter_mut().for_each(|a| *a *= unit);
-            *x *= unit;
-        }
-    }
-
     pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
         let Self { entries, order, factors, work } = self;
         if let Some((row, column)) = entries.outside {
