@@ -16,7 +16,7 @@ use crate::state::history::History;
 use crate::state::memory::{Aside, Memory, lasting};
 use crate::{Coupled, Lagrangian, NondegenerateLagrangian, Real, Space, System, Vector};
 
-/// A matrix of fixed size is made on the stack, where threads have two megabytes.
+/// Without a heap, a matrix of fixed size is made on the stack, where threads have two megabytes.
 const MOST_BYTES: usize = 1 << 20;
 
 /// The phase point of a run with interior displacements, its path between the points and its work space.
@@ -97,7 +97,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
         };
         if solver != Solver::FixedPoint && size_of::<Coupled<NODES, S, T>>() > MOST_BYTES {
             let reason = "its matrix for so many nodes and coordinates takes more than a megabyte of the stack; take \
-                          Solver::FixedPoint, fewer nodes, or an array of coordinates whose length is known at run time";
+                          Solver::FixedPoint, fewer nodes, or a heap: the feature `alloc`";
             return Err(StartError::Unsupported { option: "Newton's method", reason });
         }
         let reading = method.frequency.reading();
