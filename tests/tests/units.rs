@@ -62,14 +62,20 @@ fn end<const N: usize, S: InUnits<N>, M: Method<S, f64>>(
 
 fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone>(name: &str, method: M) {
     let steps = 40;
-    let plain = end::<N, S, M>(([0; N], 0), method.clone(), steps).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let plain =
+        end::<N, S, M>(([0; N], 0), method.clone(), steps).unwrap_or_else(|error| panic!("{name}: {error}"));
     let moved: Vec<f64> = plain.0.iter().map(|&bits| f64::from_bits(bits)).collect();
     assert!(moved.iter().all(|x| x.is_finite()) && moved != S::start(), "{name}: {moved:?}");
     let differ: Vec<_> = exponents::<N>()
         .filter(|&units| end::<N, S, M>(units, method.clone(), steps) != Ok(plain.clone()))
         .collect();
-    assert!(differ.is_empty(), "{name}: {} units, the first {:?}: {:?} for {plain:?}",
-        differ.len(), differ[0], end::<N, S, M>(differ[0], method.clone(), steps));
+    assert!(
+        differ.is_empty(),
+        "{name}: {} units, the first {:?}: {:?} for {plain:?}",
+        differ.len(),
+        differ[0],
+        end::<N, S, M>(differ[0], method.clone(), steps)
+    );
 }
 
 const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov];
@@ -79,12 +85,19 @@ const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::New
     one_form = u[1] * p * u[0] * d(x) / tau,
     hamiltonian = (u[1] * p).powi(2) / 2.0 + (u[0] * x).powi(2) / 2.0 + (u[0] * x).powi(4) / 8.0,
 )]
-struct Oscillator { u: [f64; 2], tau: f64 }
+struct Oscillator {
+    u: [f64; 2],
+    tau: f64,
+}
 
 impl InUnits<2> for Oscillator {
     const H: f64 = 0.1;
-    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![1.0, 0.0] }
+    fn system(u: [f64; 2], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 0.0]
+    }
 }
 
 #[degenerate_lagrangian(
@@ -92,12 +105,20 @@ impl InUnits<2> for Oscillator {
     one_form = sum(0..3, |j| (u[j] * x[j] * w[j] * d(y[j]) - w[j] * y[j] * u[j] * d(x[j])) / 2.0) / tau,
     hamiltonian = sum_pairs(0..3, |j, k| ((u[j] * x[j] - u[k] * x[k]).powi(2) + (w[j] * y[j] - w[k] * y[k]).powi(2)).ln()) / (4.0 * PI),
 )]
-struct Vortices { u: [f64; 3], w: [f64; 3], tau: f64 }
+struct Vortices {
+    u: [f64; 3],
+    w: [f64; 3],
+    tau: f64,
+}
 
 impl InUnits<6> for Vortices {
     const H: f64 = 0.1;
-    fn system(u: [f64; 6], tau: f64) -> Self { Self { u: [u[0], u[1], u[2]], w: [u[3], u[4], u[5]], tau } }
-    fn start() -> Vec<f64> { vec![1.0, -0.4, -0.7, 0.2, 0.9, -0.8] }
+    fn system(u: [f64; 6], tau: f64) -> Self {
+        Self { u: [u[0], u[1], u[2]], w: [u[3], u[4], u[5]], tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, -0.4, -0.7, 0.2, 0.9, -0.8]
+    }
 }
 
 /// Predators y and their prey x.
@@ -106,12 +127,19 @@ impl InUnits<6> for Vortices {
     one_form = (u[1] * y).ln() / (u[0] * x) * u[0] * d(x) / tau,
     hamiltonian = u[0] * x + u[1] * y - (u[0] * x).ln() - 2.0 * (u[1] * y).ln(),
 )]
-struct Predators { u: [f64; 2], tau: f64 }
+struct Predators {
+    u: [f64; 2],
+    tau: f64,
+}
 
 impl InUnits<2> for Predators {
     const H: f64 = 0.1;
-    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![1.0, 1.0] }
+    fn system(u: [f64; 2], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 1.0]
+    }
 }
 
 /// The centre of the gyration of a charge: Ω couples three coordinates.
@@ -121,12 +149,19 @@ impl InUnits<2> for Predators {
         + u[3] * v * u[2] * d(z)) / tau,
     hamiltonian = (u[3] * v).powi(2) / 2.0 + 0.3 * (u[0] * x + (u[1] * y).powi(2)) + (u[2] * z).powi(2) * (1.0 + (u[0] * x).powi(2)),
 )]
-struct Centre { u: [f64; 4], tau: f64 }
+struct Centre {
+    u: [f64; 4],
+    tau: f64,
+}
 
 impl InUnits<4> for Centre {
     const H: f64 = 0.1;
-    fn system(u: [f64; 4], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![1.0, 0.3, 0.5, 0.8] }
+    fn system(u: [f64; 4], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 0.3, 0.5, 0.8]
+    }
 }
 
 /// Coupled amplitudes, of a size that is known at run time only.
@@ -136,12 +171,20 @@ impl InUnits<4> for Centre {
     hamiltonian = sum(0..u.len(), |j| ((w[j] * p[j]).powi(2) + (u[j] * x[j]).powi(2)).powi(2) / 4.0)
         + sum(1..u.len(), |j| u[j] * x[j] * u[j - 1] * x[j - 1] + w[j] * p[j] * w[j - 1] * p[j - 1]),
 )]
-struct Amplitudes { u: Vec<f64>, w: Vec<f64>, tau: f64 }
+struct Amplitudes {
+    u: Vec<f64>,
+    w: Vec<f64>,
+    tau: f64,
+}
 
 impl InUnits<8> for Amplitudes {
     const H: f64 = 0.05;
-    fn system(u: [f64; 8], tau: f64) -> Self { Self { u: u[..4].to_vec(), w: u[4..].to_vec(), tau } }
-    fn start() -> Vec<f64> { vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1] }
+    fn system(u: [f64; 8], tau: f64) -> Self {
+        Self { u: u[..4].to_vec(), w: u[4..].to_vec(), tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1]
+    }
 }
 
 #[lagrangian(
@@ -149,12 +192,19 @@ impl InUnits<8> for Amplitudes {
     lagrangian = ((u[0] * dot(x) / tau).powi(2) + (u[1] * dot(y) / tau).powi(2)) / 2.0
         + 1.0 / ((u[0] * x).powi(2) + (u[1] * y).powi(2)).sqrt(),
 )]
-struct Kepler { u: [f64; 2], tau: f64 }
+struct Kepler {
+    u: [f64; 2],
+    tau: f64,
+}
 
 impl InUnits<2> for Kepler {
     const H: f64 = 0.05;
-    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![0.8, 0.0, 0.0, 1.2] }
+    fn system(u: [f64; 2], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![0.8, 0.0, 0.0, 1.2]
+    }
 }
 
 #[lagrangian(
@@ -163,12 +213,19 @@ impl InUnits<2> for Kepler {
         + u[0] * dot(a) / tau * u[1] * dot(b) / tau * (u[0] * a - u[1] * b).cos()
         + 2.0 * (u[0] * a).cos() + (u[1] * b).cos(),
 )]
-struct DoublePendulum { u: [f64; 2], tau: f64 }
+struct DoublePendulum {
+    u: [f64; 2],
+    tau: f64,
+}
 
 impl InUnits<2> for DoublePendulum {
     const H: f64 = 0.05;
-    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![1.0, 0.5, 0.1, 0.3] }
+    fn system(u: [f64; 2], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 0.5, 0.1, 0.3]
+    }
 }
 
 /// A charge in a magnetic field, with friction and a drive.
@@ -178,12 +235,19 @@ impl InUnits<2> for DoublePendulum {
         + (u[0] * x * u[1] * dot(y) - u[1] * y * u[0] * dot(x)) / tau - (u[0] * x).powi(2) * (1.0 + (u[2] * z).powi(2)) / 2.0,
     force(z) = u[2] * ((t * tau).sin() - 0.1 * u[2] * dot(z) / tau),
 )]
-struct Charge { u: [f64; 3], tau: f64 }
+struct Charge {
+    u: [f64; 3],
+    tau: f64,
+}
 
 impl InUnits<3> for Charge {
     const H: f64 = 0.1;
-    fn system(u: [f64; 3], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5] }
+    fn system(u: [f64; 3], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5]
+    }
 }
 
 /// A chain of stiff springs, of a size that is known at run time only.
@@ -192,12 +256,19 @@ impl InUnits<3> for Charge {
     lagrangian = sum(0..u.len(), |j| (u[j] * dot(x[j]) / tau).powi(2) / 2.0 - (u[j] * x[j]).powi(4) / 4.0)
         - sum(1..u.len(), |j| 50.0 * (u[j] * x[j] - u[j - 1] * x[j - 1]).powi(2) / 2.0),
 )]
-struct Chain { u: Vec<f64>, tau: f64 }
+struct Chain {
+    u: Vec<f64>,
+    tau: f64,
+}
 
 impl InUnits<12> for Chain {
     const H: f64 = 0.2;
-    fn system(u: [f64; 12], tau: f64) -> Self { Self { u: u.to_vec(), tau } }
-    fn start() -> Vec<f64> { (0..24).map(|j| (1.7 * f64::from(j)).sin()).collect() }
+    fn system(u: [f64; 12], tau: f64) -> Self {
+        Self { u: u.to_vec(), tau }
+    }
+    fn start() -> Vec<f64> {
+        (0..24).map(|j| (1.7 * f64::from(j)).sin()).collect()
+    }
 }
 
 /// A constant mass matrix that couples coordinates.
@@ -206,12 +277,19 @@ impl InUnits<12> for Chain {
     lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + 2.0 * (u[2] * dot(z)).powi(2) + u[0] * dot(x) * u[1] * dot(y)
         + u[1] * dot(y) * u[2] * dot(z)) / tau.powi(2) / 2.0 + (u[0] * x - u[1] * y).cos() - (u[2] * z).powi(2) / 2.0,
 )]
-struct CoupledMasses { u: [f64; 3], tau: f64 }
+struct CoupledMasses {
+    u: [f64; 3],
+    tau: f64,
+}
 
 impl InUnits<3> for CoupledMasses {
     const H: f64 = 0.1;
-    fn system(u: [f64; 3], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5] }
+    fn system(u: [f64; 3], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5]
+    }
 }
 
 #[lagrangian(
@@ -219,12 +297,19 @@ impl InUnits<3> for CoupledMasses {
     lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2)) / tau.powi(2) / 2.0 - u[1] * y,
     constraint = (u[0] * x).powi(2) + (u[1] * y).powi(2) - 1.0,
 )]
-struct Pendulum { u: [f64; 2], tau: f64 }
+struct Pendulum {
+    u: [f64; 2],
+    tau: f64,
+}
 
 impl InUnits<2> for Pendulum {
     const H: f64 = 0.05;
-    fn system(u: [f64; 2], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![1.0, 0.0, 0.0, 0.5] }
+    fn system(u: [f64; 2], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![1.0, 0.0, 0.0, 0.5]
+    }
 }
 
 /// A blade on a plane that is not level.
@@ -233,12 +318,19 @@ impl InUnits<2> for Pendulum {
     lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(a)).powi(2)) / tau.powi(2) / 2.0 + u[0] * x,
     nonholonomic = u[0] * dot(x) * (u[2] * a).sin() - u[1] * dot(y) * (u[2] * a).cos(),
 )]
-struct Blade { u: [f64; 3], tau: f64 }
+struct Blade {
+    u: [f64; 3],
+    tau: f64,
+}
 
 impl InUnits<3> for Blade {
     const H: f64 = 0.1;
-    fn system(u: [f64; 3], tau: f64) -> Self { Self { u, tau } }
-    fn start() -> Vec<f64> { vec![0.5, 0.2, 0.0, 1.0, 0.0, 0.7] }
+    fn system(u: [f64; 3], tau: f64) -> Self {
+        Self { u, tau }
+    }
+    fn start() -> Vec<f64> {
+        vec![0.5, 0.2, 0.0, 1.0, 0.0, 0.7]
+    }
 }
 
 #[test]
@@ -279,7 +371,10 @@ fn of_regular_systems() {
         check::<3, CoupledMasses, _>("coupled masses, midpoint", midpoint);
         check::<12, Chain, _>("chain, Newmark", Newmark { solver, ..Newmark::new(0.25) });
         check::<2, Kepler, _>("Kepler, Galerkin", Galerkin { solver, ..Galerkin::<4>::new() });
-        check::<2, DoublePendulum, _>("double pendulum, Galerkin", Galerkin { solver, ..Galerkin::<4>::new() });
+        check::<2, DoublePendulum, _>(
+            "double pendulum, Galerkin",
+            Galerkin { solver, ..Galerkin::<4>::new() },
+        );
         check::<12, Chain, _>("chain, Galerkin", Galerkin { solver, ..Galerkin::<3>::new() });
     }
     check::<2, Kepler, _>("Kepler, Verlet", Variational::trapezoid());

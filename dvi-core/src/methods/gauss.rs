@@ -225,9 +225,11 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         E: StageEvaluation<STAGES, S, T>,
     {
         let tried = if memory.ladder.tries_fixed_point() {
+            // Where Newton's method stands by, a fixed point that is slow is left to it.
+            let budget = memory.ladder.budget(self.stopping.max_iterations, 48);
             let (path, mut guess) = (&mut memory.path, Guess::Continued);
             loop {
-                match self.attempt(system, path, q, [t, h], guess, statistics) {
+                match self.attempt(system, path, q, [t, h], guess, budget, statistics) {
                     Ok(()) => return Ok(()),
                     Err(_) if guess == Guess::Continued && !path.is_first() => guess = Guess::Constant,
                     failed => break failed,
@@ -248,6 +250,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         q: &mut Vector<S, T>,
         [t, h]: [T; 2],
         guess: Guess,
+        budget: usize,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
@@ -266,7 +269,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
             Summation::Plain => stopping,
             Summation::Compensated => stopping.exhaustive(),
         };
-        let convergence = Convergence::fixed_point(stopping, stopping.max_iterations);
+        let convergence = Convergence::fixed_point(stopping, budget);
         let stages: Stages<'_, STAGES, E, S, T> = Stages { system, path, q, t, h, evaluation: PhantomData };
         repeat(convergence, statistics, stages)?;
         if S::Kind::HAS_VELOCITY_FORCES {

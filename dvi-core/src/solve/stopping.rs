@@ -72,6 +72,10 @@ impl Stopping {
 /// So many corrections in turn may be no smaller than the smallest before them.
 const MOST_IN_VAIN: usize = 3;
 
+/// Corrections that are no larger than this many units of rounding leave nothing to gain. Where a larger one no longer shrinks, it may be
+/// that of one coordinate, beside which others are still to be improved, and one more iteration is taken if the iteration goes to rounding.
+const FINE: f64 = 4.0;
+
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
 pub(crate) const FLOOR: f64 = 32.0;
 
@@ -192,7 +196,10 @@ impl<T: Real> Judge<T> for Quick<T> {
             }
             let is_shrinking = shrunk > self.stalling * correction;
             if !is_shrinking {
-                if correction <= T::lift(FLOOR) * T::default_epsilon() {
+                let size = correction / T::default_epsilon();
+                if size <= T::lift(FINE)
+                    || (size <= T::lift(FLOOR) && (self.stalling > T::lift(0.0) || self.growths > 0))
+                {
                     return Verdict::Accept;
                 }
                 self.growths += usize::from(shrunk <= T::lift(0.0));
@@ -271,7 +278,9 @@ impl<T: Real> Convergence<T> {
     /// Decides where corrections no longer shrink as they should, the last one from `before`.
     #[inline]
     fn hesitate(&mut self, before: T) -> Option<Verdict> {
-        let is_noise = self.correction <= T::lift(FLOOR) * T::default_epsilon();
+        let size = self.correction / T::default_epsilon();
+        let is_last = size <= T::lift(FINE) || self.stalling > T::lift(0.0) || self.in_vain > 0;
+        let is_noise = is_last && size <= T::lift(FLOOR);
         if is_noise && !matches!(self.trial, Trial::Shaken) {
             return Some(Verdict::Accept);
         }

@@ -107,11 +107,7 @@ pub trait LinearSolver<T: Real>: Debug {
     /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if b is no number
     /// there; [`StepFailure::NotConverged`] where products with vectors lead to no solution. Of a regular A and a b that is no
     /// number, the solution may be no number.
-    fn solve(
-        &mut self,
-        equations: &mut impl LinearEquations<T>,
-        x: &mut [T],
-    ) -> Result<(), StepFailure>;
+    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure>;
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -152,11 +148,7 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
     for FixedSquare<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve(
-        &mut self,
-        equations: &mut impl LinearEquations<T>,
-        x: &mut [T],
-    ) -> Result<(), StepFailure> {
+    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
         eliminate(self, equations, x)
     }
 }
@@ -213,11 +205,7 @@ impl<T: Scalar> RunTimeSolver<T> {
 
 #[cfg(feature = "alloc")]
 impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
-    fn solve(
-        &mut self,
-        equations: &mut impl LinearEquations<T>,
-        x: &mut [T],
-    ) -> Result<(), StepFailure> {
+    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
         match &mut self.0 {
             Storage::Matrix(matrix) => eliminate(matrix, equations, x),
             Storage::Products(krylov) => krylov.solve(equations, x),

@@ -1,7 +1,8 @@
 //! Where a formula is a number, as another one that costs less.
 //!
-//! √u stands for each root, logarithm and power of u, which are numbers where it is, and a function that is called stands for itself. What
-//! velocities decide is left out: they follow from momenta, and are in the domain of L where these have any.
+//! √u stands for each root, logarithm and power of u, which are numbers where it is, and a table stands for itself. A function of the
+//! user's is left out: its derivatives, which steps evaluate, are no numbers where it is none. What velocities decide is left out too:
+//! they follow from momenta, and are in the domain of L where these have any.
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
@@ -54,7 +55,7 @@ impl Graph {
             Node::Unary(Unary::Ln1p, u) => self.add(Expr::ONE, *u),
             Node::Unary(Unary::Acosh, u) => self.subtract(*u, Expr::ONE),
             Node::Unary(Unary::Asin | Unary::Acos | Unary::Atanh, u) => self.one_minus_square(*u),
-            Node::Call(..) | Node::ScalarField(..) => return self.is_of_positions(id).then_some(id.into()),
+            Node::ScalarField(..) => return self.is_of_positions(id).then_some(id.into()),
             _ => return None,
         };
         let is_number = inside.scale > 0.0 && self.is_never_negative(inside.node);

@@ -3,7 +3,7 @@
 //! What is a branch in [`Quick`] is a choice between numbers here, of all lanes at once: 1 stands
 //! for yes, 0 for no.
 
-use super::{FLOOR, LARGE, MOST_IN_VAIN, Quick, Stopping, Verdict};
+use super::{FINE, FLOOR, LARGE, MOST_IN_VAIN, Quick, Stopping, Verdict};
 use crate::Scalar;
 use crate::scalar::{Comparison, Lanes};
 
@@ -78,8 +78,13 @@ impl<const W: usize> Convergences<W> {
         if !first {
             let stands = Lanes::choose(shrunk, Comparison::Greater, self.stalling * corrections, no, yes);
             let floor = Lanes::all(FLOOR * f64::EPSILON);
+            let fine = Lanes::all(FINE * f64::EPSILON);
             let are_noise = Lanes::choose(corrections, Comparison::LessOrEqual, floor, stands, no);
-            is_last += self.are_small_later(shrunk) + are_noise;
+            let are_fine = Lanes::choose(corrections, Comparison::LessOrEqual, fine, stands, no);
+            // Where nothing is left to gain, where less than rounding is not asked for, or once more.
+            let once_more =
+                Lanes::choose(self.growths + self.stalling, Comparison::Greater, no, are_noise, no);
+            is_last += self.are_small_later(shrunk) + are_fine + once_more;
             self.growths += Lanes::choose(shrunk, Comparison::LessOrEqual, no, stands, no);
             is_alone +=
                 Lanes::choose(self.growths, Comparison::Greater, Lanes::all(MOST_IN_VAIN as f64), stands, no);
