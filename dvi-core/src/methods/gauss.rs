@@ -226,7 +226,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
     {
         let tried = if memory.ladder.tries_fixed_point() {
             // Where Newton's method stands by, a fixed point that is slow is left to it.
-            let budget = memory.ladder.budget(self.stopping.max_iterations, 48);
+            let budget = memory.ladder.budget(self.stopping.max_iterations, 24 + q.len());
             let (path, mut guess) = (&mut memory.path, Guess::Continued);
             loop {
                 match self.attempt(system, path, q, [t, h], guess, budget, statistics) {

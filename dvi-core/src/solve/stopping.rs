@@ -305,7 +305,7 @@ impl<T: Real> Convergence<T> {
             (self.least, self.in_vain) = (before, 0);
         }
         // A correction that is not a number is counted by the budget alone.
-        self.in_vain += usize::from(self.correction >= self.least);
+        self.in_vain += usize::from(self.correction >= self.least && self.correction >= before);
         let is_noise = self.in_vain > 1 && self.correction <= T::lift(SMALL);
         let is_in_vain = self.in_vain > MOST_IN_VAIN;
         match self.trial {
