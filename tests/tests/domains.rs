@@ -1,6 +1,6 @@
 //! Where a run stands, the energy is a number: steps whose ends lie outside of the domain of a formula are taken back.
 
-use dvi_core::methods::Method;
+use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
 use dvi_core::run::Together;
 use dvi_tests::bits;
@@ -27,10 +27,13 @@ struct Flow;
 #[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0 + x.sqrt())]
 struct Root;
 
+/// A start for each number.
+type StartOf<S> = fn(f64) -> <S as System>::State<f64>;
+
 /// From 40 starts, whose last steps end at all distances beyond x = 0; returns how many needed nothing of that end.
 fn keeps_to_the_domain<S: Lagrangian, M: Method<S, f64>>(
     name: &str,
-    (system, start): (&S, fn(f64) -> S::State<f64>),
+    (system, start): (&S, StartOf<S>),
     method: impl Fn() -> M,
 ) -> Result<usize, Box<dyn core::error::Error>> {
     let mut left = 0;
@@ -111,14 +114,11 @@ fn a_step_control_keeps_to_the_domain() -> Outcome {
 #[test]
 fn runs_that_share_lanes_keep_to_the_domain() -> Outcome {
     const RUNS: usize = 4;
-    fn each<S: Lagrangian + PartialEq, M: Method<S, f64> + PartialEq + Copy>(
+    fn each<S: Lagrangian + PartialEq, M: InStep<RUNS, S> + PartialEq + Copy>(
         system: &S,
         method: M,
         starts: [S::State<f64>; RUNS],
-    ) -> Outcome
-    where
-        M: dvi_core::methods::InStep<RUNS, S>,
-    {
+    ) -> Outcome {
         let begin = |start: &S::State<f64>| Integrator::new(system, method, 0.1, start.clone());
         let mut together = starts.iter().map(begin).collect::<Result<Vec<_>, _>>()?;
         let taken = Together::<RUNS, _, _>::new(&together[0]).take_steps(&mut together, 12);

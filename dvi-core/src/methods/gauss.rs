@@ -229,7 +229,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
             let budget = memory.ladder.budget(self.stopping.max_iterations, 24 + q.len());
             let (path, mut guess) = (&mut memory.path, Guess::Continued);
             loop {
-                match self.attempt(system, path, q, [t, h], guess, budget, statistics) {
+                match self.attempt(system, path, q, [t, h], (guess, budget), statistics) {
                     Ok(()) => return Ok(()),
                     Err(_) if guess == Guess::Continued && !path.is_first() => guess = Guess::Constant,
                     failed => break failed,
@@ -249,8 +249,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         path: &mut Path<STAGES, S, T>,
         q: &mut Vector<S, T>,
         [t, h]: [T; 2],
-        guess: Guess,
-        budget: usize,
+        (guess, budget): (Guess, usize),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where

@@ -34,7 +34,7 @@ pub struct Stopping {
     /// below the rounding of double precision.
     ///
     /// Below the rounding of the arithmetic, an iteration goes on until its corrections no longer shrink. Units do not
-    /// matter: with other units of coordinates and of time the iterates are the same, scaled. On four equal vortices in
+    /// matter to a fixed point: with other units of coordinates and of time its iterates are the same, scaled. On four equal vortices in
     /// quasi-periodic motion, σ = ½ and h = 0.1, ΣΓ|z|² then changes by less than 4e-19 a step over 4·10⁵ steps; an
     /// iteration that stops as soon as an error of 1e-17 is predicted drifts by 1.2e-18.
     pub tolerance: f64,

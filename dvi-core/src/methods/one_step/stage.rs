@@ -160,7 +160,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         let Self { unknown, momentum, gradient, one_form, point, velocity, correction, weights, .. } = self;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
         let work = [point, velocity, gradient, one_form];
-        linear::residual(&mut Equations { step, unknown, momentum, work }, size, [correction, weights])
+        let residual =
+            linear::residual(&mut Equations { step, unknown, momentum, work }, size, [correction, weights]);
+        // What has been evaluated is at the unknowns.
+        correction.fill(T::lift(0.0));
+        residual
     }
 
     /// The equations at the unknowns.
