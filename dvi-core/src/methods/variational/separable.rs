@@ -20,7 +20,7 @@ use crate::mechanics::phase::PhasePoint;
 use crate::scalar::blocks::blocks;
 use crate::scalar::norm;
 use crate::scalar::simd::widest_if;
-use crate::solve::{Convergence, Due, Iteration, Quick, repeat, sizes};
+use crate::solve::{Convergence, Due, Iteration, repeat, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, Vector};
@@ -175,27 +175,9 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.phase.guess(Some(self.mass), &self.phase.p, self.step.h, &mut self.work.increment);
-        let quick = Quick::fixed_point(self.step.method.stopping, budget);
-        match repeat(quick, statistics, Judged { attempt: self, weights }) {
-            Err(StepFailure::NotConverged { .. }) => self.carefully(weights, budget, statistics)?,
-            solved => solved?,
-        }
-        norm::finite(&self.work.increment)
-    }
-
-    /// The same where the quick look has given up.
-    #[cold]
-    #[inline(never)]
-    fn carefully(
-        &mut self,
-        weights: &mut [T],
-        budget: usize,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.phase.guess(Some(self.mass), &self.phase.p, self.step.h, &mut self.work.increment);
-        self.is_placed = false;
         let convergence = Convergence::fixed_point(self.step.method.stopping, budget);
-        repeat(convergence, statistics, Judged { attempt: self, weights })
+        repeat(convergence, statistics, Judged { attempt: self, weights })?;
+        norm::finite(&self.work.increment)
     }
 
     /// q1 and F(q1).
