@@ -179,7 +179,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
         let mut equations = Equations { l_d, span, p0, statistics };
         let size = |j: usize| Scalar::abs(q0[j]) + Scalar::abs(delta[j]);
         if *due == Due::Residual {
-            return linear::residual(&mut equations, size, [residual, weights]);
+            return linear::residual(&mut equations, size, |i| p0[i], [residual, weights]);
         }
         solver.solve(&mut equations, residual)?;
         Ok(sizes::reduce(weights, delta, residual))

@@ -17,7 +17,7 @@ use crate::mechanics::orientation::MassOrientation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, Stopping, iterate, sizes};
+use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
@@ -233,6 +233,14 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             let forces = Some(At { q, t: interval.t });
             let (multipliers, active) = (&**impulse, impulse.len());
             let equations = &mut Bordered { system, upper, lower, multipliers, forces, active };
+            if *due == Due::Residual {
+                let of = |k: usize| if k < q.len() { p[k] } else { T::lift(0.0) };
+                let size = |k: usize| match k.checked_sub(q.len()) {
+                    None => Scalar::abs(q[k]) + Scalar::abs(increment[k]),
+                    Some(k) => impulse[k],
+                };
+                return solver.residual(equations, size, of);
+            }
             solver.solve(equations, Scalar::abs(interval.h))?;
             let (change, of_impulse) = solver.parts(q.len());
             for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {

@@ -205,7 +205,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         let size = |j: usize| Scalar::abs(self.q[j]) + Scalar::abs(increment[j]);
         let mut equations = Equations { system, interval, beta, x1: next, b: transfer, unused };
         if due == Due::Residual {
-            return linear::residual(&mut equations, size, [correction, weights]);
+            return linear::residual(&mut equations, size, |_| T::lift(0.0), [correction, weights]);
         }
         solver.solve(&mut equations, correction)?;
         Ok(sizes::reduce(weights, increment, correction))

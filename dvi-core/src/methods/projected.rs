@@ -305,9 +305,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 
     /// How large the residuals are against what they are made of.
     fn residual(&mut self, step: &Step<'_, S, T>) -> Result<T, StepFailure> {
-        let Self { unknowns: [delta, _], residuals, weights, work, .. } = self;
+        let Self { p, unknowns: [delta, _], residuals, weights, work, .. } = self;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(delta[j]);
-        linear::residual_of_nodes(&mut Linearized { step, node: 0, work }, size, residuals, weights)
+        linear::residual_of_nodes(&mut Linearized { step, node: 0, work }, size, |i| p[i], residuals, weights)
     }
 
     /// Overwrites the residuals with the corrections.

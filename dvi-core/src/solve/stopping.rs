@@ -272,7 +272,11 @@ impl<T: Real> Convergence<T> {
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
         }
-        if is_below_rounding::<T>(stopping) { Self { stalling: T::lift(0.0), ..new } } else { new }
+        // An error that is predicted to be below rounding adds up all the same.
+        if is_below_rounding::<T>(stopping) {
+            (new.tolerance, new.stalling) = (T::lift(0.0), T::lift(0.0));
+        }
+        new
     }
 
     /// Decides where corrections no longer shrink as they should, the last one from `before`.

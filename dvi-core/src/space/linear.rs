@@ -38,16 +38,18 @@ pub trait LinearEquations<T> {
     const IN_ANY_UNITS: bool = false;
 }
 
-/// The residual of the point where `equations` are linearised, b, relative in each row to Σⱼ |Aᵢⱼ| sⱼ, with the sizes sⱼ = |`size`(j)| of the
-/// unknowns: the relative error of the equations that this point solves (Oettli & Prager 1964). `b` and `sums` are storage.
+/// The residual of the point where `equations` are linearised, b, relative in each row to Σⱼ |Aᵢⱼ| sⱼ and |`given`(i)|, what is given in that
+/// row, with the sizes sⱼ = |`size`(j)| of the unknowns: the relative error of the equations that this point solves (Oettli & Prager 1964).
+/// `b` and `sums` are storage.
 #[cold]
 #[inline(never)]
 pub(crate) fn residual<T: Real>(
     equations: &mut impl LinearEquations<T>,
     size: impl Fn(usize) -> T,
+    given: impl Fn(usize) -> T,
     [b, sums]: [&mut [T]; 2],
 ) -> Result<T, StepFailure> {
-    sums.fill(T::lift(0.0));
+    sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(given(i)));
     equations.evaluate(b, &mut Places(|i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j))))?;
     relative(b, sums)
 }
@@ -65,12 +67,13 @@ fn relative<T: Real>(b: &[T], sums: &[T]) -> Result<T, StepFailure> {
 pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T>, V: Deref<Target = [T]>>(
     matrix: &mut M,
     size: impl Fn(usize) -> T,
+    given: impl Fn(usize) -> T,
     vectors: &[V; NODES],
     sums: &mut [T],
 ) -> Result<T, StepFailure> {
     let mut largest = T::lift(0.0);
     for (r, vector) in vectors.iter().enumerate().skip(M::FIRST) {
-        sums.fill(T::lift(0.0));
+        sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(given(i)));
         let sums = RefCell::new(&mut *sums);
         let add = |i: usize, j: usize, entry: T| sums.borrow_mut()[i] += Scalar::abs(entry * size(j));
         for node in 0..NODES {

@@ -16,7 +16,7 @@ use crate::error::StepFailure;
 use crate::mechanics::pattern::visit_second_derivatives;
 use crate::scalar::norm;
 use crate::space::sink::{Places, Scaled};
-use crate::space::{LinearEquations, SquareMatrix};
+use crate::space::{LinearEquations, SquareMatrix, linear};
 use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, Real, Space, Vector};
 
@@ -30,6 +30,8 @@ pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
     scales: Augmented<S, T>,
     /// Of velocities.
     pub(super) residuals: Residuals<S, T>,
+    /// What the rows of a residual are made of.
+    sums: Augmented<S, T>,
     /// In which iterations judge velocities.
     pub(super) weights: Vector<S, T>,
 }
@@ -62,7 +64,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         let mut scales: Augmented<S, T> = space.vector();
         scales::balance(system, At { q, t }, v, scales.split_at_mut(n));
         let residuals = Residuals::new(system, &scales[..n]);
-        Self { matrix, solution: space.vector(), scales, residuals, weights: system.space().vector() }
+        Self { matrix, solution: space.vector(), sums: space.vector(), scales, residuals, weights: system.space().vector() }
     }
 
     /// Takes the units that belong to another point.
@@ -85,6 +87,19 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     ) -> Result<(), StepFailure> {
         let result = self.eliminate(equations, alpha);
         result.map_err(|failure| self.blamed(failure, equations, alpha))
+    }
+
+    /// The residual of the equations, as [`linear::residual`].
+    ///
+    /// # Errors
+    /// Those of the equations.
+    pub(crate) fn residual<U: LinearEquations<T>, W: LinearEquations<T>>(
+        &mut self,
+        equations: &mut Bordered<'_, S, T, U, W>,
+        size: impl Fn(usize) -> T,
+        given: impl Fn(usize) -> T,
+    ) -> Result<T, StepFailure> {
+        linear::residual(equations, size, given, [&mut self.solution, &mut self.sums])
     }
 
     fn eliminate<U: LinearEquations<T>, W: LinearEquations<T>>(

@@ -47,13 +47,13 @@ where
         differentiate(step, path, statistics)?;
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        let Path { rule, coefficients, work, .. } = &mut *path;
+        let Path { rule, coefficients, phase, work, .. } = &mut *path;
         let Work { unknowns, residuals, weights, point, velocity, gradient, momentum, .. } = work;
         let node = [point, velocity, gradient, momentum];
         let mut equations = Linearized { step, rule, coefficients, unknowns, node, j: 0, t: step.t };
         let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(unknowns[NODES - 1][j]);
         if *due == Due::Residual {
-            return linear::residual_of_nodes(&mut equations, size, residuals, weights);
+            return linear::residual_of_nodes(&mut equations, size, |i| phase.p[i], residuals, weights);
         }
         solver.solve(&mut equations, residuals)?;
         let mut correction = T::lift(0.0);

@@ -153,7 +153,7 @@ where
             let size = |j: usize| T::lift(1.0) / weights[j];
             let mut matrix = Linearized { system, tableau, path, at, derivatives, t, h, stage: 0 };
             if *due == Due::Residual {
-                return linear::residual_of_nodes(&mut matrix, size, residuals, sums);
+                return linear::residual_of_nodes(&mut matrix, size, |_| T::lift(0.0), residuals, sums);
             }
             solver.solve(&mut matrix, residuals)?;
             let (correction, was_farther) = self.correct(path, h);

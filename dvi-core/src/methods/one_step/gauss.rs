@@ -231,12 +231,12 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
             self.residuals.iter().try_for_each(|residual| norm::finite(residual))?;
             statistics.linearizations += STAGES as u64;
             statistics.factorisations += 1;
-            let Self { tableau, increments, residuals, weights, solver, work, .. } = &mut *self;
+            let Self { p, tableau, increments, residuals, weights, solver, work, .. } = &mut *self;
             let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
             let size =
                 |j: usize| increments.iter().fold(Scalar::abs(q[j]), |size, w| size + Scalar::abs(w[j]));
             if *due == Due::Residual {
-                return linear::residual_of_nodes(&mut matrix, size, residuals, weights);
+                return linear::residual_of_nodes(&mut matrix, size, |i| p[i], residuals, weights);
             }
             solver.solve(&mut matrix, residuals)?;
             let mut correction = T::lift(0.0);
