@@ -64,7 +64,14 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         let mut scales: Augmented<S, T> = space.vector();
         scales::balance(system, At { q, t }, v, scales.split_at_mut(n));
         let residuals = Residuals::new(system, &scales[..n]);
-        Self { matrix, solution: space.vector(), sums: space.vector(), scales, residuals, weights: system.space().vector() }
+        Self {
+            matrix,
+            solution: space.vector(),
+            sums: space.vector(),
+            scales,
+            residuals,
+            weights: system.space().vector(),
+        }
     }
 
     /// Takes the units that belong to another point.

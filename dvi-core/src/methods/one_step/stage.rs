@@ -160,8 +160,12 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         let Self { unknown, momentum, gradient, one_form, point, velocity, correction, weights, .. } = self;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
         let work = [point, velocity, gradient, one_form];
-        let residual =
-            linear::residual(&mut Equations { step, unknown, momentum, work }, size, |i| momentum[i], [correction, weights]);
+        let residual = linear::residual(
+            &mut Equations { step, unknown, momentum, work },
+            size,
+            |i| momentum[i],
+            [correction, weights],
+        );
         // What has been evaluated is at the unknowns.
         correction.fill(T::lift(0.0));
         residual
