@@ -91,6 +91,9 @@ pub(crate) enum Verdict {
 /// Corrections that are this small against the coordinates and do not shrink are rounding errors, as a rule.
 const SMALL: f64 = 1e-7;
 
+/// The square of this is the rounding of double precision.
+const SETTLED: f64 = 1e-8;
+
 /// A correction beyond this says that sizes have not been what they are.
 const LARGE: f64 = 0.5;
 
@@ -272,11 +275,17 @@ impl<T: Real> Convergence<T> {
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
         }
-        // An error that is predicted to be below rounding adds up all the same.
+        // What is left over has the same sign in every step, and is to be a small part of what is asked for.
         if is_below_rounding::<T>(stopping) {
-            (new.tolerance, new.stalling) = (T::lift(0.0), T::lift(0.0));
+            (new.tolerance, new.stalling) = (new.tolerance * T::lift(1.0 / 16.0), T::lift(0.0));
         }
         new
+    }
+
+    /// Whether Newton's method, which squares an error, has corrections that are too small to be anything but rounding errors where they do
+    /// not shrink.
+    fn is_settled(&self) -> bool {
+        !self.is_fixed_point && matches!(self.trial, Trial::None) && self.correction <= T::lift(SETTLED)
     }
 
     /// Decides where corrections no longer shrink as they should, the last one from `before`.
@@ -312,6 +321,9 @@ impl<T: Real> Convergence<T> {
         self.in_vain += usize::from(self.correction >= self.least && self.correction >= before);
         let is_noise = self.in_vain > 1 && self.correction <= T::lift(SMALL);
         let is_in_vain = self.in_vain > MOST_IN_VAIN;
+        if self.is_settled() && self.in_vain > 0 {
+            return (self, Some(Verdict::Accept));
+        }
         match self.trial {
             Trial::Asked => return (self, Some(Verdict::GiveUp)),
             Trial::Loose => return (self, is_in_vain.then_some(Verdict::GiveUp)),
@@ -356,7 +368,13 @@ impl<T: Real> Judge<T> for Convergence<T> {
                 return verdict;
             }
         }
-        if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
+        if self.iterations < self.last {
+            Verdict::Continue
+        } else if self.is_settled() {
+            Verdict::Accept
+        } else {
+            Verdict::GiveUp
+        }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
