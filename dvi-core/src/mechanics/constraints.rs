@@ -20,7 +20,7 @@ use crate::discrete::Span;
 use crate::error::StepFailure;
 use crate::mechanics::legendre;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate, sizes};
+use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
 use crate::space::sink::{Places, TransposedProduct};
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
@@ -215,6 +215,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             let convergence = Convergence::new(stopping, stopping.max_iterations);
             iterate(convergence, &mut Statistics::default(), |due, _| {
                 due.prepare_alone(&mut self.weights, v);
+                if *due == Due::Residual {
+                    return self.residual_of_tangent(system, at, Tangent { p, v, impulse, work });
+                }
                 self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
                 let (change, _) = self.parts(v.len());
                 Ok(sizes::largest(&self.weights, change))
@@ -242,6 +245,23 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             }
             self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
         }
+    }
+
+    /// The residual of the iterate, relative to what it is made of.
+    #[cold]
+    fn residual_of_tangent(
+        &mut self,
+        system: &S,
+        at: At<'_, T>,
+        Tangent { p, v, impulse, work }: Tangent<'_, T>,
+    ) -> Result<T, StepFailure> {
+        let (p, v, n) = (&*p, &*v, v.len());
+        let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
+        let (multipliers, active) = (&*impulse, impulse.len());
+        let lower = OfVelocity { system, at, v };
+        let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
+        let size = |j: usize| if j < n { v[j] } else { multipliers[j - n] };
+        self.residual(equations, size, |i| if i < n { p[i] } else { T::lift(0.0) })
     }
 
     /// One iteration.

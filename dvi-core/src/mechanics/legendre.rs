@@ -6,8 +6,8 @@
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate, sizes};
-use crate::space::{LinearEquations, LinearSolver, Sink, Storing};
+use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
+use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
 
@@ -63,6 +63,12 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, &mut Statistics::default(), |due, _| {
             due.prepare_alone(&mut self.weights, v);
+            if *due == Due::Residual {
+                let Self { correction, l_q, weights, .. } = self;
+                let (points, sums) = ([q, &*v, p], [&mut correction[..], &mut weights[..]]);
+                let equations = &mut Equations { system, points, t, l_q };
+                return linear::residual(equations, |j| v[j], |i| p[i], sums);
+            }
             self.improve(system, q, p, t, v)?;
             Ok(sizes::largest(&self.weights, &self.correction))
         })?;

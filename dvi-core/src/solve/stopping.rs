@@ -91,9 +91,8 @@ pub(crate) enum Verdict {
 /// Corrections that are this small against the coordinates and do not shrink are rounding errors, as a rule.
 const SMALL: f64 = 1e-7;
 
-/// Newton's method gains nothing where corrections this small no longer shrink. Where a formula jumps they may be small too, but hardly
-/// as small: dry friction at rest, h = 1e-6, leaves 2.5e-12.
-const SETTLED: f64 = 1e-12;
+/// Newton's method gains nothing in an iteration that leaves more than this part of the correction; at a double root it halves them.
+const GAIN: f64 = 0.75;
 
 /// A correction beyond this says that sizes have not been what they are.
 const LARGE: f64 = 0.5;
@@ -283,12 +282,6 @@ impl<T: Real> Convergence<T> {
         new
     }
 
-    /// Whether Newton's method, which squares an error, has corrections that are too small to be anything but rounding errors where they do
-    /// not shrink.
-    fn is_settled(&self) -> bool {
-        !self.is_fixed_point && matches!(self.trial, Trial::None) && self.correction <= T::lift(SETTLED)
-    }
-
     /// Decides where corrections no longer shrink as they should, the last one from `before`.
     #[inline]
     fn hesitate(&mut self, before: T) -> Option<Verdict> {
@@ -315,16 +308,14 @@ impl<T: Real> Convergence<T> {
             (self.due, self.correction) = (Due::Response, T::lift(f64::INFINITY));
             return (self, None);
         }
-        if before < self.least {
+        let gain = T::lift(if self.is_fixed_point { 1.0 } else { GAIN });
+        if before < gain * self.least {
             (self.least, self.in_vain) = (before, 0);
         }
         // A correction that is not a number is counted by the budget alone.
-        self.in_vain += usize::from(self.correction >= self.least && self.correction >= before);
+        self.in_vain += usize::from(self.correction >= gain * self.least && self.correction >= gain * before);
         let is_noise = self.in_vain > 1 && self.correction <= T::lift(SMALL);
         let is_in_vain = self.in_vain > MOST_IN_VAIN;
-        if self.is_settled() && self.in_vain > 0 {
-            return (self, Some(Verdict::Accept));
-        }
         match self.trial {
             Trial::Asked => return (self, Some(Verdict::GiveUp)),
             Trial::Loose => return (self, is_in_vain.then_some(Verdict::GiveUp)),
@@ -369,13 +360,7 @@ impl<T: Real> Judge<T> for Convergence<T> {
                 return verdict;
             }
         }
-        if self.iterations < self.last {
-            Verdict::Continue
-        } else if self.is_settled() {
-            Verdict::Accept
-        } else {
-            Verdict::GiveUp
-        }
+        if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

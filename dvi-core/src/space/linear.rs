@@ -51,14 +51,25 @@ pub(crate) fn residual<T: Real>(
 ) -> Result<T, StepFailure> {
     sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(given(i)));
     equations.evaluate(b, &mut Places(|i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j))))?;
-    relative(b, sums)
+    relative(rows(b, sums))
 }
 
-/// The largest of the quotients of |b| and the sums.
-fn relative<T: Real>(b: &[T], sums: &[T]) -> Result<T, StepFailure> {
-    norm::finite(b)?;
-    let quotients = b.iter().zip(sums).filter(|(b, _)| **b != T::lift(0.0));
-    Ok(quotients.fold(T::lift(0.0), |largest, (&b, &sum)| norm::larger(largest, Scalar::abs(b) / sum)))
+fn rows<T: Real>(b: &[T], sums: &[T]) -> impl Iterator<Item = (T, T)> {
+    b.iter().copied().zip(sums.iter().copied())
+}
+
+/// The largest residual, of those of rows and what each is made of; one that is not a number is an error.
+pub(crate) fn relative<T: Real>(rows: impl Iterator<Item = (T, T)>) -> Result<T, StepFailure> {
+    let mut largest = T::lift(0.0);
+    for (coordinate, (b, sum)) in rows.enumerate() {
+        if !b.is_finite() {
+            return Err(StepFailure::NotFinite { coordinate, value: norm::reported(b) });
+        }
+        if b != T::lift(0.0) {
+            largest = norm::larger(largest, Scalar::abs(b) / sum);
+        }
+    }
+    Ok(largest)
 }
 
 /// The same of equations for several vectors, whose residuals are in `vectors`, but the first.
@@ -97,7 +108,7 @@ pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T
                 matrix.momentum_by_position(&mut Places(|i, j, entry| add(i, j, vq * entry)));
             }
         }
-        largest = norm::larger(largest, relative(vector, &sums.into_inner()[..])?);
+        largest = norm::larger(largest, relative(rows(vector, sums.into_inner()))?);
     }
     Ok(largest)
 }

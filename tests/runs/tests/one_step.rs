@@ -99,8 +99,7 @@ fn no_step_changes_the_branch() -> Outcome {
 /// The two-step midpoint has the same rounding, and its run lasts as long as without the constant.
 #[test]
 fn rounding_of_momenta_ends_no_run_of_the_two_step_midpoint() -> Outcome {
-    // At c = 1e6 rounding errors of momenta are 1e-11 of the coordinates, and the failure says so.
-    for c in [0.0, 10.0, 100.0, 1000.0] {
+    for c in [0.0, 10.0, 100.0, 1000.0, 1e6] {
         let start: ShiftedState = ShiftedState { x: 0.3, y: 0.4 };
         let system = Shifted { c };
         let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
@@ -122,10 +121,9 @@ struct Shifted {
 #[test]
 fn rounding_of_momenta_ends_no_run() -> Outcome {
     fn check<M: Method<Shifted, f64> + Method<OneSided, f64> + Copy>(method: M) -> Outcome {
-        // Beyond, rounding errors of momenta are more than 1e-12 of the coordinates, and the failure says so.
-        for (c, sizes) in [(1.0, &[1.0, 1e-3][..]), (10.0, &[1.0, 1e-3]), (100.0, &[1.0])] {
+        for c in [1.0, 10.0, 1e3, 1e6] {
             let system = Shifted { c };
-            for &size in sizes {
+            for size in [1.0, 1e-3] {
                 let start: ShiftedState = ShiftedState { x: 0.3 * size, y: 0.4 * size };
                 let mut run = Integrator::new(&system, method, 0.1, start)?;
                 run.take_steps(2000).map_err(|error| format!("c = {c}, size {size}: {error}"))?;

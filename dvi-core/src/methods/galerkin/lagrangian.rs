@@ -16,13 +16,13 @@ use crate::mechanics::pattern::linear_of_all;
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Stopping, iterate, sizes};
-use crate::space::linear::blocks;
+use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
+use crate::space::linear::{self, blocks};
 use crate::space::lines;
 use crate::space::sink::{Sink, Transposed};
 use crate::state::Statistics;
 use crate::state::memory::Aside;
-use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector, Weights};
+use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.
 #[derive(Debug)]
@@ -154,6 +154,9 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             self.linearize(storage);
             statistics.linearizations += 1;
             statistics.factorisations += 1;
+            if *due == Due::Residual {
+                return Self::residual(storage, q0);
+            }
             let Storage { displacements, residuals, weights, blocks, permutation, .. } = &mut *storage;
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
             blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)?;
@@ -164,6 +167,28 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             }
             Ok(correction)
         })
+    }
+
+    /// The residuals of the displacements, relative in each row to Σ |A| times the sizes of what it is multiplied by (Oettli & Prager
+    /// 1964).
+    #[cold]
+    fn residual(storage: &Storage<NODES, S, T>, q0: &[T]) -> Result<T, StepFailure> {
+        let Storage { displacements, residuals, blocks, .. } = storage;
+        let mut largest = T::lift(0.0);
+        for (row, residual) in blocks.iter().zip(residuals).take(Self::INTERIOR) {
+            let of = |i: usize| {
+                let mut sum = T::lift(0.0);
+                for (block, displacement) in row.iter().zip(displacements).take(Self::INTERIOR) {
+                    for ((column, &q), &x) in lines(block, q0.len()).zip(q0).zip(displacement.iter()) {
+                        sum += Scalar::abs(column[i]) * (Scalar::abs(q) + Scalar::abs(x));
+                    }
+                }
+                sum
+            };
+            let rows = residual.iter().enumerate().map(|(i, &residual)| (residual, of(i)));
+            largest = norm::larger(largest, linear::relative(rows)?);
+        }
+        Ok(largest)
     }
 
     /// Leaves the second derivatives of L_d in the blocks of q0 and q1.

@@ -4,7 +4,7 @@ use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
 use crate::space::sink::Places;
-use crate::space::{elimination, scratch};
+use crate::space::{elimination, linear, scratch};
 use crate::state::Statistics;
 use crate::{Matrix, ProperlyDegenerate, Real, Scalar, Space, System, Vector};
 
@@ -126,6 +126,23 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     }
 }
 
+impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
+    /// The residual ϑ − p, which is in `form`, relative to |pᵢ| + Σⱼ |∂ϑᵢ/∂yⱼ yⱼ| (Oettli & Prager 1964).
+    #[cold]
+    fn residual(&mut self, system: &S, q: &[T], t: T, p: &[T]) -> Result<T, StepFailure> {
+        let sums = &mut self.change;
+        sums.iter_mut().zip(p).for_each(|(sum, &p)| *sum = Scalar::abs(p));
+        let mut sink = Places(|row: usize, column: usize, entry: T| {
+            if !is_x(system, column) {
+                sums[row] += Scalar::abs(entry * q[column]);
+            }
+        });
+        system.one_form_jacobian(q, t, T::lift(1.0), T::lift(0.0), &mut sink);
+        let rows = self.form.iter().copied().zip(self.change.iter().copied()).enumerate();
+        linear::relative(rows.filter(|&(i, _)| is_x(system, i)).map(|(_, row)| row))
+    }
+}
+
 /// Newton's method for y.
 struct Newton<'a, S: System, T: Real> {
     split: &'a mut Split<S, T>,
@@ -142,11 +159,14 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { split, system, q, t, p } = self;
         system.one_form(q, *t, &mut split.form);
         for (form, &p) in split.form.iter_mut().zip(p.iter()) {
             *form -= p;
+        }
+        if *due == Due::Residual {
+            return split.residual(system, q, *t, p);
         }
         split.solve_once(system, q, *t, statistics)?;
         let (half, mut size) = (q.len() / 2, T::lift(0.0));

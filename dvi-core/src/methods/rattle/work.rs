@@ -1,5 +1,7 @@
 //! One step of RATTLE, and the storage that it needs.
 
+use core::ops::Deref;
+
 use super::rows::{NEUTRAL, admit, combine, dot, fill, least, named, reduce, solve};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::Multipliers;
@@ -8,11 +10,11 @@ use crate::mechanics::mass::Mass;
 use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Iteration, Quick, Stopping, repeat, sizes};
-use crate::space::SquareMatrix;
 use crate::space::sink::Places;
+use crate::space::{SquareMatrix, linear};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
-use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
+use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Scalar, Separable, Space, Vector};
 
 /// A vector of coordinates for each constraint.
 type Rows<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Array<Vector<S, T>>;
@@ -274,10 +276,13 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, _due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Step { system, here, t, h, .. } = *self.step;
         let Work { q, place: Place { rows, .. }, impulses, vector, weights, values, gram } = &mut *self.work;
         constrain(system, q, t + h, values, rows);
+        if *due == Due::Residual {
+            return residual(self.step.q, q, values, rows.iter());
+        }
         if self.step.trusts_pivot() {
             let pivot = dot(&rows[0], &here.solved[0]);
             let is_small = pivot > T::lift(0.5) * here.squares[0];
@@ -293,6 +298,21 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
         combine(&here.solved, values, vector);
         Ok(sizes::reduce(weights, q, vector))
     }
+}
+
+/// How far q1 is off the constraints, g in `values`, relative to Σⱼ |Gⱼ| (|qⱼ| + |Δⱼ|) for each of them (Oettli & Prager 1964).
+#[cold]
+fn residual<'a, T: Real, V: Deref<Target = [T]> + 'a>(
+    q: &[T],
+    q1: &[T],
+    values: &[T],
+    rows: impl Iterator<Item = &'a V>,
+) -> Result<T, StepFailure> {
+    let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(q1[j] - q[j]);
+    let sum = |row: &[T]| {
+        row.iter().enumerate().fold(T::lift(0.0), |sum, (j, &entry)| sum + Scalar::abs(entry) * size(j))
+    };
+    linear::relative(values.iter().copied().zip(rows.map(|row| sum(row))))
 }
 
 /// Sets `g` and the rows of G at (`q`, `t`).
