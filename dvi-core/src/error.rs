@@ -62,8 +62,8 @@ pub struct Argument {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StartError {
-    /// The step is zero, infinite or not a number; or it is so short that the time stays what it is or that 1/h may be infinite, or so
-    /// long that the time of some later step may be.
+    /// The step is zero, infinite or not a number; or it is so short that the time stays what it is or that
+    /// 1/h may be infinite, or so long that the time of some later step may be.
     #[error(
         "the step h = {h:e} must move the time, by no less than the smallest number that has all digits, and lead to finite times"
     )]
@@ -111,7 +111,8 @@ pub enum StartError {
         /// Its value.
         value: f64,
     },
-    /// The mass matrix, or Ω = −dα, says nothing of a coordinate: its row is zero, so that the motion is not determined.
+    /// The mass matrix, or Ω = −dα, says nothing of a coordinate: its row is zero, so that the motion is not
+    /// determined.
     #[error(
         "{matrix} is singular at the initial state: its row for `{entry}` has the size {size:e}, so that nothing determines the motion \
          of this coordinate"

@@ -13,9 +13,8 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 
 pub(crate) use sizes::Due;
-pub(crate) use stopping::Judge;
 pub use stopping::Stopping;
-pub(crate) use stopping::{Convergence, Convergences, Quick, Verdict};
+pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};
 
 /// The iteration that solves an implicit step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -87,12 +86,13 @@ const STEPS_BEFORE_RETRY: u32 = 32;
 
 /// What is iterated.
 pub(crate) trait Iteration<T> {
-    /// Does what is due, in a loop of its own: what an improvement reads and does not change can stay in registers then. What is left to
-    /// do is left to [`improve`](Self::improve).
+    /// Does what is due, in a loop of its own: what an improvement reads and does not change can stay in
+    /// registers then. What is left to do is left to [`improve`](Self::improve).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, _due: &mut Due) {}
 
-    /// Applies a correction and returns the largest of its sizes in the units of the coordinates, after it has done what is `due`.
+    /// Applies a correction and returns the largest of its sizes in the units of the coordinates, after it
+    /// has done what is `due`.
     ///
     /// # Errors
     /// Any [`StepFailure`] ends the iteration.
@@ -135,28 +135,28 @@ pub(crate) fn repeat<T: Real>(
 ) -> Result<(), StepFailure> {
     // The second is how many improvements there were beside the iterations.
     let (result, more) = 'iterated: loop {
-        iteration.prepare(convergence.due());
+        iteration.prepare(&mut convergence.course().due);
         loop {
-            let correction = match iteration.improve(convergence.due(), statistics) {
+            let correction = match iteration.improve(&mut convergence.course().due, statistics) {
                 Ok(correction) => correction,
                 Err(failure) => break 'iterated (Err(failure), 1),
             };
             match convergence.judge(correction) {
-                Verdict::Continue if *convergence.due() == Due::Nothing => {}
+                Verdict::Continue if convergence.course().due == Due::Nothing => {}
                 Verdict::Continue => break,
                 // Comparisons have not seen the derivatives that numbers may carry.
                 Verdict::Accept if carries_derivatives::<T>() => {
-                    let more = convergence.more();
-                    let due = convergence.due();
+                    let Course { due, more, .. } = convergence.course();
+                    let more = *more;
                     let mut improve = |_| iteration.improve(due, statistics).map(drop);
                     break 'iterated ((0..more).try_for_each(&mut improve), more as u64);
                 }
                 Verdict::Accept => break 'iterated (Ok(()), 0),
-                Verdict::GiveUp => break 'iterated (Err(convergence.failure()), 0),
+                Verdict::GiveUp => break 'iterated (Err(convergence.course().failure()), 0),
             }
         }
     };
-    let iterations = convergence.iterations() as u64;
+    let iterations = convergence.course().iterations as u64;
     statistics.iterations += iterations;
     iteration.count(iterations + more, statistics);
     result

@@ -2,12 +2,12 @@
 //!
 //! A [`Space`] says how many coordinates there are and how a point, and a matrix over points, are
 //! stored. Everything else in this crate sees flat slices, so that one body of code serves both: with
-//! [`Fixed`] every length is a constant, and what is small lives on the stack; with [`RunTime`], and with what is large, each
-//! array is allocated once, before the first step.
+//! [`Fixed`] every length is a constant, and what is small lives on the stack; with [`RunTime`], and with
+//! what is large, each array is allocated once, before the first step.
 //!
 //! A fixed space is `BLOCKS` blocks of `N` coordinates, `SINGLES` of which have one coordinate only. Stable Rust can write
-//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so that is the storage in a value, and the
-//! entries beyond the dimension are never seen.
+//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so that is the
+//! storage in a value, and the entries beyond the dimension are never seen.
 
 pub(crate) mod elimination;
 pub(crate) mod inertia;
@@ -92,7 +92,8 @@ pub trait Space: Copy + Debug + PartialEq {
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Linear<T>;
-    /// A solver of linear equations for the last `unknown` of `NODES` vectors, coupled by blocks with these entries.
+    /// A solver of linear equations for the last `unknown` of `NODES` vectors, coupled by blocks with these
+    /// entries.
     fn coupled<const NODES: usize, T: Real>(
         self,
         unknown: usize,
@@ -137,9 +138,10 @@ pub(crate) use scratch;
 /// A space of `BLOCKS` blocks of `N` coordinates, of which `SINGLES` have one coordinate only:
 /// (`BLOCKS` − `SINGLES`) `N` + `SINGLES` coordinates. [`Room`] says where vectors and matrices are kept.
 ///
-/// Of systems with attributes, those of up to twelve coordinates are on the stack where sizes are literals, and those of up to eight
-/// where one is a const generic. All others are on the heap. Without the feature `alloc` there is none: all are on the stack, more than 64
-/// coordinates do not compile, and neither does, beside single coordinates, an `N` of zero.
+/// Of systems with attributes, those of up to twelve coordinates are on the stack where sizes are literals,
+/// and those of up to eight where one is a const generic. All others are on the heap. Without the feature
+/// `alloc` there is none: all are on the stack, more than 64 coordinates do not compile, and neither does,
+/// beside single coordinates, an `N` of zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fixed<const BLOCKS: usize, const N: usize, const SINGLES: usize = 0, R = InPlace>(PhantomData<R>);
 

@@ -51,14 +51,15 @@ impl Errors {
     }
 }
 
-/// `compile_error! { "…" }` where the errors are. In a crate of the edition 2015 `::core` in front of it would be a module of that crate.
+/// `compile_error! { "…" }` where the errors are. In a crate of the edition 2015 `::core` in front of it
+/// would be a module of that crate.
 fn compile_error(errors: syn::Error) -> TokenStream {
     let is_path = |token: &TokenTree| !matches!(token, TokenTree::Ident(name) if name == "compile_error");
     errors.into_iter().flat_map(|error| error.into_compile_error().into_iter().skip_while(is_path)).collect()
 }
 
-/// The nearest of the declared names, if one is a slip of the pen away: one letter more, less, other, or in the place of its neighbour;
-/// two in a long name. Of a short name one letter is too much of it.
+/// The nearest of the declared names, if one is a slip of the pen away: one letter more, less, other, or in
+/// the place of its neighbour; two in a long name. Of a short name one letter is too much of it.
 pub(crate) fn nearest<'a>(name: &str, declared: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = match name.chars().count() {
         0..=1 => 0,

@@ -390,8 +390,8 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
     in_numbers(emitter, &quote!(Lagrangian), &items)
 }
 
-/// Generated code answers to no style lint: its names are those of the user's struct, with more behind them, and its paths are written as
-/// formulas need them.
+/// Generated code answers to no style lint: its names are those of the user's struct, with more behind them,
+/// and its paths are written as formulas need them.
 pub(crate) fn allow() -> TokenStream {
     quote! {
         #[allow(

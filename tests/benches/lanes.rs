@@ -92,7 +92,8 @@ fn stages(criterion: &mut Criterion) {
         )*};
     }
     gauss!(4 8);
-    // Arenstorf's start. L has terms linear in v, and the other form of the same motion has none to solve for.
+    // Arenstorf's start. L has terms linear in v, and the other form of the same motion has none to solve
+    // for.
     let (mu, x, dot_y, method, h) =
         (0.012_277_471, 0.994, -2.001_585_106_379_082_5, Gauss::<8>::new(), 2.5e-4);
     let by_velocity =

@@ -76,8 +76,8 @@ fn baselines_have_their_orders_on_regular_systems() -> Outcome {
     Ok(())
 }
 
-/// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y: the motion is that
-/// without it, and p = M v + ∂F/∂q.
+/// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y:
+/// the motion is that without it, and p = M v + ∂F/∂q.
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2) - x * x - y * y) / 2.0 + 0.3 * (dot(x) * dot(y) - x * y)

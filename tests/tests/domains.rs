@@ -1,4 +1,5 @@
-//! Where a run stands, the energy is a number: steps whose ends lie outside of the domain of a formula are taken back.
+//! Where a run stands, the energy is a number: steps whose ends lie outside of the domain of a formula are
+//! taken back.
 
 use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
@@ -9,7 +10,8 @@ use dvi_tests::zoo::regular::Kepler;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
-/// A fall into the end of the domain at x = 0, where the force is finite beyond it: 1/x is known where ln x is not.
+/// A fall into the end of the domain at x = 0, where the force is finite beyond it: 1/x is known where ln x
+/// is not.
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.ln())]
 #[derive(Clone, PartialEq)]
 struct Falling;
@@ -30,7 +32,8 @@ struct Root;
 /// A start for each number.
 type StartOf<S> = fn(f64) -> <S as System>::State<f64>;
 
-/// From 40 starts, whose last steps end at all distances beyond x = 0; returns how many needed nothing of that end.
+/// From 40 starts, whose last steps end at all distances beyond x = 0; returns how many needed nothing of
+/// that end.
 fn keeps_to_the_domain<S: Lagrangian, M: Method<S, f64>>(
     name: &str,
     (system, start): (&S, StartOf<S>),

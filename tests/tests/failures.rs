@@ -33,7 +33,8 @@ fn a_step_that_is_too_short_or_too_long_is_refused() -> Outcome {
         method: impl Fn() -> M,
         start: S::State<f64>,
     ) -> Outcome {
-        // 1/h overflows for the first three; so does the time, for the others: in a step that is among the first 2⁶³.
+        // 1/h overflows for the first three; so does the time, for the others: in a step that is among the
+        // first 2⁶³.
         for h in [5e-324, 1e-310, -2e-308, 2e289, 1e300, f64::MAX, -f64::MAX] {
             let found = Integrator::new(system, method(), h, start.clone()).err();
             assert_eq!(found, Some(StartError::Step { h }));
@@ -121,7 +122,8 @@ fn what_has_no_mass_or_no_circulation_is_refused_by_its_name() {
     assert_eq!(message.as_deref(), Some(expected));
 }
 
-/// At rest, where the spring pulls less than friction holds, no velocity has the sign that its friction asks for.
+/// At rest, where the spring pulls less than friction holds, no velocity has the sign that its friction asks
+/// for.
 #[test]
 fn dry_friction_at_rest_is_not_told_that_a_smaller_step_helps() -> Outcome {
     #[lagrangian(

@@ -8,8 +8,8 @@ use num_dual::{Dual2_64, Dual64};
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
-/// By what angle a step turns the oscillator of frequency ω, z = ωh: that of the diagonal Padé approximant N(iz)/N(−iz) of e^(iz)
-/// (Hairer & Wanner 1996, theorem IV.3.12).
+/// By what angle a step turns the oscillator of frequency ω, z = ωh: that of the diagonal Padé approximant
+/// N(iz)/N(−iz) of e^(iz) (Hairer & Wanner 1996, theorem IV.3.12).
 fn angle(stages: usize, z: f64) -> f64 {
     let (mut term, mut numerator) = (1.0, [0.0; 2]);
     for k in 0..=stages {
@@ -120,8 +120,8 @@ struct LongChain {
     k: f64,
 }
 
-/// Where the masses are after steps of so many stages, by modes: sin(π(l + 1)(j + 1)/(n + 1)) has the frequency
-/// 2√k sin(π(l + 1)/(2(n + 1))).
+/// Where the masses are after steps of so many stages, by modes: sin(π(l + 1)(j + 1)/(n + 1)) has the
+/// frequency 2√k sin(π(l + 1)/(2(n + 1))).
 fn by_modes(stages: usize, k: f64, h: f64, steps: u64, start: &[f64]) -> Vec<f64> {
     let n = start.len();
     let wave =

@@ -65,8 +65,8 @@ fn largest_error<R: Run<System = Planar, Scalar = f64>>(
 
 const PLANAR: PlanarState = PlanarState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
 
-/// Some of these steps are longer than half a period: what crosses twice in one step is seen. Steps of several periods, which a
-/// tolerance of 1e-3 allows, cross more often than that.
+/// Some of these steps are longer than half a period: what crosses twice in one step is seen. Steps of
+/// several periods, which a tolerance of 1e-3 allows, cross more often than that.
 #[test]
 fn crossings_of_long_steps_are_as_accurate_as_the_run() -> Outcome {
     let method = Gauss::<8>::new();

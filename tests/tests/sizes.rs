@@ -1,4 +1,5 @@
-//! Sizes that are const generics, from none to a thousand: what is right at each of them, on the stack of a small thread.
+//! Sizes that are const generics, from none to a thousand: what is right at each of them, on the stack of a
+//! small thread.
 
 use std::error::Error;
 use std::thread;
@@ -81,7 +82,8 @@ fn oscillation(steps: u64) -> f64 {
     START[0] * cos + START[1] * sin
 }
 
-/// No coordinates stay none, and one moves as the closed form says, whether the size is a const generic or a field.
+/// No coordinates stay none, and one moves as the closed form says, whether the size is a const generic or a
+/// field.
 macro_rules! none_and_one {
     ($fixed:ident, $long:ident, $state:ident, $long_state:ident { $q:ident, $v:ident }, $exact:expr, $($method:expr),+ $(,)?) => {$({
         let name = concat!(stringify!($fixed), ", ", stringify!($method));

@@ -1,15 +1,22 @@
-//! Units do not matter: where the unit of each coordinate and that of time change by powers of two, every method takes the same steps,
-//! scaled: bit for bit by the fixed point, up to 2^±80; and to rounding errors by Newton's method, whose pivots are compared as numbers,
-//! up to 2^±13.
+//! Units do not matter: where the unit of each coordinate and that of time change by powers of two, every
+//! method takes the same steps, scaled: bit for bit by the fixed point, up to 2^±80; and to rounding errors
+//! by Newton's method, whose pivots are compared as numbers, up to 2^±13.
 //!
-//! Each system is written in physical coordinates X = u x, with numbers x in units u, and in a time t τ. What a run computes of X is
-//! exact in u and τ where these are powers of two; so any difference is a decision that a method has taken in numbers and not in sizes.
+//! Each system is written in physical coordinates X = u x, with numbers x in units u, and in a time t τ.
+//! What a run computes of X is exact in u and τ where these are powers of two; so any difference is a
+//! decision that a method has taken in numbers and not in sizes.
+
+mod systems;
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
 
 use Agreement::{Bits, Rounding};
+use systems::{
+    Amplitudes, Blade, Centre, Chain, Charge, CoupledMasses, DoublePendulum, Kepler, Oscillator, Pendulum,
+    Predators, Vortices,
+};
 
 /// Exponents of the units of coordinates, and of time.
 type Exponents<const N: usize> = ([i32; N], i32);
@@ -96,259 +103,6 @@ fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone>(
 
 const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov];
 
-#[degenerate_lagrangian(
-    coordinates(x, p),
-    one_form = u[1] * p * u[0] * d(x) / tau,
-    hamiltonian = (u[1] * p).powi(2) / 2.0 + (u[0] * x).powi(2) / 2.0 + (u[0] * x).powi(4) / 8.0,
-)]
-struct Oscillator {
-    u: [f64; 2],
-    tau: f64,
-}
-
-impl InUnits<2> for Oscillator {
-    const H: f64 = 0.1;
-    fn system(u: [f64; 2], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.0]
-    }
-}
-
-#[degenerate_lagrangian(
-    coordinates(x[3], y[3]),
-    one_form = sum(0..3, |j| (u[j] * x[j] * w[j] * d(y[j]) - w[j] * y[j] * u[j] * d(x[j])) / 2.0) / tau,
-    hamiltonian = sum_pairs(0..3, |j, k| ((u[j] * x[j] - u[k] * x[k]).powi(2) + (w[j] * y[j] - w[k] * y[k]).powi(2)).ln()) / (4.0 * PI),
-)]
-struct Vortices {
-    u: [f64; 3],
-    w: [f64; 3],
-    tau: f64,
-}
-
-impl InUnits<6> for Vortices {
-    const H: f64 = 0.1;
-    fn system(u: [f64; 6], tau: f64) -> Self {
-        Self { u: [u[0], u[1], u[2]], w: [u[3], u[4], u[5]], tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, -0.4, -0.7, 0.2, 0.9, -0.8]
-    }
-}
-
-/// Predators y and their prey x.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = (u[1] * y).ln() / (u[0] * x) * u[0] * d(x) / tau,
-    hamiltonian = u[0] * x + u[1] * y - (u[0] * x).ln() - 2.0 * (u[1] * y).ln(),
-)]
-struct Predators {
-    u: [f64; 2],
-    tau: f64,
-}
-
-impl InUnits<2> for Predators {
-    const H: f64 = 0.1;
-    fn system(u: [f64; 2], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 1.0]
-    }
-}
-
-/// The centre of the gyration of a charge: Ω couples three coordinates.
-#[degenerate_lagrangian(
-    coordinates(x, y, z, v),
-    one_form = ((1.0 + (u[0] * x).powi(2) / 10.0) * (u[0] * x * u[1] * d(y) - u[1] * y * u[0] * d(x)) / 2.0
-        + u[3] * v * u[2] * d(z)) / tau,
-    hamiltonian = (u[3] * v).powi(2) / 2.0 + 0.3 * (u[0] * x + (u[1] * y).powi(2)) + (u[2] * z).powi(2) * (1.0 + (u[0] * x).powi(2)),
-)]
-struct Centre {
-    u: [f64; 4],
-    tau: f64,
-}
-
-impl InUnits<4> for Centre {
-    const H: f64 = 0.1;
-    fn system(u: [f64; 4], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.3, 0.5, 0.8]
-    }
-}
-
-/// Coupled amplitudes, of a size that is known at run time only.
-#[degenerate_lagrangian(
-    coordinates(x[u.len()], p[u.len()]),
-    one_form = sum(0..u.len(), |j| w[j] * p[j] * u[j] * d(x[j])) / tau,
-    hamiltonian = sum(0..u.len(), |j| ((w[j] * p[j]).powi(2) + (u[j] * x[j]).powi(2)).powi(2) / 4.0)
-        + sum(1..u.len(), |j| u[j] * x[j] * u[j - 1] * x[j - 1] + w[j] * p[j] * w[j - 1] * p[j - 1]),
-)]
-struct Amplitudes {
-    u: Vec<f64>,
-    w: Vec<f64>,
-    tau: f64,
-}
-
-impl InUnits<8> for Amplitudes {
-    const H: f64 = 0.05;
-    fn system(u: [f64; 8], tau: f64) -> Self {
-        Self { u: u[..4].to_vec(), w: u[4..].to_vec(), tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1]
-    }
-}
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = ((u[0] * dot(x) / tau).powi(2) + (u[1] * dot(y) / tau).powi(2)) / 2.0
-        + 1.0 / ((u[0] * x).powi(2) + (u[1] * y).powi(2)).sqrt(),
-)]
-struct Kepler {
-    u: [f64; 2],
-    tau: f64,
-}
-
-impl InUnits<2> for Kepler {
-    const H: f64 = 0.05;
-    fn system(u: [f64; 2], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![0.8, 0.0, 0.0, 1.2]
-    }
-}
-
-#[lagrangian(
-    coordinates(a, b),
-    lagrangian = (u[0] * dot(a) / tau).powi(2) + (u[1] * dot(b) / tau).powi(2) / 2.0
-        + u[0] * dot(a) / tau * u[1] * dot(b) / tau * (u[0] * a - u[1] * b).cos()
-        + 2.0 * (u[0] * a).cos() + (u[1] * b).cos(),
-)]
-struct DoublePendulum {
-    u: [f64; 2],
-    tau: f64,
-}
-
-impl InUnits<2> for DoublePendulum {
-    const H: f64 = 0.05;
-    fn system(u: [f64; 2], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.5, 0.1, 0.3]
-    }
-}
-
-/// A charge in a magnetic field, with friction and a drive.
-#[lagrangian(
-    coordinates(x, y, z),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(z)).powi(2)) / tau.powi(2) / 2.0
-        + (u[0] * x * u[1] * dot(y) - u[1] * y * u[0] * dot(x)) / tau - (u[0] * x).powi(2) * (1.0 + (u[2] * z).powi(2)) / 2.0,
-    force(z) = u[2] * ((t * tau).sin() - 0.1 * u[2] * dot(z) / tau),
-)]
-struct Charge {
-    u: [f64; 3],
-    tau: f64,
-}
-
-impl InUnits<3> for Charge {
-    const H: f64 = 0.1;
-    fn system(u: [f64; 3], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5]
-    }
-}
-
-/// A chain of stiff springs, of a size that is known at run time only.
-#[lagrangian(
-    coordinates(x[u.len()]),
-    lagrangian = sum(0..u.len(), |j| (u[j] * dot(x[j]) / tau).powi(2) / 2.0 - (u[j] * x[j]).powi(4) / 4.0)
-        - sum(1..u.len(), |j| 50.0 * (u[j] * x[j] - u[j - 1] * x[j - 1]).powi(2) / 2.0),
-)]
-struct Chain {
-    u: Vec<f64>,
-    tau: f64,
-}
-
-impl InUnits<12> for Chain {
-    const H: f64 = 0.2;
-    fn system(u: [f64; 12], tau: f64) -> Self {
-        Self { u: u.to_vec(), tau }
-    }
-    fn start() -> Vec<f64> {
-        (0..24).map(|j| (1.7 * f64::from(j)).sin()).collect()
-    }
-}
-
-/// A constant mass matrix that couples coordinates.
-#[lagrangian(
-    coordinates(x, y, z),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + 2.0 * (u[2] * dot(z)).powi(2) + u[0] * dot(x) * u[1] * dot(y)
-        + u[1] * dot(y) * u[2] * dot(z)) / tau.powi(2) / 2.0 + (u[0] * x - u[1] * y).cos() - (u[2] * z).powi(2) / 2.0,
-)]
-struct CoupledMasses {
-    u: [f64; 3],
-    tau: f64,
-}
-
-impl InUnits<3> for CoupledMasses {
-    const H: f64 = 0.1;
-    fn system(u: [f64; 3], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.5, 0.1, 0.2, -0.3, 0.5]
-    }
-}
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2)) / tau.powi(2) / 2.0 - u[1] * y,
-    constraint = (u[0] * x).powi(2) + (u[1] * y).powi(2) - 1.0,
-)]
-struct Pendulum {
-    u: [f64; 2],
-    tau: f64,
-}
-
-impl InUnits<2> for Pendulum {
-    const H: f64 = 0.05;
-    fn system(u: [f64; 2], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.0, 0.0, 0.5]
-    }
-}
-
-/// A blade on a plane that is not level.
-#[lagrangian(
-    coordinates(x, y, a),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(a)).powi(2)) / tau.powi(2) / 2.0 + u[0] * x,
-    nonholonomic = u[0] * dot(x) * (u[2] * a).sin() - u[1] * dot(y) * (u[2] * a).cos(),
-)]
-struct Blade {
-    u: [f64; 3],
-    tau: f64,
-}
-
-impl InUnits<3> for Blade {
-    const H: f64 = 0.1;
-    fn system(u: [f64; 3], tau: f64) -> Self {
-        Self { u, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![0.5, 0.2, 0.0, 1.0, 0.0, 0.7]
-    }
-}
-
 #[test]
 fn of_degenerate_systems() {
     for solver in SOLVERS {
@@ -418,7 +172,8 @@ fn of_systems_with_constraints() {
     check::<3, Blade, _>("blade", Rounding, Constrained::new(Variational::midpoint()));
 }
 
-/// A mass on a spring whose rest is far from the origin: where a correction no longer shrinks, its residual is looked at.
+/// A mass on a spring whose rest is far from the origin: where a correction no longer shrinks, its residual
+/// is looked at.
 #[degenerate_lagrangian(
     coordinates(x, p),
     one_form = p * d(x),

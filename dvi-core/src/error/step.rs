@@ -246,8 +246,8 @@ pub enum StepFailure {
         /// Its estimated error, in units of what the tolerance allows.
         error: f64,
     },
-    /// A step control asks for a step that does not advance the time, or leads to none that is finite, or is so short that 1/h may be
-    /// infinite.
+    /// A step control asks for a step that does not advance the time, or leads to none that is finite, or is
+    /// so short that 1/h may be infinite.
     #[error(
         "the step control asks for h = {h:e}, which does not advance the time, leads to none that is finite, or is below the smallest \
          number that has all digits: a collision, or a demand out of reach"
@@ -281,8 +281,9 @@ pub enum StepFailure {
     /// ahead: iterates of a step and their guesses lie beyond it. Where the motion itself stays inside, a smaller step helps.
     #[error("the step leaves a table: {0}")]
     Outside(OutsideError),
-    /// The step ends outside of the domain of a formula of L: the argument of a root, a logarithm or a power is negative there, that of an
-    /// inverse function out of its range, or a function that is called is no number.
+    /// The step ends outside of the domain of a formula of L: the argument of a root, a logarithm or a power
+    /// is negative there, that of an inverse function out of its range, or a function that is called is no
+    /// number.
     #[error(
         "the step ends outside of the domain of a formula, as beyond the zero of what a root or a logarithm is taken of: the motion \
          leads there, or the step is too long"

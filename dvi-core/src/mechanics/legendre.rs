@@ -95,7 +95,8 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         })
     }
 
-    /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began, which leaves its correction.
+    /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began,
+    /// which leaves its correction.
     fn improve(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
         let mut solved = self.solve_once(system, [q, v, p], t);
         for _ in 0..HALVINGS {

@@ -1,7 +1,7 @@
 //! A constant mass matrix, ready to be solved with.
 //!
-//! L = ½ v·M v + a(q, t)·v − V(q, t), p = M v + a(q, t), mostly without a. M is inverted once: by one reciprocal per coordinate if it is diagonal, by
-//! elimination otherwise.
+//! L = ½ v·M v + a(q, t)·v − V(q, t), p = M v + a(q, t), mostly without a. M is inverted once: by one
+//! reciprocal per coordinate if it is diagonal, by elimination otherwise.
 
 use super::pattern::of_entries;
 use crate::error::StepFailure;
@@ -28,7 +28,8 @@ struct Coupled<S: System, T: Real> {
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
-    /// Of a `system` with a constant M, which does not depend on the point (`q`, `t`) at which it is evaluated.
+    /// Of a `system` with a constant M, which does not depend on the point (`q`, `t`) at which it is
+    /// evaluated.
     ///
     /// # Errors
     /// [`StepFailure::Singular`].

@@ -4,8 +4,8 @@
 //!
 //! with c the zeros of the shifted Legendre polynomial (Butcher 1964; Hairer, Lubich & Wanner 2006, section II.1.3), written in
 //! the numbers L so that the step is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2017). The stages are iterated as a
-//! fixed point down to rounding errors, from the collocation polynomial of the last step, continued; where that does not contract,
-//! they are found by Newton's method (the module `newton`).
+//! fixed point down to rounding errors, from the collocation polynomial of the last step, continued; where
+//! that does not contract, they are found by Newton's method (the module `newton`).
 //!
 //! Of q'' = M⁻¹f(q, t) with a constant diagonal M only forces are evaluated in the iteration (the module `second_order`).
 //!
@@ -44,10 +44,11 @@ pub use memory::GaussMemory;
 ///
 /// It is symmetric. On Hamilton's equations of a regular system it preserves dq ∧ dp, and all momenta that are bilinear in q
 /// and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all quadratic momenta. The stages are found
-/// by a fixed point, which contracts if h is small against the fastest time scale only. It begins on the polynomial through the stages of
-/// the last step and, where that does not lead to a step, once more from the slope at the start. Where neither does, Newton's
-/// method solves for the velocities of all stages at once, with the second derivatives of L: `S`² n² numbers stand by for n coordinates.
-/// Where n is known when compiled, and they would take more than 128 kilobytes of the stack, and for a fast sum over pairs,
+/// by a fixed point, which contracts if h is small against the fastest time scale only. It begins on the
+/// polynomial through the stages of the last step and, where that does not lead to a step, once more from
+/// the slope at the start. Where neither does, Newton's method solves for the velocities of all stages at
+/// once, with the second derivatives of L: `S`² n² numbers stand by for n coordinates. Where n is known when
+/// compiled, and they would take more than 128 kilobytes of the stack, and for a fast sum over pairs,
 /// [`Solver::Automatic`] is [`Solver::FixedPoint`].
 ///
 /// Where L = ½ v·M v − V(q, t) with a constant diagonal M, and forces have no velocities in them, the velocities of the stages are
@@ -296,13 +297,13 @@ where
     S: System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
-    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a velocity, in units of the
-    /// coordinates: the momenta follow from the velocities.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
         self.path.prepare(due, self.q, self.h);
     }
 
+    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a
+    /// velocity, in units of the coordinates: the momenta follow from the velocities.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { system, path, t, h, .. } = self;

@@ -18,9 +18,9 @@ use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 /// A run of a method on a system with a fixed step.
 ///
 /// As an iterator it yields the state after each step, for ever, or up to the first failure; after that
-/// it yields `None`, and [`state`](Run::state) is the last good one: no step ends outside of the domain of L, whatever its equations
-/// need of that place ([`StepFailure::LeftDomain`]). [`advance`](Run::advance) takes a
-/// step without building a state. What can be asked of a run are the methods of the trait [`Run`].
+/// it yields `None`, and [`state`](Run::state) is the last good one: no step ends outside of the domain of
+/// L, whatever its equations need of that place ([`StepFailure::LeftDomain`]). [`advance`](Run::advance)
+/// takes a step without building a state. What can be asked of a run are the methods of the trait [`Run`].
 pub struct Integrator<'a, S: System, M: Carries<S, T>, T: Real = f64> {
     pub(super) stepper: Stepper<'a, S, M, T>,
     /// At the start of the run.

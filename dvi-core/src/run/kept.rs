@@ -1,12 +1,14 @@
 //! Steps that are looked at where they end, and taken back where they must not lead.
 //!
-//! A formula may be no number beyond some place, and its derivative still be one, as that of a logarithm is; and a step that ends there
-//! needs nothing of its end, if it is one of the midpoint rule. Of a system with such a formula the domain is looked at where each step
-//! ends. Many steps are kept at once: from where they have begun they are taken again up to the last good one.
+//! A formula may be no number beyond some place, and its derivative still be one, as that of a logarithm is;
+//! and a step that ends there needs nothing of its end, if it is one of the midpoint rule. Of a system with
+//! such a formula the domain is looked at where each step ends. Many steps are kept at once: from where they
+//! have begun they are taken again up to the last good one.
 //!
-//! Of a system whose time is transformed the physical time goes on in each step, and it still does at the end. A motion reaches no
-//! zero of ρ = dt/dτ in a finite τ, so a step that crosses one is an error of its length. A step that ends
-//! where ρ is not positive is taken back, and one in which the physical time runs backwards because ρ was negative in between.
+//! Of a system whose time is transformed the physical time goes on in each step, and it still does at the
+//! end. A motion reaches no zero of ρ = dt/dτ in a finite τ, so a step that crosses one is an error of its
+//! length. A step that ends where ρ is not positive is taken back, and one in which the physical time runs
+//! backwards because ρ was negative in between.
 
 use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, Clock, Method};

@@ -1,8 +1,8 @@
 //! The size of each coordinate in a step, |q| + |Δ|, in which its corrections are judged.
 //!
-//! Sizes go with the units of coordinates, and what is judged in them does not: units do not matter. They are those of
-//! the guess; where a correction is as large as its coordinate, they are taken again. They are kept as weights, one over
-//! the size of each coordinate.
+//! Sizes go with the units of coordinates, and what is judged in them does not: units do not matter. They
+//! are those of the guess; where a correction is as large as its coordinate, they are taken again. They are
+//! kept as weights, one over the size of each coordinate.
 
 use core::ops::DerefMut;
 
@@ -93,7 +93,8 @@ impl Due {
         let _ = *self != Self::Nothing && self.carry_out_in_packs(weights, T::lift(1.0), size, places);
     }
 
-    /// The same of velocities of several stages, in a step of length `h`; weights are those of velocities then. Whether they have been moved.
+    /// The same of velocities of several stages, in a step of length `h`; weights are those of velocities
+    /// then. Whether they have been moved.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare_slopes<const W: usize, T: Real>(
         &mut self,
@@ -106,7 +107,8 @@ impl Due {
         *self != Self::Nothing && self.carry_out_in_packs(weights, h, size, slopes)
     }
 
-    /// Does what is due with an unknown for each coordinate, whose `size` is that of coordinate k where it has a value; whether it moves.
+    /// Does what is due with an unknown for each coordinate, whose `size` is that of coordinate k where it
+    /// has a value; whether it moves.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn carry_out<T: Real>(&mut self, weights: &mut [T], size: impl Fn(usize, T) -> T, x: &mut [T]) -> bool {
         if *self != Self::Sizes {
@@ -142,7 +144,8 @@ impl Due {
         core::mem::replace(self, Self::Nothing) == Self::Shake
     }
 
-    /// The same with unknowns in the lanes of packs, of which the last responds, in units of coordinates over `unit`.
+    /// The same with unknowns in the lanes of packs, of which the last responds, in units of coordinates
+    /// over `unit`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn carry_out_in_packs<const W: usize, T: Real>(
         &mut self,
@@ -190,13 +193,15 @@ impl Due {
     }
 }
 
-/// By how much unknown `k` is moved: up or down by the leading bit of its multiple by the golden ratio (Knuth 1998, section 6.4).
+/// By how much unknown `k` is moved: up or down by the leading bit of its multiple by the golden ratio
+/// (Knuth 1998, section 6.4).
 fn shaken<T: Real>(k: usize, weight: T) -> T {
     let by = T::lift(SHAKE) / weight;
     if (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 63 == 0 { by } else { -by }
 }
 
-/// The size of the largest of several changes, one for each coordinate; one that is not a number does not count.
+/// The size of the largest of several changes, one for each coordinate; one that is not a number does not
+/// count.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest<T: Real>(weights: &[T], changes: &[T]) -> T {
     let sizes = changes.iter().zip(weights);
@@ -212,7 +217,8 @@ pub(crate) fn reduce<T: Real>(weights: &[T], x: &mut [T], change: &[T]) -> T {
     largest(weights, change)
 }
 
-/// Sets the unknown `x` to `new`, and returns the size of the largest change; one that is not a number does not count.
+/// Sets the unknown `x` to `new`, and returns the size of the largest change; one that is not a number does
+/// not count.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn renew<T: Real>(weights: &[T], x: &mut [T], new: &[T]) -> T {
     let one_by_one = |weights: &[T], x: &mut [T], new: &[T]| {

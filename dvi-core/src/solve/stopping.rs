@@ -1,21 +1,22 @@
 //! When an iterate is accepted.
 //!
-//! Each coordinate is judged in its own size |q| + |Δ| (the module `sizes`), so that units of coordinates do not matter: a
-//! correction d is the largest of those of the coordinates, each over its size. An iterate is accepted when d is at most the
-//! tolerance; or when the rate θ = d/d' at which corrections shrink says that the next one, θ d/(1 − θ) with all that
-//! follow, will be (Hairer & Wanner 1996, section IV.8); or when corrections have stopped shrinking and are nothing but
-//! rounding errors.
+//! Each coordinate is judged in its own size |q| + |Δ| (the module `sizes`), so that units of coordinates do
+//! not matter: a correction d is the largest of those of the coordinates, each over its size. An iterate is
+//! accepted when d is at most the tolerance; or when the rate θ = d/d' at which corrections shrink says that
+//! the next one, θ d/(1 − θ) with all that follow, will be (Hairer & Wanner 1996, section IV.8); or when
+//! corrections have stopped shrinking and are nothing but rounding errors.
 //!
 //! What a fixed point leaves over has the same direction in every step, and adds up to a drift however far below the
 //! rounding of one step it is (Hairer, McLachlan & Razakarivony 2008). So a tolerance that asks for less than rounding
 //! is never reached by a fixed point, and its rounding errors are those that no longer shrink at all.
 //! Newton's method squares its error in the iteration that is accepted, and leaves nothing over.
 //!
-//! Where the terms of an equation cancel, rounding errors are larger than their coordinate says: a body at rest between two
-//! springs. What they are is measured where an iterate no longer improves. The unknowns of a fixed point are moved by 2⁻¹⁶ of
-//! their sizes: 2¹⁶ times the response of a coordinate is what its rounding errors are relative to. Newton's method is asked
-//! for its residual, relative to Σⱼ |Kᵢⱼ| sⱼ in each row of its matrix K, where sⱼ are the sizes of the coordinates: that is the
-//! relative error of the equations that the iterate solves (Oettli & Prager 1964).
+//! Where the terms of an equation cancel, rounding errors are larger than their coordinate says: a body at
+//! rest between two springs. What they are is measured where an iterate no longer improves. The unknowns of
+//! a fixed point are moved by 2⁻¹⁶ of their sizes: 2¹⁶ times the response of a coordinate is what its
+//! rounding errors are relative to. Newton's method is asked for its residual, relative to Σⱼ |Kᵢⱼ| sⱼ in
+//! each row of its matrix K, where sⱼ are the sizes of the coordinates: that is the relative error of the
+//! equations that the iterate solves (Oettli & Prager 1964).
 
 mod together;
 
@@ -30,13 +31,14 @@ pub(crate) use together::Convergences;
 /// The criterion by which an iteration is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
-    /// The largest error of a coordinate to accept, relative to its size |q| + |Δ|, where Δ is its increment. Default: 1e-17,
-    /// below the rounding of double precision.
+    /// The largest error of a coordinate to accept, relative to its size |q| + |Δ|, where Δ is its
+    /// increment. Default: 1e-17, below the rounding of double precision.
     ///
-    /// Below the rounding of the arithmetic, an iteration goes on until its corrections no longer shrink. Units do not
-    /// matter to a fixed point: with other units of coordinates and of time its iterates are the same, scaled. On four equal vortices in
-    /// quasi-periodic motion, σ = ½ and h = 0.1, ΣΓ|z|² then changes by less than 4e-19 a step over 4·10⁵ steps; an
-    /// iteration that stops as soon as an error of 1e-17 is predicted drifts by 1.2e-18.
+    /// Below the rounding of the arithmetic, an iteration goes on until its corrections no longer shrink.
+    /// Units do not matter to a fixed point: with other units of coordinates and of time its iterates are
+    /// the same, scaled. On four equal vortices in quasi-periodic motion, σ = ½ and h = 0.1, ΣΓ|z|² then
+    /// changes by less than 4e-19 a step over 4·10⁵ steps; an iteration that stops as soon as an error of
+    /// 1e-17 is predicted drifts by 1.2e-18.
     pub tolerance: f64,
     /// The largest number of iterations. Default: 100.
     pub max_iterations: usize,
@@ -72,8 +74,9 @@ impl Stopping {
 /// So many corrections in turn may be no smaller than the smallest before them.
 const MOST_IN_VAIN: usize = 3;
 
-/// Corrections that are no larger than this many units of rounding leave nothing to gain. Where a larger one no longer shrinks, it may be
-/// that of one coordinate, beside which others are still to be improved, and one more iteration is taken if the iteration goes to rounding.
+/// Corrections that are no larger than this many units of rounding leave nothing to gain. Where a larger one
+/// no longer shrinks, it may be that of one coordinate, beside which others are still to be improved, and
+/// one more iteration is taken if the iteration goes to rounding.
 const FINE: f64 = 4.0;
 
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
@@ -91,7 +94,8 @@ pub(crate) enum Verdict {
 /// Corrections that are this small against the coordinates and do not shrink are rounding errors, as a rule.
 const SMALL: f64 = 1e-7;
 
-/// Newton's method gains nothing in an iteration that leaves more than this part of the correction; at a double root it halves them.
+/// Newton's method gains nothing in an iteration that leaves more than this part of the correction; at a
+/// double root it halves them.
 const GAIN: f64 = 0.75;
 
 /// A correction beyond this says that sizes have not been what they are.
@@ -112,20 +116,19 @@ enum Trial {
 
 /// The corrections of one step so far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Convergence<T> {
+pub(crate) struct Course<T> {
     /// What the next iteration does first.
     pub(crate) due: Due,
     tolerance: T,
     correction: T,
-    /// The smallest correction, and how many there have been in turn that are no smaller.
-    least: T,
+    /// How many corrections were in vain; of a fixed point, since the smallest.
     in_vain: usize,
     pub(crate) iterations: usize,
     /// The iteration by which it has to be decided.
     last: usize,
-    trial: Trial,
     is_fixed_point: bool,
-    /// A correction that has shrunk by no more than so many times itself no longer counts as shrinking, where it is a rounding error.
+    /// A correction that has shrunk by no more than so many times itself no longer counts as shrinking, where
+    /// it is a rounding error.
     stalling: T,
     /// How many more iterations derivatives take that come with the numbers.
     pub(crate) more: usize,
@@ -135,57 +138,47 @@ pub(crate) struct Convergence<T> {
 pub(crate) trait Judge<T> {
     /// Takes note of the size of the latest correction and decides.
     fn judge(&mut self, correction: T) -> Verdict;
-    /// What the next iteration does first.
-    fn due(&mut self) -> &mut Due;
-    /// How many iterations there were.
-    fn iterations(&self) -> usize;
-    /// How many more derivatives take that come with the numbers.
-    fn more(&self) -> usize;
-    /// The failure to report after [`Verdict::GiveUp`].
-    fn failure(&self) -> StepFailure;
+    fn course(&mut self) -> &mut Course<T>;
 }
 
-/// The same where an iterate that is to be put to the test, or whose sizes are to be taken again, is given up: what it takes to do that
-/// costs a short step a tenth of its instructions. A [`Convergence`] judges the step again then.
+/// The judge that puts an iterate to the test which no longer improves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Quick<T> {
-    due: Due,
-    tolerance: T,
-    correction: T,
-    growths: usize,
-    iterations: usize,
-    budget: usize,
-    stalling: T,
-    more: usize,
+pub(crate) struct Convergence<T> {
+    course: Course<T>,
+    trial: Trial,
+    /// The tolerance while no correction counts.
+    kept: T,
+    /// The smallest correction of a fixed point.
+    least: T,
 }
+
+/// The judge that gives up where an iterate is to be put to the test, or its sizes are to be taken again:
+/// what it takes to do that costs a short step a tenth of its instructions. A [`Convergence`] judges the
+/// step again then.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quick<T>(Course<T>);
 
 impl<T: Real> Quick<T> {
     /// As [`Convergence::new`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(stopping: Stopping, budget: usize) -> Self {
-        Self::of(Convergence::new(stopping, budget))
+        Self(Course::new(stopping, budget))
     }
 
     /// As [`Convergence::fixed_point`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
-        Self::of(Convergence::fixed_point(stopping, budget))
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of(convergence: Convergence<T>) -> Self {
-        let Convergence { due, tolerance, correction, iterations, last, stalling, more, .. } = convergence;
-        Self { due, tolerance, correction, growths: 0, iterations, budget: last, stalling, more }
+        Self(Course::fixed_point(stopping, budget))
     }
 }
 
 impl<T: Real> Judge<T> for Quick<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn judge(&mut self, correction: T) -> Verdict {
-        let shrunk = self.correction - correction;
-        self.correction = correction;
-        self.iterations += 1;
-        if correction <= self.tolerance {
+        let course = &mut self.0;
+        let before = course.take(correction);
+        let shrunk = before - correction;
+        if correction <= course.tolerance {
             return Verdict::Accept;
         }
         // What is not a number is not small.
@@ -193,47 +186,27 @@ impl<T: Real> Judge<T> for Quick<T> {
         if !is_small {
             return Verdict::GiveUp;
         }
-        if self.iterations > 1 {
-            if correction * correction < self.tolerance * shrunk {
+        if course.iterations > 1 {
+            if correction * correction < course.tolerance * shrunk {
                 return Verdict::Accept;
             }
-            let is_shrinking = shrunk > self.stalling * correction;
-            if !is_shrinking {
-                let size = correction / T::default_epsilon();
-                if size <= T::lift(FINE)
-                    || (size <= T::lift(FLOOR) && (self.stalling > T::lift(0.0) || self.growths > 0))
-                {
+            if !course.is_shrinking(shrunk) {
+                if course.is_noise() {
                     return Verdict::Accept;
                 }
-                self.growths += usize::from(shrunk <= T::lift(0.0));
-                if self.growths > MOST_IN_VAIN {
+                // Newton's method does not creep, but by rounding errors.
+                course.in_vain += usize::from(shrunk <= T::lift(0.0) || !course.is_fixed_point);
+                if course.in_vain > MOST_IN_VAIN {
                     return Verdict::GiveUp;
                 }
             }
         }
-        if self.iterations >= self.budget { Verdict::GiveUp } else { Verdict::Continue }
+        course.go_on()
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn due(&mut self) -> &mut Due {
-        &mut self.due
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn iterations(&self) -> usize {
-        self.iterations
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn more(&self) -> usize {
-        self.more
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn failure(&self) -> StepFailure {
-        let Self { iterations, correction, tolerance, .. } = *self;
-        let [correction, tolerance] = [correction, tolerance].map(reported);
-        StepFailure::NotConverged { iterations, correction, tolerance }
+    fn course(&mut self) -> &mut Course<T> {
+        &mut self.0
     }
 }
 
@@ -249,28 +222,24 @@ fn is_below_rounding<T: Real>(stopping: Stopping) -> bool {
     T::lift(stopping.tolerance) < T::default_epsilon()
 }
 
-impl<T: Real> Convergence<T> {
-    /// Of an iteration that may take `budget` iterations.
+impl<T: Real> Course<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn new(stopping: Stopping, budget: usize) -> Self {
+    fn new(stopping: Stopping, budget: usize) -> Self {
         Self {
             due: Due::Sizes,
             tolerance: T::lift(stopping.tolerance),
             more: if carries_derivatives::<T>() { MORE_BY_NEWTON } else { 0 },
             correction: T::lift(0.0),
-            least: T::lift(f64::INFINITY),
             in_vain: 0,
             is_fixed_point: false,
             iterations: 0,
             last: budget,
-            trial: Trial::None,
             stalling: T::lift(1.0),
         }
     }
 
-    /// The same for a fixed point, which gains a constant factor in each iteration.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
+    fn fixed_point(stopping: Stopping, budget: usize) -> Self {
         let mut new = Self { is_fixed_point: true, ..Self::new(stopping, budget) };
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
@@ -282,13 +251,67 @@ impl<T: Real> Convergence<T> {
         new
     }
 
+    /// Takes note of a correction, and returns the one before.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn take(&mut self, correction: T) -> T {
+        self.iterations += 1;
+        core::mem::replace(&mut self.correction, correction)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_shrinking(&self, shrunk: T) -> bool {
+        shrunk > self.stalling * self.correction
+    }
+
+    /// Whether a correction that does not shrink is a rounding error, beside which nothing is left to gain.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_noise(&self) -> bool {
+        let size = self.correction / T::default_epsilon();
+        size <= T::lift(FINE) || size <= T::lift(FLOOR) && (self.stalling > T::lift(0.0) || self.in_vain > 0)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn go_on(&self) -> Verdict {
+        if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
+    }
+
+    /// The failure to report after [`Verdict::GiveUp`].
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn failure(&self) -> StepFailure {
+        let Self { iterations, correction, tolerance, .. } = *self;
+        let [correction, tolerance] = [correction, tolerance].map(reported);
+        StepFailure::NotConverged { iterations, correction, tolerance }
+    }
+
+    /// A correction that is larger than this part of the one before was in vain.
+    fn gain(&self) -> T {
+        let creeps = !self.is_fixed_point && self.correction <= T::lift(SMALL);
+        T::lift(if creeps { GAIN } else { 1.0 })
+    }
+}
+
+impl<T: Real> Convergence<T> {
+    /// Of an iteration that may take `budget` iterations.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn new(stopping: Stopping, budget: usize) -> Self {
+        Self::of(Course::new(stopping, budget), stopping)
+    }
+
+    /// The same for a fixed point, which gains a constant factor in each iteration.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
+        Self::of(Course::fixed_point(stopping, budget), stopping)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(course: Course<T>, stopping: Stopping) -> Self {
+        Self { course, trial: Trial::None, kept: T::lift(stopping.tolerance), least: T::lift(f64::INFINITY) }
+    }
+
     /// Decides where corrections no longer shrink as they should, the last one from `before`.
     #[inline]
     fn hesitate(&mut self, before: T) -> Option<Verdict> {
-        let size = self.correction / T::default_epsilon();
-        let is_last = size <= T::lift(FINE) || self.stalling > T::lift(0.0) || self.in_vain > 0;
-        let is_noise = is_last && size <= T::lift(FLOOR);
-        if is_noise && !matches!(self.trial, Trial::Shaken) {
+        if self.course.is_noise() && !matches!(self.trial, Trial::Shaken) {
             return Some(Verdict::Accept);
         }
         // What another function sees has no place in registers.
@@ -301,89 +324,86 @@ impl<T: Real> Convergence<T> {
     #[cold]
     #[inline(never)]
     fn doubt(mut self, before: T) -> (Self, Option<Verdict>) {
-        if matches!(self.trial, Trial::Shaken) {
-            // Where it is kept while no correction counts.
-            (self.tolerance, self.least) = (self.least, T::lift(f64::INFINITY));
-            (self.trial, self.stalling) = (Trial::Loose, T::lift(0.0));
-            (self.due, self.correction) = (Due::Response, T::lift(f64::INFINITY));
-            return (self, None);
-        }
-        let gain = T::lift(if self.is_fixed_point { 1.0 } else { GAIN });
-        if before < gain * self.least {
-            (self.least, self.in_vain) = (before, 0);
+        let Self { course, trial, kept, least } = &mut self;
+        let infinity = T::lift(f64::INFINITY);
+        if course.is_fixed_point && before < *least {
+            (*least, course.in_vain) = (before, 0);
         }
         // A correction that is not a number is counted by the budget alone.
-        self.in_vain += usize::from(self.correction >= gain * self.least && self.correction >= gain * before);
-        let is_noise = self.in_vain > 1 && self.correction <= T::lift(SMALL);
-        let is_in_vain = self.in_vain > MOST_IN_VAIN;
-        match self.trial {
-            Trial::Asked => return (self, Some(Verdict::GiveUp)),
-            Trial::Loose => return (self, is_in_vain.then_some(Verdict::GiveUp)),
-            Trial::Shaken | Trial::None if is_noise || is_in_vain => {}
-            Trial::Shaken | Trial::None => return (self, None),
+        let is_vain = course.correction >= course.gain() * before
+            && (!course.is_fixed_point || course.correction >= *least);
+        if matches!(trial, Trial::None | Trial::Loose) {
+            course.in_vain += usize::from(is_vain);
         }
-        (self.least, self.in_vain, self.last) = (T::lift(f64::INFINITY), 0, self.iterations + self.last);
-        if self.is_fixed_point {
-            (self.trial, self.due) = (Trial::Shaken, Due::Shake);
-            (self.least, self.tolerance) = (self.tolerance, T::lift(-1.0));
-        } else {
-            (self.trial, self.due) = (Trial::Asked, Due::Residual);
-        }
-        (self.correction, self.stalling) = (T::lift(f64::INFINITY), T::lift(f64::INFINITY));
-        (self, None)
+        let is_in_vain = course.in_vain > MOST_IN_VAIN;
+        let verdict = match trial {
+            Trial::Shaken => {
+                (*trial, course.tolerance, course.stalling) = (Trial::Loose, *kept, T::lift(0.0));
+                (course.due, course.correction) = (Due::Response, infinity);
+                None
+            }
+            Trial::Asked => {
+                // It goes on from where it was, with sizes in the place of which the residual has been.
+                (*trial, course.stalling) = (Trial::None, T::lift(1.0));
+                (course.due, course.correction) = (Due::Sizes, infinity);
+                None
+            }
+            Trial::Loose => is_in_vain.then_some(Verdict::GiveUp),
+            Trial::None if course.is_fixed_point => {
+                let is_noise = course.in_vain > 1 && course.correction <= T::lift(SMALL);
+                if is_in_vain || is_noise {
+                    (*least, course.in_vain, course.last) = (infinity, 0, course.iterations + course.last);
+                    (*kept, course.tolerance, course.stalling) = (course.tolerance, T::lift(-1.0), infinity);
+                    (*trial, course.due, course.correction) = (Trial::Shaken, Due::Shake, infinity);
+                }
+                None
+            }
+            Trial::None if is_in_vain => Some(Verdict::GiveUp),
+            Trial::None => {
+                // To ask takes no elimination, and says at once whether anything is left to gain.
+                if is_vain && course.correction <= T::lift(LARGE) {
+                    (course.last, course.stalling) = (course.last + 1, infinity);
+                    (*trial, course.due, course.correction) = (Trial::Asked, Due::Residual, infinity);
+                }
+                None
+            }
+        };
+        (self, verdict)
     }
 }
 
 impl<T: Real> Judge<T> for Convergence<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn judge(&mut self, correction: T) -> Verdict {
-        let before = self.correction;
+        let Self { course, trial, .. } = self;
+        let before = course.take(correction);
         let shrunk = before - correction;
-        self.correction = correction;
-        self.iterations += 1;
-        if correction <= self.tolerance {
+        if correction <= course.tolerance {
             return Verdict::Accept;
         }
         let is_small = correction <= T::lift(LARGE);
         // While an iterate is put to the test, sizes stay as they are.
-        if !is_small && matches!(self.trial, Trial::None) {
-            self.due = Due::Sizes;
+        if !is_small && matches!(trial, Trial::None) {
+            course.due = Due::Sizes;
         }
-        if self.iterations > 1 {
-            // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow. Where both sides are so
-            // small that they are 0, nothing is known, and neither where sizes have changed.
-            if correction * correction < self.tolerance * shrunk && before <= T::lift(LARGE) {
+        if course.iterations > 1 {
+            // θ d/(1 − θ) = d²/(d' − d), written without a division. It is negative where corrections grow.
+            // Where both sides are so small that they are 0, nothing is known, and neither where sizes have
+            // changed.
+            if correction * correction < course.tolerance * shrunk && before <= T::lift(LARGE) {
                 return Verdict::Accept;
             }
-            let is_shrinking = shrunk > self.stalling * correction;
-            if !is_shrinking && let Some(verdict) = self.hesitate(before) {
+            if !course.is_shrinking(shrunk)
+                && let Some(verdict) = self.hesitate(before)
+            {
                 return verdict;
             }
         }
-        if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
+        self.course.go_on()
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn due(&mut self) -> &mut Due {
-        &mut self.due
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn iterations(&self) -> usize {
-        self.iterations
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn more(&self) -> usize {
-        self.more
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn failure(&self) -> StepFailure {
-        StepFailure::NotConverged {
-            iterations: self.iterations,
-            correction: reported(self.correction),
-            tolerance: reported(self.tolerance),
-        }
+    fn course(&mut self) -> &mut Course<T> {
+        &mut self.course
     }
 }

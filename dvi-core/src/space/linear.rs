@@ -38,9 +38,9 @@ pub trait LinearEquations<T> {
     const IN_ANY_UNITS: bool = false;
 }
 
-/// The residual of the point where `equations` are linearised, b, relative in each row to Σⱼ |Aᵢⱼ| sⱼ and |`given`(i)|, what is given in that
-/// row, with the sizes sⱼ = |`size`(j)| of the unknowns: the relative error of the equations that this point solves (Oettli & Prager 1964).
-/// `b` and `sums` are storage.
+/// The residual of the point where `equations` are linearised, b, relative in each row to Σⱼ |Aᵢⱼ| sⱼ and
+/// |`given`(i)|, what is given in that row, with the sizes sⱼ = |`size`(j)| of the unknowns: the relative
+/// error of the equations that this point solves (Oettli & Prager 1964). `b` and `sums` are storage.
 #[cold]
 #[inline(never)]
 pub(crate) fn residual<T: Real>(

@@ -1,8 +1,9 @@
 //! Where the numbers of a space of fixed size are kept.
 //!
-//! What lives in a value is as large as the value, and is copied with it from frame to frame where a run begins: with a matrix of
-//! n² numbers in each, a hundred coordinates are more than the stack of a thread has. The length of an array in stable Rust is a
-//! parameter and no expression of one, so that a type cannot choose by its size; it has room for a few numbers, and the heap for more.
+//! What lives in a value is as large as the value, and is copied with it from frame to frame where a run
+//! begins: with a matrix of n² numbers in each, a hundred coordinates are more than the stack of a thread
+//! has. The length of an array in stable Rust is a parameter and no expression of one, so that a type cannot
+//! choose by its size; it has room for a few numbers, and the heap for more.
 
 use core::fmt::Debug;
 
@@ -69,7 +70,8 @@ impl<E: Clone + Debug, const BLOCKS: usize, const N: usize> Store<E> for [[[[E; 
     }
 }
 
-/// Up to eight coordinates and their matrices in the value, and more on the heap: for sizes that are parameters.
+/// Up to eight coordinates and their matrices in the value, and more on the heap: for sizes that are
+/// parameters.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FewInPlace;

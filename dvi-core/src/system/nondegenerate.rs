@@ -15,8 +15,9 @@ pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no term is linear in v. Then
     /// p = M v, whatever forces act.
     const CONSTANT_MASS: bool;
-    /// Whether L = ½ v·M v + a(q, t)·v − V(q, t) with a constant matrix M, as [`CONSTANT_MASS`](Self::CONSTANT_MASS) where a is zero. Then
-    /// p = M v + a(q, t): in rotating frames, and of charges in a magnetic field.
+    /// Whether L = ½ v·M v + a(q, t)·v − V(q, t) with a constant matrix M, as
+    /// [`CONSTANT_MASS`](Self::CONSTANT_MASS) where a is zero. Then p = M v + a(q, t): in rotating frames,
+    /// and of charges in a magnetic field.
     const UNIFORM_MASS: bool;
     /// Whether, with [`CONSTANT_MASS`](Self::CONSTANT_MASS), no force depends on v either. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
     /// Störmer and Verlet (Marsden & West 2001, section 2.6).

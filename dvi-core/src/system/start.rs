@@ -34,7 +34,8 @@ pub(crate) fn validate_step<T: Real>(t: T, h: T) -> Result<(), StartError> {
     if is_usable { Ok(()) } else { Err(StartError::Step { h: reported(h) }) }
 }
 
-/// `error`, with the name of the first coordinate without a mass, or whose row of Ω is zero, where a matrix is singular at (`q`, `v`, `t`).
+/// `error`, with the name of the first coordinate without a mass, or whose row of Ω is zero, where a matrix
+/// is singular at (`q`, `v`, `t`).
 #[cold]
 pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     system: &S,

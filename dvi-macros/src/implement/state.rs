@@ -24,7 +24,8 @@ pub(crate) struct State {
 /// space is still one of fixed size.
 const MOST_SINGLES: usize = 16;
 
-/// So many numbers, if they are known when the macro runs, are kept on the stack together with matrices of them.
+/// So many numbers, if they are known when the macro runs, are kept on the stack together with matrices of
+/// them.
 const FEW: usize = 12;
 
 /// The space of the coordinates.

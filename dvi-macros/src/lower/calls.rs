@@ -216,7 +216,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether this is a function of several variables: one that is declared, or a field of the struct that holds no numbers.
+    /// Whether this is a function of several variables: one that is declared, or a field of the struct that
+    /// holds no numbers.
     fn is_scalar_field(&self, name: &Ident) -> bool {
         let is_field = self.model.parameters.iter().any(|parameter| {
             *name == parameter.text && matches!(parameter.shape, Shape::Unknown | Shape::Other)

@@ -267,8 +267,9 @@ fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
     found.into_iter().filter(|(_, found)| *found).map(|(name, _)| name).collect()
 }
 
-/// Whether a denominator, or what a logarithm is taken of, is zero where all coordinates are equal: that of a potential between
-/// two bodies is, if nothing softens it, and that of a potential around a fixed centre is not.
+/// Whether a denominator, or what a logarithm is taken of, is zero where all coordinates are equal: that of
+/// a potential between two bodies is, if nothing softens it, and that of a potential around a fixed centre
+/// is not.
 fn has_pole_where_bodies_meet(graph: &Graph, lagrangian: Expr) -> bool {
     let is_pole = |id: Id| match *graph.node(id) {
         Node::Reciprocal(of) => Some(of),

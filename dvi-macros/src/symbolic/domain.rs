@@ -1,8 +1,9 @@
 //! Where a formula is a number, as another one that costs less.
 //!
-//! √u stands for each root, logarithm and power of u, which are numbers where it is, and a table stands for itself. A function of the
-//! user's is left out: its derivatives, which steps evaluate, are no numbers where it is none. What velocities decide is left out too:
-//! they follow from momenta, and are in the domain of L where these have any.
+//! √u stands for each root, logarithm and power of u, which are numbers where it is, and a table stands for
+//! itself. A function of the user's is left out: its derivatives, which steps evaluate, are no numbers where
+//! it is none. What velocities decide is left out too: they follow from momenta, and are in the domain of L
+//! where these have any.
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
@@ -11,7 +12,8 @@ use super::graph::{Binary, Expr, Fold, Graph, Id, Node};
 use super::index::Atom;
 
 impl Graph {
-    /// A formula that is no number where `root` is none on a whole region of positions; zero if it is one everywhere.
+    /// A formula that is no number where `root` is none on a whole region of positions; zero if it is one
+    /// everywhere.
     pub(crate) fn domain(&mut self, root: Id) -> Expr {
         self.domain_below(root, &mut HashMap::default())
     }

@@ -1,4 +1,5 @@
-//! What is no Rust, and is written so elsewhere: found where an expression could not be read, with what to write instead.
+//! What is no Rust, and is written so elsewhere: found where an expression could not be read, with what to
+//! write instead.
 
 use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
 

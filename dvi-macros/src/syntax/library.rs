@@ -1,7 +1,8 @@
 //! Where the library is, if a dependency has another name for it.
 //!
-//! Generated code says `::dvi_core`. Where there is no such crate, the compiler says that of each path, and not what to write. Stable Rust
-//! tells a macro nothing of the names that it can use, but the compiler that runs the macro was started with them: `--extern name=path`.
+//! Generated code says `::dvi_core`. Where there is no such crate, the compiler says that of each path, and
+//! not what to write. Stable Rust tells a macro nothing of the names that it can use, but the compiler that
+//! runs the macro was started with them: `--extern name=path`.
 
 use proc_macro2::{Ident, Span};
 use syn::{Path, parse_quote};

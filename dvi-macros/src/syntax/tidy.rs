@@ -53,8 +53,8 @@ pub(super) fn sums(tokens: TokenStream) -> TokenStream {
     .0
 }
 
-/// The tokens that `change` makes of these and of those in groups, from the innermost on, and whether it changes any: groups in which
-/// it does not keep the places of their brackets.
+/// The tokens that `change` makes of these and of those in groups, from the innermost on, and whether it
+/// changes any: groups in which it does not keep the places of their brackets.
 fn replaced(
     tokens: TokenStream,
     change: impl Fn(Vec<TokenTree>) -> (Vec<TokenTree>, bool) + Copy,

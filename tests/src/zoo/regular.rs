@@ -147,7 +147,8 @@ pub struct MagneticParticle {
     pub b: f64,
 }
 
-/// A small body in the plane of two that go round each other, in the frame that turns with them: L has terms linear in v.
+/// A small body in the plane of two that go round each other, in the frame that turns with them: L has terms
+/// linear in v.
 #[lagrangian(
     coordinates(x, y),
     lagrangian = ((dot(x) - y).powi(2) + (dot(y) + x).powi(2)) / 2.0

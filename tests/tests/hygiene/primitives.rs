@@ -96,7 +96,8 @@ pub struct Blade<Psi> {
 
 #[test]
 fn the_numbers_are_those_of_the_formulas() {
-    // L = Σ γ x v_y + u v_w − H at q = 1/2, v = 1/4, where all bodies are at one place and the sum over pairs is zero.
+    // L = Σ γ x v_y + u v_w − H at q = 1/2, v = 1/4, where all bodies are at one place and the sum over
+    // pairs is zero.
     let system = AtRunTime { gamma: vec![1.0; 3] };
     let expected = 3.0 * 0.125 + 0.125 - (0.5_f64.hypot(0.5).powf(0.5) + 1.5);
     assert!((super::value(&system, 8) - expected).abs() < 1e-15);

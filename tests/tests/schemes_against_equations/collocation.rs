@@ -1,5 +1,6 @@
-//! Gauss collocation: ∂L/∂v = p + h Σ aᵢⱼ (∂L/∂q + F) at the stages of a regular system, and d/dt ∂L/∂v = ∂L/∂q + F at those of a
-//! degenerate one, solved here with matrices of differences. Where they are stiff no fixed point contracts.
+//! Gauss collocation: ∂L/∂v = p + h Σ aᵢⱼ (∂L/∂q + F) at the stages of a regular system, and d/dt ∂L/∂v =
+//! ∂L/∂q + F at those of a degenerate one, solved here with matrices of differences. Where they are stiff no
+//! fixed point contracts.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -181,7 +182,8 @@ fn follow<S: Lagrangian + Formula, M: Method<S, f64>>(
     Ok(run.statistics())
 }
 
-/// One by one and in lanes, with every solver and 1, 2, 4 and 8 stages. With long steps the fixed point fails.
+/// One by one and in lanes, with every solver and 1, 2, 4 and 8 stages. With long steps the fixed point
+/// fails.
 macro_rules! check {
     ($system:expr, $start:expr) => {
         for h in STEPS {

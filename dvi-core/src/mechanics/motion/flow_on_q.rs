@@ -84,8 +84,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
             Weights { qq: zero, qv: zero, vq: zero, vv: zero }
         }
     }
-    /// The rate of Dα is a third derivative of L, and a difference here, to half of the digits: Newton's method gains as many in each
-    /// iteration.
+    /// The rate of Dα is a third derivative of L, and a difference here, to half of the digits: Newton's
+    /// method gains as many in each iteration.
     fn newton_matrix<K: Sink<T>>(
         system: &S,
         [q, v]: [&[T]; 2],

@@ -90,7 +90,8 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Deb
     fn remember(&mut self, h: T, first: &[T]);
     /// Continues the forces of the step before and moves the nodes by them.
     fn depart(&mut self, at: &Departure<'_, S, T>);
-    /// Evaluates the forces at all nodes once and moves these, and returns the largest change of a position in units of the coordinates.
+    /// Evaluates the forces at all nodes once and moves these, and returns the largest change of a position
+    /// in units of the coordinates.
     fn improve(
         &mut self,
         system: &S,
@@ -292,7 +293,8 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         weigh(|_| by, forces, terms);
     }
 
-    /// Moves the nodes by the forces, and returns the largest change of a position in units of the coordinates.
+    /// Moves the nodes by the forces, and returns the largest change of a position in units of the
+    /// coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, at: &Departure<'_, S, T>) -> T {
         let Departure { q, phase, mass, h } = *at;

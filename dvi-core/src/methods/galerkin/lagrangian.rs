@@ -169,8 +169,8 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         })
     }
 
-    /// The residuals of the displacements, relative in each row to Σ |A| times the sizes of what it is multiplied by (Oettli & Prager
-    /// 1964).
+    /// The residuals of the displacements, relative in each row to Σ |A| times the sizes of what it is
+    /// multiplied by (Oettli & Prager 1964).
     #[cold]
     fn residual(storage: &Storage<NODES, S, T>, q0: &[T]) -> Result<T, StepFailure> {
         let Storage { displacements, residuals, blocks, .. } = storage;

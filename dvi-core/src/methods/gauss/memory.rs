@@ -187,7 +187,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         }
     }
 
-    /// Moves to the end of the step by the terms of the parts from `first`, and by the increments of those before.
+    /// Moves to the end of the step by the terms of the parts from `first`, and by the increments of those
+    /// before.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn arrive(
         &mut self,

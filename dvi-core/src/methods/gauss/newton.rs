@@ -3,8 +3,9 @@
 //! rᵢ = ∂L/∂v(Qᵢ, Vᵢ) − p − h Σⱼ aᵢⱼ Fⱼ = 0,   F = ∂L/∂q(Q, V)      of a regular system
 //! rᵢ = Ω(Qᵢ) Vᵢ − ∇H(Qᵢ) − ∂α/∂t = 0                                of a degenerate one
 //!
-//! Corrections are measured by what they do to the stages, h Σⱼ aᵢⱼ δVⱼ: where forces are stiff, the velocities have the rounding errors
-//! of positions times (hA)⁻¹, which is 273/h of eight stages, and a step does not see them.
+//! Corrections are measured by what they do to the stages, h Σⱼ aᵢⱼ δVⱼ: where forces are stiff, the
+//! velocities have the rounding errors of positions times (hA)⁻¹, which is 273/h of eight stages, and a step
+//! does not see them.
 
 use super::memory::{GaussMemory, Path};
 use crate::error::{StartError, StepFailure};
@@ -13,14 +14,15 @@ use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::methods::collocation::Collocation;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::{Lanes, norm};
-use crate::solve::{Convergence, Due, Guess, Solver, Stopping, iterate};
+use crate::solve::{Convergence, Due, Guess, Judge, Solver, Stopping, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing, linear};
 use crate::state::Statistics;
 use crate::state::memory::Aside;
 use crate::state::summation::Summation;
 use crate::{Coupled, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
-/// A matrix of fixed size is made on the stack, where threads have two megabytes, and without optimisation in some copies.
+/// A matrix of fixed size is made on the stack, where threads have two megabytes, and without optimisation
+/// in some copies.
 const MOST_BYTES: usize = 1 << 17;
 
 /// Newton's equations, with the storage that they need.
@@ -85,7 +87,8 @@ impl<const STAGES: usize, S, T: Real> GaussMemory<STAGES, S, T>
 where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
-    /// Takes a step from t to t + h, if Newton's method stands by the fixed point, which has been `tried` or is not to be.
+    /// Takes a step from t to t + h, if Newton's method stands by the fixed point, which has been `tried` or
+    /// is not to be.
     ///
     /// # Errors
     /// Those of Newton's method, or else of the fixed point.
@@ -139,8 +142,9 @@ where
         }
         let mut extrapolated = guess == Guess::Extrapolated;
         let mut convergence = Convergence::new(stopping, stopping.max_iterations);
-        // A matrix that is known to half of the digits alone brings one order of derivatives in an iteration, and does not double it.
-        convergence.more *= 2;
+        // A matrix that is known to half of the digits alone brings one order of derivatives in an
+        // iteration, and does not double it.
+        convergence.course().more *= 2;
         iterate(convergence, statistics, |due, statistics| {
             due.prepare_slopes(&mut path.weights, (q, h), &mut path.slopes[0]);
             self.differentiate(system, path, [t, h], statistics)?;
@@ -215,8 +219,8 @@ where
         residuals.iter().try_for_each(|residual| norm::finite(residual))
     }
 
-    /// Subtracts the corrections, and returns the largest change of a coordinate of a stage in its unit, and whether a coordinate has changed by
-    /// more than what it is away from the start of the step now.
+    /// Subtracts the corrections, and returns the largest change of a coordinate of a stage in its unit, and
+    /// whether a coordinate has changed by more than what it is away from the start of the step now.
     fn correct(&self, path: &mut Path<STAGES, S, T>, h: T) -> (T, bool) {
         let (zero, mut correction, mut was_farther) = (T::lift(0.0), T::lift(0.0), false);
         // The largest h Σⱼ aᵢⱼ vⱼ.

@@ -300,7 +300,8 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
     }
 }
 
-/// How far q1 is off the constraints, g in `values`, relative to Σⱼ |Gⱼ| (|qⱼ| + |Δⱼ|) for each of them (Oettli & Prager 1964).
+/// How far q1 is off the constraints, g in `values`, relative to Σⱼ |Gⱼ| (|qⱼ| + |Δⱼ|) for each of them
+/// (Oettli & Prager 1964).
 #[cold]
 fn residual<'a, T: Real, V: Deref<Target = [T]> + 'a>(
     q: &[T],

@@ -275,8 +275,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     }
 }
 
-/// The fixed point as it is iterated. Long vectors are passed over once: each block of the next point is placed as soon as its s is
-/// known.
+/// The fixed point as it is iterated. Long vectors are passed over once: each block of the next point is
+/// placed as soon as its s is known.
 struct Placed<'a, S: DegenerateLagrangian<T>, T: Real> {
     step: &'a Step<'a, S, T>,
     inverse: &'a Inverse<S, T>,

@@ -58,8 +58,9 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
     /// Takes a step from time `t` to `t + h`, without allocation.
     ///
     /// # Errors
-    /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite, or `h` is below the smallest number that has all digits;
-    /// [`StepFailure::LeftDomain`]; else as [`Method::step`](crate::methods::Method::step). Nothing has moved then.
+    /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite, or `h` is below the smallest number
+    /// that has all digits; [`StepFailure::LeftDomain`]; else as
+    /// [`Method::step`](crate::methods::Method::step). Nothing has moved then.
     #[inline]
     pub fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
         let end = t + h;

@@ -26,7 +26,7 @@ impl<const W: usize> Convergences<W> {
     /// As [`Quick::fixed_point`] in each lane.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
-        let alone: Quick<f64> = Quick::fixed_point(stopping, budget);
+        let Quick(alone) = Quick::<f64>::fixed_point(stopping, budget);
         let zero = Lanes::all(0.0);
         Self {
             tolerance: Lanes::all(alone.tolerance),
@@ -62,7 +62,8 @@ impl<const W: usize> Convergences<W> {
         iterations
     }
 
-    /// As [`Quick`] judges, in the active lanes: gives up if one of them does, and goes on as long as one does.
+    /// As [`Quick`] judges, in the active lanes: gives up if one of them does, and goes on as long as one
+    /// does.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn judge(&mut self, corrections: Lanes<W>) -> Verdict {
         let first = self.latest == 0;
@@ -145,7 +146,7 @@ mod tests {
                     }
                     let goes_on = f64::from(*latest != Verdict::Accept);
                     assert_eq!(together.active.0[lane], goes_on, "lane {lane}, {iteration}, seed {seed}");
-                    assert_eq!(together.iterations()[lane], convergence.iterations() as u64);
+                    assert_eq!(together.iterations()[lane], convergence.course().iterations as u64);
                 }
                 let one_has = |verdict| alone.iter().any(|(_, of_lane)| *of_lane == verdict);
                 let expected = match (one_has(Verdict::GiveUp), one_has(Verdict::Continue)) {

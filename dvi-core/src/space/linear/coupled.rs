@@ -19,8 +19,8 @@ use crate::space::{lines, lines_mut};
 use crate::state::memory::Aside;
 use crate::{Real, Scalar, Sink, Space, Weights};
 
-/// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k: a sum over the nodes of a
-/// rule,
+/// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k: a sum
+/// over the nodes of a rule,
 ///
 /// Σⱼ qqⱼᵣₖ L_qq + qvⱼᵣₖ L_qv + vqⱼᵣₖ L_vq + vvⱼᵣₖ L_vv.
 pub trait NodeSum<const NODES: usize, T> {

@@ -1,0 +1,237 @@
+//! Forces and Hamiltonians that are switched on, with jumps, corners and pulses: errors fall with the tolerance
+//! all the same.
+
+use core::f64::consts::PI;
+use dvi_core::field::{Axis, Spline};
+use dvi_core::methods::VariableStep;
+use dvi_core::prelude::*;
+
+use super::{Outcome, distance};
+
+/// A body at rest, free or on a spring, that is pushed with (t − t₀)ⁿ from some time on. The first step from there makes all of the momentum,
+/// and is as wrong in it however short it is, where the power is beyond the degree of the stages.
+#[test]
+fn forces_are_switched_on_at_rest() -> Outcome {
+    #[lagrangian(
+        coordinates(x),
+        lagrangian = dot(x).powi(2) / 2.0 - w * x * x / 2.0,
+        force(x) = if t > t0 { (t - t0).powf(n) } else { 0.0 },
+    )]
+    #[derive(Debug)]
+    struct Pushed {
+        w: f64,
+        n: f64,
+        t0: f64,
+    }
+    fn check<M: VariableStep<Pushed, f64> + Copy + core::fmt::Debug>(
+        method: M,
+        tolerances: &[f64],
+    ) -> Outcome {
+        for (w, n, t0) in [0.0, 1.0].into_iter().flat_map(|w| {
+            [0.0, 1.0, 2.0, 3.0]
+                .into_iter()
+                .flat_map(move |n| [0.1, 0.77, 1.0, 3.2, 5.0].map(|t0| (w, n, t0)))
+        }) {
+            let system = Pushed { w, n, t0 };
+            let start: PushedState = PushedState { x: 0.0, dot_x: 0.0 };
+            let mut fine = Integrator::new_at(&system, Gauss::<8>::new(), t0, 0.01, start)?;
+            fine.take_steps(200)?;
+            for (&tolerance, h) in
+                tolerances.iter().flat_map(|tolerance| [0.01, 0.1, 1.0].map(|h| (tolerance, h)))
+            {
+                let mut run =
+                    ControlledIntegrator::new(&system, method, ErrorControl::new(tolerance, h), start)?;
+                run.advance_to(t0 + 2.0)?;
+                let error = (run.state().x - fine.state().x).abs();
+                assert!(error < 30.0 * tolerance, "{system:?}, {method:?}, {tolerance:e}, {h}: {error:e}");
+                let mut run =
+                    ControlledIntegrator::new(&system, method, ErrorControl::new(tolerance, h), start)?;
+                run.advance_to(t0)?;
+                run.advance_to(t0 + 2.0)?;
+                let error = (run.state().x - fine.state().x).abs();
+                assert!(error < 30.0 * tolerance, "{system:?}, {method:?}, {tolerance:e}, {h}: {error:e}");
+                assert!(
+                    run.steps() + run.statistics().rejected < 3000,
+                    "{system:?}, {method:?}, {tolerance:e}, {h}"
+                );
+            }
+        }
+        Ok(())
+    }
+    check(Gauss::<1>::new(), &[1e-3, 1e-5])?;
+    check(Gauss::<2>::new(), &[1e-3, 1e-6, 1e-10])?;
+    check(Gauss::<3>::new(), &[1e-3, 1e-6, 1e-10])?;
+    check(Gauss::<8>::new(), &[1e-3, 1e-6, 1e-10])
+}
+
+/// Forces with jumps: at places, where the motion turns, and in time.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - kink * x.abs() - (if x > 0.0 { right } else { left }) * x * x / 2.0,
+    force(x) = if t > on { if t < off { 1.0 } else { 0.0 } } else { 0.0 },
+)]
+#[derive(Clone, Copy, Debug)]
+struct Rough {
+    kink: f64,
+    right: f64,
+    left: f64,
+    on: f64,
+    off: f64,
+}
+
+const SMOOTH: Rough = Rough { kink: 0.0, right: 1.0, left: 1.0, on: 0.0, off: 0.0 };
+
+/// An oscillator with dry friction.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = (dot(x).powi(2) - x * x) / 2.0,
+    force(x) = if dot(x) > 0.0 { -friction } else { friction },
+)]
+#[derive(Debug)]
+struct Dry {
+    friction: f64,
+}
+
+/// y' = ∂H/∂x, x' = −∂H/∂y, with corners on the axes.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = x * d(y),
+    hamiltonian = roof * x.abs() + (1.0 - roof) * x * x / 2.0 + y.abs() + twist * x * y,
+)]
+#[derive(Debug)]
+struct Corners {
+    roof: f64,
+    twist: f64,
+}
+
+/// The error at time `end`, in units of each tolerance, for two and eight stages.
+fn check_rough<S: Lagrangian>(
+    system: &S,
+    start: &S::State<f64>,
+    [end, longest_step]: [f64; 2],
+    exact: &[f64],
+    [most_of_two, most_of_eight]: [f64; 2],
+) -> Outcome
+where
+    Gauss<2>: VariableStep<S, f64>,
+    Gauss<8>: VariableStep<S, f64>,
+{
+    fn error<S: Lagrangian, M: VariableStep<S, f64>>(
+        (system, method, control): (&S, M, ErrorControl),
+        start: &S::State<f64>,
+        end: f64,
+        exact: &[f64],
+    ) -> Result<f64, Box<dyn core::error::Error>> {
+        let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+        while run.time() + control.longest_step < end {
+            run.advance()?;
+            assert!(run.step_size() <= control.longest_step);
+        }
+        run.advance_to(end)?;
+        Ok(distance(run.q(), exact) / control.tolerance.relative)
+    }
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let control = ErrorControl { longest_step, ..ErrorControl::new(tolerance, 0.01) };
+        let of_two = error((system, Gauss::<2>::new(), control), start, end, exact)?;
+        let of_eight = error((system, Gauss::<8>::new(), control), start, end, exact)?;
+        let name = S::REPORT.system;
+        assert!(of_two < most_of_two, "{name}, two stages at {tolerance:e}: {of_two}");
+        assert!(of_eight < most_of_eight, "{name}, eight stages at {tolerance:e}: {of_eight}");
+    }
+    Ok(())
+}
+
+const ANY: f64 = f64::INFINITY;
+
+#[test]
+fn errors_fall_with_the_tolerance_where_forces_jump() -> Outcome {
+    let at_rest = |x| RoughState { x, dot_x: 0.0 };
+    // −|x| from 1 to 0 at t = √2, and on with the velocity −√2.
+    let well = Rough { kink: 1.0, right: 0.0, left: 0.0, ..SMOOTH };
+    let after = 2.0 - 2_f64.sqrt();
+    let x = -2_f64.sqrt() * after + after * after / 2.0;
+    assert!((x - (-1.0 + (2.0 - 8_f64.sqrt()).powi(2) / 2.0)).abs() < 1e-15);
+    check_rough(&well, &at_rest(1.0), [2.0, ANY], &[x], [30.0, 30.0])?;
+    // A pulse on an oscillator, and on a body at rest. Points in a step of 0.6 are nearer to one another
+    // than it lasts.
+    let pulse = Rough { on: 50.0, off: 50.2, ..SMOOTH };
+    let x = 100_f64.cos() + 49.8_f64.cos() - 50_f64.cos();
+    check_rough(&pulse, &at_rest(1.0), [100.0, 0.6], &[x], [3000.0, 30.0])?;
+    let free = Rough { right: 0.0, left: 0.0, ..pulse };
+    check_rough(&free, &at_rest(0.0), [100.0, 0.6], &[9.98], [30.0, 30.0])?;
+    // Two springs, with half periods π and π/10.
+    let bilinear = Rough { right: 100.0, ..SMOOTH };
+    let since = (20.0 - PI / 2.0) % (1.1 * PI);
+    let x = if since < 0.1 * PI { (10.0 * since).sin() / 10.0 } else { -(since - 0.1 * PI).sin() };
+    check_rough(&bilinear, &at_rest(-1.0), [20.0, ANY], &[x], [1000.0, 30.0])?;
+    // Oscillators around −ε and ε, from where that at ε crosses zero: a jump of a part 2ε of the force.
+    for kink in [1e-4_f64, 1e-2, 3.0] {
+        let quarter = (kink / (1.0 + kink)).acos();
+        let turns = (20.0 / (2.0 * quarter)).round();
+        let x = (1.0 + kink) * (20.0 - 2.0 * quarter * turns).cos() - kink;
+        let x = if turns % 2.0 == 0.0 { x } else { -x };
+        check_rough(&Rough { kink, ..SMOOTH }, &at_rest(1.0), [20.0, ANY], &[x], [1000.0, 30.0])?;
+    }
+    Ok(())
+}
+
+#[test]
+fn errors_fall_with_the_tolerance_under_dry_friction() -> Outcome {
+    // Each half period takes 2μ from the amplitude.
+    let (mu, end) = (0.01, 20.0_f64);
+    let halves = (end / PI).floor();
+    let x = mu + (1.0 - 2.0 * mu * halves - mu) * (end - halves * PI).cos();
+    let x = if halves % 2.0 == 0.0 { x } else { -x };
+    check_rough(&Dry { friction: mu }, &DryState { x: 1.0, dot_x: 0.0 }, [end, ANY], &[x], [1000.0, 30.0])
+}
+
+#[test]
+fn errors_fall_with_the_tolerance_around_corners() -> Outcome {
+    // |x| + |y| = 1.3 at the velocity √2.
+    let exact = |mut x: f64, mut y: f64, mut left: f64| {
+        while left > 0.0 {
+            let [dx, dy] = [-y.signum(), x.signum()];
+            let until = if dx * x < 0.0 { x.abs() } else { y.abs() };
+            let h = f64::min(until, left);
+            (x, y, left) = (x + h * dx, y + h * dy, left - h);
+            // On to the next side.
+            let [next_x, next_y] = [dx * 1e-300, dy * 1e-300];
+            (x, y) = (if x == 0.0 { next_x } else { x }, if y == 0.0 { next_y } else { y });
+        }
+        [x, y]
+    };
+    let start = CornersState { x: 1.0, y: 0.3 };
+    check_rough(&Corners { roof: 1.0, twist: 0.0 }, &start, [9.3, ANY], &exact(1.0, 0.3, 9.3), [100.0, 100.0])
+}
+
+/// Against DOP853 of SciPy 1.17 at a relative tolerance of 1e-13 and steps of 0.1 at most; at 1e-12 its last
+/// digits are others by 1e-9.
+#[test]
+fn rough_motions_end_where_another_program_has_them_end() -> Outcome {
+    fn check<S: Lagrangian>(system: &S, start: &S::State<f64>, end: f64, exact: &[f64]) -> Outcome
+    where
+        Gauss<8>: VariableStep<S, f64>,
+    {
+        for (tolerance, most) in [(1e-9, 1e-7), (1e-11, 4e-9)] {
+            let control = ErrorControl::new(tolerance, 0.01);
+            let mut run = ControlledIntegrator::new(system, Gauss::<8>::new(), control, start.clone())?;
+            run.advance_to(end)?;
+            let error = distance(run.q(), exact);
+            assert!(error < most, "{}, {tolerance:e}: {error:e}", S::REPORT.system);
+        }
+        Ok(())
+    }
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - psi(x))]
+    struct Splined {
+        psi: Spline<1>,
+    }
+    let axis = || Axis::uniform([-4.0, 4.0], 41);
+    let cosine = Spline::sample([axis()?], |[x]| 1.0 - x.cos())?;
+    let start = SplinedState { x: 2.0, dot_x: 0.0 };
+    check(&Splined { psi: cosine }, &start, 50.0, &[1.995588617822286])?;
+    let ripples = Spline::sample([axis()?], |[x]| 0.1 * x * x + 0.3 * (3.0 * x).sin())?;
+    let start = SplinedState { x: 3.0, dot_x: 0.0 };
+    check(&Splined { psi: ripples }, &start, 50.0, &[3.0001294544324275])?;
+    let start = CornersState { x: 1.0, y: 0.3 };
+    check(&Corners { roof: 0.0, twist: 0.3 }, &start, 20.0, &[-0.728311215084203, -0.5127491089990984])
+}
