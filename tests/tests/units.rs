@@ -1,6 +1,7 @@
-//! Units do not matter: where the unit of each coordinate and that of time change by powers of two, every
-//! method takes the same steps, scaled: bit for bit by the fixed point, up to 2^±80; and to rounding errors
-//! by Newton's method, whose pivots are compared as numbers, up to 2^±13.
+//! Units do not matter: where the unit of each coordinate and that of time change by powers of two up to
+//! 2^±80, every method takes the same steps, scaled: bit for bit by the fixed point, and to rounding errors
+//! by Newton's method, as candidates for a pivot are compared as numbers. Products of a matrix with vectors
+//! are measured in one norm, which is good for units up to 2^±13.
 //!
 //! Each system is written in physical coordinates X = u x, with numbers x in units u, and in a time t τ.
 //! What a run computes of X is exact in u and τ where these are powers of two; so any difference is a
@@ -12,7 +13,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
 
-use Agreement::{Bits, Rounding};
+use Agreement::{Bits, Rounding, RoundingNearby};
 use systems::{
     Amplitudes, Blade, Centre, Chain, Charge, CoupledMasses, DoublePendulum, Kepler, Oscillator, Pendulum,
     Predators, Vortices,
@@ -54,6 +55,8 @@ trait InUnits<const N: usize>: Lagrangian<f64> + Sized {
 enum Agreement {
     Bits,
     Rounding,
+    /// To rounding errors, where units do not differ too much.
+    RoundingNearby,
 }
 
 /// The end of a run in units, in units of one.
@@ -87,21 +90,25 @@ fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone>(
         end::<N, S, M>(([0; N], 0), method.clone(), steps).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert!(plain.iter().all(|x| x.is_finite()) && plain != S::start(), "{name}: {plain:?}");
     let largest = plain.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    // Elimination takes rows that are 10⁸ times smaller than others for ones that depend on these.
     let is_near =
         |(coordinates, time): &Exponents<N>| coordinates.iter().chain([time]).all(|by| by.abs() <= 13);
-    for units in exponents::<N>().filter(|units| agreement == Bits || is_near(units)) {
+    for units in exponents::<N>().filter(|units| agreement != RoundingNearby || is_near(units)) {
         let scaled = end::<N, S, M>(units, method.clone(), steps);
         let scaled = scaled.unwrap_or_else(|error| panic!("{name} in {units:?}: {error}"));
         let agree = plain.iter().zip(&scaled).all(|(a, b)| match agreement {
             Bits => a.to_bits() == b.to_bits(),
-            Rounding => (a - b).abs() < 1e-12 * largest,
+            Rounding | RoundingNearby => (a - b).abs() < 1e-12 * largest,
         });
         assert!(agree, "{name} in {units:?}: {scaled:?}, and not {plain:?}");
     }
 }
 
 const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov];
+
+/// The same of a system of a size that is known at run time only, where products may stand for a matrix.
+fn of_large(solver: Solver, agreement: Agreement) -> Agreement {
+    if solver == Solver::NewtonKrylov { RoundingNearby } else { agreement }
+}
 
 #[test]
 fn of_degenerate_systems() {
@@ -115,7 +122,7 @@ fn of_degenerate_systems() {
         check::<6, Vortices, _>("vortices, midpoint", agreement, sigma(0.5));
         check::<2, Predators, _>("predators, midpoint", agreement, sigma(0.5));
         check::<4, Centre, _>("centre, midpoint", Rounding, sigma(0.5));
-        check::<8, Amplitudes, _>("amplitudes, midpoint", agreement, sigma(0.5));
+        check::<8, Amplitudes, _>("amplitudes, midpoint", of_large(solver, agreement), sigma(0.5));
     }
     check::<6, Vortices, _>("vortices, leapfrog", Bits, Sigma::leapfrog());
     check::<2, Oscillator, _>("oscillator, one step", Rounding, OneStep::midpoint());
@@ -141,16 +148,24 @@ fn of_regular_systems() {
         check::<2, Kepler, _>("Kepler, midpoint", Rounding, midpoint);
         check::<2, DoublePendulum, _>("double pendulum, midpoint", Rounding, midpoint);
         check::<3, Charge, _>("charge, midpoint", Rounding, midpoint);
-        check::<12, Chain, _>("chain, midpoint", Rounding, midpoint);
+        check::<12, Chain, _>("chain, midpoint", of_large(solver, Rounding), midpoint);
         check::<3, CoupledMasses, _>("coupled masses, midpoint", Rounding, midpoint);
-        check::<12, Chain, _>("chain, Newmark", Rounding, Newmark { solver, ..Newmark::new(0.25) });
+        check::<12, Chain, _>(
+            "chain, Newmark",
+            of_large(solver, Rounding),
+            Newmark { solver, ..Newmark::new(0.25) },
+        );
         check::<2, Kepler, _>("Kepler, Galerkin", Rounding, Galerkin { solver, ..Galerkin::<4>::new() });
         check::<2, DoublePendulum, _>(
             "double pendulum, Galerkin",
             Rounding,
             Galerkin { solver, ..Galerkin::<4>::new() },
         );
-        check::<12, Chain, _>("chain, Galerkin", Rounding, Galerkin { solver, ..Galerkin::<3>::new() });
+        check::<12, Chain, _>(
+            "chain, Galerkin",
+            of_large(solver, Rounding),
+            Galerkin { solver, ..Galerkin::<3>::new() },
+        );
     }
     check::<2, Kepler, _>("Kepler, Verlet", Bits, Variational::trapezoid());
     check::<2, Kepler, _>("Kepler, Simpson", Bits, Variational::simpson());

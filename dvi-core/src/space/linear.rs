@@ -33,9 +33,6 @@ pub trait LinearEquations<T> {
     /// # Errors
     /// Those of what they are computed from.
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure>;
-
-    /// Whether A is regular but for single points, so that a small pivot is one of units, and not of rows that depend on each other.
-    const IN_ANY_UNITS: bool = false;
 }
 
 /// The residual of the point where `equations` are linearised, b, relative in each row to Σⱼ |Aᵢⱼ| sⱼ and
@@ -125,9 +122,9 @@ pub trait LinearSolver<T: Real>: Debug {
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
+fn eliminate<T: Real, M: SquareMatrix<T>>(
     matrix: &mut M,
-    equations: &mut E,
+    equations: &mut impl LinearEquations<T>,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
@@ -137,14 +134,12 @@ fn eliminate<T: Real, M: SquareMatrix<T>, E: LinearEquations<T>>(
     let finite = norm::finite(x);
     match matrix.eliminate(x) {
         Ok(()) => Ok(()),
-        Err(StepFailure::Singular { .. }) if finite.is_ok() && E::IN_ANY_UNITS => {
-            by_factors(matrix, equations, x)
-        }
+        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, x),
         Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
 }
 
-/// The same where elimination has found no pivot.
+/// The same where elimination has found no pivot, of which units may be to blame.
 #[cold]
 #[inline(never)]
 fn by_factors<T: Real, M: SquareMatrix<T>>(
@@ -153,7 +148,7 @@ fn by_factors<T: Real, M: SquareMatrix<T>>(
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
-    matrix.factor_in_any_units()?;
+    matrix.factor()?;
     matrix.solve(x);
     Ok(())
 }

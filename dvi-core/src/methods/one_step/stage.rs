@@ -306,8 +306,6 @@ struct Equations<'a, S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
-    const IN_ANY_UNITS: bool = true;
-
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { step, unknown, momentum, work: [point, velocity, gradient, one_form] } = self;

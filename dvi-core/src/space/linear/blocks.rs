@@ -32,7 +32,7 @@ where
         let (left, right) = done[k].split_at_mut(k + 1);
         let pivot = &mut left[k];
         transpose(pivot, n);
-        elimination::factor_in_any_units(pivot, permutation)?;
+        elimination::factor(pivot, permutation)?;
         for block in right.iter_mut() {
             for column in lines_mut(block, n) {
                 elimination::solve(pivot, permutation, column);

@@ -172,8 +172,6 @@ struct Flat<'a, const NODES: usize, T, M> {
 
 #[cfg(feature = "alloc")]
 impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for Flat<'_, NODES, T, M> {
-    const IN_ANY_UNITS: bool = true;
-
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { matrix, b: given, n } = self;
         b.copy_from_slice(given);

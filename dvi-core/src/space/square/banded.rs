@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use super::exchanges::Exchanges;
 use super::ordering::Order;
 use crate::error::StepFailure;
-use crate::scalar::norm::{larger, singular};
+use crate::scalar::norm::singular;
 use crate::space::elimination::LEAST;
 use crate::{Real, Scalar};
 
@@ -100,10 +100,18 @@ impl<T: Real> Banded<T> {
                     (row, pivot) = (i, size);
                 }
             }
-            let above = (k.saturating_sub(2 * b)..k)
-                .fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(entries[at(i, k)])));
+            // Its multipliers stand where its row was before later exchanges.
+            let (mut subtracted, mut place) = (T::lift(LEAST), row);
+            for j in (k.saturating_sub(2 * b)..k).rev() {
+                if place <= j + b {
+                    subtracted += Scalar::abs(entries[at(place, j)] * entries[at(j, k)]);
+                }
+                if place == self.pivots[j] as usize {
+                    place = j;
+                }
+            }
             // A pivot that is not a number is no use either.
-            let usable = pivot > rounding * above;
+            let usable = pivot > rounding * subtracted;
             if !usable {
                 return Err(singular(pivot, self.coordinate[k] as usize));
             }
