@@ -181,7 +181,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
         if *due == Due::Residual {
             return linear::residual(&mut equations, size, |i| p0[i], [residual, weights]);
         }
-        solver.solve(&mut equations, residual)?;
+        solver.solve(&mut equations, size, residual)?;
         Ok(sizes::reduce(weights, delta, residual))
     })?;
     norm::finite(delta)

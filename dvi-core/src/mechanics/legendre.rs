@@ -123,7 +123,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     /// [`StepFailure::NotFinite`] where L is not defined, [`StepFailure::Singular`] where the mass matrix is.
     fn solve_once(&mut self, system: &S, points: [&[T]; 3], t: T) -> Result<(), StepFailure> {
         let Self { solver, next, l_q, .. } = self;
-        solver.solve(&mut Equations { system, points, t, l_q }, next)?;
+        solver.solve(&mut Equations { system, points, t, l_q }, |j| points[1][j], next)?;
         norm::finite(next)
     }
 }

@@ -207,7 +207,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         if due == Due::Residual {
             return linear::residual(&mut equations, size, |_| T::lift(0.0), [correction, weights]);
         }
-        solver.solve(&mut equations, correction)?;
+        solver.solve(&mut equations, size, correction)?;
         Ok(sizes::reduce(weights, increment, correction))
     }
 }

@@ -312,9 +312,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 
     /// Overwrites the residuals with the corrections.
     fn solve(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
-        let Self { residuals, solver, work, .. } = self;
+        let Self { unknowns: [delta, _], residuals, solver, work, .. } = self;
+        let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(delta[j]);
         let mut matrix = Linearized { step, node: 0, work };
-        solver.solve(&mut matrix, residuals)
+        solver.solve(&mut matrix, size, residuals)
     }
 
     fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {

@@ -2,13 +2,14 @@
 //! for many right-hand sides, [`eliminate`] serves one and is faster. Two equations are solved by determinants where
 //! these lose nothing.
 //!
-//! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were subtracted
-//! to form it: |pivot| ≤ n ε Σⱼ |lₖⱼ uⱼₖ|. The test does not change when rows and columns are multiplied by
-//! constants of their own, as they are where coordinates have units. [`eliminate`] keeps no multipliers, and
-//! holds a pivot against the largest entry above it, |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k: where that finds none,
-//! units may be to blame, and [`factor`] decides. Rows that depend on each other may be left over by rounding
-//! as more than either sees: [`factor_with_care`] holds each pivot against what errors of n ε in all entries
-//! make of it, and takes longer.
+//! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were
+//! subtracted to form its column: |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. The test does not change when the
+//! matrix is multiplied by a constant, unless pivots become so small that their reciprocals overflow.
+//! [`factor_in_any_units`] holds it against those that were subtracted to form it alone, n ε Σⱼ |lₖⱼ uⱼₖ|,
+//! which does not change either when rows and columns are multiplied by constants of their own, as they are
+//! where coordinates have units; but it sees less of what rounding has left over of rows that depend on each
+//! other. [`factor_with_care`] sees that too, and takes longer: it holds each pivot against what errors of
+//! n ε in all entries make of it.
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
@@ -26,9 +27,38 @@ pub(crate) const LEAST: f64 = 1e-290;
 /// [`StepFailure::Singular`] with the column and the largest candidate for its pivot.
 #[inline]
 pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Result<(), StepFailure> {
-    factor_by(matrix, permutation, |matrix, n, k, row| {
+    factor_by(matrix, permutation, pivot_row)
+}
+
+/// The same of a matrix whose rows and columns may have units of very different size: candidates for a pivot
+/// are compared relative to Σⱼ |aᵢⱼ| sⱼ of their rows, where sⱼ = |`size`(j)| are those of the unknowns.
+/// `sums` has n entries.
+///
+/// # Errors
+/// As [`factor`].
+#[inline]
+pub(crate) fn factor_in_any_units<T: Real>(
+    matrix: &mut [T],
+    permutation: &mut [usize],
+    size: impl Fn(usize) -> T,
+    sums: &mut [T],
+) -> Result<(), StepFailure> {
+    for (sum, line) in sums.iter_mut().zip(lines(matrix, permutation.len())) {
+        let sizes = line.iter().enumerate().map(|(j, &a)| Scalar::abs(a * size(j)));
+        *sum = sizes.fold(T::lift(0.0), |sum, size| sum + size);
+    }
+    factor_by(matrix, permutation, |matrix, n, k, rounding| {
+        let candidate = |row: usize| Scalar::abs(matrix[row * n + k]);
+        let larger = |best: usize, row: usize| {
+            if candidate(row) * sums[best] > candidate(best) * sums[row] { row } else { best }
+        };
+        let row = (k + 1..n).fold(k, larger);
+        sums.swap(k, row);
         let terms = (0..k).map(|j| Scalar::abs(matrix[row * n + j] * matrix[j * n + k]));
-        terms.fold(T::lift(LEAST), |sum, term| sum + term)
+        let subtracted = terms.fold(T::lift(LEAST), |sum, term| sum + term);
+        // A pivot that is not a number is no use either.
+        let is_usable = candidate(row) > rounding * subtracted;
+        if is_usable { Ok(row) } else { Err(singular(candidate(row), k)) }
     })
 }
 
@@ -45,7 +75,11 @@ pub(crate) fn factor_with_care<T: Real>(
     permutation: &mut [usize],
     work: [&mut [T]; 2],
 ) -> Result<(), StepFailure> {
-    factor_by(matrix, permutation, |_, _, _, _| T::lift(LEAST))?;
+    factor_by(matrix, permutation, |matrix, n, k, rounding| {
+        let (row, pivot) = largest_below(matrix, n, k);
+        let is_usable = pivot > rounding * T::lift(LEAST);
+        if is_usable { Ok(row) } else { Err(singular(pivot, k)) }
+    })?;
     let (n, [x, y]) = (permutation.len(), work);
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
@@ -72,22 +106,17 @@ pub(crate) fn factor_with_care<T: Real>(
     Ok(())
 }
 
-/// The same, where `subtracted` of the matrix, n, a column and the row of its pivot is what that is made of.
-#[inline]
+/// With the row that `pivot_row` chooses in each column.
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn factor_by<T: Real>(
     matrix: &mut [T],
     permutation: &mut [usize],
-    subtracted: impl Fn(&[T], usize, usize, usize) -> T,
+    mut pivot_row: impl FnMut(&[T], usize, usize, T) -> Result<usize, StepFailure>,
 ) -> Result<(), StepFailure> {
     let n = permutation.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
-        let (row, pivot) = largest_below(matrix, n, k);
-        // A pivot that is not a number is no use either.
-        let is_usable = pivot > rounding * subtracted(matrix, n, k, row);
-        if !is_usable {
-            return Err(singular(pivot, k));
-        }
+        let row = pivot_row(matrix, n, k, rounding)?;
         permutation[k] = row;
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
         let upper = &mut upper[k * n..];
@@ -119,7 +148,7 @@ fn largest_below<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
     best
 }
 
-/// The same row, if its entry is more than rounding errors of those above.
+/// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of those above.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize, rounding: T) -> Result<usize, StepFailure> {
     let (row, pivot) = largest_below(matrix, n, k);

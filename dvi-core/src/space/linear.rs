@@ -112,19 +112,25 @@ pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T
 
 /// What solves linear equations, with the storage that it needs.
 pub trait LinearSolver<T: Real>: Debug {
-    /// Sets `x` to the solution.
+    /// Sets `x` to the solution, whose entries j have the size |`size`(j)|.
     ///
     /// # Errors
     /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if b is no number
     /// there; [`StepFailure::NotConverged`] where products with vectors lead to no solution. Of a regular A and a b that is no
     /// number, the solution may be no number.
-    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure>;
+    fn solve(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        size: impl Fn(usize) -> T,
+        x: &mut [T],
+    ) -> Result<(), StepFailure>;
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn eliminate<T: Real, M: SquareMatrix<T>>(
     matrix: &mut M,
     equations: &mut impl LinearEquations<T>,
+    size: impl Fn(usize) -> T,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
@@ -134,7 +140,7 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     let finite = norm::finite(x);
     match matrix.eliminate(x) {
         Ok(()) => Ok(()),
-        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, x),
+        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, size, x),
         Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
 }
@@ -145,10 +151,12 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
 fn by_factors<T: Real, M: SquareMatrix<T>>(
     matrix: &mut M,
     equations: &mut impl LinearEquations<T>,
+    size: impl Fn(usize) -> T,
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
-    matrix.factor()?;
+    matrix.factor_in_any_units(size, x)?;
+    equations.evaluate(x, &mut Places(|_, _, _| {}))?;
     matrix.solve(x);
     Ok(())
 }
@@ -157,8 +165,13 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
     for FixedSquare<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
-        eliminate(self, equations, x)
+    fn solve(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        size: impl Fn(usize) -> T,
+        x: &mut [T],
+    ) -> Result<(), StepFailure> {
+        eliminate(self, equations, size, x)
     }
 }
 
@@ -214,9 +227,14 @@ impl<T: Scalar> RunTimeSolver<T> {
 
 #[cfg(feature = "alloc")]
 impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
-    fn solve(&mut self, equations: &mut impl LinearEquations<T>, x: &mut [T]) -> Result<(), StepFailure> {
+    fn solve(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        size: impl Fn(usize) -> T,
+        x: &mut [T],
+    ) -> Result<(), StepFailure> {
         match &mut self.0 {
-            Storage::Matrix(matrix) => eliminate(matrix, equations, x),
+            Storage::Matrix(matrix) => eliminate(matrix, equations, size, x),
             Storage::Products(krylov) => krylov.solve(equations, x),
         }
     }

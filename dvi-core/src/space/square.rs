@@ -67,6 +67,13 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// As [`eliminate`](Self::eliminate).
     fn factor(&mut self) -> Result<(), StepFailure>;
 
+    /// The same of a matrix whose rows and columns may have units of very different size, if its storage has a way for it:
+    /// the solution has entries of the size |`size`(j)|. `work` has room for a vector.
+    ///
+    /// # Errors
+    /// As [`eliminate`](Self::eliminate).
+    fn factor_in_any_units(&mut self, size: impl Fn(usize) -> T, work: &mut [T]) -> Result<(), StepFailure>;
+
     /// The same, which also finds singular what rounding errors of its entries may make singular, if its storage has a way for it.
     /// `work` has room for two vectors.
     ///
@@ -128,6 +135,9 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
     #[inline]
     fn factor(&mut self) -> Result<(), StepFailure> {
         elimination::factor(&mut self.matrix, &mut self.permutation)
+    }
+    fn factor_in_any_units(&mut self, size: impl Fn(usize) -> T, work: &mut [T]) -> Result<(), StepFailure> {
+        elimination::factor_in_any_units(&mut self.matrix, &mut self.permutation, size, work)
     }
     fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
         elimination::factor_with_care(&mut self.matrix, &mut self.permutation, work)

@@ -342,7 +342,7 @@ fn rates<S: NondegenerateLagrangian<T>, T: Real>(
     }
     let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
     let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
-    solver.solve(&mut equations, &mut acceleration)?;
+    solver.solve(&mut equations, |j| v[j], &mut acceleration)?;
     norm::finite(&acceleration)?;
     Ok([velocity, acceleration])
 }

@@ -55,7 +55,7 @@ where
         if *due == Due::Residual {
             return linear::residual_of_nodes(&mut equations, size, |i| phase.p[i], residuals, weights);
         }
-        solver.solve(&mut equations, residuals)?;
+        solver.solve(&mut equations, size, residuals)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
             correction = norm::larger(correction, sizes::reduce(weights, unknown, change));

@@ -71,6 +71,10 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         }
     }
 
+    fn size(&self, i: usize) -> T {
+        Scalar::abs(self.ends.q0[i]) + Scalar::abs(self.ends.delta[i])
+    }
+
     fn time(&self, j: usize) -> T {
         self.interval.time(T::lift(self.rule.nodes()[j]))
     }
@@ -157,9 +161,10 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             if *due == Due::Residual {
                 return Self::residual(storage, q0);
             }
-            let Storage { displacements, residuals, weights, blocks, permutation, .. } = &mut *storage;
+            let Storage { displacements, residuals, weights, blocks, permutation, node } = &mut *storage;
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
-            blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)?;
+            let work = (&mut **permutation, &mut *node.point);
+            blocks::eliminate(blocks, work, |j| self.size(j), residuals, 0..Self::INTERIOR)?;
             let mut correction = T::lift(0.0);
             for (displacement, change) in displacements.iter_mut().zip(residuals.iter()).take(Self::INTERIOR)
             {
@@ -194,10 +199,11 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
     /// Leaves the second derivatives of L_d in the blocks of q0 and q1.
     fn complement(&self, storage: &mut Storage<NODES, S, T>) -> Result<(), StepFailure> {
         self.linearize(storage);
-        let Storage { residuals, blocks, permutation, .. } = storage;
+        let Storage { residuals, blocks, permutation, node, .. } = storage;
         // Not asked for.
         residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
-        blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)
+        let work = (&mut **permutation, &mut *node.point);
+        blocks::eliminate(blocks, work, |j| self.size(j), residuals, 0..Self::INTERIOR)
     }
 }
 

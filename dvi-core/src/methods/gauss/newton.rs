@@ -159,7 +159,7 @@ where
             if *due == Due::Residual {
                 return linear::residual_of_nodes(&mut matrix, size, |_| T::lift(0.0), residuals, sums);
             }
-            solver.solve(&mut matrix, residuals)?;
+            solver.solve(&mut matrix, size, residuals)?;
             let (correction, was_farther) = self.correct(path, h);
             // From a guess that is worse than none Newton's method may find another solution, far away.
             if core::mem::take(&mut extrapolated) && was_farther {

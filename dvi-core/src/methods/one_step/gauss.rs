@@ -238,7 +238,7 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
             if *due == Due::Residual {
                 return linear::residual_of_nodes(&mut matrix, size, |i| p[i], residuals, weights);
             }
-            solver.solve(&mut matrix, residuals)?;
+            solver.solve(&mut matrix, size, residuals)?;
             let mut correction = T::lift(0.0);
             for (increment, change) in increments.iter_mut().zip(&*residuals) {
                 correction = norm::larger(correction, sizes::reduce(weights, increment, change));

@@ -276,7 +276,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
             return stage.residual(step);
         }
         let (mut equations, solver, correction) = stage.equations(step);
-        solver.solve(&mut equations, correction)?;
+        let unknown = equations.unknown;
+        let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
+        solver.solve(&mut equations, size, correction)?;
         let mut size = T::lift(0.0);
         let Stage { unknown, correction, weights, .. } = &mut **stage;
         for (i, (unknown, &correction)) in unknown.iter_mut().zip(correction.iter()).enumerate() {

@@ -42,13 +42,14 @@ pub trait NodeSum<const NODES: usize, T> {
 
 /// What solves for the vectors from [`NodeSum::FIRST`] to `NODES`, with the storage that it needs.
 pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
-    /// Overwrites the vectors from the first unknown one with the solution.
+    /// Overwrites the vectors from the first unknown one with the solution, whose entries j have the size |`size`(j)|.
     ///
     /// # Errors
     /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
+        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure>;
 }
@@ -89,6 +90,7 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
+        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { rows, second, permutation } = self;
@@ -111,7 +113,8 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
                 }
             }
         }
-        blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)
+        let work = &mut second[0][..permutation.len()];
+        blocks::eliminate(rows, (permutation, work), size, vectors, M::FIRST..NODES)
     }
 }
 
@@ -213,6 +216,7 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
+        size: impl Fn(usize) -> T,
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { solver, b, x } = self;
@@ -220,7 +224,7 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
         for (b, vector) in lines_mut(b, n).zip(&vectors[M::FIRST..]) {
             b.copy_from_slice(vector);
         }
-        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, x)?;
+        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, |j| size(j % n), x)?;
         for (x, vector) in lines(x, n).zip(&mut vectors[M::FIRST..]) {
             vector.copy_from_slice(x);
         }

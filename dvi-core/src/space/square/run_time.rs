@@ -102,6 +102,15 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             Storage::Sparse(sparse) => sparse.factor(),
         }
     }
+    fn factor_in_any_units(&mut self, size: impl Fn(usize) -> T, work: &mut [T]) -> Result<(), StepFailure> {
+        match &mut self.0 {
+            Storage::Dense(matrix, permutation) => {
+                elimination::factor_in_any_units(matrix, permutation, size, work)
+            }
+            Storage::Banded(banded) => banded.factor(),
+            Storage::Sparse(sparse) => sparse.factor(),
+        }
+    }
     fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
         match &mut self.0 {
             Storage::Dense(matrix, permutation) => elimination::factor_with_care(matrix, permutation, work),
