@@ -172,7 +172,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
 ) -> Result<(), StepFailure> {
     let convergence = Convergence::new(stopping, stopping.max_iterations);
     iterate(convergence, statistics, |due, statistics| {
-        due.prepare(weights, q0, delta);
+        due.prepare(system, weights, q0, delta);
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let span = Span { system, interval, ends: Ends { q0, delta } };
@@ -181,7 +181,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
         if *due == Due::Residual {
             return linear::residual(&mut equations, size, |i| p0[i], [residual, weights]);
         }
-        solver.solve(&mut equations, size, residual)?;
+        solver.solve(&mut equations, weights, residual)?;
         Ok(sizes::reduce(weights, delta, residual))
     })?;
     norm::finite(delta)

@@ -27,7 +27,7 @@ use core::ops::{Deref, DerefMut};
 
 use crate::{Real, Scalar};
 
-pub use linear::{CoupledSolver, FixedCoupled, LinearEquations, LinearSolver, NodeSum, Storing};
+pub use linear::{CoupledSolver, FixedCoupled, FixedSolver, LinearEquations, LinearSolver, NodeSum, Storing};
 #[cfg(feature = "alloc")]
 pub use linear::{RunTimeCoupled, RunTimeSolver};
 pub use room::{FewInPlace, InPlace, Room, Store};
@@ -243,7 +243,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     type Local<T: Scalar> = R::Local<T, BLOCKS, N>;
     type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N, SINGLES, R>;
     type Square<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES, R>;
-    type Linear<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES, R>;
+    type Linear<T: Real> = FixedSolver<T, BLOCKS, N, SINGLES, R>;
     type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>;
     type Array<E: Clone + Debug> = FixedVector<E, BLOCKS, N, SINGLES, R>;
     type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES, R>>>;
@@ -282,7 +282,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
         _storing: Storing,
         _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Linear<T> {
-        FixedSquare::new(self)
+        FixedSolver::new(self)
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn coupled<const NODES: usize, T: Real>(

@@ -1,4 +1,4 @@
-//! Units do not matter: where the unit of each coordinate and that of time change by powers of two up to
+//! Units do not matter: where the unit of each block of coordinates and that of time change by powers of two up to
 //! 2^±80, every method takes the same steps, scaled: bit for bit by the fixed point, and to rounding errors
 //! by Newton's method, as candidates for a pivot are compared as numbers. Products of a matrix with vectors
 //! are measured in one norm, which is good for units up to 2^±13.
@@ -123,26 +123,26 @@ fn of_degenerate_systems() {
             Solver::Newton | Solver::NewtonKrylov => ROUNDING,
         };
         check::<2, Oscillator, _>("oscillator, midpoint", agreement, sigma(0.5));
-        check::<6, Vortices, _>("vortices, midpoint", agreement, sigma(0.5));
+        check::<2, Vortices, _>("vortices, midpoint", agreement, sigma(0.5));
         check::<2, Predators, _>("predators, midpoint", agreement, sigma(0.5));
         check::<4, Centre, _>("centre, midpoint", ROUNDING, sigma(0.5));
-        check::<8, Amplitudes, _>("amplitudes, midpoint", of_large(solver, agreement), sigma(0.5));
+        check::<2, Amplitudes, _>("amplitudes, midpoint", of_large(solver, agreement), sigma(0.5));
     }
-    check::<6, Vortices, _>("vortices, leapfrog", Bits, Sigma::leapfrog());
+    check::<2, Vortices, _>("vortices, leapfrog", Bits, Sigma::leapfrog());
     check::<2, Oscillator, _>("oscillator, one step", ROUNDING, OneStep::midpoint());
     check::<2, Predators, _>("predators, one step", ROUNDING, OneStep::midpoint());
     check::<2, Predators, _>("predators, trapezoid", ROUNDING, OneStep::trapezoid());
     check::<2, Predators, _>("predators, one-step Gauss", ROUNDING, OneStepGauss::<2>::new());
-    check::<8, Amplitudes, _>("amplitudes, one step", ROUNDING, OneStep::midpoint());
+    check::<2, Amplitudes, _>("amplitudes, one step", ROUNDING, OneStep::midpoint());
     check::<2, Predators, _>("predators, projected", ROUNDING, Projected::symmetric());
     check::<4, Centre, _>("centre, projected", ROUNDING, Projected::symmetric());
-    check::<6, Vortices, _>("vortices, projected", ROUNDING, Projected::standard());
-    check::<6, Vortices, _>("vortices, Gauss", Bits, Gauss::<4>::new());
-    check::<6, Vortices, _>("vortices, Gauss in lanes", Bits, Gauss::<8>::new().in_lanes());
+    check::<2, Vortices, _>("vortices, projected", ROUNDING, Projected::standard());
+    check::<2, Vortices, _>("vortices, Gauss", Bits, Gauss::<4>::new());
+    check::<2, Vortices, _>("vortices, Gauss in lanes", Bits, Gauss::<8>::new().in_lanes());
     check::<4, Centre, _>("centre, Gauss", ROUNDING, Gauss::<3>::new());
-    check::<8, Amplitudes, _>("amplitudes, Gauss", Bits, Gauss::<2>::new());
+    check::<2, Amplitudes, _>("amplitudes, Gauss", Bits, Gauss::<2>::new());
     check::<2, Predators, _>("predators, composition", ROUNDING, Composition::suzuki(OneStep::midpoint()));
-    check::<6, Vortices, _>("vortices, Runge-Kutta", Bits, RungeKutta::classical());
+    check::<2, Vortices, _>("vortices, Runge-Kutta", Bits, RungeKutta::classical());
 }
 
 #[test]
@@ -152,9 +152,9 @@ fn of_regular_systems() {
         check::<2, Kepler, _>("Kepler, midpoint", ROUNDING, midpoint);
         check::<2, DoublePendulum, _>("double pendulum, midpoint", ROUNDING, midpoint);
         check::<3, Charge, _>("charge, midpoint", ROUNDING, midpoint);
-        check::<12, Chain, _>("chain, midpoint", of_large(solver, ROUNDING), midpoint);
+        check::<2, Chain, _>("chain, midpoint", of_large(solver, ROUNDING), midpoint);
         check::<3, CoupledMasses, _>("coupled masses, midpoint", ROUNDING, midpoint);
-        check::<12, Chain, _>(
+        check::<2, Chain, _>(
             "chain, Newmark",
             of_large(solver, ROUNDING),
             Newmark { solver, ..Newmark::new(0.25) },
@@ -165,7 +165,7 @@ fn of_regular_systems() {
             ROUNDING,
             Galerkin { solver, ..Galerkin::<4>::new() },
         );
-        check::<12, Chain, _>(
+        check::<2, Chain, _>(
             "chain, Galerkin",
             of_large(solver, ROUNDING),
             Galerkin { solver, ..Galerkin::<3>::new() },

@@ -214,7 +214,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             let stopping = Stopping::default();
             let convergence = Convergence::new(stopping, stopping.max_iterations);
             iterate(convergence, &mut Statistics::default(), |due, _| {
-                due.prepare_alone(&mut self.weights, v);
+                due.prepare_alone(system, &mut self.weights, v);
                 if *due == Due::Residual {
                     return self.residual_of_tangent(system, at, Tangent { p, v, impulse, work });
                 }

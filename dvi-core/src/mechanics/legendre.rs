@@ -55,6 +55,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         is_quadratic: bool,
     ) -> Result<(), StepFailure> {
         self.correction.fill(T::lift(0.0));
+        Due::Sizes.prepare_alone(system, &mut self.weights, v);
         self.improve(system, q, p, t, v)?;
         if is_quadratic {
             return norm::finite(v);
@@ -62,7 +63,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         let stopping = Stopping::default();
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, &mut Statistics::default(), |due, _| {
-            due.prepare_alone(&mut self.weights, v);
+            due.prepare_alone(system, &mut self.weights, v);
             if *due == Due::Residual {
                 let Self { correction, l_q, weights, .. } = self;
                 let (points, sums) = ([q, &*v, p], [&mut correction[..], &mut weights[..]]);
@@ -122,8 +123,8 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     /// # Errors
     /// [`StepFailure::NotFinite`] where L is not defined, [`StepFailure::Singular`] where the mass matrix is.
     fn solve_once(&mut self, system: &S, points: [&[T]; 3], t: T) -> Result<(), StepFailure> {
-        let Self { solver, next, l_q, .. } = self;
-        solver.solve(&mut Equations { system, points, t, l_q }, |j| points[1][j], next)?;
+        let Self { solver, weights, next, l_q, .. } = self;
+        solver.solve(&mut Equations { system, points, t, l_q }, weights, next)?;
         norm::finite(next)
     }
 }

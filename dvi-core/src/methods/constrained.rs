@@ -224,7 +224,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             arrival;
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, statistics, |due, statistics| {
-            due.prepare(weights, q, increment);
+            due.prepare(system, weights, q, increment);
             statistics.linearizations += 1;
             statistics.factorisations += 1;
             let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };

@@ -299,7 +299,7 @@ where
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
-        self.path.prepare(due, self.q, self.h);
+        self.path.prepare(self.system, due, self.q, self.h);
     }
 
     /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a

@@ -159,7 +159,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
 
     fn prepare(&mut self, due: &mut Due) {
         let Work { weights, increment, .. } = &mut *self.work;
-        due.prepare(weights, self.q, increment);
+        due.prepare(self.system, weights, self.q, increment);
     }
 
     fn guess(&mut self) {
@@ -207,7 +207,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
         if due == Due::Residual {
             return linear::residual(&mut equations, size, |_| T::lift(0.0), [correction, weights]);
         }
-        solver.solve(&mut equations, size, correction)?;
+        solver.solve(&mut equations, weights, correction)?;
         Ok(sizes::reduce(weights, increment, correction))
     }
 }

@@ -234,7 +234,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
         self.guess(step.h, guess);
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, statistics, |due, statistics| {
-            due.prepare_all(&mut self.weights, step.q, &mut self.unknowns);
+            due.prepare_all(step.system, &mut self.weights, step.q, &mut self.unknowns);
             self.differentiate(step, statistics);
             self.residuals[1..].iter().try_for_each(|residual| norm::finite(residual))?;
             statistics.linearizations += NODES as u64;
@@ -312,10 +312,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 
     /// Overwrites the residuals with the corrections.
     fn solve(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
-        let Self { unknowns: [delta, _], residuals, solver, work, .. } = self;
-        let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(delta[j]);
+        let Self { residuals, weights, solver, work, .. } = self;
         let mut matrix = Linearized { step, node: 0, work };
-        solver.solve(&mut matrix, size, residuals)
+        solver.solve(&mut matrix, weights, residuals)
     }
 
     fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {

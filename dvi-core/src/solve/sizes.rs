@@ -1,14 +1,16 @@
-//! The size of each coordinate in a step, |q| + |Δ|, in which its corrections are judged.
+//! The sizes of coordinates in a step, in which their corrections are judged.
 //!
-//! Sizes go with the units of coordinates, and what is judged in them does not: units do not matter. They
-//! are those of the guess; where a correction is as large as its coordinate, they are taken again. They are
-//! kept as weights, one over the size of each coordinate.
+//! The coordinates of a block, `x[n]`, have one unit, and one size: the largest |q| + |Δ| among them. So what
+//! is next to nothing beside its neighbours, as where a wave has not arrived yet, is no task of its own.
+//! Sizes go with the units of blocks, and what is judged in them does not: units do not matter. They are
+//! those of the guess; where a correction is as large as its block, they are taken again. They are kept as
+//! weights, one over the size of each coordinate.
 
-use core::ops::DerefMut;
+use core::ops::{DerefMut, Range};
 
 use crate::scalar::norm::{MANY, larger, largest_number};
 use crate::scalar::{Lanes, smallest_normal};
-use crate::{Real, Scalar};
+use crate::{Real, Scalar, System};
 
 /// What an iteration does first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,34 +32,68 @@ pub(crate) fn weight_of<T: Real>(size: T) -> T {
     T::lift(1.0) / (size + smallest_normal::<T>())
 }
 
+/// The coordinates of each block.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn blocks<S: System>(system: &S) -> impl Iterator<Item = Range<usize>> {
+    let mut end = 0;
+    (0..S::REPORT.coordinates.len()).map(move |block| {
+        let begin = end;
+        end += system.block_len(block);
+        begin..end
+    })
+}
+
+/// Sets the weights of all coordinates of each block to that of the largest `size` in it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn set_weights<S: System, T: Real>(system: &S, weights: &mut [T], size: impl Fn(usize, T) -> T) {
+    for block in blocks(system) {
+        let largest = |largest: T, k: usize| larger(largest, size(k, weights[k]));
+        let largest = block.clone().fold(T::lift(0.0), largest);
+        weights[block].fill(weight_of(largest));
+    }
+}
+
 /// By so many times its size an unknown is moved.
 const SHAKE: f64 = 1.0 / 65536.0;
 
 impl Due {
     /// Prepares an iteration that improves the increment `delta` of `q`; whether that has been moved.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn prepare<T: Real>(&mut self, weights: &mut [T], q: &[T], delta: &mut [T]) -> bool {
+    pub(crate) fn prepare<S: System, T: Real>(
+        &mut self,
+        system: &S,
+        weights: &mut [T],
+        q: &[T],
+        delta: &mut [T],
+    ) -> bool {
         let size = |k: usize, delta: T| Scalar::abs(q[k]) + Scalar::abs(delta);
-        *self != Self::Nothing && self.carry_out(weights, size, delta)
+        *self != Self::Nothing && self.carry_out(system, weights, size, delta)
     }
 
     /// The same where the unknown is `q1`, and Δ = q1 − q.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn prepare_end<T: Real>(&mut self, weights: &mut [T], q: &[T], q1: &mut [T]) {
+    pub(crate) fn prepare_end<S: System, T: Real>(
+        &mut self,
+        system: &S,
+        weights: &mut [T],
+        q: &[T],
+        q1: &mut [T],
+    ) {
         let size = |k: usize, q1: T| Scalar::abs(q[k]) + Scalar::abs(q1 - q[k]);
-        let _ = *self != Self::Nothing && self.carry_out(weights, size, q1);
+        let _ = *self != Self::Nothing && self.carry_out(system, weights, size, q1);
     }
 
     /// The same where `x` is the unknown, and no increment.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn prepare_alone<T: Real>(&mut self, weights: &mut [T], x: &mut [T]) {
-        let _ = *self != Self::Nothing && self.carry_out(weights, |_, x| Scalar::abs(x), x);
+    pub(crate) fn prepare_alone<S: System, T: Real>(&mut self, system: &S, weights: &mut [T], x: &mut [T]) {
+        let _ = *self != Self::Nothing && self.carry_out(system, weights, |_, x| Scalar::abs(x), x);
     }
 
     /// The same of several unknowns for each coordinate, of which the last is the one that responds.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn prepare_all<T: Real, V: DerefMut<Target = [T]>>(
+    pub(crate) fn prepare_all<S: System, T: Real, V: DerefMut<Target = [T]>>(
         &mut self,
+        system: &S,
         weights: &mut [T],
         q: &[T],
         unknowns: &mut [V],
@@ -76,13 +112,14 @@ impl Due {
             let sizes = others.iter().map(|unknown| Scalar::abs(unknown[k]));
             Scalar::abs(q[k]) + sizes.fold(Scalar::abs(last), larger)
         };
-        let _ = *self != Self::Nothing && self.carry_out(weights, size, last);
+        let _ = *self != Self::Nothing && self.carry_out(system, weights, size, last);
     }
 
     /// The same of positions of several stages, in the lanes of packs.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn prepare_places<const W: usize, T: Real>(
+    pub(crate) fn prepare_places<const W: usize, S: System, T: Real>(
         &mut self,
+        system: &S,
         weights: &mut [T],
         q: &[T],
         places: &mut [Lanes<W, T>],
@@ -90,40 +127,52 @@ impl Due {
         let size = |k: usize, place: &Lanes<W, T>| {
             Scalar::abs(q[k]) + largest_number(&place.0.map(|place| place - q[k]))
         };
-        let _ = *self != Self::Nothing && self.carry_out_in_packs(weights, T::lift(1.0), size, places);
+        let _ =
+            *self != Self::Nothing && self.carry_out_in_packs(system, weights, T::lift(1.0), size, places);
     }
 
     /// The same of velocities of several stages, in a step of length `h`; weights are those of velocities
     /// then. Whether they have been moved.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn prepare_slopes<const W: usize, T: Real>(
+    pub(crate) fn prepare_slopes<const W: usize, S: System, T: Real>(
         &mut self,
+        system: &S,
         weights: &mut [T],
         (q, h): (&[T], T),
         slopes: &mut [Lanes<W, T>],
     ) -> bool {
         let h = Scalar::abs(h);
         let size = |k: usize, slope: &Lanes<W, T>| Scalar::abs(q[k]) + h * largest_number(&slope.0);
-        *self != Self::Nothing && self.carry_out_in_packs(weights, h, size, slopes)
+        *self != Self::Nothing && self.carry_out_in_packs(system, weights, h, size, slopes)
     }
 
     /// Does what is due with an unknown for each coordinate, whose `size` is that of coordinate k where it
     /// has a value; whether it moves.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn carry_out<T: Real>(&mut self, weights: &mut [T], size: impl Fn(usize, T) -> T, x: &mut [T]) -> bool {
+    fn carry_out<S: System, T: Real>(
+        &mut self,
+        system: &S,
+        weights: &mut [T],
+        size: impl Fn(usize, T) -> T,
+        x: &mut [T],
+    ) -> bool {
         if *self != Self::Sizes {
-            return self.test(weights, size, x);
+            return self.test(system, weights, size, x);
         }
-        for (k, (weight, &x)) in weights.iter_mut().zip(x.iter()).enumerate() {
-            *weight = weight_of(size(k, x));
-        }
+        set_weights(system, weights, |k, _| size(k, x[k]));
         *self = Self::Nothing;
         false
     }
 
     /// The same where the iterate is put to the test.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn test<T: Real>(&mut self, weights: &mut [T], size: impl Fn(usize, T) -> T, x: &mut [T]) -> bool {
+    fn test<S: System, T: Real>(
+        &mut self,
+        system: &S,
+        weights: &mut [T],
+        size: impl Fn(usize, T) -> T,
+        x: &mut [T],
+    ) -> bool {
         match *self {
             // The iteration itself answers that.
             Self::Residual => return false,
@@ -136,9 +185,9 @@ impl Due {
                 }
             }
             Self::Response => {
-                for (k, (&x, weight)) in x.iter().zip(weights).enumerate() {
-                    *weight = weight_of(size(k, x) + Scalar::abs(x - *weight) / T::lift(SHAKE));
-                }
+                set_weights(system, weights, |k, kept| {
+                    size(k, x[k]) + Scalar::abs(x[k] - kept) / T::lift(SHAKE)
+                });
             }
         }
         core::mem::replace(self, Self::Nothing) == Self::Shake
@@ -147,27 +196,28 @@ impl Due {
     /// The same with unknowns in the lanes of packs, of which the last responds, in units of coordinates
     /// over `unit`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn carry_out_in_packs<const W: usize, T: Real>(
+    fn carry_out_in_packs<const W: usize, S: System, T: Real>(
         &mut self,
+        system: &S,
         weights: &mut [T],
         unit: T,
         size: impl Fn(usize, &Lanes<W, T>) -> T,
         packs: &mut [Lanes<W, T>],
     ) -> bool {
         if *self != Self::Sizes {
-            return self.test_packs(weights, unit, size, packs);
+            return self.test_packs(system, weights, unit, size, packs);
         }
-        for (k, (weight, pack)) in weights.iter_mut().zip(packs.iter()).enumerate() {
-            *weight = unit * weight_of(size(k, pack));
-        }
+        set_weights(system, weights, |k, _| size(k, &packs[k]));
+        weights.iter_mut().for_each(|weight| *weight *= unit);
         *self = Self::Nothing;
         false
     }
 
     /// The same where the iterate is put to the test.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn test_packs<const W: usize, T: Real>(
+    fn test_packs<const W: usize, S: System, T: Real>(
         &mut self,
+        system: &S,
         weights: &mut [T],
         unit: T,
         size: impl Fn(usize, &Lanes<W, T>) -> T,
@@ -183,10 +233,10 @@ impl Due {
                 }
             }
             Self::Response => {
-                for (k, (pack, weight)) in packs.iter().zip(weights).enumerate() {
-                    let response = unit * Scalar::abs(pack.0[W - 1] - *weight) / T::lift(SHAKE);
-                    *weight = unit * weight_of(size(k, pack) + response);
-                }
+                set_weights(system, weights, |k, kept| {
+                    size(k, &packs[k]) + unit * Scalar::abs(packs[k].0[W - 1] - kept) / T::lift(SHAKE)
+                });
+                weights.iter_mut().for_each(|weight| *weight *= unit);
             }
         }
         core::mem::replace(self, Self::Nothing) == Self::Shake

@@ -30,9 +30,7 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
     factor_by(matrix, permutation, pivot_row)
 }
 
-/// The same of a matrix whose rows and columns may have units of very different size: candidates for a pivot
-/// are compared relative to Σⱼ |aᵢⱼ| sⱼ of their rows, where sⱼ = |`size`(j)| are those of the unknowns.
-/// `sums` has n entries.
+/// The same of a matrix whose rows and columns may have units of very different size.
 ///
 /// # Errors
 /// As [`factor`].
@@ -40,25 +38,14 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
 pub(crate) fn factor_in_any_units<T: Real>(
     matrix: &mut [T],
     permutation: &mut [usize],
-    size: impl Fn(usize) -> T,
-    sums: &mut [T],
 ) -> Result<(), StepFailure> {
-    for (sum, line) in sums.iter_mut().zip(lines(matrix, permutation.len())) {
-        let sizes = line.iter().enumerate().map(|(j, &a)| Scalar::abs(a * size(j)));
-        *sum = sizes.fold(T::lift(0.0), |sum, size| sum + size);
-    }
     factor_by(matrix, permutation, |matrix, n, k, rounding| {
-        let candidate = |row: usize| Scalar::abs(matrix[row * n + k]);
-        let larger = |best: usize, row: usize| {
-            if candidate(row) * sums[best] > candidate(best) * sums[row] { row } else { best }
-        };
-        let row = (k + 1..n).fold(k, larger);
-        sums.swap(k, row);
+        let (row, pivot) = largest_below(matrix, n, k);
         let terms = (0..k).map(|j| Scalar::abs(matrix[row * n + j] * matrix[j * n + k]));
         let subtracted = terms.fold(T::lift(LEAST), |sum, term| sum + term);
         // A pivot that is not a number is no use either.
-        let is_usable = candidate(row) > rounding * subtracted;
-        if is_usable { Ok(row) } else { Err(singular(candidate(row), k)) }
+        let is_usable = pivot > rounding * subtracted;
+        if is_usable { Ok(row) } else { Err(singular(pivot, k)) }
     })
 }
 
@@ -111,7 +98,7 @@ pub(crate) fn factor_with_care<T: Real>(
 fn factor_by<T: Real>(
     matrix: &mut [T],
     permutation: &mut [usize],
-    mut pivot_row: impl FnMut(&[T], usize, usize, T) -> Result<usize, StepFailure>,
+    pivot_row: impl Fn(&[T], usize, usize, T) -> Result<usize, StepFailure>,
 ) -> Result<(), StepFailure> {
     let n = permutation.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
@@ -268,6 +255,16 @@ fn by_elimination<T: Real>(mut matrix: [T; 4], mut x: [T; 2]) -> Result<[T; 2], 
     let finite = finite(&x);
     eliminate(&mut matrix, &mut x).map_err(|singular| finite.err().unwrap_or(singular))?;
     Ok(x)
+}
+
+/// Multiplies entry (i, j) of the row-major `matrix` by sᵢsⱼ.
+#[inline]
+pub(crate) fn balance<T: Real>(matrix: &mut [T], scales: &[T]) {
+    for (line, &of_row) in matrix.chunks_exact_mut(scales.len().max(1)).zip(scales) {
+        for (entry, &of_column) in line.iter_mut().zip(scales) {
+            *entry *= of_row * of_column;
+        }
+    }
 }
 
 /// Adds A x to `out`, for a row-major A that has not been factored.

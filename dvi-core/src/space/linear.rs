@@ -6,6 +6,10 @@ mod coupled;
 #[cfg(feature = "alloc")]
 mod krylov;
 
+#[cfg(feature = "alloc")]
+use alloc::vec;
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::fmt::Debug;
 use core::ops::Deref;
@@ -13,8 +17,10 @@ use core::ops::Deref;
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::sink::Places;
+#[cfg(feature = "alloc")]
+use crate::space::sink::Scaled;
 use crate::space::square::SquareMatrix;
-use crate::space::{FixedSquare, Room, Sink};
+use crate::space::{Fixed, FixedSquare, FixedVector, InPlace, Room, Sink, Space};
 
 #[cfg(feature = "alloc")]
 use crate::space::square::{Layout, Pattern, RunTimeSquare};
@@ -112,7 +118,7 @@ pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T
 
 /// What solves linear equations, with the storage that it needs.
 pub trait LinearSolver<T: Real>: Debug {
-    /// Sets `x` to the solution, whose entries j have the size |`size`(j)|.
+    /// Sets `x` to the solution, whose entries have the sizes one over `weights`.
     ///
     /// # Errors
     /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if b is no number
@@ -121,16 +127,40 @@ pub trait LinearSolver<T: Real>: Debug {
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
+        weights: &[T],
         x: &mut [T],
     ) -> Result<(), StepFailure>;
 }
 
+/// The size of an unknown with this weight; one if it has none whose square is a number.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn scale_of<T: Real>(weight: T) -> T {
+    let is_usual = weight < T::lift(1e140) && weight > T::lift(1e-140);
+    if is_usual { T::lift(1.0) / weight } else { T::lift(1.0) }
+}
+
+/// Sets `scales` to the sizes sⱼ of unknowns with these weights, which count as many times as they have room.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
+    for (scale, &weight) in scales.iter_mut().zip(weights.iter().cycle()) {
+        *scale = scale_of(weight);
+    }
+}
+
+/// Multiplies the entries of `x` by their scales.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn scale<T: Real>(x: &mut [T], scales: &[T]) {
+    x.iter_mut().zip(scales).for_each(|(x, &scale)| *x *= scale);
+}
+
+/// Solves in units in which the unknowns are about one, and so are the equations of which each is the
+/// derivative of an action by an unknown: sᵢAᵢⱼsⱼ yⱼ = sᵢbᵢ and xⱼ = sⱼyⱼ. Whatever the units of A, pivots may
+/// be compared there.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn eliminate<T: Real, M: SquareMatrix<T>>(
-    matrix: &mut M,
+    (matrix, scales): (&mut M, &mut [T]),
     equations: &mut impl LinearEquations<T>,
-    size: impl Fn(usize) -> T,
+    weights: &[T],
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
@@ -138,40 +168,68 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
         return solved;
     }
     let finite = norm::finite(x);
+    set_scales(scales, weights);
+    matrix.balance(scales);
+    scale(x, scales);
     match matrix.eliminate(x) {
-        Ok(()) => Ok(()),
-        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, size, x),
-        Err(singular) => Err(finite.err().unwrap_or(singular)),
+        Ok(()) => {}
+        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, scales, x)?,
+        Err(singular) => return Err(finite.err().unwrap_or(singular)),
     }
+    scale(x, scales);
+    Ok(())
 }
 
-/// The same where elimination has found no pivot, of which units may be to blame.
+/// The same where elimination has found no pivot, of which the sizes of unknowns may be to blame.
 #[cold]
 #[inline(never)]
 fn by_factors<T: Real, M: SquareMatrix<T>>(
     matrix: &mut M,
     equations: &mut impl LinearEquations<T>,
-    size: impl Fn(usize) -> T,
+    scales: &[T],
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
-    matrix.factor_in_any_units(size, x)?;
-    equations.evaluate(x, &mut Places(|_, _, _| {}))?;
+    matrix.balance(scales);
+    scale(x, scales);
+    matrix.factor_in_any_units()?;
     matrix.solve(x);
     Ok(())
 }
 
+/// The linear solver of a [`Fixed`](crate::Fixed) space.
+#[derive(Debug)]
+pub struct FixedSolver<
+    T: Clone + Debug,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+> {
+    matrix: FixedSquare<T, BLOCKS, N, SINGLES, R>,
+    scales: FixedVector<T, BLOCKS, N, SINGLES, R>,
+}
+
+impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
+    FixedSolver<T, BLOCKS, N, SINGLES, R>
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES, R>) -> Self {
+        Self { matrix: FixedSquare::new(space), scales: space.vector() }
+    }
+}
+
 impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> LinearSolver<T>
-    for FixedSquare<T, BLOCKS, N, SINGLES, R>
+    for FixedSolver<T, BLOCKS, N, SINGLES, R>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
+        weights: &[T],
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        eliminate(self, equations, size, x)
+        eliminate((&mut self.matrix, &mut self.scales), equations, weights, x)
     }
 }
 
@@ -193,7 +251,10 @@ const NUMBERS_IN_A_ROW: usize = 1024;
 /// The linear solver of a [`RunTime`](crate::RunTime) space.
 #[cfg(feature = "alloc")]
 #[derive(Debug)]
-pub struct RunTimeSolver<T>(Storage<T>);
+pub struct RunTimeSolver<T> {
+    storage: Storage<T>,
+    scales: Vec<T>,
+}
 
 #[cfg(feature = "alloc")]
 #[derive(Debug)]
@@ -210,18 +271,25 @@ impl<T: Scalar> RunTimeSolver<T> {
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self {
+        Self { storage: Storage::new(dimension, storing, entries), scales: vec![T::lift(1.0); dimension] }
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Storage<T> {
+    fn new(dimension: usize, storing: Storing, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
         if storing == Storing::Never {
-            return Self(Storage::Products(Krylov::new(dimension)));
+            return Self::Products(Krylov::new(dimension));
         }
         let mut pattern = Pattern::new(dimension);
         entries(&mut |row, column| pattern.add(row, column));
         let layout = Layout::of(pattern);
         let is_large = layout.storage(dimension) > NUMBERS_IN_A_ROW.saturating_mul(dimension);
-        Self(if storing == Storing::IfSmall && is_large {
-            Storage::Products(Krylov::new(dimension))
+        if storing == Storing::IfSmall && is_large {
+            Self::Products(Krylov::new(dimension))
         } else {
-            Storage::Matrix(RunTimeSquare::in_layout(dimension, layout))
-        })
+            Self::Matrix(RunTimeSquare::in_layout(dimension, layout))
+        }
     }
 }
 
@@ -230,12 +298,35 @@ impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
-        size: impl Fn(usize) -> T,
+        weights: &[T],
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        match &mut self.0 {
-            Storage::Matrix(matrix) => eliminate(matrix, equations, size, x),
-            Storage::Products(krylov) => krylov.solve(equations, x),
+        let Self { storage, scales } = self;
+        match storage {
+            Storage::Matrix(matrix) => eliminate((matrix, scales), equations, weights, x),
+            Storage::Products(krylov) => {
+                set_scales(scales, weights);
+                krylov.solve(&mut Balanced { equations, scales }, x)?;
+                scale(x, scales);
+                Ok(())
+            }
         }
+    }
+}
+
+/// Equations in units in which the unknowns are about one.
+#[cfg(feature = "alloc")]
+struct Balanced<'a, E, T> {
+    equations: &'a mut E,
+    scales: &'a [T],
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Real, E: LinearEquations<T>> LinearEquations<T> for Balanced<'_, E, T> {
+    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
+        let Self { equations, scales } = self;
+        equations.evaluate(b, &mut Scaled { sink, factor: |i: usize, j: usize| scales[i] * scales[j] })?;
+        scale(b, scales);
+        Ok(())
     }
 }

@@ -48,6 +48,9 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// when it is solved with.
     fn cleared(&mut self) -> &mut Self::Entries;
 
+    /// Multiplies entry (i, j) by sᵢsⱼ.
+    fn balance(&mut self, scales: &[T]);
+
     /// Overwrites `x` with the solution of A y = x, and A with nothing of use.
     ///
     /// # Errors
@@ -67,12 +70,11 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// As [`eliminate`](Self::eliminate).
     fn factor(&mut self) -> Result<(), StepFailure>;
 
-    /// The same of a matrix whose rows and columns may have units of very different size, if its storage has a way for it:
-    /// the solution has entries of the size |`size`(j)|. `work` has room for a vector.
+    /// The same of a matrix whose rows and columns may have units of very different size, if its storage has a way for it.
     ///
     /// # Errors
     /// As [`eliminate`](Self::eliminate).
-    fn factor_in_any_units(&mut self, size: impl Fn(usize) -> T, work: &mut [T]) -> Result<(), StepFailure>;
+    fn factor_in_any_units(&mut self) -> Result<(), StepFailure>;
 
     /// The same, which also finds singular what rounding errors of its entries may make singular, if its storage has a way for it.
     /// `work` has room for two vectors.
@@ -125,6 +127,10 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
         &mut self.matrix
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
+    fn balance(&mut self, scales: &[T]) {
+        elimination::balance(&mut self.matrix, scales);
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
         elimination::eliminate(&mut self.matrix, x)
     }
@@ -136,8 +142,8 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
     fn factor(&mut self) -> Result<(), StepFailure> {
         elimination::factor(&mut self.matrix, &mut self.permutation)
     }
-    fn factor_in_any_units(&mut self, size: impl Fn(usize) -> T, work: &mut [T]) -> Result<(), StepFailure> {
-        elimination::factor_in_any_units(&mut self.matrix, &mut self.permutation, size, work)
+    fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
+        elimination::factor_in_any_units(&mut self.matrix, &mut self.permutation)
     }
     fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
         elimination::factor_with_care(&mut self.matrix, &mut self.permutation, work)

@@ -33,19 +33,22 @@ in_units!(Oscillator, [f64; 2], 0.1, [1.0, 0.0]);
 
 #[degenerate_lagrangian(
     coordinates(x[3], y[3]),
-    one_form = sum(0..3, |j| (u[j] * x[j] * w[j] * d(y[j]) - w[j] * y[j] * u[j] * d(x[j])) / 2.0) / tau,
-    hamiltonian = sum_pairs(0..3, |j, k| ((u[j] * x[j] - u[k] * x[k]).powi(2) + (w[j] * y[j] - w[k] * y[k]).powi(2)).ln()) / (4.0 * PI),
+    one_form = sum(0..3, |j| (u * x[j] * w * d(y[j]) - w * y[j] * u * d(x[j])) / 2.0) / tau,
+    hamiltonian = sum_pairs(0..3, |j, k| ((u * x[j] - u * x[k]).powi(2) + (w * y[j] - w * y[k]).powi(2)).ln()) / (4.0 * PI),
 )]
 pub(super) struct Vortices {
-    u: [f64; 3],
-    w: [f64; 3],
+    u: f64,
+    w: f64,
     tau: f64,
 }
 
-impl InUnits<6> for Vortices {
+impl InUnits<2> for Vortices {
     const H: f64 = 0.1;
-    fn system(u: [f64; 6], tau: f64) -> Self {
-        Self { u: [u[0], u[1], u[2]], w: [u[3], u[4], u[5]], tau }
+    fn unit(coordinate: usize) -> usize {
+        coordinate / 3
+    }
+    fn system([u, w]: [f64; 2], tau: f64) -> Self {
+        Self { u, w, tau }
     }
     fn start() -> Vec<f64> {
         vec![1.0, -0.4, -0.7, 0.2, 0.9, -0.8]
@@ -81,21 +84,25 @@ in_units!(Centre, [f64; 4], 0.1, [1.0, 0.3, 0.5, 0.8]);
 
 /// Coupled amplitudes, of a size that is known at run time only.
 #[degenerate_lagrangian(
-    coordinates(x[u.len()], p[u.len()]),
-    one_form = sum(0..u.len(), |j| w[j] * p[j] * u[j] * d(x[j])) / tau,
-    hamiltonian = sum(0..u.len(), |j| ((w[j] * p[j]).powi(2) + (u[j] * x[j]).powi(2)).powi(2) / 4.0)
-        + sum(1..u.len(), |j| u[j] * x[j] * u[j - 1] * x[j - 1] + w[j] * p[j] * w[j - 1] * p[j - 1]),
+    coordinates(x[n], p[n]),
+    one_form = sum(0..n, |j| w * p[j] * u * d(x[j])) / tau,
+    hamiltonian = sum(0..n, |j| ((w * p[j]).powi(2) + (u * x[j]).powi(2)).powi(2) / 4.0)
+        + sum(1..n, |j| u * x[j] * u * x[j - 1] + w * p[j] * w * p[j - 1]),
 )]
 pub(super) struct Amplitudes {
-    u: Vec<f64>,
-    w: Vec<f64>,
+    n: usize,
+    u: f64,
+    w: f64,
     tau: f64,
 }
 
-impl InUnits<8> for Amplitudes {
+impl InUnits<2> for Amplitudes {
     const H: f64 = 0.05;
-    fn system(u: [f64; 8], tau: f64) -> Self {
-        Self { u: u[..4].to_vec(), w: u[4..].to_vec(), tau }
+    fn unit(coordinate: usize) -> usize {
+        coordinate / 4
+    }
+    fn system([u, w]: [f64; 2], tau: f64) -> Self {
+        Self { n: 4, u, w, tau }
     }
     fn start() -> Vec<f64> {
         vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1]
@@ -143,22 +150,28 @@ in_units!(Charge, [f64; 3], 0.1, [1.0, 0.5, 0.1, 0.2, -0.3, 0.5]);
 
 /// A chain of stiff springs, of a size that is known at run time only.
 #[lagrangian(
-    coordinates(x[u.len()]),
-    lagrangian = sum(0..u.len(), |j| (u[j] * dot(x[j]) / tau).powi(2) / 2.0 - (u[j] * x[j]).powi(4) / 4.0)
-        - sum(1..u.len(), |j| 50.0 * (u[j] * x[j] - u[j - 1] * x[j - 1]).powi(2) / 2.0),
+    coordinates(x[n], y[n]),
+    lagrangian = sum(0..n, |j| ((u * dot(x[j])).powi(2) + (w * dot(y[j])).powi(2)) / tau.powi(2) / 2.0
+        - ((u * x[j]).powi(2) + (w * y[j]).powi(2)).powi(2) / 4.0)
+        - sum(1..n, |j| 50.0 * ((u * x[j] - u * x[j - 1]).powi(2) + (w * y[j] - w * y[j - 1]).powi(2)) / 2.0),
 )]
 pub(super) struct Chain {
-    u: Vec<f64>,
+    n: usize,
+    u: f64,
+    w: f64,
     tau: f64,
 }
 
-impl InUnits<12> for Chain {
+impl InUnits<2> for Chain {
     const H: f64 = 0.2;
-    fn system(u: [f64; 12], tau: f64) -> Self {
-        Self { u: u.to_vec(), tau }
+    fn unit(coordinate: usize) -> usize {
+        coordinate / 12
+    }
+    fn system([u, w]: [f64; 2], tau: f64) -> Self {
+        Self { n: 12, u, w, tau }
     }
     fn start() -> Vec<f64> {
-        (0..24).map(|j| (1.7 * f64::from(j)).sin()).collect()
+        (0..48).map(|j| (1.7 * f64::from(j)).sin()).collect()
     }
 }
 

@@ -342,7 +342,9 @@ fn rates<S: NondegenerateLagrangian<T>, T: Real>(
     }
     let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
     let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
-    solver.solve(&mut equations, |j| v[j], &mut acceleration)?;
+    let mut alike: Vector<S, T> = system.space().vector();
+    alike.fill(T::lift(1.0));
+    solver.solve(&mut equations, &alike, &mut acceleration)?;
     norm::finite(&acceleration)?;
     Ok([velocity, acceleration])
 }

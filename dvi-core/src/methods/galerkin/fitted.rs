@@ -39,7 +39,7 @@ where
     path.guess(step, q);
     let convergence = Convergence::fixed_point(step.method.stopping, budget);
     iterate(convergence, statistics, |due, statistics| {
-        due.prepare_all(&mut path.work.weights, q, &mut path.work.unknowns[1..]);
+        due.prepare_all(step.system, &mut path.work.weights, q, &mut path.work.unknowns[1..]);
         path.read_frequency(step, statistics)?;
         Ok(improve(step, path, statistics))
     })?;

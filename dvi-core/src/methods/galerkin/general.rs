@@ -42,7 +42,7 @@ where
     let stopping = step.method.stopping;
     let convergence = Convergence::new(stopping, stopping.max_iterations);
     iterate(convergence, statistics, |due, statistics| {
-        due.prepare_all(&mut path.work.weights, q, &mut path.work.unknowns[1..]);
+        due.prepare_all(step.system, &mut path.work.weights, q, &mut path.work.unknowns[1..]);
         path.read_frequency(step, statistics)?;
         differentiate(step, path, statistics)?;
         statistics.linearizations += 1;
@@ -55,7 +55,7 @@ where
         if *due == Due::Residual {
             return linear::residual_of_nodes(&mut equations, size, |i| phase.p[i], residuals, weights);
         }
-        solver.solve(&mut equations, size, residuals)?;
+        solver.solve(&mut equations, weights, residuals)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
             correction = norm::larger(correction, sizes::reduce(weights, unknown, change));

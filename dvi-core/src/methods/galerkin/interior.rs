@@ -196,7 +196,7 @@ where
         due: &mut Due,
         statistics: &mut Statistics,
     ) -> T {
-        due.prepare_places(&mut self.sizes, at.q, &mut self.places);
+        due.prepare_places(system, &mut self.sizes, at.q, &mut self.places);
         self.evaluate(system, [t, at.h], statistics);
         self.place(at)
     }

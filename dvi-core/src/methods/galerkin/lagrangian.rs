@@ -71,10 +71,6 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         }
     }
 
-    fn size(&self, i: usize) -> T {
-        Scalar::abs(self.ends.q0[i]) + Scalar::abs(self.ends.delta[i])
-    }
-
     fn time(&self, j: usize) -> T {
         self.interval.time(T::lift(self.rule.nodes()[j]))
     }
@@ -153,7 +149,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, statistics, |due, statistics| {
             let Storage { weights, displacements, .. } = &mut *storage;
-            due.prepare_all(weights, q0, &mut displacements[..Self::INTERIOR]);
+            due.prepare_all(self.system, weights, q0, &mut displacements[..Self::INTERIOR]);
             self.differentiate(storage, statistics);
             self.linearize(storage);
             statistics.linearizations += 1;
@@ -161,10 +157,9 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             if *due == Due::Residual {
                 return Self::residual(storage, q0);
             }
-            let Storage { displacements, residuals, weights, blocks, permutation, node } = &mut *storage;
+            let Storage { displacements, residuals, weights, blocks, permutation, .. } = &mut *storage;
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
-            let work = (&mut **permutation, &mut *node.point);
-            blocks::eliminate(blocks, work, |j| self.size(j), residuals, 0..Self::INTERIOR)?;
+            blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)?;
             let mut correction = T::lift(0.0);
             for (displacement, change) in displacements.iter_mut().zip(residuals.iter()).take(Self::INTERIOR)
             {
@@ -199,11 +194,10 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
     /// Leaves the second derivatives of L_d in the blocks of q0 and q1.
     fn complement(&self, storage: &mut Storage<NODES, S, T>) -> Result<(), StepFailure> {
         self.linearize(storage);
-        let Storage { residuals, blocks, permutation, node, .. } = storage;
+        let Storage { residuals, blocks, permutation, .. } = storage;
         // Not asked for.
         residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
-        let work = (&mut **permutation, &mut *node.point);
-        blocks::eliminate(blocks, work, |j| self.size(j), residuals, 0..Self::INTERIOR)
+        blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)
     }
 }
 

@@ -176,12 +176,12 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
 
     /// Does what is `due` before an iteration from `q`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn prepare(&mut self, due: &mut Due, q: &[T], h: T) {
+    pub(super) fn prepare(&mut self, system: &S, due: &mut Due, q: &[T], h: T) {
         let Self { coefficients, slopes, terms, stages, weights, .. } = self;
         if S::Kind::OF_SECOND_ORDER {
-            return due.prepare_places(weights, q, &mut stages[0]);
+            return due.prepare_places(system, weights, q, &mut stages[0]);
         }
-        if due.prepare_slopes(weights, (q, h), &mut slopes[0]) {
+        if due.prepare_slopes(system, weights, (q, h), &mut slopes[0]) {
             let weights = Lanes::all(h) * coefficients.b;
             weigh(|_| weights, &slopes[0], &mut terms[0]);
         }

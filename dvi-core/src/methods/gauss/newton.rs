@@ -146,7 +146,7 @@ where
         // iteration, and does not double it.
         convergence.course().more *= 2;
         iterate(convergence, statistics, |due, statistics| {
-            due.prepare_slopes(&mut path.weights, (q, h), &mut path.slopes[0]);
+            due.prepare_slopes(system, &mut path.weights, (q, h), &mut path.slopes[0]);
             self.differentiate(system, path, [t, h], statistics)?;
             statistics.linearizations += STAGES as u64;
             statistics.factorisations += 1;
@@ -159,7 +159,7 @@ where
             if *due == Due::Residual {
                 return linear::residual_of_nodes(&mut matrix, size, |_| T::lift(0.0), residuals, sums);
             }
-            solver.solve(&mut matrix, size, residuals)?;
+            solver.solve(&mut matrix, weights, residuals)?;
             let (correction, was_farther) = self.correct(path, h);
             // From a guess that is worse than none Newton's method may find another solution, far away.
             if core::mem::take(&mut extrapolated) && was_farther {

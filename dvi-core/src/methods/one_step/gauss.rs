@@ -226,7 +226,7 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
         self.guess(h, guess);
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, statistics, |due, statistics| {
-            due.prepare_all(&mut self.weights, q, &mut self.increments);
+            due.prepare_all(system, &mut self.weights, q, &mut self.increments);
             self.differentiate(system, q, [t, h], statistics);
             self.residuals.iter().try_for_each(|residual| norm::finite(residual))?;
             statistics.linearizations += STAGES as u64;
@@ -238,7 +238,7 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
             if *due == Due::Residual {
                 return linear::residual_of_nodes(&mut matrix, size, |i| p[i], residuals, weights);
             }
-            solver.solve(&mut matrix, size, residuals)?;
+            solver.solve(&mut matrix, weights, residuals)?;
             let mut correction = T::lift(0.0);
             for (increment, change) in increments.iter_mut().zip(&*residuals) {
                 correction = norm::larger(correction, sizes::reduce(weights, increment, change));

@@ -155,7 +155,7 @@ struct Newton<'a, S: System, T: Real> {
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
-        due.prepare_alone(&mut self.split.weights, self.q);
+        due.prepare_alone(self.system, &mut self.split.weights, self.q);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -174,11 +174,13 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     /// The equations at the unknowns.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn equations<'a>(&'a mut self, step: &'a Step<'a, S, T>) -> Posed<'a, S, T> {
-        let Self { unknown, momentum, gradient, one_form, solver, point, velocity, correction, .. } = self;
+        let Self {
+            unknown, momentum, gradient, one_form, solver, point, velocity, correction, weights, ..
+        } = self;
         (
             Equations { step, unknown, momentum, work: [point, velocity, gradient, one_form] },
             solver,
-            correction,
+            [correction, weights],
         )
     }
 
@@ -266,7 +268,7 @@ struct Newton<'a, S: System, T: Real> {
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
-        due.prepare(&mut self.stage.weights, self.step.q, &mut self.stage.unknown);
+        due.prepare(self.step.system, &mut self.stage.weights, self.step.q, &mut self.stage.unknown);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -275,10 +277,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
         if *due == Due::Residual {
             return stage.residual(step);
         }
-        let (mut equations, solver, correction) = stage.equations(step);
-        let unknown = equations.unknown;
-        let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
-        solver.solve(&mut equations, size, correction)?;
+        let (mut equations, solver, [correction, weights]) = stage.equations(step);
+        solver.solve(&mut equations, weights, correction)?;
         let mut size = T::lift(0.0);
         let Stage { unknown, correction, weights, .. } = &mut **stage;
         for (i, (unknown, &correction)) in unknown.iter_mut().zip(correction.iter()).enumerate() {
@@ -296,8 +296,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
     }
 }
 
-/// Equations, what solves them, and where the solution goes.
-type Posed<'a, S, T> = (Equations<'a, S, T>, &'a mut Linear<S, T>, &'a mut Vector<S, T>);
+/// Equations, what solves them, where the solution goes, and the weights of its entries.
+type Posed<'a, S, T> = (Equations<'a, S, T>, &'a mut Linear<S, T>, [&'a mut Vector<S, T>; 2]);
 
 struct Equations<'a, S: System, T: Real> {
     step: &'a Step<'a, S, T>,

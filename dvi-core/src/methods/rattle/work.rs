@@ -272,7 +272,7 @@ struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
-        due.prepare_end(&mut self.work.weights, self.step.q, &mut self.work.q);
+        due.prepare_end(self.step.system, &mut self.work.weights, self.step.q, &mut self.work.q);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

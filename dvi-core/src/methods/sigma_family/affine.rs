@@ -218,7 +218,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         history.extrapolate(increment);
         let convergence = Convergence::fixed_point(step.method.stopping.exhaustive(), *budget);
         iterate(convergence, statistics, |due, statistics| {
-            due.prepare(weights, q, increment);
+            due.prepare(step.system, weights, q, increment);
             for ((total, &shift), &s) in total.iter_mut().zip(shift.iter()).zip(increment.iter()) {
                 *total = step.method.sigma * (shift + s);
             }
@@ -296,7 +296,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Placed<'_, S, T> {
 impl<S: DegenerateLagrangian<T>, T: Real> Iteration<T> for Placed<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
-        due.prepare(self.weights, self.q, self.increment);
+        due.prepare(self.step.system, self.weights, self.q, self.increment);
         if Self::IS_LONG {
             place([self.origin, self.increment], self.step.method.sigma, self.point);
         }

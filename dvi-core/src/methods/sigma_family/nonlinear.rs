@@ -106,7 +106,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         inverse.prepare(step.system, &l_d.work.point, step.node_time(), combination, trial, statistics)?;
         let convergence = Convergence::fixed_point(step.method.stopping, *budget);
         iterate(convergence, statistics, |due, statistics| {
-            due.prepare(weights, q, increment);
+            due.prepare(step.system, weights, q, increment);
             residual.copy_from_slice(p0);
             let ends = Ends { q0: q, delta: increment };
             l_d.derivatives(

@@ -55,7 +55,7 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
     };
     let convergence = Convergence::fixed_point(stopping, stopping.max_iterations);
     iterate(convergence, statistics, |due, statistics| {
-        due.prepare(weights, q, increment);
+        due.prepare(step.system, weights, q, increment);
         trial.copy_from_slice(p);
         let ends = Ends { q0: q, delta: increment };
         l_d.derivatives(step.span(ends), trial, sum, statistics)?;

@@ -404,7 +404,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
         let Self { attempt, weights } = self;
-        attempt.is_placed &= !due.prepare(weights, attempt.q, &mut attempt.work.increment);
+        let (system, increment) = (attempt.step.system, &mut attempt.work.increment);
+        attempt.is_placed &= !due.prepare(system, weights, attempt.q, increment);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

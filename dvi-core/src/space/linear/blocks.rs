@@ -12,15 +12,13 @@ use crate::space::{elimination, lines, lines_mut};
 use core::ops::{DerefMut, Range};
 
 /// Overwrites the entries `pivots` of `x` with the solution of A y = x in these rows and columns, and A with nothing of use
-/// but the Schur complement of the later rows and columns. `work` has room for a vector, and |`size`(j)| is the
-/// size of entry j of each vector.
+/// but the Schur complement of the later rows and columns.
 ///
 /// # Errors
 /// [`StepFailure::Singular`] with the column of the block that has no pivot.
 pub(crate) fn eliminate<const NODES: usize, T: Real, M, V>(
     rows: &mut [[M; NODES]; NODES],
-    (permutation, work): (&mut [usize], &mut [T]),
-    size: impl Fn(usize) -> T,
+    permutation: &mut [usize],
     x: &mut [V; NODES],
     pivots: Range<usize>,
 ) -> Result<(), StepFailure>
@@ -34,7 +32,7 @@ where
         let (left, right) = done[k].split_at_mut(k + 1);
         let pivot = &mut left[k];
         transpose(pivot, n);
-        elimination::factor_in_any_units(pivot, permutation, &size, work)?;
+        elimination::factor_in_any_units(pivot, permutation)?;
         for block in right.iter_mut() {
             for column in lines_mut(block, n) {
                 elimination::solve(pivot, permutation, column);
@@ -107,16 +105,7 @@ mod tests {
             let mut x: [Vec<f64>; 4] = core::array::from_fn(|r| {
                 (0..n).map(|i| if r == 0 { 0.0 } else { rhs[(r - 1) * n + i] }).collect()
             });
-            assert_eq!(
-                eliminate(
-                    &mut rows,
-                    (&mut alloc::vec![0; n], &mut alloc::vec![0.0; n]),
-                    |_| 1.0,
-                    &mut x,
-                    1..4
-                ),
-                Ok(())
-            );
+            assert_eq!(eliminate(&mut rows, &mut alloc::vec![0; n], &mut x, 1..4), Ok(()));
             let Some(expected) = dense.clone().lu().solve(&rhs) else { panic!("nalgebra found no solution") };
             let found = DVector::from_vec(x[1..].concat());
             assert!((found - &expected).amax() < 1e-13 * expected.amax(), "n = {n}");

@@ -5,15 +5,15 @@ use core::cell::RefCell;
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
 
-use super::blocks;
 #[cfg(feature = "alloc")]
 use super::{LinearEquations, LinearSolver, RunTimeSolver, Storing};
+use super::{blocks, scale, set_scales};
 #[cfg(feature = "alloc")]
 use crate::RunTime;
 use crate::error::StepFailure;
 #[cfg(feature = "alloc")]
 use crate::space::sink::Places;
-use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room};
+use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room, elimination};
 #[cfg(feature = "alloc")]
 use crate::space::{lines, lines_mut};
 use crate::state::memory::Aside;
@@ -42,14 +42,14 @@ pub trait NodeSum<const NODES: usize, T> {
 
 /// What solves for the vectors from [`NodeSum::FIRST`] to `NODES`, with the storage that it needs.
 pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
-    /// Overwrites the vectors from the first unknown one with the solution, whose entries j have the size |`size`(j)|.
+    /// Overwrites the vectors from the first unknown one with the solution, whose entries have the sizes one over `weights`.
     ///
     /// # Errors
     /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
-        size: impl Fn(usize) -> T,
+        weights: &[T],
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure>;
 }
@@ -90,7 +90,7 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
-        size: impl Fn(usize) -> T,
+        weights: &[T],
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { rows, second, permutation } = self;
@@ -113,8 +113,15 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
                 }
             }
         }
-        let work = &mut second[0][..permutation.len()];
-        blocks::eliminate(rows, (permutation, work), size, vectors, M::FIRST..NODES)
+        let scales = &mut second[0][..permutation.len()];
+        set_scales(scales, weights);
+        for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(M::FIRST) {
+            row[M::FIRST..].iter_mut().for_each(|block| elimination::balance(block, scales));
+            scale(vector, scales);
+        }
+        blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)?;
+        vectors[M::FIRST..].iter_mut().for_each(|vector| scale(vector, scales));
+        Ok(())
     }
 }
 
@@ -216,7 +223,7 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
-        size: impl Fn(usize) -> T,
+        weights: &[T],
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { solver, b, x } = self;
@@ -224,7 +231,7 @@ impl<const NODES: usize, T: Real> CoupledSolver<NODES, T> for RunTimeCoupled<T> 
         for (b, vector) in lines_mut(b, n).zip(&vectors[M::FIRST..]) {
             b.copy_from_slice(vector);
         }
-        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, |j| size(j % n), x)?;
+        solver.solve(&mut Flat::<NODES, T, _> { matrix, b, n }, weights, x)?;
         for (x, vector) in lines(x, n).zip(&mut vectors[M::FIRST..]) {
             vector.copy_from_slice(x);
         }

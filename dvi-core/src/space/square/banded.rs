@@ -84,6 +84,16 @@ impl<T: Scalar> Banded<T> {
 }
 
 impl<T: Real> Banded<T> {
+    pub(super) fn balance(&mut self, scales: &[T]) {
+        let (width, b) = (self.width(), self.bandwidth);
+        for (row, &i) in self.coordinate.iter().enumerate() {
+            for column in self.columns(row) {
+                let scale = scales[i as usize] * scales[self.coordinate[column] as usize];
+                self.entries[row * width + b + column - row] *= scale;
+            }
+        }
+    }
+
     pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
         if let Some((row, column)) = self.outside {
             return Err(StepFailure::Pattern { row, column });

@@ -74,6 +74,13 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
         }
         self
     }
+    fn balance(&mut self, scales: &[T]) {
+        match &mut self.0 {
+            Storage::Dense(matrix, _) => elimination::balance(matrix, scales),
+            Storage::Banded(banded) => banded.balance(scales),
+            Storage::Sparse(sparse) => sparse.balance(scales),
+        }
+    }
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
         match &mut self.0 {
             Storage::Dense(matrix, _) => elimination::eliminate(matrix, x),
@@ -102,11 +109,9 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             Storage::Sparse(sparse) => sparse.factor(),
         }
     }
-    fn factor_in_any_units(&mut self, size: impl Fn(usize) -> T, work: &mut [T]) -> Result<(), StepFailure> {
+    fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
         match &mut self.0 {
-            Storage::Dense(matrix, permutation) => {
-                elimination::factor_in_any_units(matrix, permutation, size, work)
-            }
+            Storage::Dense(matrix, permutation) => elimination::factor_in_any_units(matrix, permutation),
             Storage::Banded(banded) => banded.factor(),
             Storage::Sparse(sparse) => sparse.factor(),
         }

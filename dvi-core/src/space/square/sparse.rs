@@ -128,6 +128,16 @@ impl<T: Scalar> Entries<T> {
 }
 
 impl<T: Real> Sparse<T> {
+    pub(super) fn balance(&mut self, scales: &[T]) {
+        let Entries { begins, columns, values, .. } = &mut self.entries;
+        for (row, &of_row) in scales.iter().enumerate() {
+            let entries = begins[row]..begins[row + 1];
+            for (value, &column) in values[entries.clone()].iter_mut().zip(&columns[entries]) {
+                *value *= of_row * scales[column as usize];
+            }
+        }
+    }
+
     pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
         let Self { entries, order, factors, work } = self;
         if let Some((row, column)) = entries.outside {

@@ -7,7 +7,7 @@ use crate::methods::together::{Companion, all_finite, load, of_lanes};
 use crate::scalar::lanes::read_lane;
 use crate::scalar::simd::{Task, widest};
 use crate::scalar::{Comparison, Lanes, smallest_normal};
-use crate::solve::{Convergences, Stopping, Verdict};
+use crate::solve::{Convergences, Stopping, Verdict, sizes};
 use crate::state::history::{DEPTH, extrapolate};
 use crate::system::Packable;
 use crate::{DegenerateLagrangian, Scalar, System};
@@ -141,6 +141,18 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Midpoints<'_, W
 }
 
 impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
+    /// Takes sizes as [`Due`](crate::solve::Due) does.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn take_sizes(&mut self) {
+        for block in sizes::blocks(self.system) {
+            let of = |k: usize| Scalar::abs(self.q[k]) + Scalar::abs(self.increment[k]);
+            let larger = |a: Lanes<W>, b: Lanes<W>| Lanes::choose(b, Comparison::Greater, a, b, a);
+            let size = block.clone().map(of).fold(Lanes::all(0.0), larger);
+            let weight = Lanes::all(1.0) / (size + Lanes::all(smallest_normal::<f64>()));
+            self.weights[block].fill(weight);
+        }
+    }
+
     /// Takes a step and returns the iterations; nothing has moved if there is none that all runs agree on.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) -> Option<[u64; W]> {
@@ -158,12 +170,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         let time = Lanes::all(time.time() + 0.5 * time.step_size());
         loop {
             if convergence.takes_sizes() {
-                let increments = self.q.iter().zip(self.increment.iter());
-                for (weight, (&q, &s)) in self.weights.iter_mut().zip(increments) {
-                    // As `weight_of`.
-                    let least = Lanes::all(smallest_normal::<f64>());
-                    *weight = Lanes::all(1.0) / (Scalar::abs(q) + Scalar::abs(s) + least);
-                }
+                self.take_sizes();
             }
             let correction = self.iterate(time, convergence.active());
             match convergence.judge(correction) {
