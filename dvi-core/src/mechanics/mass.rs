@@ -7,8 +7,9 @@ use super::pattern::of_entries;
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::SquareMatrix;
+use crate::space::linear::{scale, scale_of};
 use crate::space::sink::{Places, Sink};
-use crate::{NondegenerateLagrangian, Real, Space, Square, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
 
 /// M and M⁻¹.
 #[derive(Debug)]
@@ -24,7 +25,10 @@ pub(crate) struct Mass<S: System, T: Real> {
 #[derive(Debug)]
 struct Coupled<S: System, T: Real> {
     matrix: Square<S, T>,
+    /// Of the matrix in units in which its diagonal is one.
     factors: Square<S, T>,
+    /// These units of velocities.
+    scales: Vector<S, T>,
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
@@ -64,13 +68,20 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
             if entry != zero {
                 entries.add(row, column, entry);
             }
+            if row == column {
+                masses[row] += entry;
+            }
         });
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
-        let mut factors = matrix.clone();
+        let (mut factors, mut scales) = (matrix.clone(), v);
+        for (scale, &mass) in scales.iter_mut().zip(masses.iter()) {
+            *scale = scale_of(Scalar::sqrt(Scalar::abs(mass)));
+        }
+        factors.balance(&scales);
         factors.factor_with_care([&mut l_q, &mut l_v])?;
         masses.fill(T::lift(f64::NAN));
         reciprocals.fill(T::lift(f64::NAN));
-        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors }) })
+        Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, scales }) })
     }
 
     /// 1/m of each coordinate, if M is diagonal.
@@ -89,7 +100,11 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve_in_place(&self, p: &mut [T]) {
         match &self.coupled {
-            Some(Coupled { factors, .. }) if !S::DIAGONAL_MASS => factors.solve(p),
+            Some(Coupled { factors, scales, .. }) if !S::DIAGONAL_MASS => {
+                scale(p, scales);
+                factors.solve(p);
+                scale(p, scales);
+            }
             _ => {
                 for (p, &reciprocal) in p.iter_mut().zip(self.reciprocals.iter()) {
                     *p *= reciprocal;

@@ -134,7 +134,7 @@ pub trait LinearSolver<T: Real>: Debug {
 
 /// The size of an unknown with this weight; one if it has none whose square is a number.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn scale_of<T: Real>(weight: T) -> T {
+pub(crate) fn scale_of<T: Real>(weight: T) -> T {
     let is_usual = weight < T::lift(1e140) && weight > T::lift(1e-140);
     if is_usual { T::lift(1.0) / weight } else { T::lift(1.0) }
 }
@@ -149,7 +149,7 @@ fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
 
 /// Multiplies the entries of `x` by their scales.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn scale<T: Real>(x: &mut [T], scales: &[T]) {
+pub(crate) fn scale<T: Real>(x: &mut [T], scales: &[T]) {
     x.iter_mut().zip(scales).for_each(|(x, &scale)| *x *= scale);
 }
 
