@@ -5,9 +5,9 @@
 
 use super::pattern::of_entries;
 use crate::error::StepFailure;
-use crate::scalar::norm;
+use crate::scalar::{norm, smallest_normal};
 use crate::space::SquareMatrix;
-use crate::space::linear::{scale, scale_of};
+use crate::space::linear::{scale, set_scales};
 use crate::space::sink::{Places, Sink};
 use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
 
@@ -25,9 +25,9 @@ pub(crate) struct Mass<S: System, T: Real> {
 #[derive(Debug)]
 struct Coupled<S: System, T: Real> {
     matrix: Square<S, T>,
-    /// Of the matrix in units in which its diagonal is one.
+    /// Of the matrix whose rows are in units of energies.
     factors: Square<S, T>,
-    /// These units of velocities.
+    /// What they are multiplied by for that: velocities for which the diagonal is one.
     scales: Vector<S, T>,
 }
 
@@ -73,11 +73,11 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
             }
         });
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
+        // The root of a mass is a weight of velocities.
         let (mut factors, mut scales) = (matrix.clone(), v);
-        for (scale, &mass) in scales.iter_mut().zip(masses.iter()) {
-            *scale = scale_of(Scalar::sqrt(Scalar::abs(mass)));
-        }
-        factors.balance(&scales);
+        masses.iter_mut().for_each(|mass| *mass = Scalar::sqrt(Scalar::abs(*mass)) + smallest_normal::<T>());
+        set_scales(&mut scales, &masses);
+        factors.scale_rows(&scales);
         factors.factor_with_care([&mut l_q, &mut l_v])?;
         masses.fill(T::lift(f64::NAN));
         reciprocals.fill(T::lift(f64::NAN));
@@ -103,7 +103,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
             Some(Coupled { factors, scales, .. }) if !S::DIAGONAL_MASS => {
                 scale(p, scales);
                 factors.solve(p);
-                scale(p, scales);
             }
             _ => {
                 for (p, &reciprocal) in p.iter_mut().zip(self.reciprocals.iter()) {

@@ -69,6 +69,11 @@ pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
+    if b < a { b } else { a }
+}
+
 /// Whether all entries are finite, else which one is not.
 ///
 /// The sum of the entries is finite only if they all are, or overflows; so one comparison settles the

@@ -36,9 +36,9 @@ pub struct Stopping {
     ///
     /// Below the rounding of the arithmetic, an iteration goes on until its corrections no longer shrink.
     /// Units do not matter to a fixed point: with other units of coordinates and of time its iterates are
-    /// the same, scaled. On four equal vortices in quasi-periodic motion, σ = ½ and h = 0.1, ΣΓ|z|² then
-    /// changes by less than 4e-19 a step over 4·10⁵ steps; an iteration that stops as soon as an error of
-    /// 1e-17 is predicted drifts by 1.2e-18.
+    /// the same, scaled. On four equal vortices in quasi-periodic motion, σ = ½ and h from 0.1 to 0.1045,
+    /// ΣΓ|z|² then drifts by (3 ± 2)·10⁻¹⁹ a step over 4·10⁵ steps, the mean of sixteen runs; with a
+    /// tolerance of 2.3e-16, at which iterations stop as soon as such an error is predicted, by 4.6·10⁻¹⁸.
     pub tolerance: f64,
     /// The largest number of iterations. Default: 100.
     pub max_iterations: usize,

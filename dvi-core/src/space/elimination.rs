@@ -14,7 +14,7 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm::{finite, larger, singular};
-use crate::space::lines;
+use crate::space::{lines, lines_mut};
 use crate::{Real, Scalar};
 
 /// What a pivot is compared with at least: n ε times this still has a finite reciprocal.
@@ -257,13 +257,11 @@ fn by_elimination<T: Real>(mut matrix: [T; 4], mut x: [T; 2]) -> Result<[T; 2], 
     Ok(x)
 }
 
-/// Multiplies entry (i, j) of the row-major `matrix` by sᵢsⱼ.
+/// Multiplies row i of the row-major `matrix` by sᵢ.
 #[inline]
-pub(crate) fn balance<T: Real>(matrix: &mut [T], scales: &[T]) {
-    for (line, &of_row) in matrix.chunks_exact_mut(scales.len().max(1)).zip(scales) {
-        for (entry, &of_column) in line.iter_mut().zip(scales) {
-            *entry *= of_row * of_column;
-        }
+pub(crate) fn scale_rows<T: Real>(matrix: &mut [T], scales: &[T]) {
+    for (line, &scale) in lines_mut(matrix, scales.len()).zip(scales) {
+        line.iter_mut().for_each(|entry| *entry *= scale);
     }
 }
 

@@ -132,18 +132,20 @@ pub trait LinearSolver<T: Real>: Debug {
     ) -> Result<(), StepFailure>;
 }
 
-/// The size of an unknown with this weight; one if it has none whose square is a number.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn scale_of<T: Real>(weight: T) -> T {
-    let is_usual = weight < T::lift(1e140) && weight > T::lift(1e-140);
-    if is_usual { T::lift(1.0) / weight } else { T::lift(1.0) }
-}
+/// Where a number has its exponent.
+const EXPONENT: u64 = 0x7ff << 52;
 
-/// Sets `scales` to the sizes sⱼ of unknowns with these weights, which count as many times as they have room.
+/// Sets `scales` to the sizes of unknowns with these weights, in units of the largest but for its binary
+/// digits, which would round; there may be several unknowns for each weight. Scales are numbers without
+/// derivatives, and not so small that rows vanish.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
-    for (scale, &weight) in scales.iter_mut().zip(weights.iter().cycle()) {
-        *scale = scale_of(weight);
+pub(crate) fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
+    let least = weights.iter().fold(T::lift(f64::INFINITY), |least, &weight| norm::smaller(least, weight));
+    let unit = T::lift(f64::from_bits(norm::reported(least).to_bits() & EXPONENT));
+    for scales in scales.chunks_mut(weights.len().max(1)) {
+        for (scale, &weight) in scales.iter_mut().zip(weights) {
+            *scale = norm::larger(T::lift(1e-140), T::lift(norm::reported(unit / weight)));
+        }
     }
 }
 
@@ -153,9 +155,8 @@ pub(crate) fn scale<T: Real>(x: &mut [T], scales: &[T]) {
     x.iter_mut().zip(scales).for_each(|(x, &scale)| *x *= scale);
 }
 
-/// Solves in units in which the unknowns are about one, and so are the equations of which each is the
-/// derivative of an action by an unknown: sᵢAᵢⱼsⱼ yⱼ = sᵢbᵢ and xⱼ = sⱼyⱼ. Whatever the units of A, pivots may
-/// be compared there.
+/// Each equation is the derivative of an action by an unknown: times the size of that it is in units of the
+/// action, and pivots may be compared whatever the units of A.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn eliminate<T: Real, M: SquareMatrix<T>>(
     (matrix, scales): (&mut M, &mut [T]),
@@ -169,15 +170,13 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     }
     let finite = norm::finite(x);
     set_scales(scales, weights);
-    matrix.balance(scales);
+    matrix.scale_rows(scales);
     scale(x, scales);
     match matrix.eliminate(x) {
-        Ok(()) => {}
-        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, scales, x)?,
-        Err(singular) => return Err(finite.err().unwrap_or(singular)),
+        Ok(()) => Ok(()),
+        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, scales, x),
+        Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
-    scale(x, scales);
-    Ok(())
 }
 
 /// The same where elimination has found no pivot, of which the sizes of unknowns may be to blame.
@@ -190,7 +189,7 @@ fn by_factors<T: Real, M: SquareMatrix<T>>(
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
-    matrix.balance(scales);
+    matrix.scale_rows(scales);
     scale(x, scales);
     matrix.factor_in_any_units()?;
     matrix.solve(x);

@@ -48,8 +48,8 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// when it is solved with.
     fn cleared(&mut self) -> &mut Self::Entries;
 
-    /// Multiplies entry (i, j) by sᵢsⱼ.
-    fn balance(&mut self, scales: &[T]);
+    /// Multiplies row i by sᵢ.
+    fn scale_rows(&mut self, scales: &[T]);
 
     /// Overwrites `x` with the solution of A y = x, and A with nothing of use.
     ///
@@ -127,8 +127,8 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
         &mut self.matrix
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn balance(&mut self, scales: &[T]) {
-        elimination::balance(&mut self.matrix, scales);
+    fn scale_rows(&mut self, scales: &[T]) {
+        elimination::scale_rows(&mut self.matrix, scales);
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {

@@ -2,7 +2,7 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Iteration, Stopping, repeat};
+use crate::solve::{Convergence, Due, Iteration, Quick, Stopping, repeat};
 use crate::space::sink::Places;
 use crate::space::{elimination, linear, scratch};
 use crate::state::Statistics;
@@ -47,6 +47,35 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     /// [`StepFailure::Singular`] where ∂ϑ/∂y is, [`StepFailure::NotConverged`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve_y(
+        &mut self,
+        system: &S,
+        q: &mut Vector<S, T>,
+        t: T,
+        p: &Vector<S, T>,
+        stopping: Stopping,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let quick = Quick::new(stopping, stopping.max_iterations);
+        match repeat(quick, statistics, Newton { split: self, system, q, t, p }) {
+            Err(StepFailure::NotConverged { .. }) => {}
+            solved => return solved,
+        }
+        if !S::Space::ON_STACK {
+            return self.carefully(system, q, t, p, stopping, statistics);
+        }
+        // What another function sees has no place in registers.
+        let [mut apart, mut momentum]: [Vector<S, T>; 2] = system.space().vectors();
+        apart.copy_from_slice(q);
+        momentum.copy_from_slice(p);
+        let solved = Self::new(system).carefully(system, &mut apart, t, &momentum, stopping, statistics);
+        q.copy_from_slice(&apart);
+        solved
+    }
+
+    /// The same where the quick look has given up.
+    #[cold]
+    #[inline(never)]
+    fn carefully(
         &mut self,
         system: &S,
         q: &mut Vector<S, T>,

@@ -12,10 +12,10 @@ use super::{blocks, scale, set_scales};
 use crate::RunTime;
 use crate::error::StepFailure;
 #[cfg(feature = "alloc")]
-use crate::space::sink::Places;
-use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room, elimination};
+use crate::space::lines;
 #[cfg(feature = "alloc")]
-use crate::space::{lines, lines_mut};
+use crate::space::sink::Places;
+use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room, lines_mut};
 use crate::state::memory::Aside;
 use crate::{Real, Scalar, Sink, Space, Weights};
 
@@ -116,13 +116,16 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
         let scales = &mut second[0][..permutation.len()];
         set_scales(scales, weights);
         for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(M::FIRST) {
-            row[M::FIRST..].iter_mut().for_each(|block| elimination::balance(block, scales));
+            row[M::FIRST..].iter_mut().for_each(|block| scale_columns(block, scales));
             scale(vector, scales);
         }
-        blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)?;
-        vectors[M::FIRST..].iter_mut().for_each(|vector| scale(vector, scales));
-        Ok(())
+        blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)
     }
+}
+
+/// Multiplies the rows of a block that is stored transposed.
+fn scale_columns<T: Real>(transposed: &mut [T], scales: &[T]) {
+    lines_mut(transposed, scales.len()).for_each(|column| scale(column, scales));
 }
 
 /// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq.

@@ -14,6 +14,7 @@ use super::ordering::Order;
 use crate::error::StepFailure;
 use crate::scalar::norm::singular;
 use crate::space::elimination::LEAST;
+use crate::space::lines_mut;
 use crate::{Real, Scalar};
 
 /// A banded matrix, in an order of its own.
@@ -84,13 +85,10 @@ impl<T: Scalar> Banded<T> {
 }
 
 impl<T: Real> Banded<T> {
-    pub(super) fn balance(&mut self, scales: &[T]) {
-        let (width, b) = (self.width(), self.bandwidth);
-        for (row, &i) in self.coordinate.iter().enumerate() {
-            for column in self.columns(row) {
-                let scale = scales[i as usize] * scales[self.coordinate[column] as usize];
-                self.entries[row * width + b + column - row] *= scale;
-            }
+    pub(super) fn scale_rows(&mut self, scales: &[T]) {
+        let width = self.width();
+        for (line, &i) in lines_mut(&mut self.entries, width).zip(&self.coordinate) {
+            line.iter_mut().for_each(|entry| *entry *= scales[i as usize]);
         }
     }
 

@@ -74,11 +74,11 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
         }
         self
     }
-    fn balance(&mut self, scales: &[T]) {
+    fn scale_rows(&mut self, scales: &[T]) {
         match &mut self.0 {
-            Storage::Dense(matrix, _) => elimination::balance(matrix, scales),
-            Storage::Banded(banded) => banded.balance(scales),
-            Storage::Sparse(sparse) => sparse.balance(scales),
+            Storage::Dense(matrix, _) => elimination::scale_rows(matrix, scales),
+            Storage::Banded(banded) => banded.scale_rows(scales),
+            Storage::Sparse(sparse) => sparse.scale_rows(scales),
         }
     }
     fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {

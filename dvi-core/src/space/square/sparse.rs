@@ -4,7 +4,7 @@
 //! As every row with an entry in the columns that it eliminates is among them, the largest entry of a column is the pivot, as in
 //! a dense elimination. Rows that wait for their front stand on a stack. Which columns make a front is found once, when the
 //! matrix is made ([`fronts`](super::fronts)). A pivot counts as zero when it is no larger than the rounding errors of the
-//! entries above it, |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. Sources: Duff & Reid 1983 (fronts), George & Ng 1985 (room for all
+//! entries above it, |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k, and of what was subtracted in its front to form it. Sources: Duff & Reid 1983 (fronts), George & Ng 1985 (room for all
 //! pivots).
 
 use alloc::vec;
@@ -128,13 +128,10 @@ impl<T: Scalar> Entries<T> {
 }
 
 impl<T: Real> Sparse<T> {
-    pub(super) fn balance(&mut self, scales: &[T]) {
-        let Entries { begins, columns, values, .. } = &mut self.entries;
-        for (row, &of_row) in scales.iter().enumerate() {
-            let entries = begins[row]..begins[row + 1];
-            for (value, &column) in values[entries.clone()].iter_mut().zip(&columns[entries]) {
-                *value *= of_row * scales[column as usize];
-            }
+    pub(super) fn scale_rows(&mut self, scales: &[T]) {
+        let Entries { begins, values, .. } = &mut self.entries;
+        for (row, &scale) in scales.iter().enumerate() {
+            values[begins[row]..begins[row + 1]].iter_mut().for_each(|value| *value *= scale);
         }
     }
 
@@ -240,8 +237,9 @@ impl<T: Real> Work<T> {
                 }
             }
             // A pivot that is not a number is no use either.
-            let usable = pivot > rounding * self.largest[column as usize];
-            if !usable {
+            let is_usable = pivot > rounding * self.largest[column as usize]
+                || pivot > rounding * subtracted(table, width, row, k);
+            if !is_usable {
                 return Err(singular(pivot, column as usize));
             }
             rows.swap(k, row);
@@ -283,6 +281,13 @@ impl<T: Real> Work<T> {
             waiting.copy_from_slice(left);
         }
     }
+}
+
+/// What was subtracted in a front to form the entry in this row and column.
+#[cold]
+fn subtracted<T: Real>(table: &[T], width: usize, row: usize, column: usize) -> T {
+    let terms = (0..column).map(|j| Scalar::abs(table[row * width + j] * table[j * width + column]));
+    terms.fold(T::lift(LEAST), |sum, term| sum + term)
 }
 
 #[cfg(test)]
