@@ -181,9 +181,7 @@ fn an_explicit_step_costs_one_gradient_and_nothing_else() -> Outcome {
 fn an_implicit_step_by_fixed_point_needs_no_matrix() -> Outcome {
     let (system, start) = quasi_periodic();
     // To the end, where corrections no longer shrink, it takes 10.2 iterations; 8.3 leave a bias behind.
-    // That each coordinate, and not the largest alone, is known to 1e-12 takes half an iteration more: 5.2
-    // for 4.4.
-    for (tolerance, limit) in [(1e-12, 6), (Stopping::default().tolerance, 11)] {
+    for (tolerance, limit) in [(1e-12, 5), (Stopping::default().tolerance, 11)] {
         let stopping = Stopping { tolerance, ..Stopping::default() };
         let mut run = Integrator::new(&system, Sigma { stopping, ..Sigma::midpoint() }, 0.1, start)?;
         for _ in 0..1000 {
