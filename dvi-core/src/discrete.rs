@@ -28,9 +28,7 @@ use crate::space::{LinearEquations, LinearSolver, Storing, linear};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Scalar, Vector};
 
-pub use frequency::{
-    Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, PerCoordinate, Radial, Reading, Unfitted,
-};
+pub use frequency::{Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, Radial, Reading, Unfitted};
 pub(crate) use node::NodeWork;
 pub use node::OneNode;
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};

@@ -5,7 +5,7 @@
 //! [`Variational`], [`Galerkin`], [`Newmark`]. For systems with constraints: [`Constrained`] and [`Rattle`]. For systems with
 //! impacts: [`Impacts`]. For rotations and unit vectors as coordinates: [`Geodesic`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
 //! motion. With friction and noise, for regular systems: `Langevin`. Around others: [`Composition`], [`EnergyLimit`], and
-//! [`General`] for a discrete Lagrangian that has no method, as [`Symmetrised`] has none.
+//! [`General`] for a discrete Lagrangian that has no method.
 
 mod collocation;
 mod composition;
@@ -25,7 +25,6 @@ mod projected;
 mod rattle;
 mod runge_kutta;
 mod sigma_family;
-mod symmetrised;
 mod together;
 mod tolerance;
 mod variational;
@@ -56,7 +55,6 @@ pub use projected::{Projected, ProjectedMemory};
 pub use rattle::{Rattle, RattleMemory};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
 pub use sigma_family::{ParasiticMode, Reinitialisation, Sigma, SigmaMemory, Start};
-pub use symmetrised::{Symmetrised, SymmetrisedLagrangian};
 pub use together::{Companion, InStep};
 pub use tolerance::Tolerance;
 pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
@@ -309,7 +307,7 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, `Newmark`, `General` around these or around `Symmetrised`, and `EnergyLimit` around any of them"
+    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, `Newmark`, `General` around these, and `EnergyLimit` around any of them"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
@@ -333,7 +331,7 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian that `General` and `Constrained` could take steps of",
     label = "its steps are not variational, it reads a frequency from the motion, or it watches steps",
-    note = "such methods are `Variational` and `Symmetrised` and, without constraints, `Sigma`, `Galerkin` and `Newmark`; `EnergyLimit` goes around `General` and `Constrained`"
+    note = "such methods are `Variational` and, without constraints, `Sigma`, `Galerkin` and `Newmark`; `EnergyLimit` goes around `General` and `Constrained`"
 )]
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// Refuses options that have no effect there.

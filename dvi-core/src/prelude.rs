@@ -4,7 +4,7 @@ pub use crate::diagnostics::{
     AlternatingComponent, Crossing, Direction, LyapunovExponent, Section, TangentMap, TwoPointTangentMap,
     Work, convergence_order,
 };
-pub use crate::discrete::{Constant, Curvature, PerCoordinate, Quadrature, Radial, Reading};
+pub use crate::discrete::{Constant, Curvature, Quadrature, Radial, Reading};
 pub use crate::error::{StartError, StepError, StepFailure};
 pub use crate::mechanics::{AtState, OnConstraints};
 #[cfg(feature = "random")]

@@ -1,6 +1,6 @@
 //! Failures are values, and the last good state is kept.
 
-use dvi_core::methods::{General, Method, Symmetrised};
+use dvi_core::methods::{General, Method};
 use dvi_core::prelude::*;
 use dvi_core::{IndexError, LengthError};
 use dvi_tests::configurations::quasi_periodic;
@@ -451,7 +451,6 @@ fn steps_from_rest_at_the_origin_succeed() -> Outcome {
                 succeeds(&system, Sigma { solver, ..Sigma::midpoint() }, start, h)?;
             }
             succeeds(&system, General::new(Variational::simpson()), start, h)?;
-            succeeds(&system, General::new(Symmetrised { alpha: 0.2 }), start, h)?;
             succeeds(&system, General::new(Newmark::new(0.25)), start, h)?;
         }
     }

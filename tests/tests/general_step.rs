@@ -1,9 +1,8 @@
 //! The fast steps of the methods against the general step of the same discrete Lagrangian.
 
 use dvi_core::Lagrangian;
-use dvi_core::discrete::Interval;
 use dvi_core::methods::InnerScheme;
-use dvi_core::methods::{General, Method, Symmetrised};
+use dvi_core::methods::{General, Method};
 use dvi_core::prelude::*;
 use dvi_core::system::Unconstrained;
 use dvi_tests::configurations::quasi_periodic;
@@ -109,7 +108,6 @@ fn steps_on_regular_systems_equal_the_general_step() -> Outcome {
     check(&kepler, Variational::simpson(), &start)?;
     check(&kepler, Variational::sigma(0.0), &start)?;
     check(&kepler, Variational::simpson().phase_fitted(Constant(1.3)), &start)?;
-    check(&kepler, Variational::simpson().phase_fitted(PerCoordinate([0.8, 1.7])), &start)?;
     let compensated = Variational { summation: Summation::Compensated, ..Variational::simpson() };
     compare(&kepler, [compensated, Variational::simpson()], &start)?;
     let pendulums = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
@@ -138,30 +136,6 @@ fn steps_with_interior_displacements_equal_the_general_step() -> Outcome {
     check(&pendulums, Galerkin::<3>::new(), &DoublePendulumState { a: 0.5, b: 0.2, dot_a: 0.4, dot_b: -0.7 })
 }
 
-/// ½ (L_d^α + L_d^{1−α}) is the quadrature rule with these two nodes.
-#[test]
-fn the_symmetrised_family_is_the_rule_of_its_two_nodes() -> Outcome {
-    let (h, alpha) = (0.05, 0.2);
-    let system = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
-    let start = DoublePendulumState { a: 0.5, b: 0.2, dot_a: 0.4, dot_b: -0.7 };
-    let rule = Quadrature::new(&[alpha, 1.0 - alpha], &[0.5; 2])?;
-    let mut by_rule = Integrator::new(&system, Variational::new(rule), h, start)?;
-    let mut symmetrised = Integrator::new(&system, General::new(Symmetrised { alpha }), h, start)?;
-    let mut map = TangentMap::new(&system, symmetrised.method());
-    for _ in 0..20 {
-        let (t, q0) = (symmetrised.time(), symmetrised.q().to_vec());
-        by_rule.advance()?;
-        symmetrised.advance()?;
-        let q1 = symmetrised.q();
-        let apart = by_rule.q().iter().zip(q1).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
-        assert!(apart < 1e-13, "{apart:e}");
-        map.evaluate(&system, Interval { t, h }, &q0, q1)?;
-        let defect = map.symplectic_defect(&system);
-        assert!(defect < 1e-12, "{defect:e}");
-    }
-    Ok(())
-}
-
 /// L = ẋ²/2 + kẏ²/2 − (x² + y²)/2.
 #[lagrangian(
     coordinates(x, y),
@@ -175,15 +149,15 @@ struct TwoSprings {
 fn what_no_step_can_take_is_refused_at_the_start() {
     let start = TwoSpringsState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
     for alpha in [-1.0, 2.0, f64::NAN] {
-        let refused =
-            Integrator::new(&TwoSprings { k: 1.0 }, General::new(Symmetrised { alpha }), 0.1, start).err();
-        assert!(matches!(refused, Some(StartError::Parameter { name: "alpha", .. })), "{refused:?}");
+        let inner = General::new(Variational::sigma(alpha));
+        let refused = Integrator::new(&TwoSprings { k: 1.0 }, inner, 0.1, start).err();
+        assert!(matches!(refused, Some(StartError::Parameter { .. })), "{refused:?}");
         let (vortices, start) = quasi_periodic();
         let refused = Integrator::new(&vortices, General::new(Sigma::new(alpha)), 0.1, start).err();
         assert!(matches!(refused, Some(StartError::Parameter { name: "sigma", .. })), "{refused:?}");
     }
     let singular =
-        Integrator::new(&TwoSprings { k: 0.0 }, General::new(Symmetrised { alpha: 0.3 }), 0.1, start).err();
+        Integrator::new(&TwoSprings { k: 0.0 }, General::new(Variational::sigma(0.3)), 0.1, start).err();
     assert!(
         matches!(singular, Some(StartError::Singular { matrix: "the mass matrix", entry, .. })
             if entry.to_string() == "y"),

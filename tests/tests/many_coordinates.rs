@@ -1,7 +1,7 @@
 //! Systems whose number of coordinates is known at run time only: their matrices are banded, and a run is that of the same
 //! system of fixed size, whose matrices are dense.
 
-use dvi_core::methods::{Composition, General, Method, Symmetrised};
+use dvi_core::methods::{Composition, General, Method};
 use dvi_core::prelude::*;
 
 const N: usize = 24;
@@ -118,13 +118,9 @@ regular!(
     LongRingState,
     Variational { solver: NEWTON, ..Variational::midpoint() },
     Variational { solver: NEWTON, ..Variational::simpson() },
-    Variational {
-        solver: NEWTON,
-        ..Variational::midpoint().phase_fitted(PerCoordinate(wave(0.0).map(f64::abs)))
-    },
+    Variational { solver: NEWTON, ..Variational::midpoint().phase_fitted(Constant(0.7)) },
     Newmark { solver: NEWTON, ..Newmark::new(0.25) },
     General::new(Variational::simpson()),
-    General::new(Symmetrised { alpha: 0.2 }),
     Composition::triple_jump(Variational { solver: NEWTON, ..Variational::midpoint() }),
 );
 

@@ -1,6 +1,5 @@
 //! Orders of convergence, by regression.
 
-use dvi_core::methods::{General, Symmetrised};
 use dvi_core::prelude::*;
 use dvi_tests::configurations::{chaotic, leapfrogging};
 use dvi_tests::larger;
@@ -69,11 +68,6 @@ fn baselines_have_their_orders_on_vortices() -> Outcome {
     let coarse = [32, 48, 64, 96];
     let by_newton = Gauss { solver: Solver::Newton, ..Gauss::<3>::new() };
     for (order, expected, name) in [
-        (
-            observed(chaotic(), General::new(Symmetrised { alpha: 0.25 }), 2.0, [256, 512, 1024, 2048])?,
-            2.0,
-            "symmetrised",
-        ),
         (observed(chaotic(), RungeKutta::midpoint(), 2.0, [512, 768, 1024, 1536])?, 2.0, "midpoint"),
         (observed(chaotic(), RungeKutta::heun(), 2.0, [512, 768, 1024, 1536])?, 2.0, "Heun"),
         (observed(chaotic(), RungeKutta::classical(), 2.0, [128, 192, 256, 384])?, 4.0, "classical"),

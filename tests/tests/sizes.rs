@@ -6,7 +6,7 @@ use std::thread;
 
 use dvi_core::diagnostics::{LyapunovExponent, TangentMap};
 use dvi_core::ensemble::{Ensemble, Outcome};
-use dvi_core::methods::{Composition, EnergyLimit, General, Method, Symmetrised};
+use dvi_core::methods::{Composition, EnergyLimit, General, Method};
 use dvi_core::prelude::*;
 use dvi_core::space::Space;
 
@@ -145,7 +145,6 @@ fn none_and_one_of_a_regular_system() -> Checked {
         Galerkin { solver: NEWTON, ..Galerkin::<3>::new() },
         Galerkin::<8>::new().in_lanes(),
         General::new(Galerkin::<3>::new()),
-        General::new(Symmetrised { alpha: 0.2 }),
         Composition::kahan_li_8(Variational::trapezoid()),
         Gauss::<2>::new(),
         Gauss::<8>::new().in_lanes(),

@@ -1,7 +1,6 @@
 //! The frequency that a phase-fitted interpolation is fitted to.
 //!
-//! Kosmas & Vlachos interpolate between q0 and q1 by sin ωt and cos ωt. ω may be one number, one number per
-//! coordinate, or taken from the motion: from the curvature of the path (their eq. 19), or from the ratio of
+//! Kosmas & Vlachos interpolate between q0 and q1 by sin ωt and cos ωt. ω may be given, or taken from the motion: from the curvature of the path (their eq. 19), or from the ratio of
 //! acceleration to distance. How it is taken, the [`Reading`], decides what a step preserves.
 
 use core::fmt::Debug;
@@ -30,8 +29,6 @@ pub enum Reading {
 pub trait Frequency: Debug {
     /// Whether it is zero, and the interpolation linear.
     const UNFITTED: bool = false;
-    /// Whether each coordinate has a frequency of its own.
-    const PER_COORDINATE: bool = false;
     /// Whether ω depends on the velocity.
     const OF_VELOCITY: bool = false;
 
@@ -43,10 +40,10 @@ pub trait Frequency: Debug {
 
 /// A [`Frequency`] in the arithmetic of `T`, in radians per unit of time.
 pub trait FrequencyIn<T: Real>: Frequency {
-    /// The frequency of a coordinate, where it does not depend on the motion: needed if
+    /// The frequency, where it does not depend on the motion: needed if
     /// [`reading`](Frequency::reading) is `None`. Not a number unless it is given; a run that needs it is then
     /// refused.
-    fn fixed(&self, _coordinate: usize) -> T {
+    fn fixed(&self) -> T {
         T::lift(f64::NAN)
     }
 
@@ -70,11 +67,11 @@ pub trait FrequencyIn<T: Real>: Frequency {
         None
     }
 
-    /// Checks the options against a system of `dimension` coordinates.
+    /// Checks the options.
     ///
     /// # Errors
     /// [`StartError::Parameter`] names the option that is out of range.
-    fn validate(&self, _dimension: usize) -> Result<(), StartError> {
+    fn validate(&self) -> Result<(), StartError> {
         Ok(())
     }
 }
@@ -84,7 +81,6 @@ pub trait GivenFrequency: Frequency {}
 
 impl GivenFrequency for Unfitted {}
 impl GivenFrequency for Constant {}
-impl<A: Debug> GivenFrequency for PerCoordinate<A> {}
 
 /// No frequency: linear interpolation, the limit ω → 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,7 +92,7 @@ impl Frequency for Unfitted {
 
 impl<T: Real> FrequencyIn<T> for Unfitted {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn fixed(&self, _coordinate: usize) -> T {
+    fn fixed(&self) -> T {
         T::lift(0.0)
     }
 }
@@ -112,38 +108,11 @@ pub struct Constant(
 impl Frequency for Constant {}
 
 impl<T: Real> FrequencyIn<T> for Constant {
-    fn fixed(&self, _coordinate: usize) -> T {
+    fn fixed(&self) -> T {
         T::lift(self.0)
     }
-    fn validate(&self, _dimension: usize) -> Result<(), StartError> {
+    fn validate(&self) -> Result<(), StartError> {
         in_range("omega", self.0)
-    }
-}
-
-/// One frequency for each coordinate, for all times, in the order of declaration: an array, a `Vec` or a
-/// slice. Symplectic, and with steps of one length exact on uncoupled oscillators. It is the interpolation of the coordinates that is
-/// fitted: with mass matrices that couple them it is still consistent, but exact on nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PerCoordinate<A>(
-    /// ωᵢ ≥ 0.
-    pub A,
-);
-
-impl<A: Debug> Frequency for PerCoordinate<A> {
-    const PER_COORDINATE: bool = true;
-}
-
-impl<T: Real, A: AsRef<[f64]> + Debug> FrequencyIn<T> for PerCoordinate<A> {
-    fn fixed(&self, coordinate: usize) -> T {
-        T::lift(self.0.as_ref().get(coordinate).copied().unwrap_or(f64::NAN))
-    }
-    fn validate(&self, dimension: usize) -> Result<(), StartError> {
-        let omega = self.0.as_ref();
-        if omega.len() != dimension {
-            let (value, range) = (omega.len() as f64, "one frequency for each coordinate");
-            return Err(StartError::Parameter { name: "omega.len()", value, range });
-        }
-        omega.iter().try_for_each(|&omega| in_range("omega", omega))
     }
 }
 
@@ -156,15 +125,11 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     frequency: &F,
     system: &S,
 ) -> Result<(), StartError> {
+    frequency.validate()?;
     let space = system.space();
-    frequency.validate(space.dimension())?;
     let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
     match frequency.reading() {
-        Some(_) if F::PER_COORDINATE => unsupported(
-            "frequencies per coordinate",
-            "they cannot be read from the motion: FrequencyIn::reading must be None",
-        ),
-        None if !frequency.fixed(0).is_finite() => unsupported(
+        None if !frequency.fixed().is_finite() => unsupported(
             "a frequency that is not read from the motion",
             "FrequencyIn::fixed does not give a finite number",
         ),

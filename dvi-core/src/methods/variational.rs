@@ -39,8 +39,6 @@ pub enum Fitting {
     #[default]
     Phase,
     /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u).
-    /// Not available with [`PerCoordinate`](crate::discrete::PerCoordinate) frequencies, which would need weights per
-    /// coordinate.
     PhaseAndMomentum,
 }
 
@@ -84,7 +82,7 @@ pub struct Variational<F = Unfitted, R = Quadrature> {
     pub solver: Solver,
     /// The criterion by which an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
-    /// How the increments of the steps are added up; with frequencies per coordinate plainly. Default:
+    /// How the increments of the steps are added up. Default:
     /// [`Summation::Plain`].
     pub summation: Summation,
 }
@@ -191,7 +189,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt
         let is_plain = self.step.method.summation == Summation::Plain;
         if S::SEPARABLE && is_plain && self.step.method.needs_forces_only::<S, T>() {
             separable::step(&self.step, &mut self.parts, self.budget, statistics)
-        } else if S::CONSTANT_MASS && !F::PER_COORDINATE {
+        } else if S::CONSTANT_MASS {
             general::by_fixed_point(&self.step, &mut self.parts, statistics)
         } else {
             Err(StepFailure::NO_MATRIX)
@@ -222,17 +220,15 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         self.rule.interior_nodes() == 0 && !self.reads_both_ends()
     }
 
-    /// Whether forces are all that a step needs: L is separable, and the interpolation does not mix with M.
+    /// Whether forces are all that a step needs.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn needs_forces_only<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
-        let mixes = F::PER_COORDINATE && !S::DIAGONAL_MASS;
-        S::SEPARABLE && !mixes && self.frequency.reading() != Some(Reading::Variational)
+        S::SEPARABLE && self.frequency.reading() != Some(Reading::Variational)
     }
 
-    /// Whether a fixed point is an iteration for the step: with a constant mass matrix, unless each coordinate has a frequency
-    /// of its own.
+    /// Whether a fixed point is an iteration for the step: with a constant mass matrix.
     fn has_fixed_point<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
-        self.needs_forces_only::<S, T>() || (S::CONSTANT_MASS && !F::PER_COORDINATE)
+        self.needs_forces_only::<S, T>() || S::CONSTANT_MASS
     }
 
     /// Whether one node is all that lies between the ends, and Δ all that moves it.
@@ -260,7 +256,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         F: FrequencyIn<T>,
     {
         let step = Step { system, method: self, t, h };
-        let VariationalMemory { interpolation, ends, phase, inertial, ladder, work, weights } = memory;
+        let VariationalMemory { coefficients, ends, phase, inertial, ladder, work, weights } = memory;
         if S::SEPARABLE
             && F::UNFITTED
             && let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial)
@@ -274,7 +270,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
             return result;
         }
         let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        let parts = Parts { interpolation, ends, phase, inertial, work, weights, q };
+        let parts = Parts { coefficients, ends, phase, inertial, work, weights, q };
         let mut attempt = Attempt { step, parts, budget };
         ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
     }
@@ -285,12 +281,6 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     {
         Quadrature::new(self.rule.nodes(), self.rule.weights())?;
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-        if F::PER_COORDINATE && self.fitting == Fitting::PhaseAndMomentum {
-            return unsupported("Fitting::PhaseAndMomentum", "frequencies per coordinate fit the phase only");
-        }
-        if F::PER_COORDINATE && self.summation == Summation::Compensated {
-            return unsupported("Summation::Compensated", "frequencies per coordinate have plain sums");
-        }
         if !S::SEPARABLE && self.frequency.reading().is_some() {
             return unsupported(
                 "a frequency read from the motion",
@@ -298,12 +288,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
             );
         }
         if self.solver == Solver::FixedPoint && !self.has_fixed_point::<S, T>() {
-            let reason = match F::PER_COORDINATE {
-                true => {
-                    "frequencies per coordinate need a diagonal mass matrix and forces without velocities for it"
-                }
-                false => "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton",
-            };
+            let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
             return unsupported("Solver::FixedPoint", reason);
         }
         frequency::admit(&self.frequency, system)?;

@@ -1,6 +1,6 @@
 //! What constrained steps preserve: the symplectic form on the constraints, momenta, the way back, the constraints themselves.
 
-use dvi_core::methods::{InnerScheme, Method, Symmetrised};
+use dvi_core::methods::{InnerScheme, Method};
 use dvi_core::prelude::*;
 use dvi_core::{Real, Separable};
 use dvi_tests::larger;
@@ -103,7 +103,6 @@ fn the_symplectic_form_on_the_constraints_is_preserved() -> Outcome {
         Constrained::new(Variational::trapezoid()),
         Constrained::new(Variational::midpoint()),
         Constrained::new(Variational::sigma(0.2)),
-        Constrained::new(Symmetrised { alpha: Dual64::from(0.2) }),
     }
     let bead = on_ring(&BeadParameterState { s: 0.4, dot_s: 0.5 });
     preserved!(Bead, bead, 0.1 => Constrained::new(Variational::midpoint()), Constrained::new(Variational::simpson()));

@@ -2,7 +2,7 @@
 
 use dvi_core::discrete::Constant;
 use dvi_core::mechanics::motion::Rates;
-use dvi_core::methods::{General, Method, Symmetrised};
+use dvi_core::methods::{General, Method};
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 
@@ -70,7 +70,6 @@ fn methods_have_their_orders_on_a_particle_with_friction() -> Outcome {
         Variational::new(Quadrature::gauss(3)?), 2.0, 128;
         Variational::midpoint().phase_fitted(Constant(1.5)), 2.0, 128;
         General::new(Variational::trapezoid()), 2.0, 128;
-        General::new(Symmetrised { alpha: 0.25 }), 2.0, 128;
         Galerkin::<3>::new(), 4.0, 32;
         Galerkin::<4>::new(), 6.0, 24;
         Galerkin::<5>::new(), 8.0, 24;

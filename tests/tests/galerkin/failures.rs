@@ -22,7 +22,6 @@ fn what_cannot_be_done_is_refused() {
     }
     let method = Galerkin::<3>::new();
     let kepler = || (KEPLER, pericentre(0.3));
-    refused(kepler(), method.phase_fitted(PerCoordinate([1.0, 2.0])), "PerCoordinate");
     for reading in [Reading::LeftFrozen, Reading::Variational] {
         refused(kepler(), method.phase_fitted(Radial(reading)), "this reading of the frequency");
     }

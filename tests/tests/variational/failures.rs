@@ -42,12 +42,6 @@ fn steps_and_starts_that_are_none_are_refused() {
         let error = Integrator::new(&KEPLER, method, 0.1, state(1.0, 1.0)).err();
         assert!(matches!(error, Some(StartError::Parameter { name: "omega", .. })), "{error:?}");
     }
-    let method = Variational::simpson().phase_fitted(PerCoordinate([1.0]));
-    let error = Integrator::new(&KEPLER, method, 0.1, state(1.0, 1.0)).err();
-    assert!(
-        matches!(error, Some(StartError::Parameter { name: "omega.len()", value: 1.0, .. })),
-        "{error:?}"
-    );
     let error = Integrator::new(&KEPLER, Variational::sigma(1.5), 0.1, state(1.0, 1.0)).err();
     assert!(matches!(error, Some(StartError::Parameter { name: "node", value: 1.5, .. })), "{error:?}");
 }
@@ -61,9 +55,6 @@ fn options_that_do_not_go_together_are_refused() {
     assert!(unsupported(Integrator::new(&pendulums, fitted, 0.1, start).err()));
     let fixed = Variational { solver: Solver::FixedPoint, ..Variational::simpson() };
     assert!(unsupported(Integrator::new(&pendulums, fixed, 0.1, start).err()));
-    let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 1.0]));
-    let both = Variational { fitting: Fitting::PhaseAndMomentum, ..method };
-    assert!(unsupported(Integrator::new(&KEPLER, both, 0.1, state(1.0, 1.0)).err()));
 }
 
 /// Symmetric data meet at the origin after one step of 1.

@@ -71,7 +71,7 @@ fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
     Ok(())
 }
 
-/// Two oscillators; steps of one length are resonant for the second only.
+/// Two oscillators.
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - (x * x + 4.0 * y * y) / 2.0,
@@ -81,7 +81,7 @@ struct Pair;
 
 #[test]
 fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
-    let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 2.0]));
+    let method = Variational::simpson().phase_fitted(Constant(2.0));
     let start: PairState = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
     // A control that tries the resonant step before each of its own.
     #[derive(Debug)]

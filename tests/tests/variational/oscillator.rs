@@ -133,23 +133,6 @@ fn steps_of_different_lengths_are_exact_where_momenta_are_fitted_too() -> Outcom
 }
 
 #[test]
-fn each_coordinate_can_have_its_own_frequency() -> Outcome {
-    let system = Pair { omega: [1.0, 2.3] };
-    let start: PairState = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
-    let method = Variational::simpson().phase_fitted(PerCoordinate([1.0, 2.3]));
-    for solver in [Solver::FixedPoint, Solver::Newton] {
-        let mut run = Integrator::new(&system, Variational { solver, ..method }, 0.9, start)?;
-        for k in 1..1000_u32 {
-            run.advance()?;
-            let t = 0.9 * f64::from(k);
-            assert!((run.q()[0] - t.cos()).abs() < 1e-11, "{solver:?}, x at {t}");
-            assert!((run.q()[1] - 0.5 * (2.3 * t).cos()).abs() < 1e-11, "{solver:?}, y at {t}");
-        }
-    }
-    Ok(())
-}
-
-#[test]
 fn small_frequencies_lose_no_digits() -> Outcome {
     let system = Oscillator { omega: 1.0 };
     let start: OscillatorState = OscillatorState { x: 0.3, dot_x: 0.8 };

@@ -76,15 +76,6 @@ fn a_fitted_interpolation_preserves_what_its_reading_says() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn frequencies_per_coordinate_preserve_the_form() -> Outcome {
-    let method = Variational::simpson().phase_fitted(PerCoordinate([0.9, 1.4]));
-    check(&Kepler { mu: 1.0 }, method, 0.1, &(vec![0.7, 0.1], vec![0.2, 1.3]))?;
-    check(&MixedVelocities {}, method, 0.1, &(vec![0.3, 0.2], vec![0.4, -0.6]))?;
-    let pendulums = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
-    check(&pendulums, method, 0.1, &(vec![1.2, -0.4], vec![0.3, 0.9]))
-}
-
 /// The defect of a step whose frequency is frozen at its left end falls like h³.
 #[test]
 fn the_defect_of_a_frozen_frequency_is_of_third_order() -> Outcome {

@@ -64,13 +64,11 @@ fn second_derivatives_agree_with_hyper_dual_numbers() -> Outcome {
     {
         let linear = Variational::new(rule);
         let fitted = linear.phase_fitted(Constant(1.3));
-        let each = linear.phase_fitted(PerCoordinate([0.8, 1.7]));
         check(&Kepler { mu: 1.0 }, linear, &[0.0; 2], &planar)?;
         check(&Kepler { mu: 1.0 }, fitted, &[1.3; 2], &planar)?;
-        check(&Kepler { mu: 1.0 }, each, &[0.8, 1.7], &planar)?;
         check(&pendulums, linear, &[0.0; 2], &planar)?;
-        check(&pendulums, each, &[0.8, 1.7], &planar)?;
-        check(&MixedVelocities {}, each, &[0.8, 1.7], &planar)?;
+        check(&pendulums, fitted, &[1.3; 2], &planar)?;
+        check(&MixedVelocities {}, fitted, &[1.3; 2], &planar)?;
         check(&driven, fitted, &[1.3], &(vec![0.4], vec![0.9]))?;
         check(&particle, linear, &[0.0; 3], &(vec![0.3, 0.2, 0.1], vec![0.4, -0.6, 0.2]))?;
         check(&chain, linear, &[0.0; 4], &(vec![0.1, -0.2, 0.3, 0.0], vec![0.5, 0.1, -0.4, 0.2]))?;

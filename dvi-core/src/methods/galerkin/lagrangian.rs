@@ -224,7 +224,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>
         statistics: &mut Statistics,
     ) -> Result<Settled<'a, NODES, S, T>, StepFailure> {
         let Self { method, rule, differentiation, storage } = self;
-        let u = method.frequency.fixed(0) * interval.h;
+        let u = method.frequency.fixed() * interval.h;
         let coefficients = Coefficients::new(rule, differentiation, u)?;
         let path = Path { system, interval, ends, rule, coefficients };
         path.settle(storage, method.stopping, statistics)?;

@@ -115,7 +115,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
             work: Work::new(system),
         };
         if reading.is_none() {
-            path.fit(method.frequency.fixed(0) * step.h).map_err(StartError::Starter)?;
+            path.fit(method.frequency.fixed() * step.h).map_err(StartError::Starter)?;
         }
         let matrix = || newton_matrix(system, [q, v], t, solver.storing());
         let ladder = Ladder::new(solver, matrix);
@@ -195,12 +195,12 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     ) -> Result<(), StepFailure> {
         let frequency = &step.method.frequency;
         if F::UNFITTED {
-            return self.fit(frequency.fixed(0) * step.h);
+            return self.fit(frequency.fixed() * step.h);
         }
         let ([start, end], Some(mass), Some(_)) =
             (&mut self.ends, self.inertial.constant(), frequency.reading())
         else {
-            return self.fit(frequency.fixed(0) * step.h);
+            return self.fit(frequency.fixed() * step.h);
         };
         let Work { unknowns, velocity, next, next_force, .. } = &mut self.work;
         let (q, increment, per_h) = (&unknowns[0], &unknowns[NODES - 1], T::lift(1.0) / step.h);

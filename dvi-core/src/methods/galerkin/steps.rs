@@ -39,9 +39,6 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         let separable =
             "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities";
-        if F::PER_COORDINATE {
-            return unsupported("PerCoordinate", "displacements go with one frequency for all coordinates");
-        }
         match self.frequency.reading() {
             None => {}
             Some(Reading::Averaged) if S::SEPARABLE => {}

@@ -11,64 +11,11 @@ use crate::discrete::quadrature::{NODES, Rule};
 use crate::discrete::{Ends, NodeWork};
 use crate::error::StepFailure;
 use crate::scalar::norm::reported;
-use crate::space::sink::{Scaled, Sink};
-use crate::{NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights};
+use crate::space::sink::Sink;
+use crate::{NondegenerateLagrangian, Real, Scalar, System, Weights};
 
 /// sin u and S count as zero below this.
 const RESONANCE: f64 = 1e-4;
-
-/// The coefficients of all nodes of a step, which may differ from coordinate to coordinate.
-pub(super) trait Coefficients<T: Real> {
-    /// The weight of a node.
-    fn weight(&self, node: usize) -> T;
-    /// b, b̄, B and B̄ of a node, coordinate by coordinate.
-    fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T>;
-    /// The sums of the kinetic part, coordinate by coordinate.
-    fn sums(&self) -> impl Fn(usize) -> Sums<T>;
-
-    /// Sets `point` to qʲ and `velocity` to q̇ʲ of a node.
-    fn place<S: System>(&self, node: usize, h: T, ends: Ends<'_, T>, at: &mut NodeWork<S, T>) {
-        let (Ends { q0, delta }, per_h, basis) = (ends, T::lift(1.0) / h, self.bases(node));
-        for i in 0..q0.len() {
-            let Basis { b, b_bar, d, d_bar } = basis(i);
-            at.point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
-            at.velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
-        }
-    }
-}
-
-/// Coefficients that follow a frequency.
-pub(super) trait Adjustable<S: NondegenerateLagrangian<T>, T: Real>: Coefficients<T> {
-    /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
-    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure>;
-
-    /// Makes these the coefficients of `step` for one frequency `omega`.
-    ///
-    /// # Errors
-    /// [`StepFailure::Resonance`], also if ωh is π or more.
-    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure>;
-
-    /// Adds what a node, at which `work` stands, contributes to the second derivative of L_d by these two ends; sets ∂L/∂q
-    /// and ∂L/∂v in `work`.
-    fn add_second<K: Sink<T>>(
-        &mut self,
-        node: usize,
-        ends: [End; 2],
-        system: &S,
-        at: [T; 2],
-        work: &mut NodeWork<S, T>,
-        sink: &mut K,
-    );
-
-    /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
-    fn slope<F: FrequencyIn<T>, R: Rule>(
-        &self,
-        step: &Step<'_, S, F, R, T>,
-        work: &mut NodeWork<S, T>,
-        ends: Ends<'_, T>,
-        twice_omega: T,
-    ) -> T;
-}
 
 /// The ends of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,16 +47,17 @@ pub(super) struct Sums<T> {
     pub(super) inverse_kappa: T,
 }
 
-/// One frequency for all coordinates.
+/// The coefficients of all nodes of a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Uniform<T> {
+pub(super) struct Coefficients<T> {
     u: T,
-    weights: [T; NODES],
-    bases: [Basis<T>; NODES],
-    sums: Sums<T>,
+    pub(super) weights: [T; NODES],
+    /// b, b̄, B and B̄.
+    pub(super) bases: [Basis<T>; NODES],
+    pub(super) sums: Sums<T>,
 }
 
-impl<T: Real> Uniform<T> {
+impl<T: Real> Coefficients<T> {
     /// For u = 0, linear interpolation.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn linear(rule: &impl Rule) -> Self {
@@ -174,17 +122,27 @@ impl<T: Real> Uniform<T> {
         (self.u, self.sums) = (u, Sums { mixed, left, right, inverse_kappa });
         Ok(())
     }
-}
 
-impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
+    /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
-        let u = step.method.frequency.fixed(0) * step.h;
+    pub(super) fn fix<S, F: FrequencyIn<T>, R: Rule>(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+    ) -> Result<(), StepFailure> {
+        let u = step.method.frequency.fixed() * step.h;
         if self.u == u { Ok(()) } else { self.fit(&step.method.rule, step.method.fitting, u) }
     }
 
+    /// Makes these the coefficients of `step` for the frequency `omega`.
+    ///
+    /// # Errors
+    /// [`StepFailure::Resonance`], also if ωh is π or more.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn set<F, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
+    pub(super) fn set<S, F, R: Rule>(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+        omega: T,
+    ) -> Result<(), StepFailure> {
         let u = omega * step.h;
         self.fit(&step.method.rule, step.method.fitting, u)?;
         // A step over half a turn or more of a motion sees nothing of it.
@@ -200,9 +158,21 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
         })
     }
 
+    /// Sets `point` to qʲ and `velocity` to q̇ʲ of a node.
+    pub(super) fn place<S: System>(&self, node: usize, h: T, ends: Ends<'_, T>, at: &mut NodeWork<S, T>) {
+        let (Ends { q0, delta }, per_h) = (ends, T::lift(1.0) / h);
+        let Basis { b, b_bar, d, d_bar } = self.bases[node];
+        for i in 0..q0.len() {
+            at.point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
+            at.velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
+        }
+    }
+
+    /// Adds what a node, at which `work` stands, contributes to the second derivative of L_d by these two
+    /// ends; sets ∂L/∂q and ∂L/∂v in `work`.
     #[inline]
-    fn add_second<K: Sink<T>>(
-        &mut self,
+    pub(super) fn add_second<S: NondegenerateLagrangian<T>, K: Sink<T>>(
+        &self,
         node: usize,
         ends: [End; 2],
         system: &S,
@@ -218,7 +188,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
         system.linearize(point, velocity, t, weights, gradient, momentum, sink);
     }
 
-    fn slope<F: FrequencyIn<T>, R: Rule>(
+    /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
+    pub(super) fn slope<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule>(
         &self,
         step: &Step<'_, S, F, R, T>,
         work: &mut NodeWork<S, T>,
@@ -251,145 +222,5 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Uniform<T> {
         }
         // z = ω²h², and ℓ = h Σ w L.
         step.h * by_z * twice_omega * step.h * step.h
-    }
-}
-
-impl<T: Real> Coefficients<T> for Uniform<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn weight(&self, node: usize) -> T {
-        self.weights[node]
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T> {
-        let basis = self.bases[node];
-        move |_| basis
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn sums(&self) -> impl Fn(usize) -> Sums<T> {
-        let sums = self.sums;
-        move |_| sums
-    }
-}
-
-/// A frequency for each coordinate.
-#[derive(Debug)]
-pub(super) struct Each<S: System, T: Real> {
-    /// The step for which these are; zero if there is none.
-    h: T,
-    weights: [T; NODES],
-    b: [Vector<S, T>; NODES],
-    b_bar: [Vector<S, T>; NODES],
-    d: [Vector<S, T>; NODES],
-    d_bar: [Vector<S, T>; NODES],
-    mixed: Vector<S, T>,
-    left: Vector<S, T>,
-    right: Vector<S, T>,
-    inverse_kappa: Vector<S, T>,
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real> Each<S, T> {
-    pub(super) fn new(system: &S) -> Self {
-        let space = system.space();
-        Self {
-            h: T::lift(0.0),
-            weights: [T::lift(0.0); NODES],
-            b: space.vectors(),
-            b_bar: space.vectors(),
-            d: space.vectors(),
-            d_bar: space.vectors(),
-            mixed: space.vector(),
-            left: space.vector(),
-            right: space.vector(),
-            inverse_kappa: space.vector(),
-        }
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real> Adjustable<S, T> for Each<S, T> {
-    fn fix<F: FrequencyIn<T>, R: Rule>(&mut self, step: &Step<'_, S, F, R, T>) -> Result<(), StepFailure> {
-        if self.h == step.h {
-            return Ok(());
-        }
-        // Should a coordinate be resonant, those before it have their new coefficients: no step may use them.
-        self.h = T::lift(0.0);
-        for i in 0..self.mixed.len() {
-            let u = step.method.frequency.fixed(i) * step.h;
-            let mut uniform = Uniform::linear(&step.method.rule);
-            uniform.fit(&step.method.rule, step.method.fitting, u)?;
-            let Uniform { weights, bases, sums, .. } = uniform;
-            // The same for all coordinates, as only the phase is fitted.
-            self.weights = weights;
-            for (node, basis) in bases.iter().enumerate() {
-                self.b[node][i] = basis.b;
-                self.b_bar[node][i] = basis.b_bar;
-                self.d[node][i] = basis.d;
-                self.d_bar[node][i] = basis.d_bar;
-            }
-            self.mixed[i] = sums.mixed;
-            self.left[i] = sums.left;
-            self.right[i] = sums.right;
-            self.inverse_kappa[i] = sums.inverse_kappa;
-        }
-        self.h = step.h;
-        Ok(())
-    }
-
-    /// One frequency for all has been refused.
-    fn set<F, R: Rule>(&mut self, _step: &Step<'_, S, F, R, T>, omega: T) -> Result<(), StepFailure> {
-        Err(StepFailure::Frequency { omega: reported(omega) })
-    }
-
-    /// Block by block.
-    fn add_second<K: Sink<T>>(
-        &mut self,
-        node: usize,
-        ends: [End; 2],
-        system: &S,
-        [t, h]: [T; 2],
-        work: &mut NodeWork<S, T>,
-        sink: &mut K,
-    ) {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let Self { weights, b, b_bar, d, d_bar, .. } = self;
-        let NodeWork { point, velocity, gradient, momentum } = work;
-        let at_ends = [[&b[node], &d[node]], [&b_bar[node], &d_bar[node]]];
-        let ([r, r_dot], [c, c_dot]) = (ends[0].of(at_ends), ends[1].of(at_ends));
-        let blocks = [
-            (Weights { qq: one, ..none }, r, c, h),
-            (Weights { qv: one, ..none }, r, c_dot, one),
-            (Weights { vq: one, ..none }, r_dot, c, one),
-            (Weights { vv: one, ..none }, r_dot, c_dot, one / h),
-        ];
-        for (kind, row, column, factor) in blocks {
-            let factor = |i: usize, j: usize| weights[node] * factor * row[i] * column[j];
-            let sink = &mut Scaled { sink: &mut *sink, factor };
-            system.linearize(point, velocity, t, kind, gradient, momentum, sink);
-        }
-    }
-
-    /// Not a number: frequencies that are read have been refused.
-    fn slope<F: FrequencyIn<T>, R: Rule>(
-        &self,
-        _step: &Step<'_, S, F, R, T>,
-        _work: &mut NodeWork<S, T>,
-        _ends: Ends<'_, T>,
-        _twice_omega: T,
-    ) -> T {
-        T::lift(f64::NAN)
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real> Coefficients<T> for Each<S, T> {
-    fn weight(&self, node: usize) -> T {
-        self.weights[node]
-    }
-    fn bases(&self, node: usize) -> impl Fn(usize) -> Basis<T> {
-        let (b, b_bar, d, d_bar) = (&self.b[node], &self.b_bar[node], &self.d[node], &self.d_bar[node]);
-        move |i| Basis { b: b[i], b_bar: b_bar[i], d: d[i], d_bar: d_bar[i] }
-    }
-    fn sums(&self) -> impl Fn(usize) -> Sums<T> {
-        let Self { mixed, left, right, inverse_kappa, .. } = self;
-        move |i| Sums { mixed: mixed[i], left: left[i], right: right[i], inverse_kappa: inverse_kappa[i] }
     }
 }

@@ -2,9 +2,9 @@
 //! matrix of the fitted oscillator, −(h/κ)M⁻¹ in place of (D₁D₂L_d)⁻¹.
 
 use super::Step;
-use super::coefficients::{Adjustable, Coefficients};
+use super::coefficients::Coefficients;
 use super::lagrangian::Interpolated;
-use super::memory::{Parts, Work, with_coefficients};
+use super::memory::{Parts, Work};
 use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{DiscreteLagrangian, Ends, solve_by_newton};
@@ -26,12 +26,10 @@ pub(super) fn by_newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
     guess: Guess,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let Parts { interpolation, ends, phase, inertial, work, weights, q } = parts;
+    let Parts { coefficients, ends, phase, inertial, work, weights, q } = parts;
     let mass = inertial.constant();
     guess.begin(&mut work.increment, |increment| phase.guess(mass, &phase.p, step.h, increment));
-    with_coefficients!(F, interpolation, |coefficients| {
-        newton(step, coefficients, ends, mass, phase, (work, weights), q, solver, statistics)
-    })?;
+    newton(step, coefficients, ends, mass, phase, (work, weights), q, solver, statistics)?;
     finish(step, parts, statistics)
 }
 
@@ -42,9 +40,8 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
     parts: &mut Parts<'_, S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let Parts { interpolation, ends, phase, inertial, work, weights, q } = parts;
+    let Parts { coefficients, ends, phase, inertial, work, weights, q } = parts;
     let Some(mass) = inertial.constant() else { return Err(StepFailure::NO_MATRIX) };
-    let coefficients = interpolation.uniform()?;
     phase.guess(Some(mass), &phase.p, step.h, &mut work.increment);
     let Work { node, next, increment, trial, sum } = &mut **work;
     let (method, p, force) = (step.method, &phase.p, &phase.force);
@@ -59,7 +56,7 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
         trial.copy_from_slice(p);
         let ends = Ends { q0: q, delta: increment };
         l_d.derivatives(step.span(ends), trial, sum, statistics)?;
-        let inverse_kappa = Coefficients::<T>::sums(l_d.coefficients)(0).inverse_kappa;
+        let inverse_kappa = l_d.coefficients.sums.inverse_kappa;
         mass.solve(trial, &mut l_d.node.velocity);
         for velocity in l_d.node.velocity.iter_mut() {
             *velocity *= -(step.h * inverse_kappa);
@@ -74,9 +71,9 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
 
 /// Sets `work.increment` to Δ and `work.sum` to (D₁ + D₂)L_d.
 #[allow(clippy::too_many_arguments)]
-fn newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn newton<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
-    coefficients: &mut C,
+    coefficients: &mut Coefficients<T>,
     ends: &mut [Local<S, T>; 2],
     mass: Option<&Mass<S, T>>,
     phase: &PhasePoint<S, T>,

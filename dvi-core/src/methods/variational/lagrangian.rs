@@ -6,8 +6,7 @@
 //! With a variational frequency, L_d = ℓ(q0, q1, ω(q0, q1)) and D₁L_d = ∂ℓ/∂q0 + ∂ℓ/∂ω ∂ω/∂q0: the first derivatives are
 //! exact, and D₁D₂L_d is that of ω held constant.
 
-use super::coefficients::{Adjustable, Coefficients, End};
-use super::memory::{Interpolation, with_coefficients};
+use super::coefficients::{Coefficients, End};
 use super::{Step, Variational};
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{Frequency, FrequencyIn, GivenFrequency, Local, Reading};
@@ -21,9 +20,9 @@ use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, System, Vector};
 
 /// Rule and interpolation, where the step begins, and storage.
-pub(super) struct Interpolated<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
+pub(super) struct Interpolated<'a, S: NondegenerateLagrangian<T>, F, R, T: Real> {
     pub(super) method: &'a Variational<F, R>,
-    pub(super) coefficients: &'a mut C,
+    pub(super) coefficients: &'a mut Coefficients<T>,
     /// The frequencies at both ends.
     pub(super) ends: &'a mut [Local<S, T>; 2],
     /// If L is separable, as it is wherever a frequency is read.
@@ -34,9 +33,7 @@ pub(super) struct Interpolated<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Re
     pub(super) next: &'a mut Vector<S, T>,
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
-    Interpolated<'_, S, F, R, C, T>
-{
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Interpolated<'_, S, F, R, T> {
     /// The coefficients for the frequency at these ends.
     fn read_frequency(&mut self, step: &Step<'_, S, F, R, T>, at: Ends<'_, T>) -> Result<(), StepFailure> {
         if F::UNFITTED {
@@ -97,8 +94,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
-    DiscreteLagrangian<S, T> for Interpolated<'_, S, F, R, C, T>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
+    for Interpolated<'_, S, F, R, T>
 {
     fn derivatives(
         &mut self,
@@ -134,24 +131,14 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
 #[derive(Debug)]
 pub struct QuadratureLagrangian<S: System, F, R, T: Real = f64> {
     method: Variational<F, R>,
-    interpolation: Interpolation<S, T>,
+    coefficients: Coefficients<T>,
     node: NodeWork<S, T>,
-}
-
-/// `with_coefficients_of_step!(self, system, interval, |step, coefficients| …)`: with those of the step.
-macro_rules! with_coefficients_of_step {
-    ($self:ident, $system:ident, $interval:ident, |$step:ident, $coefficients:ident| $body:expr) => {{
-        let $step = Step { system: $system, method: &$self.method, t: $interval.t, h: $interval.h };
-        $self.interpolation.fix(&$step)?;
-        with_coefficients!(F, $self.interpolation, |$coefficients| $body);
-        Ok(())
-    }};
 }
 
 impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
     pub(super) fn new(system: &S, method: Variational<F, R>) -> Self {
-        let interpolation = Interpolation::new(system, &method);
-        Self { method, interpolation, node: NodeWork::new(system) }
+        let coefficients = Coefficients::linear(&method.rule);
+        Self { method, coefficients, node: NodeWork::new(system) }
     }
 }
 
@@ -165,9 +152,11 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Discret
         sum: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        with_coefficients_of_step!(self, system, interval, |step, coefficients| {
-            add_derivatives(&step, coefficients, ends, &mut self.node, [d1, sum], statistics);
-        })
+        let Self { method, coefficients, node } = self;
+        let step = Step { system, method, t: interval.t, h: interval.h };
+        coefficients.fix(&step)?;
+        add_derivatives(&step, coefficients, ends, node, [d1, sum], statistics);
+        Ok(())
     }
 
     fn linearize<K: Sink<T>>(
@@ -177,9 +166,11 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Discret
         sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        with_coefficients_of_step!(self, system, interval, |step, coefficients| {
-            add_linearized(&step, coefficients, ends, &mut self.node, d1, sink);
-        })
+        let Self { method, coefficients, node } = self;
+        let step = Step { system, method, t: interval.t, h: interval.h };
+        coefficients.fix(&step)?;
+        add_linearized(&step, coefficients, ends, node, d1, sink);
+        Ok(())
     }
 }
 
@@ -191,23 +182,25 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDi
         Span { system, interval, ends }: Span<'_, S, T>,
         [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
-        with_coefficients_of_step!(self, system, interval, |step, coefficients| {
-            for (node, &c) in self.method.rule.nodes().iter().enumerate() {
-                coefficients.place(node, step.h, ends, &mut self.node);
-                let at = [step.node_time(c), step.h];
-                coefficients.add_second(node, [End::Left, End::Left], system, at, &mut self.node, d11);
-                coefficients.add_second(node, [End::Left, End::Right], system, at, &mut self.node, d12);
-                coefficients.add_second(node, [End::Right, End::Left], system, at, &mut self.node, d21);
-                coefficients.add_second(node, [End::Right, End::Right], system, at, &mut self.node, d22);
-            }
-        })
+        let Self { method, coefficients, node: work } = self;
+        let step = Step { system, method, t: interval.t, h: interval.h };
+        coefficients.fix(&step)?;
+        for (node, &c) in method.rule.nodes().iter().enumerate() {
+            coefficients.place(node, step.h, ends, work);
+            let at = [step.node_time(c), step.h];
+            coefficients.add_second(node, [End::Left, End::Left], system, at, work, d11);
+            coefficients.add_second(node, [End::Left, End::Right], system, at, work, d12);
+            coefficients.add_second(node, [End::Right, End::Left], system, at, work, d21);
+            coefficients.add_second(node, [End::Right, End::Right], system, at, work, d22);
+        }
+        Ok(())
     }
 }
 
 /// Adds D₁ℓ and (D₁ + D₂)ℓ.
-fn add_derivatives<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn add_derivatives<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
-    coefficients: &C,
+    coefficients: &Coefficients<T>,
     ends: Ends<'_, T>,
     work: &mut NodeWork<S, T>,
     [d1, sum]: [&mut [T]; 2],
@@ -218,9 +211,8 @@ fn add_derivatives<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, C: Adju
         let NodeWork { point, velocity, gradient, momentum } = &mut *work;
         step.system.gradient(point, velocity, step.node_time(c), gradient, momentum);
         statistics.gradients += 1;
-        let (weight, basis) = (coefficients.weight(node), coefficients.bases(node));
+        let (weight, Basis { b, b_bar, d, d_bar }) = (coefficients.weights[node], coefficients.bases[node]);
         for (i, sum) in sum.iter_mut().enumerate() {
-            let Basis { b, b_bar, d, d_bar } = basis(i);
             *sum += weight * (step.h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
         }
         add_first(coefficients, node, step.h, work, d1);
@@ -228,16 +220,9 @@ fn add_derivatives<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, C: Adju
 }
 
 /// Adds D₁ℓ and D₁D₂ℓ.
-fn add_linearized<
-    S: NondegenerateLagrangian<T>,
-    F: Frequency,
-    R: Rule,
-    C: Adjustable<S, T>,
-    T: Real,
-    K: Sink<T>,
->(
+fn add_linearized<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real, K: Sink<T>>(
     step: &Step<'_, S, F, R, T>,
-    coefficients: &mut C,
+    coefficients: &Coefficients<T>,
     ends: Ends<'_, T>,
     work: &mut NodeWork<S, T>,
     d1: &mut [T],
@@ -252,16 +237,15 @@ fn add_linearized<
 }
 
 /// Adds the part of D₁ℓ that a node has, from the derivatives of L there.
-fn add_first<S: NondegenerateLagrangian<T>, C: Coefficients<T>, T: Real>(
-    coefficients: &C,
+fn add_first<S: NondegenerateLagrangian<T>, T: Real>(
+    coefficients: &Coefficients<T>,
     node: usize,
     h: T,
     NodeWork { gradient, momentum, .. }: &NodeWork<S, T>,
     d1: &mut [T],
 ) {
-    let (weight, basis) = (coefficients.weight(node), coefficients.bases(node));
+    let (weight, Basis { b, d, .. }) = (coefficients.weights[node], coefficients.bases[node]);
     for (i, d1) in d1.iter_mut().enumerate() {
-        let Basis { b, d, .. } = basis(i);
         *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
     }
 }

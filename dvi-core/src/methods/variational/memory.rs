@@ -1,9 +1,9 @@
 //! What a run of the quadrature family carries from step to step.
 
-use super::coefficients::{Adjustable, Each, Uniform};
+use super::coefficients::Coefficients;
 use super::{Step, Variational};
 use crate::discrete::NodeWork;
-use crate::discrete::frequency::{Frequency, FrequencyIn, Local};
+use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::discrete::quadrature::Rule;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::of_second_derivatives;
@@ -15,7 +15,8 @@ use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Ve
 /// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
 pub struct VariationalMemory<S: System, T: Real> {
-    pub(super) interpolation: Interpolation<S, T>,
+    /// The latest coefficients of the interpolation.
+    pub(super) coefficients: Coefficients<T>,
     /// The frequencies at both ends of the step.
     pub(super) ends: [Local<S, T>; 2],
     pub(super) phase: PhasePoint<S, T>,
@@ -29,7 +30,7 @@ pub struct VariationalMemory<S: System, T: Real> {
 
 /// What a step changes, the coordinates among it.
 pub(super) struct Parts<'a, S: System, T: Real> {
-    pub(super) interpolation: &'a mut Interpolation<S, T>,
+    pub(super) coefficients: &'a mut Coefficients<T>,
     pub(super) ends: &'a mut [Local<S, T>; 2],
     pub(super) phase: &'a mut PhasePoint<S, T>,
     pub(super) inertial: &'a mut Inertial<S, T>,
@@ -37,27 +38,6 @@ pub(super) struct Parts<'a, S: System, T: Real> {
     pub(super) weights: &'a mut Vector<S, T>,
     pub(super) q: &'a mut Vector<S, T>,
 }
-
-/// The latest coefficients of the interpolation.
-#[derive(Debug)]
-pub(super) enum Interpolation<S: System, T: Real> {
-    Uniform(Uniform<T>),
-    Each(Each<S, T>),
-}
-
-/// `with_coefficients!(F, interpolation, |coefficients| …)`: with those for frequencies of the type `F`, and compiled for these alone.
-macro_rules! with_coefficients {
-    ($frequency:ty, $interpolation:expr, |$coefficients:ident| $body:expr) => {
-        if <$frequency>::PER_COORDINATE {
-            let $coefficients = $interpolation.each()?;
-            $body
-        } else {
-            let $coefficients = $interpolation.uniform()?;
-            $body
-        }
-    };
-}
-pub(super) use with_coefficients;
 
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
@@ -104,12 +84,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> VariationalMemory<S, T> {
             (false, solver @ (Solver::FixedPoint | Solver::NewtonKrylov)) => solver,
         };
         let reading = method.frequency.reading();
-        let mut interpolation = Interpolation::new(system, method);
+        let mut coefficients = Coefficients::linear(&method.rule);
         if reading.is_none() {
-            interpolation.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
+            coefficients.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
         }
         Ok(Self {
-            interpolation,
+            coefficients,
             ends: [Local::new(system, reading), Local::new(system, reading)],
             phase: PhasePoint::new(system, q, v, t, method.summation)?,
             inertial: Inertial::new(system, q, v, t)?,
@@ -135,41 +115,5 @@ impl<S: Lagrangian<T>, T: Real> Work<S, T> {
             trial: vector(),
             sum: vector(),
         }
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real> Interpolation<S, T> {
-    pub(super) fn new<F: Frequency, R: Rule>(system: &S, method: &Variational<F, R>) -> Self {
-        if F::PER_COORDINATE {
-            Self::Each(Each::new(system))
-        } else {
-            Self::Uniform(Uniform::linear(&method.rule))
-        }
-    }
-
-    /// Where there is one frequency for all coordinates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn uniform(&mut self) -> Result<&mut Uniform<T>, StepFailure> {
-        match self {
-            Self::Uniform(uniform) => Ok(uniform),
-            Self::Each(_) => Err(StepFailure::Frequency { omega: f64::NAN }),
-        }
-    }
-
-    /// Where each coordinate has one of its own.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn each(&mut self) -> Result<&mut Each<S, T>, StepFailure> {
-        match self {
-            Self::Each(each) => Ok(each),
-            Self::Uniform(_) => Err(StepFailure::Frequency { omega: f64::NAN }),
-        }
-    }
-
-    /// See [`Adjustable::fix`].
-    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
-        &mut self,
-        step: &Step<'_, S, F, R, T>,
-    ) -> Result<(), StepFailure> {
-        with_coefficients!(F, self, |coefficients| coefficients.fix(step))
     }
 }

@@ -8,8 +8,8 @@
 //! p½ = p0 + h Σ w F(q0) + M(A − K)q0/h,   q1 = q0 + (h/K) M⁻¹p½,   p1 = p½ + h Σ w F(q1) + M(C − K)q1/h.
 
 use super::Step;
-use super::coefficients::{Adjustable, Sums, Uniform};
-use super::memory::{Parts, Work, with_coefficients};
+use super::coefficients::{Coefficients, Sums};
+use super::memory::{Parts, Work};
 use crate::discrete::NodeWork;
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{FrequencyIn, Reading};
@@ -28,7 +28,7 @@ use crate::{NondegenerateLagrangian, Real, Space, Vector};
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
-    Parts { interpolation, phase, inertial, work, weights, q, .. }: &mut Parts<'_, S, T>,
+    Parts { coefficients, phase, inertial, work, weights, q, .. }: &mut Parts<'_, S, T>,
     budget: usize,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -47,21 +47,19 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
         || {
             if !F::UNFITTED && step.method.frequency.reading().is_some() {
                 // Coefficients that change in each iteration belong into registers.
-                let coefficients = &mut Uniform::linear(&step.method.rule);
+                let coefficients = &mut Coefficients::linear(&step.method.rule);
                 return complete(step, coefficients, mass, phase, (work, weights), q, budget, statistics);
             }
-            with_coefficients!(F, interpolation, |coefficients| {
-                complete(step, coefficients, mass, phase, (work, weights), q, budget, statistics)
-            })
+            complete(step, coefficients, mass, phase, (work, weights), q, budget, statistics)
         },
     )
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[allow(clippy::too_many_arguments)]
-fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>(
+fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
-    coefficients: &mut C,
+    coefficients: &mut Coefficients<T>,
     mass: &Mass<S, T>,
     phase: &mut PhasePoint<S, T>,
     (work, weights): (&mut Work<S, T>, &mut [T]),
@@ -111,9 +109,9 @@ impl<T: Real> Sums<T> {
 
 /// A step as it is being solved. In `work`: `increment` is Δ, `next` is q1 and `node.gradient` is F(q1) once they have
 /// been asked for, `node.momentum` is p1 in the end.
-struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
+struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, T: Real> {
     step: &'a Step<'a, S, F, R, T>,
-    coefficients: &'a mut C,
+    coefficients: &'a mut Coefficients<T>,
     mass: &'a Mass<S, T>,
     phase: &'a PhasePoint<S, T>,
     q: &'a [T],
@@ -125,9 +123,7 @@ struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
     gradients: u64,
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real>
-    Attempt<'_, S, F, R, C, T>
-{
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(
         &mut self,
@@ -238,12 +234,10 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn correct(&mut self, weights: &[T]) -> T {
         let Work { increment, node: NodeWork { velocity, .. }, .. } = &mut *self.work;
-        let sums = self.coefficients.sums();
+        let sums = self.coefficients.sums;
         // Corrections take the place of velocities, which are of no use any more.
-        for (i, ((velocity, delta), &q)) in
-            velocity.iter_mut().zip(increment.iter_mut()).zip(self.q).enumerate()
-        {
-            *velocity = sums(i).correction(self.step.h * *velocity, q, *delta);
+        for ((velocity, delta), &q) in velocity.iter_mut().zip(increment.iter_mut()).zip(self.q) {
+            *velocity = sums.correction(self.step.h * *velocity, q, *delta);
             *delta += *velocity;
         }
         sizes::largest(weights, velocity)
@@ -260,8 +254,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         is_only: bool,
     ) -> T {
         self.evaluate(node, c);
-        let (h, basis, sums) = (self.step.h, self.coefficients.bases(node), self.coefficients.sums());
-        let weight = h * self.coefficients.weight(node);
+        let (h, basis, sums) = (self.step.h, self.coefficients.bases[node], self.coefficients.sums);
+        let weight = h * self.coefficients.weights[node];
         let Work { increment, trial, node: NodeWork { momentum, velocity, point, .. }, .. } = &mut *self.work;
         let p = if is_only { &self.phase.p } else { &*momentum };
         let force = if c == 0.0 { &self.phase.force } else { &*trial };
@@ -274,14 +268,13 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
             let corrections = &mut velocity[..block.len()];
             let increment = &mut increment[block.clone()];
             for i in 0..block.len() {
-                let at = block.start + i;
-                let velocity = (p[i] + weight * Share::Left.of(basis(at)) * force[i]) * reciprocals[i];
-                corrections[i] = sums(at).correction(h * velocity, q[i], increment[i]);
+                let velocity = (p[i] + weight * Share::Left.of(basis) * force[i]) * reciprocals[i];
+                corrections[i] = sums.correction(h * velocity, q[i], increment[i]);
                 increment[i] += corrections[i];
             }
             largest = norm::larger(largest, sizes::largest(&weights[block.clone()], corrections));
             if self.is_placed {
-                place(&basis, block.start, [q, increment], &mut point[block]);
+                place(basis, [q, increment], &mut point[block]);
             }
         }
         largest
@@ -307,7 +300,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         }
         let Work { increment, node: NodeWork { point, .. }, trial, .. } = &mut *self.work;
         if !self.is_placed {
-            place(&self.coefficients.bases(node), 0, [self.q, increment], point);
+            place(self.coefficients.bases[node], [self.q, increment], point);
         }
         self.step.force(point, c, trial);
         self.gradients += 1;
@@ -317,7 +310,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick(&mut self, node: usize, c: f64, share: Share) {
         self.evaluate(node, c);
-        let weight = self.step.h * self.coefficients.weight(node);
+        let weight = self.step.h * self.coefficients.weights[node];
         let Work { node: NodeWork { momentum, gradient, .. }, trial, .. } = &mut *self.work;
         let force: &[T] = if c == 0.0 {
             &self.phase.force
@@ -326,9 +319,9 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         } else {
             trial
         };
-        let basis = self.coefficients.bases(node);
-        for (i, (p, &f)) in momentum.iter_mut().zip(force).enumerate() {
-            *p += weight * share.of(basis(i)) * f;
+        let basis = self.coefficients.bases[node];
+        for (p, &f) in momentum.iter_mut().zip(force) {
+            *p += weight * share.of(basis) * f;
         }
     }
 
@@ -339,11 +332,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         self.kick_at(0.0);
         let Work { increment, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
         self.mass.solve(momentum, velocity);
-        {
-            let (h, sums) = (self.step.h, self.coefficients.sums());
-            for (i, (delta, &v)) in increment.iter_mut().zip(velocity.iter()).enumerate() {
-                *delta = h * v / sums(i).mixed;
-            }
+        for (delta, &v) in increment.iter_mut().zip(velocity.iter()) {
+            *delta = self.step.h * v / self.coefficients.sums.mixed;
         }
         self.reach();
         self.kick_at(1.0);
@@ -362,9 +352,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         }
         let Work { next, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
         let point: &[T] = if c == 0.0 { self.q } else { next };
-        let sums = self.coefficients.sums();
-        for (i, (v, &q)) in velocity.iter_mut().zip(point).enumerate() {
-            let sums = sums(i);
+        let sums = self.coefficients.sums;
+        for (v, &q) in velocity.iter_mut().zip(point) {
             *v = if c == 0.0 { sums.left } else { sums.right } * q;
         }
         self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
@@ -381,9 +370,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
         self.gather(self.step.method.rule.nodes().len(), Share::Both);
         if !F::UNFITTED {
             let Work { next, node: NodeWork { momentum, velocity, .. }, .. } = &mut *self.work;
-            let sums = self.coefficients.sums();
+            let sums = self.coefficients.sums;
             for i in 0..self.q.len() {
-                let sums = sums(i);
                 velocity[i] = sums.left * self.q[i] + sums.right * next[i];
             }
             self.mass.multiply_add(T::lift(1.0) / self.step.h, velocity, momentum);
@@ -393,13 +381,13 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
 }
 
 /// The iteration, and what judges it.
-struct Judged<'a, 'b, S: NondegenerateLagrangian<T>, F, R, C, T: Real> {
-    attempt: &'a mut Attempt<'b, S, F, R, C, T>,
+struct Judged<'a, 'b, S: NondegenerateLagrangian<T>, F, R, T: Real> {
+    attempt: &'a mut Attempt<'b, S, F, R, T>,
     weights: &'a mut [T],
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S, T>, T: Real> Iteration<T>
-    for Judged<'_, '_, S, F, R, C, T>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Iteration<T>
+    for Judged<'_, '_, S, F, R, T>
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
@@ -417,11 +405,10 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, C: Adjustable<S,
     }
 }
 
-/// Sets `point` to b q0 + b̄ q1 for the coordinates from `first` on.
+/// Sets `point` to b q0 + b̄ q1.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn place<T: Real>(basis: &impl Fn(usize) -> Basis<T>, first: usize, [q, delta]: [&[T]; 2], point: &mut [T]) {
-    for (i, ((point, &q), &delta)) in point.iter_mut().zip(q).zip(delta).enumerate() {
-        let Basis { b, b_bar, .. } = basis(first + i);
+fn place<T: Real>(Basis { b, b_bar, .. }: Basis<T>, [q, delta]: [&[T]; 2], point: &mut [T]) {
+    for ((point, &q), &delta) in point.iter_mut().zip(q).zip(delta) {
         *point = (b + b_bar) * q + b_bar * delta;
     }
 }
