@@ -1,7 +1,7 @@
 //! When an iterate is accepted.
 //!
-//! Each coordinate is judged in its own size |q| + |Δ| (the module `sizes`), so that units of coordinates do
-//! not matter: a correction d is the largest of those of the coordinates, each over its size. An iterate is
+//! Each coordinate is judged in the size |q| + |Δ| of its block (the module `sizes`), so that units do not
+//! matter: a correction d is the largest of those of the coordinates, each over its size. An iterate is
 //! accepted when d is at most the tolerance; or when the rate θ = d/d' at which corrections shrink says that
 //! the next one, θ d/(1 − θ) with all that follow, will be (Hairer & Wanner 1996, section IV.8); or when
 //! corrections have stopped shrinking and are nothing but rounding errors.
@@ -31,12 +31,11 @@ pub(crate) use together::Convergences;
 /// The criterion by which an iteration is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
-    /// The largest error of a coordinate to accept, relative to its size |q| + |Δ|, where Δ is its
-    /// increment. Default: 1e-17, below the rounding of double precision.
+    /// The largest error of a coordinate to accept, relative to its size |q| + |Δ|, where Δ is its increment,
+    /// or to the largest of these in its array. Default: 1e-17, below the rounding of double precision.
     ///
     /// Below the rounding of the arithmetic, an iteration goes on until its corrections no longer shrink.
-    /// Units do not matter to a fixed point: with other units of coordinates and of time its iterates are
-    /// the same, scaled. On four equal vortices in quasi-periodic motion, σ = ½ and h from 0.1 to 0.1045,
+    /// Units do not matter: with other units of coordinates and of time iterates are the same, scaled. On four equal vortices in quasi-periodic motion, σ = ½ and h from 0.1 to 0.1045,
     /// ΣΓ|z|² then drifts by (3 ± 2)·10⁻¹⁹ a step over 4·10⁵ steps, the mean of sixteen runs; with a
     /// tolerance of 2.3e-16, at which iterations stop as soon as such an error is predicted, by 4.6·10⁻¹⁸.
     pub tolerance: f64,
