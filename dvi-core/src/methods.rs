@@ -54,7 +54,7 @@ pub use one_step::{OneStep, OneStepGauss, OneStepGaussMemory, OneStepMemory};
 pub use projected::{Projected, ProjectedMemory};
 pub use rattle::{Rattle, RattleMemory};
 pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
-pub use sigma_family::{ParasiticMode, Reinitialisation, Sigma, SigmaMemory, Start};
+pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
 pub use together::{Companion, InStep};
 pub use tolerance::Tolerance;
 pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};

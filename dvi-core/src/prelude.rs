@@ -11,8 +11,8 @@ pub use crate::mechanics::{AtState, OnConstraints};
 pub use crate::methods::Langevin;
 pub use crate::methods::{
     Collision, Composition, Constrained, EnergyLimit, Fitting, Galerkin, Gauss, Geodesic, Impacts, Newmark,
-    OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, Reinitialisation, RungeKutta, Scheme, Sigma,
-    Start, Tolerance, Variational,
+    OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, RungeKutta, Scheme, Sigma, Start, Tolerance,
+    Variational,
 };
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, ErrorControl, Integrator, Osculating, Power,

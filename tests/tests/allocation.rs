@@ -219,21 +219,9 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     );
     assert_none!(vortices_11, start_11, Projected::symmetric(), compensated);
 
-    let renewed =
-        |method| Sigma { reinitialisation: Reinitialisation::Every(3), start: Start::Smooth, ..method };
-    assert_none!(vortices, start, renewed(Sigma::leapfrog()), renewed(newton(0.25)));
-    assert_none!(
-        many,
-        many_start,
-        renewed(Sigma::leapfrog()),
-        renewed(newton(0.25)),
-        renewed(Sigma::new(1.0))
-    );
-
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let prey_start = LotkaVolterraState { x: 1.0, y: 1.0 };
     assert_none!(prey, prey_start, Sigma::midpoint(), newton(0.5), RungeKutta::heun(), Gauss::<2>::new());
-    assert_none!(prey, prey_start, renewed(Sigma::midpoint()));
 
     let one_sided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let one_sided_start = OneSidedState { x: 1.0, y: 1.0 };

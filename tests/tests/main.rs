@@ -46,7 +46,6 @@ mod singular_forms;
 mod singular_masses;
 mod sizes;
 mod smallest_numbers;
-mod smooth_orbits;
 mod splines;
 mod structure;
 mod tables;

@@ -3,7 +3,7 @@
 use dvi_core::DegenerateLagrangian;
 use dvi_core::prelude::*;
 use dvi_tests::bits;
-use dvi_tests::configurations::{chaotic, quasi_periodic};
+use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -59,45 +59,6 @@ fn pieces_of_any_length_give_the_same_run() -> Outcome {
     let a = [[0.3, 1.0, 0.1, -0.4], [-1.1, 0.2, 0.5, 0.3], [0.2, -0.6, 0.1, 1.2], [0.5, 0.1, -0.9, 0.4]];
     let dense = Quadratic { a, s: [[1.0, 0.1, 0.0, 0.2]; 4], quartic: 0.1 };
     assert_eq!(check(&dense, unlimited(), QuadraticState { z: [0.1, 0.2, -0.1, 0.3] }, 0.01, 20)?, None);
-    Ok(())
-}
-
-#[test]
-fn pieces_reinitialise_at_the_same_steps() -> Outcome {
-    let (vortices, start) = chaotic();
-    let every = |method, steps| Sigma { reinitialisation: Reinitialisation::Every(steps), ..method };
-    let above = |method, threshold| Sigma { reinitialisation: Reinitialisation::Above(threshold), ..method };
-    for method in [
-        every(Sigma::leapfrog(), 1),
-        every(Sigma::leapfrog(), 7),
-        every(Sigma::leapfrog(), 256),
-        every(Sigma { parasitic_limit: None, ..Sigma::leapfrog() }, 100),
-        above(Sigma::leapfrog(), 0.1),
-        above(Sigma { parasitic_limit: None, ..Sigma::leapfrog() }, 0.3),
-        every(Sigma::new(0.25), 10),
-    ] {
-        assert_eq!(check(&vortices, method, start, 0.1, 1500)?, None, "{method:?}");
-        let mut run = Integrator::new(&vortices, method, 0.1, start)?;
-        run.take_steps(1500)?;
-        match method.reinitialisation {
-            Reinitialisation::Every(steps) => assert_eq!(run.reinitialisations(), 1499 / steps),
-            _ => assert!(run.reinitialisations() > 0, "{method:?}"),
-        }
-    }
-    let oblique = ObliqueState { x: 1.0, y: 0.0 };
-    assert_eq!(check(&Oblique, every(unlimited(), 5), oblique, 0.1, 300)?, None);
-    let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    let prey_start = LotkaVolterraState { x: 2.5, y: 2.0 };
-    assert_eq!(check(&prey, above(Sigma::midpoint(), 0.1), prey_start, 0.1, 300)?, None);
-    // Where the mode is above the limit so early that reinitialisation does not help.
-    let lost = check(&prey, above(Sigma::leapfrog(), 0.1), prey_start, 0.1, 300)?;
-    assert!(
-        matches!(lost, Some(StepError { failure: StepFailure::ParasiticMode { limit: 0.5, .. }, .. })),
-        "{lost:?}"
-    );
-    let many = ManyVortices { gamma: vortices.gamma.to_vec() };
-    let many_start = ManyVorticesState { x: start.x.to_vec(), y: start.y.to_vec() };
-    assert_eq!(check(&many, every(Sigma::leapfrog(), 33), many_start, 0.05, 300)?, None);
     Ok(())
 }
 

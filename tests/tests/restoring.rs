@@ -72,14 +72,6 @@ fn degenerate_runs_go_on_from_a_copy() -> Outcome {
     check(&prey, Projected::standard(), &[1.2, 0.9], &[])?;
     let compensated = Sigma { summation: Summation::Compensated, ..Sigma::midpoint() };
     check(&vortices, compensated, &start, &[])?;
-    for sigma in [0.0, 0.25, 1.0] {
-        for reinitialisation in [Reinitialisation::Every(3), Reinitialisation::Above(1e-4)] {
-            let method = Sigma { reinitialisation, ..Sigma::new(sigma) };
-            check(&vortices, method, &start, &[])?;
-            check(&vortices, EnergyLimit { method, limit: 1.0 }, &start, &[])?;
-            check(&Curved { kappa: 0.3 }, method, &[0.4, 0.1], &[])?;
-        }
-    }
     check(&vortices, EnergyLimit { method: Sigma::leapfrog(), limit: 1.0 }, &start, &[])
 }
 

@@ -112,7 +112,6 @@ fn none_and_one_of_a_degenerate_system() -> Checked {
         Sigma::midpoint(),
         Sigma { solver: NEWTON, ..Sigma::midpoint() },
         Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
-        Sigma { start: Start::Smooth, ..Sigma::midpoint() },
         OneStep::midpoint(),
         Composition::triple_jump(OneStep::midpoint()),
         OneStepGauss::<1>::new(),
@@ -230,7 +229,6 @@ fn a_thousand_fit_on_a_small_stack() -> Checked {
     many!(
         1000, 3; Waves, WavesState { q, p },
         Sigma::midpoint(),
-        Sigma { start: Start::Smooth, ..Sigma::midpoint() },
         EnergyLimit { method: Sigma::midpoint(), limit: 1.0 },
         Gauss::<2>::new(),
         Gauss::<8>::new().in_lanes(),

@@ -95,7 +95,6 @@ fn sigma_is_the_same_in_lanes() -> Outcome {
         // Those without lanes.
         Sigma { summation: Summation::Compensated, ..Sigma::midpoint() },
         Sigma { solver: Solver::Newton, ..Sigma::midpoint() },
-        Sigma { reinitialisation: Reinitialisation::Every(50), ..Sigma::midpoint() },
         Sigma::new(0.3),
         Sigma::new(1.0),
     ] {

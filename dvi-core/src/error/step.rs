@@ -184,18 +184,6 @@ pub enum StepFailure {
         /// The largest relative size that was allowed.
         limit: f64,
     },
-    /// A two-step method has no smooth orbit here: what was found alternates too much for its increments. The step is too
-    /// long for [`Start::Smooth`](crate::methods::Start::Smooth) and [`Reinitialisation`](crate::methods::Reinitialisation).
-    #[error(
-        "the scheme has no smooth orbit at this step: {alternating:e} alternates beside an increment of {increment:e}; a \
-         smaller step helps"
-    )]
-    NotSmooth {
-        /// The largest entry of the central difference of eighth order of the points.
-        alternating: f64,
-        /// That of the increment h q'.
-        increment: f64,
-    },
     /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the
     /// motion does not lead across. What is watched is the sign of a pair of coordinates, the sign of the Pfaffian of Ω, or
     /// the number of negative eigenvalues of the mass matrix, at the end of each step. So two passages within one step are

@@ -54,17 +54,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
         Self::Pfaffian(pfaffian, matrix)
     }
 
-    /// Keeps Ω at (`q`, `t`), whatever it was.
-    pub(crate) fn restart(&mut self, system: &S, q: &[T], t: T) {
-        match self {
-            Self::Constant => {}
-            Self::Pairs([entries, _]) => {
-                system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), entries);
-            }
-            Self::Pfaffian(before, matrix) => *before = Self::pfaffian(system, q, t, matrix),
-        }
-    }
-
     /// Compares Ω at (`q`, `t`), the end of a step, with the last, and keeps it.
     ///
     /// # Errors

@@ -153,22 +153,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, xi, &mut Statistics::default())
     }
 
-    /// Sets `vector` to B⁻¹`covector` at (`q`, `t`).
-    ///
-    /// # Errors
-    /// [`StepFailure::Singular`] if Ω is singular at `q`.
-    pub(crate) fn raise(
-        &mut self,
-        system: &S,
-        [q, covector]: [&[T]; 2],
-        t: T,
-        vector: &mut [T],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.gradient.copy_from_slice(covector);
-        self.solve(system, q, t, vector, statistics)
-    }
-
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(
         &mut self,

@@ -13,15 +13,13 @@ mod leapfrog;
 mod memory;
 mod monitor;
 mod nonlinear;
-mod reinitialisation;
-mod smooth;
 mod start;
 mod together;
 
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
-use crate::methods::{Carries, Clock, Gauss, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
@@ -29,13 +27,9 @@ use crate::space::sink::Places;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
-use memory::TwoStep;
-use reinitialisation::Renewal;
-use smooth::Smoothing;
 
 pub use memory::SigmaMemory;
 pub use monitor::ParasiticMode;
-pub use reinitialisation::Reinitialisation;
 pub use start::Start;
 
 /// The σ-family: a discrete Lagrangian with one node between the ends.
@@ -72,12 +66,10 @@ pub use start::Start;
 /// - σ ≠ ½, α nonlinear: the scheme is not zero-stable; runs end within some hundred steps.
 ///   σ = ½ grows at a rate that does not depend on h either.
 ///
-/// [`Start::Smooth`] begins a run with a mode of order h⁹, in place of h³, or of h² where Dα is not antisymmetric. What grows
-/// from it takes longer, by the logarithm of the ratio over the rate of growth: with σ = 0 and h = 0.1 the chaotic vortices of
-/// Rowley & Marsden reach the limit after t = 250, and before t = 50 if they begin by a Runge–Kutta step. It chooses an
-/// orbit and changes nothing in what the steps preserve. [`reinitialisation`](Self::reinitialisation) takes the mode from the state
-/// while the run goes on. Such a run preserves no two-form exactly. Its energy drifts
-/// where steps are long, see there.
+/// A start by a step leaves a mode of order h³, or of h² where σ ≠ ½ and Dα is not antisymmetric. These have
+/// no such mode: σ = ½ if α is affine, [`OneStep`](super::OneStep) and [`OneStepGauss`](super::OneStepGauss)
+/// if the system is in their class, [`Projected`](super::Projected) and [`Gauss`](super::Gauss) on all
+/// systems.
 ///
 /// The mode is measured while a run goes on ([`ParasiticMode`]; [`Integrator::parasitic_mode`](crate::run::Integrator)
 /// reads it), and a run in which it has taken over ends with
@@ -121,9 +113,6 @@ pub struct Sigma<T = f64> {
     ///
     /// [`EnergyLimit`](crate::methods::EnergyLimit) around the method limits the energy.
     pub parasitic_limit: Option<f64>,
-    /// When the parasitic part is taken from the state of a run, and what that does to the energy and to the preserved
-    /// two-form: see [`Reinitialisation`]. Default: [`Reinitialisation::Never`].
-    pub reinitialisation: Reinitialisation,
 }
 
 impl<T: Real> Sigma<T> {
@@ -136,7 +125,6 @@ impl<T: Real> Sigma<T> {
             stopping: Stopping::default(),
             summation: Summation::default(),
             parasitic_limit: Some(PARASITIC_LIMIT),
-            reinitialisation: Reinitialisation::default(),
         }
     }
 
@@ -173,26 +161,8 @@ impl<T: Real> Sigma<T> {
             Some(value) if value.is_nan() || value <= 0.0 => {
                 Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" })
             }
-            limit => self.reinitialisation.validate(limit).and_then(|()| self.stopping.validate()),
+            _ => self.stopping.validate(),
         }
-    }
-
-    /// What a run carries that begins with `run` at (`q`, `t`).
-    fn carry<S: DegenerateLagrangian<T>>(
-        &self,
-        system: &S,
-        run: TwoStep<S, T>,
-        q: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<SigmaMemory<S, T>, StartError> {
-        let renewal = match self.reinitialisation {
-            Reinitialisation::Never => None,
-            Reinitialisation::Every(_) | Reinitialisation::Above(_) => {
-                Some(Renewal::new(Smoothing::new(system, self, q, t, h)?))
-            }
-        };
-        Ok(SigmaMemory { run, renewal })
     }
 
     /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
@@ -260,13 +230,10 @@ impl<T: Real> Scheme for Sigma<T> {
         if self.is_midpoint() { 2 } else { 1 }
     }
     fn is_symmetric(&self) -> bool {
-        self.is_midpoint() && self.reinitialisation == Reinitialisation::Never
+        self.is_midpoint()
     }
     fn preserved_form(&self) -> PreservedForm {
-        match self.reinitialisation {
-            Reinitialisation::Never => PreservedForm::Discrete,
-            Reinitialisation::Every(_) | Reinitialisation::Above(_) => PreservedForm::Nothing,
-        }
+        PreservedForm::Discrete
     }
 }
 
@@ -278,28 +245,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
-        let run = match self.start {
-            Start::Consistent | Start::Smooth if S::AFFINE && self.is_midpoint() => {
-                TwoStep::without_defect(system, self, q, t, h)?
-            }
-            Start::Smooth => {
-                let mut smoothing = Smoothing::new(system, self, q, t, h)?;
-                smoothing.start(system, q, t)?;
-                let step = Step { system, method: self, t, h };
-                let mut run = TwoStep::new(system, self, q, t, h)?;
-                run.set_out(&step, [q, &smoothing.defect, &smoothing.velocity]);
-                run
-            }
-            Start::Consistent => {
-                let q1 = start::one_step(&Gauss::<1>::new(), system, q, t, h)?;
-                TwoStep::between(system, self, q, &q1, t, h)?
-            }
-            Start::RungeKutta(method) => {
-                let q1 = start::one_step(&method, system, q, t, h)?;
-                TwoStep::between(system, self, q, &q1, t, h)?
-            }
-        };
-        self.carry(system, run, q, t, h)
+        if S::AFFINE && self.is_midpoint() && self.start == Start::Consistent {
+            return SigmaMemory::without_defect(system, self, q, t, h);
+        }
+        let q1 = self.start.second_point(system, q, t, h)?;
+        SigmaMemory::between(system, self, q, &q1, t, h)
     }
 
     /// Without a second point.
@@ -313,8 +263,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     ) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
-        let run = TwoStep::without_defect(system, self, q, t, h)?;
-        self.carry(system, run, q, t, h)
+        SigmaMemory::without_defect(system, self, q, t, h)
     }
 
     #[inline]
@@ -327,10 +276,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if let Some(renewal) = &mut memory.renewal {
-            return renewal.steps(self, system, &mut memory.run, q, Clock::new(t, h), 1, statistics).1;
-        }
-        memory.run.step(&Step { system, method: self, t, h }, q, statistics)
+        memory.step(&Step { system, method: self, t, h }, q, statistics)
     }
 
     fn part_of_step(
@@ -343,8 +289,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let step = Step { system, method: self, t, h };
-        memory.run.shorten(&step, q, whole)?;
-        memory.run.step(&step, q, statistics)
+        memory.shorten(&step, q, whole)?;
+        memory.step(&step, q, statistics)
     }
 
     #[inline]
@@ -357,13 +303,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if let Some(renewal) = &mut memory.renewal {
-            let (taken, result) = renewal.steps(self, system, &mut memory.run, q, clock, count, statistics);
-            statistics.steps += taken;
-            return result;
-        }
         if S::AFFINE && self.sigma == T::lift(0.0) {
-            let (taken, result) = leapfrog::steps(system, &mut memory.run, q, clock, count);
+            let (taken, result) = leapfrog::steps(system, memory, q, clock, count);
             statistics.steps += taken;
             statistics.gradients += taken;
             result
@@ -377,10 +318,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
-        if self.reinitialisation != Reinitialisation::Never {
-            let reason = "a step that reinitialises is not that of a discrete Lagrangian";
-            return Err(StartError::Unsupported { option: "Sigma::reinitialisation", reason });
-        }
         self.validate(S::AFFINE)
     }
 
@@ -406,7 +343,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoPoint<S, T> for Sigma<T> {
     ) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q0, t)?;
-        let run = TwoStep::between(system, self, q0, q1, t, h)?;
-        self.carry(system, run, q0, t, h)
+        SigmaMemory::between(system, self, q0, q1, t, h)
     }
 }

@@ -195,11 +195,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Integrator<'_, S, Sigma<T>, T> {
         self.stepper.memory.parasitic_mode()
     }
 
-    /// How often the run has been reinitialised: see [`Sigma::reinitialisation`].
-    pub fn reinitialisations(&self) -> u64 {
-        self.stepper.memory.reinitialisations()
-    }
-
     /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere it is of
     /// order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be trusted; take
     /// [`parasitic_mode`](Self::parasitic_mode).

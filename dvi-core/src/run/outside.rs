@@ -44,7 +44,6 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             StepFailure::Resonance { .. }
             | StepFailure::Pattern { .. }
             | StepFailure::ParasiticMode { .. }
-            | StepFailure::NotSmooth { .. }
             | StepFailure::Accumulation { .. }
             | StepFailure::Contact { .. }
             | StepFailure::HalfTurn { .. }

@@ -39,13 +39,6 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
         Self { rest }
     }
 
-    /// Forgets what rounding has left out.
-    pub(crate) fn clear(&mut self) {
-        if let Some(rest) = &mut self.rest {
-            rest.fill(T::lift(0.0));
-        }
-    }
-
     /// What rounding has left out of number `k`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn left_out_of(&self, k: usize) -> T {

@@ -14,7 +14,6 @@ mod projected;
 mod rotating_frame;
 mod round_off;
 mod second_order;
-mod smooth_orbits;
 mod splines;
 mod step_control;
 mod time_transform;

@@ -78,7 +78,6 @@ fn of_degenerate_systems() -> Checked {
     check("one-step-gauss", &Predators, OneStepGauss::<2>::new(), 0.3, &states)?;
     check("projected", &Predators, Projected::symmetric(), 0.1, &states)?;
     check("sigma", &Predators, Sigma::midpoint(), 0.1, &states)?;
-    check("sigma-smooth", &Predators, Sigma { start: Start::Smooth, ..Sigma::midpoint() }, 0.1, &states)?;
     check("degenerate-gauss", &Predators, Gauss::<3>::new(), 0.3, &states)?;
     let state = |k: u32| SlowState { x: 1.0 + f64::from(k), y: 0.9, t: 0.0, energy: 0.0 };
     let mut states = (0..4).map(|k| Slow.with_energy(state(k))).collect::<Result<Vec<_>, _>>()?;

@@ -8,7 +8,7 @@
 
 use super::Step;
 use super::leapfrog::{self, add};
-use super::memory::{TwoStep, Work};
+use super::memory::{SigmaMemory, Work};
 use crate::discrete::{Ends, OneNode, solve_by_newton};
 use crate::error::StepFailure;
 use crate::mechanics::combination::Inverse;
@@ -25,7 +25,7 @@ use crate::{DegenerateLagrangian, Linear, Real, Space, Vector};
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -51,11 +51,11 @@ pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
 #[inline(never)]
 fn explicit_right<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let TwoStep { defect, inverse, product, l_d, work, .. } = memory;
+    let SigmaMemory { defect, inverse, product, l_d, work, .. } = memory;
     scratch!(delta = step.system, work.increment);
     scratch!(next = step.system, work.next);
     scratch!(gradient = step.system, l_d.work.gradient);
@@ -99,7 +99,7 @@ fn advance<S: DegenerateLagrangian<T>, T: Real>(
 #[inline(never)]
 fn implicit<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -110,7 +110,7 @@ fn implicit<S: DegenerateLagrangian<T>, T: Real>(
 #[inline(never)]
 fn compensated<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -123,7 +123,7 @@ fn compensated<S: DegenerateLagrangian<T>, T: Real>(
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn solve<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
     fixed_point: impl FnOnce(&mut Attempt<'_, S, T>, &Carried<S, T>, &mut Statistics) -> Result<(), StepFailure>,
@@ -131,8 +131,9 @@ fn solve<S: DegenerateLagrangian<T>, T: Real>(
     if !memory.defect_vanishes {
         memory.shift_by_defect(step.system);
     }
-    let TwoStep { ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, carried, .. } =
-        memory;
+    let SigmaMemory {
+        ladder, defect, defect_vanishes, one_form, history, inverse, l_d, work, carried, ..
+    } = memory;
     let budget = step.budget(ladder, q.len());
     let defect = (!*defect_vanishes).then_some(&*defect);
     let mut attempt = Attempt { step, q, defect, one_form, history, inverse, l_d, work, budget };
@@ -351,10 +352,10 @@ fn add_to<T: Real>(sum: &mut [T], terms: &[T]) {
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn finish<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
 ) -> Result<(), StepFailure> {
-    let TwoStep { defect, history, product, l_d, work, carried, defect_vanishes, .. } = memory;
+    let SigmaMemory { defect, history, product, l_d, work, carried, defect_vanishes, .. } = memory;
     if *defect_vanishes {
         advance(step, q, &work.increment, carried, &mut work.next)?;
         history.push(&work.increment);

@@ -7,7 +7,7 @@
 //! written (Rowley & Marsden 2002, eq. 13). Over many steps the points are local arrays, which the compiler can
 //! keep in registers, and c, which no step needs, is computed at the end.
 
-use super::memory::{Ahead, TwoStep, Work};
+use super::memory::{Ahead, SigmaMemory, Work};
 use super::monitor::Monitor;
 use crate::discrete::NodeWork;
 use crate::error::StepFailure;
@@ -30,12 +30,12 @@ pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
 ) -> (u64, Result<(), StepFailure>) {
-    let TwoStep { defect, inverse, product, ahead, scale, l_d, work, monitor, .. } = memory;
+    let SigmaMemory { defect, inverse, product, ahead, scale, l_d, work, monitor, .. } = memory;
     // A run with σ = 0 and affine α has both.
     let (Some(product), Some(ahead)) = (product, ahead) else {
         return (0, Err(StepFailure::NO_MATRIX));

@@ -5,7 +5,6 @@
 //! nonlinear α it extrapolates Δ.
 
 use super::monitor::{Monitor, Pace, ParasiticMode};
-use super::reinitialisation::Renewal;
 use super::{Sigma, Step, affine, nonlinear};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
@@ -16,51 +15,13 @@ use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
-use crate::state::memory::{Aside, Memory, lasting};
+use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Carried;
 use crate::{DegenerateLagrangian, Lagrangian, Linear, Real, Space, System, Vector};
 
 /// What a run of the σ-family carries from step to step: its defect, its guesses, the measured parasitic mode.
 #[derive(Debug)]
 pub struct SigmaMemory<S: System, T: Real> {
-    pub(super) run: TwoStep<S, T>,
-    /// Kept if the run is reinitialised.
-    pub(super) renewal: Option<Aside<Renewal<S, T>>>,
-}
-
-impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
-    lasting!(T; part run, parts renewal);
-}
-
-impl<S: System, T: Real> SigmaMemory<S, T> {
-    /// c = p − α(q) at the current point, one entry per coordinate.
-    pub fn defect(&self) -> &[T] {
-        &self.run.defect
-    }
-
-    /// The parasitic mode as it was measured last, over five consecutive points; `None` before that, and before five points
-    /// have passed since the run was reinitialised. It is measured
-    /// before each step; if Dα is constant and antisymmetric, after 4 to 256 steps, the sooner the larger the mode and
-    /// the longer the steps; without a limit, or where α is affine and σ = ½, before every 256th step.
-    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
-        self.run.monitor.latest()
-    }
-
-    /// max |c|: the amplitude of the parasitic mode in p if σ = ½ and α is affine. Elsewhere c is of order h(1 − 2σ)
-    /// on an orbit without such a mode, and says little of it; take [`parasitic_mode`](Self::parasitic_mode).
-    pub fn parasitic_amplitude(&self) -> T {
-        crate::scalar::norm::largest(&self.run.defect)
-    }
-
-    /// How often the run has been reinitialised: see [`Sigma::reinitialisation`].
-    pub fn reinitialisations(&self) -> u64 {
-        self.renewal.as_ref().map_or(0, |renewal| renewal.count)
-    }
-}
-
-/// A state of the two-step map, (q, c) without q, with guesses and work space.
-#[derive(Debug)]
-pub(super) struct TwoStep<S: System, T: Real> {
     /// c = p − α(q) at the current point.
     pub(super) defect: Vector<S, T>,
     /// Whether c = 0 for all times, so that nothing needs to be done about it.
@@ -145,7 +106,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Ahead<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for TwoStep<S, T> {
+impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
     lasting!(
         T;
         numbers defect, flag defect_vanishes, numbers one_form, part history, part ladder, part monitor, part orientation,
@@ -157,7 +118,29 @@ impl<S: System, T: Real> Memory<T> for Work<S, T> {
     lasting!(T; numbers ahead);
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> TwoStep<S, T> {
+impl<S: System, T: Real> SigmaMemory<S, T> {
+    /// c = p − α(q) at the current point, one entry per coordinate.
+    pub fn defect(&self) -> &[T] {
+        &self.defect
+    }
+
+    /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is
+    /// measured before each step; if Dα is constant and antisymmetric, after 4 to 256 steps, the sooner the
+    /// larger the mode and the longer the steps; without a limit, or where α is affine and σ = ½, before
+    /// every 256th step.
+    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
+        self.monitor.latest()
+    }
+
+    /// max |c|: the amplitude of the parasitic mode in p if σ = ½ and α is affine. Elsewhere c is of order
+    /// h(1 − 2σ) on an orbit without such a mode, and says little of it; take
+    /// [`parasitic_mode`](Self::parasitic_mode).
+    pub fn parasitic_amplitude(&self) -> T {
+        crate::scalar::norm::largest(&self.defect)
+    }
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
     /// For a run on the constraint p = α(q) that stays on it.
     pub(super) fn without_defect(
         system: &S,
@@ -219,14 +202,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoStep<S, T> {
         self.history.begin_again(&self.work.increment);
     }
 
-    /// For a run that [sets out](Self::set_out) later.
-    pub(super) fn new(
-        system: &S,
-        method: &Sigma<T>,
-        q: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<Self, StartError> {
+    fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
         let (space, sigma) = (system.space(), method.sigma);
         let left = T::lift(1.0) - sigma;
         let explicit = if S::AFFINE { method.is_end() } else { sigma == T::lift(0.0) };
@@ -262,26 +238,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> TwoStep<S, T> {
             ahead,
             l_d: OneNode::new(system, sigma),
             ladder: Ladder::new(solver, || of_second_derivatives(system, q, &rest, t, solver.storing())),
-            monitor: Monitor::new(system, limit, method.reinitialisation.threshold(), pace),
+            monitor: Monitor::new(system, limit, pace),
             orientation: FormOrientation::new(system, q, t),
             carried: Carried::new(system, method.summation),
             work,
         })
-    }
-
-    /// Begins at (`q`, `t`) with this defect and no past; `velocity` is about that of the motion.
-    pub(super) fn set_out(&mut self, step: &Step<'_, S, T>, [q, defect, velocity]: [&Vector<S, T>; 3]) {
-        let Step { system, method, t, h } = *step;
-        self.defect.copy_from_slice(defect);
-        self.defect_vanishes = false;
-        system.one_form(q, t, &mut self.one_form);
-        self.orientation.restart(system, q, t);
-        self.carried.clear();
-        self.ladder.begin_again();
-        for (delta, &v) in self.work.increment.iter_mut().zip(velocity.iter()) {
-            *delta = h * v;
-        }
-        self.aim(system, method, q);
     }
 
     /// Prepares a step that is a part of one of the length `whole`. On a smooth orbit the defect is of first
@@ -345,7 +306,7 @@ fn pace<S: DegenerateLagrangian<T>, T: Real>(
     match method.parasitic_limit {
         // The mode is only reversed.
         _ if S::AFFINE && method.is_midpoint() => (None, Pace::Seldom),
-        None if method.reinitialisation.threshold().is_none() => (None, Pace::Seldom),
+        None => (None, Pace::Seldom),
         // Where Dα is antisymmetric, K' = −K: c is reversed, and a gradient added to it.
         limit if S::AFFINE && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) => {
             (limit, Pace::WithTheFlow)

@@ -87,17 +87,6 @@ pub(super) enum Pace {
     Seldom,
 }
 
-impl Pace {
-    /// The number of steps to the first examination.
-    fn first_period(self) -> u64 {
-        match self {
-            Self::EachStep => 1,
-            Self::WithTheFlow => KEPT as u64,
-            Self::Seldom => BLOCK,
-        }
-    }
-}
-
 /// The points from which the mode is measured.
 #[derive(Debug)]
 pub(super) struct Monitor<S: System, T: Real> {
@@ -112,17 +101,11 @@ pub(super) struct Monitor<S: System, T: Real> {
     /// The run is examined where the number of steps is a multiple of this power of two.
     period: u64,
     limit: Option<f64>,
-    /// Above which the run is to be reinitialised, below the limit.
-    threshold: Option<f64>,
-    /// Before which step the run began, or was reinitialised last.
-    begun: u64,
     /// Before which step it was examined last, zero if it was not, and what was measured.
     examined: u64,
     mode: ParasiticMode<T>,
     /// How many looks in a row, the last among them, have seen it above the limit.
     above: u32,
-    /// The same of the threshold.
-    high: u32,
     /// How many looks have passed, of those at each step, since the mode has become large at once.
     since_jump: u32,
     first: First,
@@ -137,7 +120,7 @@ struct First {
 }
 
 impl<S: System, T: Real> Monitor<S, T> {
-    pub(super) fn new(system: &S, limit: Option<f64>, threshold: Option<f64>, pace: Pace) -> Self {
+    pub(super) fn new(system: &S, limit: Option<f64>, pace: Pace) -> Self {
         let vector = || system.space().vector();
         Self {
             points: system.space().vectors(),
@@ -145,14 +128,15 @@ impl<S: System, T: Real> Monitor<S, T> {
             together: T::lift(0.0),
             steps: 0,
             pace,
-            period: pace.first_period(),
+            period: match pace {
+                Pace::EachStep => 1,
+                Pace::WithTheFlow => KEPT as u64,
+                Pace::Seldom => BLOCK,
+            },
             limit,
-            threshold,
-            begun: 0,
             examined: 0,
             mode: ParasiticMode { amplitude: T::lift(0.0), relative: T::lift(0.0), is_significant: false },
             above: 0,
-            high: 0,
             since_jump: u32::MAX,
             first: First::default(),
         }
@@ -160,22 +144,8 @@ impl<S: System, T: Real> Monitor<S, T> {
 
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
-        let in_order = self.examined.max(self.begun) <= self.steps && self.steps < u64::MAX / 2;
+        let in_order = self.examined <= self.steps && self.steps < u64::MAX / 2;
         in_order && self.period.is_power_of_two() && self.period <= BLOCK
-    }
-
-    /// Begins anew at the present point: those before it belong to another orbit.
-    pub(super) fn restart(&mut self) {
-        self.begun = self.steps;
-        self.period = self.pace.first_period();
-        (self.examined, self.above, self.high, self.since_jump) = (0, 0, 0, u32::MAX);
-        self.first = First::default();
-    }
-
-    /// Whether this many looks above a bound, the last of them now, tell that the mode has passed it.
-    fn has_taken_over(&self, looks_above: u32, bound: f64) -> bool {
-        let Evidence { looks, sudden } = if self.since_jump < AT_ONCE.looks { AT_ONCE } else { GROWING };
-        looks_above >= looks || (looks_above > 1 && reported(self.mode.relative) > sudden * bound)
     }
 
     pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
@@ -196,7 +166,7 @@ impl<S: System, T: Real> Monitor<S, T> {
     /// Takes note of the point before the next step, if it is one of those that are looked at.
     ///
     /// # Errors
-    /// [`StepFailure::ParasiticMode`] if the run is lost, or to be reinitialised.
+    /// [`StepFailure::ParasiticMode`] if the run is lost.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn look(&mut self, q: &[T]) -> Result<(), StepFailure> {
         if (self.steps + KEPT as u64) & (self.period - 1) > KEPT as u64 {
@@ -244,10 +214,10 @@ impl<S: System, T: Real> Monitor<S, T> {
     /// Measures the mode at `q`, point number `step`, and the four before it.
     ///
     /// # Errors
-    /// [`StepFailure::ParasiticMode`] if the run is lost, or to be reinitialised.
+    /// [`StepFailure::ParasiticMode`] if the run is lost.
     #[inline(never)]
     pub(super) fn examine(&mut self, step: u64, q: &[T]) -> Result<(), StepFailure> {
-        if step < self.begun + KEPT as u64 {
+        if step < KEPT as u64 {
             return Ok(());
         }
         let mode = match self.last() {
@@ -256,26 +226,20 @@ impl<S: System, T: Real> Monitor<S, T> {
             _ => self.measure(step, q),
         };
         let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
-        // Between two looks a mode may pass the threshold and the limit; at once it does where reinitialisation is no help.
-        let at_once = step <= self.begun + 2 * KEPT as u64;
-        let bounds = [(self.threshold, self.high), (self.limit, self.above)];
-        let passed = bounds.map(|(bound, looks)| bound.filter(|&bound| self.has_taken_over(looks, bound)));
-        let limit = match passed {
-            [_, Some(limit)] if at_once => limit,
-            [Some(limit), _] | [None, Some(limit)] => limit,
-            [None, None] => return Ok(()),
-        };
+        let Evidence { looks, sudden } = if self.since_jump < AT_ONCE.looks { AT_ONCE } else { GROWING };
+        let has_passed = |&limit: &f64| self.above >= looks || (self.above > 1 && relative > sudden * limit);
+        let Some(limit) = self.limit.filter(has_passed) else { return Ok(()) };
         // Whoever tries the step again is to be told again.
         self.period = self.period.min(KEPT as u64);
         Err(StepFailure::ParasiticMode { amplitude, relative, limit })
     }
 
-    /// Whether the mode is above this bound, and larger than where it came from.
-    fn is_above(&self, mode: &ParasiticMode<T>, bound: Option<f64>) -> bool {
+    /// Whether the mode is above the limit, and larger than where it came from.
+    fn is_above(&self, mode: &ParasiticMode<T>) -> bool {
         let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
         let First { looks, relative: first, amplitude: from } = self.first;
         let has_grown = relative > GROWTH * first || amplitude > GROWTH * from;
-        bound.is_some_and(|bound| relative > bound)
+        self.limit.is_some_and(|limit| relative > limit)
             && mode.is_significant
             && (self.pace != Pace::WithTheFlow || (looks >= FIRST_LOOKS && has_grown))
     }
@@ -326,8 +290,7 @@ impl<S: System, T: Real> Monitor<S, T> {
         let has_jumped = self.last().is_some_and(|(_, last)| mode.relative > T::lift(JUMP) * last.relative);
         let is_jump = self.pace == Pace::EachStep && has_jumped;
         self.since_jump = if is_jump { 0 } else { self.since_jump.saturating_add(1) };
-        let count = |looks: u32, bound| if self.is_above(&mode, bound) { looks.saturating_add(1) } else { 0 };
-        (self.above, self.high) = (count(self.above, self.limit), count(self.high, self.threshold));
+        self.above = if self.is_above(&mode) { self.above.saturating_add(1) } else { 0 };
         (self.examined, self.mode) = (step, mode);
         mode
     }
@@ -344,18 +307,16 @@ impl<S: System, T: Real> Monitor<S, T> {
             *first = first.max(relative);
             *amplitude = amplitude.max(reported(mode.amplitude));
         }
-        let bound = self.threshold.or(self.limit);
-        let limit = bound.unwrap_or(super::PARASITIC_LIMIT).max(GROWTH * self.first.relative);
+        let limit = self.limit.unwrap_or(super::PARASITIC_LIMIT).max(GROWTH * self.first.relative);
         let room = Scalar::ln((limit / relative).clamp(1.0, f64::MAX));
         let grown = self.last().map_or(0.0, |(_, last)| Scalar::ln((relative / size(&last)).max(1.0)));
-        let begun = self.begun;
         let since = self.last().map_or(1, |(last, _)| step - last) as f64;
         // (steps · angle)² ≤ (RADIANS room)², which is false of what is not a number.
         let fits = |steps: u64| {
             let (by_angle, steps_squared) = (RADIANS * room, (steps * steps) as f64);
             steps_squared * turned <= by_angle * by_angle * moved
                 && (grown.is_infinite() || steps as f64 * grown <= room * since)
-                && steps * 4 <= (step - begun).max(2 * KEPT as u64)
+                && steps * 4 <= step.max(2 * KEPT as u64)
         };
         self.period = KEPT as u64;
         while self.period < BLOCK && fits(2 * self.period) {
@@ -367,8 +328,8 @@ impl<S: System, T: Real> Monitor<S, T> {
 impl<S: System, T: Real> Memory<T> for Monitor<S, T> {
     lasting!(
         T;
-        vectors points, numbers sizes, size together, count steps, count period, count begun, count examined, part mode,
-        count above, count high, count since_jump, part first;
+        vectors points, numbers sizes, size together, count steps, count period, count examined, part mode,
+        count above, count since_jump, part first;
         is_sound
     );
 }

@@ -5,7 +5,7 @@
 //! the fixed point of the affine case if α is affine.
 
 use super::Step;
-use super::memory::{TwoStep, Work, fixed_point_matrix};
+use super::memory::{SigmaMemory, Work, fixed_point_matrix};
 use crate::discrete::{DiscreteLagrangian, Ends, NodeWork, OneNode, Span, solve_by_newton};
 use crate::error::StepFailure;
 use crate::mechanics::combination::Inverse;
@@ -18,7 +18,7 @@ use crate::{DegenerateLagrangian, Linear, Real, Vector};
 #[inline]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -36,11 +36,11 @@ pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
 #[inline]
 fn implicit<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let TwoStep { ladder, defect, one_form, history, inverse, l_d, work, .. } = memory;
+    let SigmaMemory { ladder, defect, one_form, history, inverse, l_d, work, .. } = memory;
     for i in 0..q.len() {
         work.shift[i] = defect[i] + one_form[i];
     }
@@ -54,11 +54,11 @@ fn implicit<S: DegenerateLagrangian<T>, T: Real>(
 #[inline]
 fn one_solve<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let TwoStep { defect, one_form, inverse, orientation, l_d, work, .. } = memory;
+    let SigmaMemory { defect, one_form, inverse, orientation, l_d, work, .. } = memory;
     let node = &mut l_d.work;
     let combination = fixed_point_matrix::<S, T>(step.method, step.h);
     step.system.hamiltonian_gradient(q, step.t, &mut node.gradient);
@@ -144,11 +144,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
 #[inline]
 fn finish<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
-    memory: &mut TwoStep<S, T>,
+    memory: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let TwoStep { defect, one_form, history, orientation, l_d, work, .. } = memory;
+    let SigmaMemory { defect, one_form, history, orientation, l_d, work, .. } = memory;
     l_d.place(step.interval(), Ends { q0: q, delta: &work.increment });
     let NodeWork { point, velocity, gradient, momentum } = &mut l_d.work;
     let Work { trial, increment, next, .. } = work;

@@ -79,11 +79,10 @@ where
         count: u64,
     ) -> u64 {
         let is_affine = <S as DegenerateLagrangian<f64>>::AFFINE;
-        let are_free = runs.iter().all(|run| run.memory.renewal.is_none());
-        if !(is_affine && are_free && self.summation == Summation::Plain) {
+        if !(is_affine && self.summation == Summation::Plain) {
             return 0;
         }
-        let of_run = |run: usize| runs[run].memory.run.inverse.reciprocals();
+        let of_run = |run: usize| runs[run].memory.inverse.reciprocals();
         if !load_if_all_have(&mut packs.reciprocals, of_run, runs.len()) {
             return 0;
         }
@@ -109,7 +108,7 @@ fn look<const W: usize, S: DegenerateLagrangian>(
     let mut steps = most;
     for (lane, run) in runs.iter_mut().enumerate() {
         read_lane(lane, q, one);
-        match of_run(&mut run.memory.run.monitor, one) {
+        match of_run(&mut run.memory.monitor, one) {
             Ok(unseen) => steps = steps.min(unseen),
             Err(_) => return 0,
         }

@@ -3,7 +3,7 @@
 use super::{Packed, Packs, look};
 use crate::methods::Clock;
 use crate::methods::sigma_family::Sigma;
-use crate::methods::sigma_family::memory::{Ahead, TwoStep};
+use crate::methods::sigma_family::memory::{Ahead, SigmaMemory};
 use crate::methods::sigma_family::monitor::Monitor;
 use crate::methods::together::{Companion, all_finite, load, load_if_all_have, of_lanes};
 use crate::methods::walk::BLOCK;
@@ -25,8 +25,8 @@ where
     S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
 {
     let Packs { q, ahead, other: before, kept, gradient, reciprocals, factors, one, increment, .. } = packs;
-    let is_reversal = |run: &Companion<'_, S, Sigma>| matches!(run.memory.run.ahead, Some(Ahead::Reversal));
-    let of_run = |run: usize| match &runs[run].memory.run.ahead {
+    let is_reversal = |run: &Companion<'_, S, Sigma>| matches!(run.memory.ahead, Some(Ahead::Reversal));
+    let of_run = |run: usize| match &runs[run].memory.ahead {
         Some(Ahead::Diagonal(factors)) => Some(&**factors),
         Some(Ahead::Reversal | Ahead::General(_)) | None => None,
     };
@@ -38,7 +38,7 @@ where
         return 0;
     };
     load(q, |run| &*runs[run].q, runs.len());
-    load(ahead, |run| &*runs[run].memory.run.work.ahead, runs.len());
+    load(ahead, |run| &*runs[run].memory.work.ahead, runs.len());
     let taken = S::packed(&of_lanes(systems), |system| {
         let mut taken = 0;
         while taken < count {
@@ -59,7 +59,7 @@ where
             }
             taken += steps;
             for run in runs.iter_mut() {
-                run.memory.run.monitor.steps += steps;
+                run.memory.monitor.steps += steps;
             }
         }
         taken
@@ -68,7 +68,7 @@ where
         return 0;
     }
     for (lane, (run, &system)) in runs.iter_mut().zip(systems).enumerate() {
-        let TwoStep { defect, product, work, .. } = &mut run.memory.run;
+        let SigmaMemory { defect, product, work, .. } = &mut *run.memory;
         read_lane(lane, q, run.q);
         read_lane(lane, ahead, &mut work.ahead);
         read_lane(lane, before, one);

@@ -25,12 +25,12 @@ where
     S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
 {
     let Packs { q, ahead, other, kept, gradient, point, shift, history, reciprocals, one, .. } = packs;
-    let Some(first) = runs.first().map(|run| &run.memory.run) else { return 0 };
+    let Some(first) = runs.first().map(|run| &*run.memory) else { return 0 };
     let (Some(mut place), vanishes) = (first.history.place_if_full(), first.defect_vanishes) else {
         return 0;
     };
     let budget = first.ladder.budget(method.stopping.max_iterations, 12 + one.len());
-    let are_alike = runs.iter().map(|run| &run.memory.run).all(|run| {
+    let are_alike = runs.iter().map(|run| &*run.memory).all(|run| {
         run.history.place_if_full() == Some(place)
             && run.defect_vanishes == vanishes
             && run.ladder.tries_fixed_point()
@@ -40,12 +40,12 @@ where
     }
     load(q, |run| &*runs[run].q, runs.len());
     for (entry, packs) in history.iter_mut().enumerate() {
-        load(packs, |run| &*runs[run].memory.run.history.ring()[entry], runs.len());
+        load(packs, |run| &*runs[run].memory.history.ring()[entry], runs.len());
     }
     for (run, &system) in runs.iter_mut().zip(systems).filter(|_| !vanishes) {
-        run.memory.run.shift_by_defect(system);
+        run.memory.shift_by_defect(system);
     }
-    load(shift, |run| &*runs[run].memory.run.work.shift, runs.len());
+    load(shift, |run| &*runs[run].memory.work.shift, runs.len());
     let taken = S::packed(&of_lanes(systems), |system| {
         let mut taken = 0;
         while taken < count {
@@ -75,7 +75,7 @@ where
             });
             taken += done;
             for (run, iterations) in runs.iter_mut().zip(iterations) {
-                run.memory.run.monitor.steps += done;
+                run.memory.monitor.steps += done;
                 run.statistics.iterations += iterations;
                 run.statistics.gradients += iterations;
             }
@@ -88,11 +88,11 @@ where
     for (lane, run) in runs.iter_mut().enumerate() {
         read_lane(lane, q, run.q);
         for (entry, packs) in history.iter().enumerate() {
-            read_lane(lane, packs, &mut run.memory.run.history.ring_mut()[entry]);
+            read_lane(lane, packs, &mut run.memory.history.ring_mut()[entry]);
         }
-        run.memory.run.history.set_place(place);
+        run.memory.history.set_place(place);
         if taken % 2 == 1 {
-            run.memory.run.defect.iter_mut().for_each(|c| *c = 0.0 - *c);
+            run.memory.defect.iter_mut().for_each(|c| *c = 0.0 - *c);
         }
         run.statistics.steps += taken;
     }
