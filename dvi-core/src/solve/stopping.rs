@@ -81,6 +81,9 @@ const FINE: f64 = 4.0;
 /// Corrections no larger than this many units of rounding of the coordinates cannot be told from noise.
 pub(crate) const FLOOR: f64 = 32.0;
 
+/// Corrections that are no larger than this part of a coordinate are none, be they still to shrink.
+const NOTHING: f64 = 1e-30;
+
 /// What to do with an iterate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
@@ -245,7 +248,7 @@ impl<T: Real> Course<T> {
         }
         // What is left over has the same sign in every step, and adds up however small it is.
         if is_below_rounding::<T>(stopping) {
-            (new.tolerance, new.stalling) = (T::lift(0.0), T::lift(0.0));
+            (new.tolerance, new.stalling) = (T::lift(NOTHING), T::lift(0.0));
         }
         new
     }
@@ -357,10 +360,11 @@ impl<T: Real> Convergence<T> {
                 }
                 None
             }
-            Trial::None if is_in_vain => Some(Verdict::GiveUp),
+            Trial::None if course.in_vain > MOST_IN_VAIN + 1 => Some(Verdict::GiveUp),
             Trial::None => {
-                // To ask takes no elimination, and says at once whether anything is left to gain.
-                if is_vain && course.correction <= T::lift(LARGE) {
+                // To ask takes no elimination, and says at once whether anything is left to gain. A coordinate
+                // that is nothing but rounding errors has corrections as large as itself.
+                if is_in_vain || is_vain && course.correction <= T::lift(LARGE) {
                     (course.last, course.stalling) = (course.last + 1, infinity);
                     (*trial, course.due, course.correction) = (Trial::Asked, Due::Residual, infinity);
                 }

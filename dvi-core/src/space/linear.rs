@@ -137,14 +137,15 @@ const EXPONENT: u64 = 0x7ff << 52;
 
 /// Sets `scales` to the sizes of unknowns with these weights, in units of the largest but for its binary
 /// digits, which would round; there may be several unknowns for each weight. Scales are numbers without
-/// derivatives, and not so small that rows vanish.
+/// derivatives; of what has no size it is one.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
     let least = weights.iter().fold(T::lift(f64::INFINITY), |least, &weight| norm::smaller(least, weight));
     let unit = T::lift(f64::from_bits(norm::reported(least).to_bits() & EXPONENT));
     for scales in scales.chunks_mut(weights.len().max(1)) {
         for (scale, &weight) in scales.iter_mut().zip(weights) {
-            *scale = norm::larger(T::lift(1e-140), T::lift(norm::reported(unit / weight)));
+            let size = T::lift(norm::reported(unit / weight));
+            *scale = if size > T::lift(1e-140) { size } else { T::lift(1.0) };
         }
     }
 }
