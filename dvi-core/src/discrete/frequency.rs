@@ -1,7 +1,8 @@
 //! The frequency that a phase-fitted interpolation is fitted to.
 //!
-//! Kosmas & Vlachos interpolate between q0 and q1 by sin ωt and cos ωt. ω may be given, or taken from the motion: from the curvature of the path (their eq. 19), or from the ratio of
-//! acceleration to distance. How it is taken, the [`Reading`], decides what a step preserves.
+//! Kosmas & Vlachos interpolate between q0 and q1 by sin ωt and cos ωt. ω may be given, or taken from the
+//! motion: from the curvature of the path (their eq. 19), or from the ratio of acceleration to distance. How
+//! it is taken, the [`Reading`], decides what a step preserves.
 
 use core::fmt::Debug;
 

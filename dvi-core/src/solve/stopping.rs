@@ -35,9 +35,10 @@ pub struct Stopping {
     /// or to the largest of these in its array. Default: 1e-17, below the rounding of double precision.
     ///
     /// Below the rounding of the arithmetic, an iteration goes on until its corrections no longer shrink.
-    /// Units do not matter: with other units of coordinates and of time iterates are the same, scaled. On four equal vortices in quasi-periodic motion, σ = ½ and h from 0.1 to 0.1045,
-    /// ΣΓ|z|² then drifts by (3 ± 2)·10⁻¹⁹ a step over 4·10⁵ steps, the mean of sixteen runs; with a
-    /// tolerance of 2.3e-16, at which iterations stop as soon as such an error is predicted, by 4.6·10⁻¹⁸.
+    /// Units do not matter: with other units of coordinates and of time iterates are the same, scaled. On
+    /// four equal vortices in quasi-periodic motion, σ = ½ and h from 0.1 to 0.1045, ΣΓ|z|² then drifts by
+    /// (3 ± 2)·10⁻¹⁹ a step over 4·10⁵ steps, the mean of sixteen runs; with a tolerance of 2.3e-16, at which
+    /// iterations stop as soon as such an error is predicted, by 4.6·10⁻¹⁸.
     pub tolerance: f64,
     /// The largest number of iterations. Default: 100.
     pub max_iterations: usize,
