@@ -19,6 +19,24 @@ macro_rules! in_units {
     };
 }
 
+/// A system of two arrays, each with a unit.
+macro_rules! arrays_in_units {
+    ($system:ident, $size:ident, $n:literal, $h:literal, $start:expr) => {
+        impl InUnits<2> for $system {
+            const H: f64 = $h;
+            fn unit(coordinate: usize) -> usize {
+                coordinate / $n
+            }
+            fn system([u, w]: [f64; 2], tau: f64) -> Self {
+                Self { $size: $n, u, w, tau }
+            }
+            fn start() -> Vec<f64> {
+                $start
+            }
+        }
+    };
+}
+
 #[degenerate_lagrangian(
     coordinates(x, p),
     one_form = u[1] * p * u[0] * d(x) / tau,
@@ -96,18 +114,7 @@ pub(super) struct Amplitudes {
     tau: f64,
 }
 
-impl InUnits<2> for Amplitudes {
-    const H: f64 = 0.05;
-    fn unit(coordinate: usize) -> usize {
-        coordinate / 4
-    }
-    fn system([u, w]: [f64; 2], tau: f64) -> Self {
-        Self { n: 4, u, w, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1]
-    }
-}
+arrays_in_units!(Amplitudes, n, 4, 0.05, vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1]);
 
 #[lagrangian(
     coordinates(x, y),
@@ -162,18 +169,7 @@ pub(super) struct Chain {
     tau: f64,
 }
 
-impl InUnits<2> for Chain {
-    const H: f64 = 0.2;
-    fn unit(coordinate: usize) -> usize {
-        coordinate / 12
-    }
-    fn system([u, w]: [f64; 2], tau: f64) -> Self {
-        Self { n: 12, u, w, tau }
-    }
-    fn start() -> Vec<f64> {
-        (0..48).map(|j| (1.7 * f64::from(j)).sin()).collect()
-    }
-}
+arrays_in_units!(Chain, n, 12, 0.2, (0..48).map(|j| (1.7 * f64::from(j)).sin()).collect());
 
 /// A constant mass matrix that couples coordinates.
 #[lagrangian(
