@@ -43,13 +43,13 @@ pub(crate) fn blocks<S: System>(system: &S) -> impl Iterator<Item = Range<usize>
     })
 }
 
-/// Sets the weights of all coordinates of each block to that of the largest `size` in it.
+/// Sets the weights of all coordinates of each block to that of the largest `size` in it, times `unit`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn set_weights<S: System, T: Real>(system: &S, weights: &mut [T], size: impl Fn(usize, T) -> T) {
+fn set_weights<S: System, T: Real>(system: &S, (weights, unit): (&mut [T], T), size: impl Fn(usize, T) -> T) {
     for block in blocks(system) {
         let largest = |largest: T, k: usize| larger(largest, size(k, weights[k]));
         let largest = block.clone().fold(T::lift(0.0), largest);
-        weights[block].fill(weight_of(largest));
+        weights[block].fill(unit * weight_of(largest));
     }
 }
 
@@ -66,8 +66,8 @@ impl Due {
         q: &[T],
         delta: &mut [T],
     ) -> bool {
-        let size = |k: usize, delta: T| Scalar::abs(q[k]) + Scalar::abs(delta);
-        *self != Self::Nothing && self.carry_out(system, weights, size, delta)
+        let size = |k: usize, &delta: &T| Scalar::abs(q[k]) + Scalar::abs(delta);
+        self.carry_out(system, (weights, T::lift(1.0)), size, delta)
     }
 
     /// The same where the unknown is `q1`, and Δ = q1 − q.
@@ -79,14 +79,14 @@ impl Due {
         q: &[T],
         q1: &mut [T],
     ) {
-        let size = |k: usize, q1: T| Scalar::abs(q[k]) + Scalar::abs(q1 - q[k]);
-        let _ = *self != Self::Nothing && self.carry_out(system, weights, size, q1);
+        let size = |k: usize, &q1: &T| Scalar::abs(q[k]) + Scalar::abs(q1 - q[k]);
+        self.carry_out(system, (weights, T::lift(1.0)), size, q1);
     }
 
     /// The same where `x` is the unknown, and no increment.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare_alone<S: System, T: Real>(&mut self, system: &S, weights: &mut [T], x: &mut [T]) {
-        let _ = *self != Self::Nothing && self.carry_out(system, weights, |_, x| Scalar::abs(x), x);
+        self.carry_out(system, (weights, T::lift(1.0)), |_, &x: &T| Scalar::abs(x), x);
     }
 
     /// The same of several unknowns for each coordinate, of which the last is the one that responds.
@@ -108,11 +108,11 @@ impl Due {
                     .for_each(|(k, (x, &weight))| *x += shaken(k, weight));
             }
         }
-        let size = |k: usize, last: T| {
+        let size = |k: usize, &last: &T| {
             let sizes = others.iter().map(|unknown| Scalar::abs(unknown[k]));
             Scalar::abs(q[k]) + sizes.fold(Scalar::abs(last), larger)
         };
-        let _ = *self != Self::Nothing && self.carry_out(system, weights, size, last);
+        self.carry_out(system, (weights, T::lift(1.0)), size, last);
     }
 
     /// The same of positions of several stages, in the lanes of packs.
@@ -127,8 +127,7 @@ impl Due {
         let size = |k: usize, place: &Lanes<W, T>| {
             Scalar::abs(q[k]) + largest_number(&place.0.map(|place| place - q[k]))
         };
-        let _ =
-            *self != Self::Nothing && self.carry_out_in_packs(system, weights, T::lift(1.0), size, places);
+        self.carry_out(system, (weights, T::lift(1.0)), size, places);
     }
 
     /// The same of velocities of several stages, in a step of length `h`; weights are those of velocities
@@ -143,35 +142,35 @@ impl Due {
     ) -> bool {
         let h = Scalar::abs(h);
         let size = |k: usize, slope: &Lanes<W, T>| Scalar::abs(q[k]) + h * largest_number(&slope.0);
-        *self != Self::Nothing && self.carry_out_in_packs(system, weights, h, size, slopes)
+        self.carry_out(system, (weights, h), size, slopes)
     }
 
-    /// Does what is due with an unknown for each coordinate, whose `size` is that of coordinate k where it
-    /// has a value; whether it moves.
+    /// Does what is due with the unknowns of each coordinate, whose `size` is that of coordinate k where they
+    /// have these values, in units of coordinates over `unit`; whether it moves them.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn carry_out<S: System, T: Real>(
+    fn carry_out<S: System, T: Real, X: Unknowns<T>>(
         &mut self,
         system: &S,
-        weights: &mut [T],
-        size: impl Fn(usize, T) -> T,
-        x: &mut [T],
+        (weights, unit): (&mut [T], T),
+        size: impl Fn(usize, &X) -> T,
+        x: &mut [X],
     ) -> bool {
         if *self != Self::Sizes {
-            return self.test(system, weights, size, x);
+            return *self != Self::Nothing && self.test(system, (weights, unit), size, x);
         }
-        set_weights(system, weights, |k, _| size(k, x[k]));
+        set_weights(system, (weights, unit), |k, _| size(k, &x[k]));
         *self = Self::Nothing;
         false
     }
 
     /// The same where the iterate is put to the test.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn test<S: System, T: Real>(
+    fn test<S: System, T: Real, X: Unknowns<T>>(
         &mut self,
         system: &S,
-        weights: &mut [T],
-        size: impl Fn(usize, T) -> T,
-        x: &mut [T],
+        (weights, unit): (&mut [T], T),
+        size: impl Fn(usize, &X) -> T,
+        x: &mut [X],
     ) -> bool {
         match *self {
             // The iteration itself answers that.
@@ -179,67 +178,48 @@ impl Due {
             Self::Nothing | Self::Sizes => {}
             Self::Shake => {
                 for (k, (x, weight)) in x.iter_mut().zip(weights).enumerate() {
-                    let kept = *x;
-                    *x += shaken(k, *weight);
+                    let kept = x.last();
+                    x.add(|lane| shaken(X::COUNT * k + lane, *weight));
                     *weight = kept;
                 }
             }
-            Self::Response => {
-                set_weights(system, weights, |k, kept| {
-                    size(k, x[k]) + Scalar::abs(x[k] - kept) / T::lift(SHAKE)
-                });
-            }
+            Self::Response => set_weights(system, (weights, unit), |k, kept| {
+                size(k, &x[k]) + unit * Scalar::abs(x[k].last() - kept) / T::lift(SHAKE)
+            }),
         }
         core::mem::replace(self, Self::Nothing) == Self::Shake
     }
+}
 
-    /// The same with unknowns in the lanes of packs, of which the last responds, in units of coordinates
-    /// over `unit`.
+/// The unknowns of a coordinate: a number, or one in each lane of a pack.
+trait Unknowns<T> {
+    const COUNT: usize;
+    /// The one that responds where they are moved.
+    fn last(&self) -> T;
+    fn add(&mut self, by: impl Fn(usize) -> T);
+}
+
+impl<T: Real> Unknowns<T> for T {
+    const COUNT: usize = 1;
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn carry_out_in_packs<const W: usize, S: System, T: Real>(
-        &mut self,
-        system: &S,
-        weights: &mut [T],
-        unit: T,
-        size: impl Fn(usize, &Lanes<W, T>) -> T,
-        packs: &mut [Lanes<W, T>],
-    ) -> bool {
-        if *self != Self::Sizes {
-            return self.test_packs(system, weights, unit, size, packs);
-        }
-        set_weights(system, weights, |k, _| size(k, &packs[k]));
-        weights.iter_mut().for_each(|weight| *weight *= unit);
-        *self = Self::Nothing;
-        false
+    fn last(&self) -> T {
+        *self
     }
-
-    /// The same where the iterate is put to the test.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn test_packs<const W: usize, S: System, T: Real>(
-        &mut self,
-        system: &S,
-        weights: &mut [T],
-        unit: T,
-        size: impl Fn(usize, &Lanes<W, T>) -> T,
-        packs: &mut [Lanes<W, T>],
-    ) -> bool {
-        match *self {
-            Self::Nothing | Self::Sizes | Self::Residual => {}
-            Self::Shake => {
-                for (k, (pack, weight)) in packs.iter_mut().zip(weights).enumerate() {
-                    let kept = pack.0[W - 1];
-                    pack.0.iter_mut().enumerate().for_each(|(lane, x)| *x += shaken(W * k + lane, *weight));
-                    *weight = kept;
-                }
-            }
-            Self::Response => {
-                set_weights(system, weights, |k, kept| {
-                    size(k, &packs[k]) + unit * Scalar::abs(packs[k].0[W - 1] - kept) / T::lift(SHAKE)
-                });
-                weights.iter_mut().for_each(|weight| *weight *= unit);
-            }
-        }
-        core::mem::replace(self, Self::Nothing) == Self::Shake
+    fn add(&mut self, by: impl Fn(usize) -> T) {
+        *self += by(0);
+    }
+}
+
+impl<const W: usize, T: Real> Unknowns<T> for Lanes<W, T> {
+    const COUNT: usize = W;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn last(&self) -> T {
+        self.0[W - 1]
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn add(&mut self, by: impl Fn(usize) -> T) {
+        self.0.iter_mut().enumerate().for_each(|(lane, x)| *x += by(lane));
     }
 }
 
