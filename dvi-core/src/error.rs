@@ -65,7 +65,8 @@ pub enum StartError {
     /// The step is zero, infinite or not a number; or it is so short that the time stays what it is or that
     /// 1/h may be infinite, or so long that the time of some later step may be.
     #[error(
-        "the step h = {h:e} must move the time, by no less than the smallest number that has all digits, and lead to finite times"
+        "the step h = {h:e} must move the time, by no less than the smallest number that has all digits, \
+         and lead to finite times"
     )]
     Step {
         /// The step that was given.
@@ -99,8 +100,8 @@ pub enum StartError {
     },
     /// The energy, or a derivative of L, is infinite or not a number at the initial state.
     #[error(
-        "{quantity}{} is {value} at the initial state: a parameter is not a number, or the state lies outside of the \
-         domain of the formulas",
+        "{quantity}{} is {value} at the initial state: a parameter is not a number, or the state lies \
+         outside of the domain of the formulas",
         Along(.coordinate)
     )]
     Undefined {
@@ -114,8 +115,8 @@ pub enum StartError {
     /// The mass matrix, or Ω = −dα, says nothing of a coordinate: its row is zero, so that the motion is not
     /// determined.
     #[error(
-        "{matrix} is singular at the initial state: its row for `{entry}` has the size {size:e}, so that nothing determines the motion \
-         of this coordinate"
+        "{matrix} is singular at the initial state: its row for `{entry}` has the size {size:e}, so that \
+         nothing determines the motion of this coordinate"
     )]
     Singular {
         /// Which matrix.
@@ -251,7 +252,8 @@ pub enum CheckpointError {
     /// What is read is not what was written. The error of the reader has this text.
     #[error(
         "the checkpoint has changed since it was taken: its numbers and counts do not go with its \
-         checksum; a text format that rounds numbers does that (serde_json needs its feature `float_roundtrip`)"
+         checksum; a text format that rounds numbers does that (serde_json needs its feature \
+         `float_roundtrip`)"
     )]
     Changed,
     /// It has numbers or counts that no run has.

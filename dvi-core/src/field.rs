@@ -88,7 +88,8 @@ pub struct Expansion<const D: usize, T = f64> {
 /// assert_eq!(Product { k: 0.5 }.expansion([3.0, 2.0]).gradient, [2.0, 6.0]);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "a formula cannot call `{Self}` as a function of so many numbers: it does not implement `ScalarField<{D}>`",
+    message = "a formula cannot call `{Self}` as a function of so many numbers: it does not implement \
+               `ScalarField<{D}>`",
     label = "does not implement `ScalarField<{D}>`",
     note = "`dvi_core::field::ScalarField` says what such a function is"
 )]

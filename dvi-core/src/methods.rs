@@ -307,7 +307,8 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, `Newmark`, `General` around these, and `EnergyLimit` around any of them"
+    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, \
+            `Newmark`, `General` around these, and `EnergyLimit` around any of them"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
@@ -331,7 +332,8 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian that `General` and `Constrained` could take steps of",
     label = "its steps are not variational, it reads a frequency from the motion, or it watches steps",
-    note = "such methods are `Variational` and, without constraints, `Sigma`, `Galerkin` and `Newmark`; `EnergyLimit` goes around `General` and `Constrained`"
+    note = "such methods are `Variational` and, without constraints, `Sigma`, `Galerkin` and `Newmark`; \
+            `EnergyLimit` goes around `General` and `Constrained`"
 )]
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// Refuses options that have no effect there.

@@ -148,7 +148,8 @@ fn once(mut item: ItemStruct, errors: &mut Errors) -> ItemStruct {
     };
     for again in item.attrs.iter().filter(|attribute| declares(attribute)) {
         let message = format!(
-            "`{}` is a system by the attribute above: a struct has one Lagrangian; write another struct for this one",
+            "`{}` is a system by the attribute above: a struct has one Lagrangian; write another struct \
+             for this one",
             item.ident
         );
         errors.push(again.path(), message);

@@ -10,9 +10,9 @@ use crate::error::OutsideError;
 pub enum StepFailure {
     /// The iteration ran out of its budget or moved away from a solution.
     #[error(
-        "no convergence: after {iterations} iterations the correction is {correction:e}, \
-         {tolerance:e} was asked for; a smaller step helps, unless a formula jumps there, as dry friction does at rest: there write \
-         it without a jump, as with `tanh`"
+        "no convergence: after {iterations} iterations the correction is {correction:e}, {tolerance:e} was \
+         asked for; a smaller step helps, unless a formula jumps there, as dry friction does at rest: \
+         there write it without a jump, as with `tanh`"
     )]
     NotConverged {
         /// Iterations taken.
@@ -237,8 +237,9 @@ pub enum StepFailure {
     /// A step control asks for a step that does not advance the time, or leads to none that is finite, or is
     /// so short that 1/h may be infinite.
     #[error(
-        "the step control asks for h = {h:e}, which does not advance the time, leads to none that is finite, or is below the smallest \
-         number that has all digits: a collision, or a demand out of reach"
+        "the step control asks for h = {h:e}, which does not advance the time, leads to none that is \
+         finite, or is below the smallest number that has all digits: a collision, or a demand out of \
+         reach"
     )]
     StepLength {
         /// The step, perhaps not finite.
@@ -273,8 +274,8 @@ pub enum StepFailure {
     /// is negative there, that of an inverse function out of its range, or a function that is called is no
     /// number.
     #[error(
-        "the step ends outside of the domain of a formula, as beyond the zero of what a root or a logarithm is taken of: the motion \
-         leads there, or the step is too long"
+        "the step ends outside of the domain of a formula, as beyond the zero of what a root or a \
+         logarithm is taken of: the motion leads there, or the step is too long"
     )]
     LeftDomain,
     /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.

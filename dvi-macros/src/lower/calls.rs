@@ -38,8 +38,8 @@ impl Lowering<'_> {
             {
                 let listed = call.args.iter().map(text).collect::<Vec<_>>().join(", ");
                 let message = format!(
-                    "a function of several variables is called by its name, and derivatives are taken of it where they are needed: \
-                     write `{function}({listed})`"
+                    "a function of several variables is called by its name, and derivatives are taken of \
+                     it where they are needed: write `{function}({listed})`"
                 );
                 self.errors.push(&call.method, message);
                 return None;
@@ -311,8 +311,9 @@ impl Lowering<'_> {
             Some(near) => message += &format!("; did you mean `{near}`?"),
             None => {
                 message += &format!(
-                    "; a function of your own is declared with its derivatives: `functions({name} = [{name}, d{name}, d2{name}])`; one \
-                     of several numbers, or from a table, is a field of the struct that implements `ScalarField`"
+                    "; a function of your own is declared with its derivatives: \
+                     `functions({name} = [{name}, d{name}, d2{name}])`; one of several numbers, or from a \
+                     table, is a field of the struct that implements `ScalarField`"
                 );
             }
         }
@@ -323,7 +324,8 @@ impl Lowering<'_> {
     fn velocity(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
         if let ("dot", [x, y]) = (name, call.args.iter().collect::<Vec<_>>().as_slice()) {
             let message = format!(
-                "`dot` is the velocity of one coordinate; a scalar product is written `sum(0..n, |j| {}[j] * {}[j])`",
+                "`dot` is the velocity of one coordinate; a scalar product is written \
+                 `sum(0..n, |j| {}[j] * {}[j])`",
                 text(x),
                 text(y)
             );

@@ -122,8 +122,8 @@ pub(super) fn meant(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]
 pub(super) fn jumps(name: &str) -> Option<String> {
     JUMPING.contains(&name.to_lowercase().as_str()).then(|| {
         format!(
-            "`{name}` has no derivative where it jumps: write the formulas on both sides with a condition, as in \
-             `if x < 0.0 {{ 0.0 }} else {{ 1.0 }}`"
+            "`{name}` has no derivative where it jumps: write the formulas on both sides with a condition, \
+             as in `if x < 0.0 {{ 0.0 }} else {{ 1.0 }}`"
         )
     })
 }

@@ -212,9 +212,10 @@ impl MassMatrix {
                 "Begin with `Constrained` around `Variational::midpoint()`."
             }
         };
-        let encounters = "Where bodies meet, L has a pole, and steps of one length lose the energy in close encounters: \
-                          `ControlledIntegrator` makes them shorter there, with `Reversible` symmetrically in time, or with \
-                          `ErrorControl` and `Gauss` to a given error.";
+        let encounters = "Where bodies meet, L has a pole, and steps of one length lose the energy in \
+                          close encounters: `ControlledIntegrator` makes them shorter there, with \
+                          `Reversible` symmetrically in time, or with `ErrorControl` and `Gauss` to a \
+                          given error.";
         let encounters = (constrained.is_none() && self.pole).then(|| encounters.to_string());
         [form, step.to_string(), degree.to_string(), begin.to_string()]
             .into_iter()

@@ -84,7 +84,8 @@ fn check_inside(tokens: &TokenStream, room: usize, longest: usize) -> syn::Resul
 
 fn too_deep(token: &TokenTree) -> syn::Error {
     let message = format!(
-        "more than {DEEPEST} brackets, signs or conditions are nested here; give the inner ones names with `let`"
+        "more than {DEEPEST} brackets, signs or conditions are nested here; give the inner ones names with \
+         `let`"
     );
     syn::Error::new(token.span(), message)
 }

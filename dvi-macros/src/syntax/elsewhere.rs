@@ -57,7 +57,8 @@ fn here(before: &[TokenTree], rest: &[TokenTree]) -> Option<syn::Error> {
             let Some(TokenTree::Ident(name)) = before.last().filter(|_| is_list) else { return None };
             let inside = list.stream();
             let message = format!(
-                "an index has brackets of its own, as in `{name}[i][j]`; a function is called as `{name}({})`",
+                "an index has brackets of its own, as in `{name}[i][j]`; a function is called as \
+                 `{name}({})`",
                 text(&inside)
             );
             error(at, message)

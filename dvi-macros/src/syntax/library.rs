@@ -18,8 +18,8 @@ impl Attribute {
         let arguments = std::env::args_os().filter_map(|argument| argument.into_string().ok());
         if let (None, Some(name)) = (&self.crate_path, other_name(arguments)) {
             let message = format!(
-                "this library is the dependency `{name}` here, and its attributes have to know: write `crate = ::{name}` among the \
-                 arguments"
+                "this library is the dependency `{name}` here, and its attributes have to know: write \
+                 `crate = ::{name}` among the arguments"
             );
             errors.push_syn(syn::Error::new(Span::call_site(), message));
             self.crate_path = Some(path(&name));

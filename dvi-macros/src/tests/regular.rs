@@ -502,7 +502,8 @@ fn a_pole_where_bodies_meet_is_seen() {
     }
     for smooth in [
         // Softened, around a fixed centre, springs, and a lattice whose bodies may pass.
-        "-sum_pairs(0..7, |j, k| m[j] * m[k] / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) + a * a).sqrt())",
+        "-sum_pairs(0..7, |j, k| m[j] * m[k] / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) + a * \
+         a).sqrt())",
         "-sum(0..7, |j| m[j] / x[j].hypot(y[j]))",
         "sum_pairs(0..7, |j, k| (x[j] - x[k]).powi(2) / a + (y[j] - y[k]).cosh().ln())",
         "sum(0..6, |j| (x[j + 1] - x[j]).exp() / m[j])",

@@ -1,5 +1,5 @@
-//! Forces and Hamiltonians that are switched on, with jumps, corners and pulses: errors fall with the tolerance
-//! all the same.
+//! Forces and Hamiltonians that are switched on, with jumps, corners and pulses: errors fall with the
+//! tolerance all the same.
 
 use core::f64::consts::PI;
 use dvi_core::field::{Axis, Spline};
@@ -8,8 +8,9 @@ use dvi_core::prelude::*;
 
 use super::{Outcome, distance};
 
-/// A body at rest, free or on a spring, that is pushed with (t − t₀)ⁿ from some time on. The first step from there makes all of the momentum,
-/// and is as wrong in it however short it is, where the power is beyond the degree of the stages.
+/// A body at rest, free or on a spring, that is pushed with (t − t₀)ⁿ from some time on. The first step from
+/// there makes all of the momentum, and is as wrong in it however short it is, where the power is beyond the
+/// degree of the stages.
 #[test]
 fn forces_are_switched_on_at_rest() -> Outcome {
     #[lagrangian(

@@ -57,8 +57,8 @@ fn what_cannot_be_a_spline() -> Outcome {
     let periodic = |points: &[f64], period: f64| refusal(Axis::periodic(points, period));
     let of = |period: &str| {
         format!(
-            "the period {period} does not go with points from 0 to 3: the last point is expected at the first one plus the \
-             period, or clearly before it"
+            "the period {period} does not go with points from 0 to 3: the last point is expected at the \
+             first one plus the period, or clearly before it"
         )
     };
     let points = [0.0, 1.0, 2.0, 3.0];
@@ -103,12 +103,14 @@ fn what_cannot_be_a_spline() -> Outcome {
     values[14] = 0.25;
     assert_eq!(
         said([four.clone(), closed], &values),
-        "value 14 of the table is 0.25 at the end of the period of axis 1, and 0 is expected, as value 10 is at its start"
+        "value 14 of the table is 0.25 at the end of the period of axis 1, and 0 is expected, as value 10 \
+         is at its start"
     );
     let alternating: Vec<f64> = (0..16).map(|k| if k % 3 == 0 { 1.7e308 } else { -1.7e308 }).collect();
     assert_eq!(
         said([four.clone(), four], &alternating),
-        "a coefficient of the spline is not finite: the values are too large or the distances on an axis too unequal"
+        "a coefficient of the spline is not finite: the values are too large or the distances on an axis \
+         too unequal"
     );
     let many = Axis::uniform([0.0, 1.0], 100_000)?;
     let huge = Spline::sample([many.clone(), many.clone(), many.clone(), many], |_| 0.0);
@@ -175,7 +177,8 @@ fn any_table() -> Outcome {
     Ok(())
 }
 
-/// Evaluates a spline at many places, among them all lines of its grid and their neighbours. Inside, the value is known.
+/// Evaluates a spline at many places, among them all lines of its grid and their neighbours. Inside, the
+/// value is known.
 fn ask<F: ScalarField<2>>(spline: &F, axes: &[Axis; 2]) {
     let domain = spline.domain();
     let odd =

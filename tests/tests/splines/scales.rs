@@ -46,7 +46,8 @@ fn scales_of_axes() -> Outcome {
     Ok(())
 }
 
-/// On an axis from a million to a million and one, a table of exact values is met to the rounding of the argument.
+/// On an axis from a million to a million and one, a table of exact values is met to the rounding of the
+/// argument.
 #[test]
 fn accuracy_far_from_zero() -> Outcome {
     let f = |x: f64| (x - 1e6).sin();

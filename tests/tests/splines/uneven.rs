@@ -5,8 +5,8 @@ use dvi_tests::larger;
 
 use super::{Numbers, Outcome, all, difference, refusal};
 
-/// The equations are solved to rounding on any axis. Where neighbouring distances differ by up to a factor of 10, splines
-/// become large, and their size is what rounding is measured by.
+/// The equations are solved to rounding on any axis. Where neighbouring distances differ by up to a factor
+/// of 10, splines become large, and their size is what rounding is measured by.
 #[test]
 fn very_uneven_points() -> Outcome {
     let mut numbers = Numbers(19);

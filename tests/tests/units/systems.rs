@@ -52,7 +52,8 @@ in_units!(Oscillator, [f64; 2], 0.1, [1.0, 0.0]);
 #[degenerate_lagrangian(
     coordinates(x[3], y[3]),
     one_form = sum(0..3, |j| (u * x[j] * w * d(y[j]) - w * y[j] * u * d(x[j])) / 2.0) / tau,
-    hamiltonian = sum_pairs(0..3, |j, k| ((u * x[j] - u * x[k]).powi(2) + (w * y[j] - w * y[k]).powi(2)).ln()) / (4.0 * PI),
+    hamiltonian = sum_pairs(0..3, |j, k| ((u * x[j] - u * x[k]).powi(2) + (w * y[j] - w * y[k]).powi(2)).ln())
+        / (4.0 * PI),
 )]
 pub(super) struct Vortices {
     u: f64,
@@ -91,7 +92,8 @@ in_units!(Predators, [f64; 2], 0.1, [1.0, 1.0]);
     coordinates(x, y, z, v),
     one_form = ((1.0 + (u[0] * x).powi(2) / 10.0) * (u[0] * x * u[1] * d(y) - u[1] * y * u[0] * d(x)) / 2.0
         + u[3] * v * u[2] * d(z)) / tau,
-    hamiltonian = (u[3] * v).powi(2) / 2.0 + 0.3 * (u[0] * x + (u[1] * y).powi(2)) + (u[2] * z).powi(2) * (1.0 + (u[0] * x).powi(2)),
+    hamiltonian = (u[3] * v).powi(2) / 2.0 + 0.3 * (u[0] * x + (u[1] * y).powi(2))
+        + (u[2] * z).powi(2) * (1.0 + (u[0] * x).powi(2)),
 )]
 pub(super) struct Centre {
     u: [f64; 4],
@@ -144,8 +146,10 @@ in_units!(DoublePendulum, [f64; 2], 0.05, [1.0, 0.5, 0.1, 0.3]);
 /// A charge in a magnetic field, with friction and a drive.
 #[lagrangian(
     coordinates(x, y, z),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(z)).powi(2)) / tau.powi(2) / 2.0
-        + (u[0] * x * u[1] * dot(y) - u[1] * y * u[0] * dot(x)) / tau - (u[0] * x).powi(2) * (1.0 + (u[2] * z).powi(2)) / 2.0,
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(z)).powi(2))
+        / tau.powi(2) / 2.0
+        + (u[0] * x * u[1] * dot(y) - u[1] * y * u[0] * dot(x)) / tau
+        - (u[0] * x).powi(2) * (1.0 + (u[2] * z).powi(2)) / 2.0,
     force(z) = u[2] * ((t * tau).sin() - 0.1 * u[2] * dot(z) / tau),
 )]
 pub(super) struct Charge {
@@ -174,8 +178,9 @@ arrays_in_units!(Chain, n, 12, 0.2, (0..48).map(|j| (1.7 * f64::from(j)).sin()).
 /// A constant mass matrix that couples coordinates.
 #[lagrangian(
     coordinates(x, y, z),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + 2.0 * (u[2] * dot(z)).powi(2) + u[0] * dot(x) * u[1] * dot(y)
-        + u[1] * dot(y) * u[2] * dot(z)) / tau.powi(2) / 2.0 + (u[0] * x - u[1] * y).cos() - (u[2] * z).powi(2) / 2.0,
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + 2.0 * (u[2] * dot(z)).powi(2)
+        + u[0] * dot(x) * u[1] * dot(y) + u[1] * dot(y) * u[2] * dot(z)) / tau.powi(2) / 2.0
+        + (u[0] * x - u[1] * y).cos() - (u[2] * z).powi(2) / 2.0,
 )]
 pub(super) struct CoupledMasses {
     u: [f64; 3],
@@ -199,7 +204,9 @@ in_units!(Pendulum, [f64; 2], 0.05, [1.0, 0.0, 0.0, 0.5]);
 /// A blade on a plane that is not level.
 #[lagrangian(
     coordinates(x, y, a),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(a)).powi(2)) / tau.powi(2) / 2.0 + u[0] * x,
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(a)).powi(2))
+        / tau.powi(2) / 2.0
+        + u[0] * x,
     nonholonomic = u[0] * dot(x) * (u[2] * a).sin() - u[1] * dot(y) * (u[2] * a).cos(),
 )]
 pub(super) struct Blade {

@@ -51,8 +51,9 @@ pub(super) fn solver<const STAGES: usize, S: System, T: Real>(solver: Solver) ->
         _ if size_of::<Coupled<STAGES, S, T>>() <= MOST_BYTES => {}
         Solver::Automatic => return Ok(Solver::FixedPoint),
         Solver::Newton | Solver::NewtonKrylov => {
-            let reason = "its matrix for so many stages and coordinates takes too much of the stack; take Solver::FixedPoint, fewer \
-                          stages, or an array of coordinates whose length is known at run time";
+            let reason = "its matrix for so many stages and coordinates takes too much of the stack; take \
+                          Solver::FixedPoint, fewer stages, or an array of coordinates whose length is \
+                          known at run time";
             return Err(StartError::Unsupported { option: "Newton's method", reason });
         }
     }

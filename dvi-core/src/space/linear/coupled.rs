@@ -42,7 +42,8 @@ pub trait NodeSum<const NODES: usize, T> {
 
 /// What solves for the vectors from [`NodeSum::FIRST`] to `NODES`, with the storage that it needs.
 pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
-    /// Overwrites the vectors from the first unknown one with the solution, whose entries have the sizes one over `weights`.
+    /// Overwrites the vectors from the first unknown one with the solution, whose entries have the sizes one
+    /// over `weights`.
     ///
     /// # Errors
     /// As [`LinearSolver::solve`](crate::space::LinearSolver::solve).

@@ -2,9 +2,9 @@
 //!
 //! With entries at most b from the diagonal, U has them at most 2b to its right, and a row of storage is the 3b + 1 entries
 //! from b left of the diagonal to 2b right of it. The multipliers of a column are those of its stage, and the rows that
-//! were exchanged later are not exchanged in them. A pivot counts as zero when it is no larger than the rounding errors of
-//! what was subtracted to form it, in any units of rows and columns. Source: Golub & Van Loan, *Matrix Computations* (2013),
-//! section 4.3.3.
+//! were exchanged later are not exchanged in them. A pivot counts as zero when it is no larger than the
+//! rounding errors of what was subtracted to form it, in any units of rows and columns. Source: Golub & Van
+//! Loan, *Matrix Computations* (2013), section 4.3.3.
 
 use alloc::vec;
 use alloc::vec::Vec;

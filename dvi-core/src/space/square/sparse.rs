@@ -3,9 +3,9 @@
 //! The rows of a front stand in a dense rectangle: those of A that begin here, and those that earlier fronts have handed on.
 //! As every row with an entry in the columns that it eliminates is among them, the largest entry of a column is the pivot, as in
 //! a dense elimination. Rows that wait for their front stand on a stack. Which columns make a front is found once, when the
-//! matrix is made ([`fronts`](super::fronts)). A pivot counts as zero when it is no larger than the rounding errors of the
-//! entries above it, |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k, and of what was subtracted in its front to form it. Sources: Duff & Reid 1983 (fronts), George & Ng 1985 (room for all
-//! pivots).
+//! matrix is made ([`fronts`](super::fronts)). A pivot counts as zero when it is no larger than the rounding
+//! errors of the entries above it, |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k, and of what was subtracted in its front
+//! to form it. Sources: Duff & Reid 1983 (fronts), George & Ng 1985 (room for all pivots).
 
 use alloc::vec;
 use alloc::vec::Vec;
