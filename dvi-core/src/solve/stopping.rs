@@ -221,7 +221,7 @@ const MORE_BY_NEWTON: usize = 2;
 const MORE_BY_FIXED_POINT: usize = 64;
 
 /// Whether less is asked for than the arithmetic gives.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 fn is_below_rounding<T: Real>(stopping: Stopping) -> bool {
     T::lift(stopping.tolerance) < T::default_epsilon()
 }
@@ -280,7 +280,7 @@ impl<T: Real> Course<T> {
     }
 
     /// The failure to report after [`Verdict::GiveUp`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn failure(&self) -> StepFailure {
         let Self { iterations, correction, tolerance, .. } = *self;
         let [correction, tolerance] = [correction, tolerance].map(reported);
@@ -307,7 +307,7 @@ impl<T: Real> Convergence<T> {
         Self::of(Course::fixed_point(stopping, budget), stopping)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn of(course: Course<T>, stopping: Stopping) -> Self {
         Self { course, trial: Trial::None, kept: T::lift(stopping.tolerance), least: T::lift(f64::INFINITY) }
     }

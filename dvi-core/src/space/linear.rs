@@ -138,7 +138,7 @@ const EXPONENT: u64 = 0x7ff << 52;
 /// Sets `scales` to the sizes of unknowns with these weights, in units of the largest but for its binary
 /// digits, which would round; there may be several unknowns for each weight. Scales are numbers without
 /// derivatives; of what has no size it is one.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
     let least = weights.iter().fold(T::lift(f64::INFINITY), |least, &weight| norm::smaller(least, weight));
     let unit = T::lift(f64::from_bits(norm::reported(least).to_bits() & EXPONENT));
@@ -151,7 +151,7 @@ pub(crate) fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
 }
 
 /// Multiplies the entries of `x` by their scales.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn scale<T: Real>(x: &mut [T], scales: &[T]) {
     x.iter_mut().zip(scales).for_each(|(x, &scale)| *x *= scale);
 }

@@ -41,30 +41,30 @@ impl Room for InPlace {
 }
 
 impl<E: Clone + Debug, const BLOCKS: usize, const N: usize> Store<E> for [[E; N]; BLOCKS] {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn new(_count: usize, mut of: impl FnMut() -> E) -> Self {
         core::array::from_fn(|_| core::array::from_fn(|_| of()))
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn entries(&self, count: usize) -> &[E] {
         &self.as_flattened()[..count]
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn entries_mut(&mut self, count: usize) -> &mut [E] {
         &mut self.as_flattened_mut()[..count]
     }
 }
 
 impl<E: Clone + Debug, const BLOCKS: usize, const N: usize> Store<E> for [[[[E; N]; BLOCKS]; N]; BLOCKS] {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn new(count: usize, mut of: impl FnMut() -> E) -> Self {
         core::array::from_fn(|_| core::array::from_fn(|_| Store::new(count, &mut of)))
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn entries(&self, count: usize) -> &[E] {
         &self.as_flattened().as_flattened().as_flattened()[..count]
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn entries_mut(&mut self, count: usize) -> &mut [E] {
         &mut self.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count]
     }
@@ -102,17 +102,17 @@ pub struct FewOrHeap<E, const FEW: usize> {
 
 #[cfg(feature = "alloc")]
 impl<E: Clone + Debug, const FEW: usize> Store<E> for FewOrHeap<E, FEW> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn new(count: usize, mut of: impl FnMut() -> E) -> Self {
         let few = core::array::from_fn(|_| of());
         let more = if count <= FEW { 0 } else { count };
         Self { few, heap: (0..more).map(|_| of()).collect() }
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn entries(&self, count: usize) -> &[E] {
         if count <= FEW { &self.few[..count] } else { &self.heap }
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn entries_mut(&mut self, count: usize) -> &mut [E] {
         if count <= FEW { &mut self.few[..count] } else { &mut self.heap }
     }

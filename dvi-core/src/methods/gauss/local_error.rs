@@ -57,7 +57,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         E::run(Steps::new(
             Clock::new(t, h),
             1,
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[inline]
             |interval| {
                 self.evaluate_defects::<E>(system, interval, statistics)?;
                 error = self.estimate([h, usual], tolerance)?;
@@ -70,7 +70,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
 
     /// Sets `increment` to the defect at the start of the step, and `slopes` to those at the other extrema,
     /// but for those of q where q' = p/m: there the defect is a multiple of P_S.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn evaluate_defects<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
         system: &S,
@@ -124,7 +124,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     }
 
     /// The error that the defects lead to, in units of `tolerance`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn estimate(&mut self, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
         let Self { equations, coefficients, completed, slopes, y, increment, next, .. } = &*self;
         let (extrema, first, last) = (&coefficients.extrema, first_part::<S, T>(equations), y.len() - 1);
