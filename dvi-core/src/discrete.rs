@@ -180,7 +180,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
             return linear::residual(&mut equations, size, |i| p0[i], [residual, weights]);
         }
         solver.solve(&mut equations, weights, residual)?;
-        Ok(sizes::reduce(weights, delta, residual))
+        Ok(sizes::reduce(system, weights, delta, residual))
     })?;
     norm::finite(delta)
 }

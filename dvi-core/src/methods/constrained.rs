@@ -246,7 +246,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {
                 *impulse -= change;
             }
-            Ok(sizes::reduce(weights, increment, change))
+            Ok(sizes::reduce(system, weights, increment, change))
         })?;
         reach(q, increment, next);
         norm::finite(next)?;

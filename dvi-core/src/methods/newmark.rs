@@ -208,7 +208,7 @@ impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
             return linear::residual(&mut equations, size, |_| T::lift(0.0), [correction, weights]);
         }
         solver.solve(&mut equations, weights, correction)?;
-        Ok(sizes::reduce(weights, increment, correction))
+        Ok(sizes::reduce(system, weights, increment, correction))
     }
 }
 

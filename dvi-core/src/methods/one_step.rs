@@ -20,7 +20,7 @@ use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Guess, Stopping};
+use crate::solve::{Convergence, Guess, Judge, Quick, Stopping};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::rates::Rates;
@@ -179,13 +179,17 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
             let (point, mut work) = (&mut memory.point, Work::new(system, q, t));
             let step = Step { system, q: &*q, t, h, nodes: midpoint.rule.nodes() };
             let mut cost = Statistics::default();
-            let attempt = midpoint.attempt(&step, point, &mut work, guess, &mut cost);
+            let attempt = midpoint.attempt::<Quick<T>, _, _>(&step, point, &mut work, guess, &mut cost);
             *statistics += cost;
-            if attempt.is_ok() {
-                work.leave(q, point, h);
-                return Ok(());
+            match attempt {
+                Ok(()) => {
+                    work.leave(q, point, h);
+                    return Ok(());
+                }
+                // It may have given up where there is more to find out.
+                Err(StepFailure::NotConverged { .. }) => {}
+                Err(_) => guess = Guess::Zero,
             }
-            guess = Guess::Zero;
         }
         self.solve(system, memory, q, [t, h], guess, statistics)
     }
@@ -208,7 +212,7 @@ impl OneStep {
         let step = Step { system, q: &*q, t, h, nodes: self.rule.nodes() };
         // Where steps are long, extrapolation is off, or leads to another branch.
         loop {
-            match (self.attempt(&step, point, work, guess, statistics), guess) {
+            match (self.attempt::<Convergence<T>, _, _>(&step, point, work, guess, statistics), guess) {
                 (Ok(()), _) => break,
                 (Err(_), Guess::Extrapolated) => guess = Guess::Zero,
                 (failed, Guess::Zero) => return failed,
@@ -221,7 +225,7 @@ impl OneStep {
     /// Sets `work.next` to q1, `work.stage.momentum` to p1, and `work.stage.rates` to the rates of change, if q1 is on the branch
     /// of ϑ(x, y) = p that q0 is on.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn attempt<S: ProperlyDegenerate<T>, T: Real>(
+    fn attempt<J: Judge<T>, S: ProperlyDegenerate<T>, T: Real>(
         &self,
         step: &Step<'_, S, T>,
         point: &mut Point<S, T>,
@@ -236,11 +240,11 @@ impl OneStep {
         copy_x(system, &point.p, &mut work.stage.momentum);
         let begin = if self.is_symmetric() { t } else { self.depart(step, point, work, statistics) };
         let from = if self.is_symmetric() { q } else { &work.next };
-        work.stage.solve(&Step { q: from, t: begin, ..*step }, self.stopping, statistics)?;
+        work.stage.solve::<J>(&Step { q: from, t: begin, ..*step }, self.stopping, statistics)?;
         let mut node = t + h;
         if self.is_symmetric() {
             node = work.stage.kick(step, statistics);
-            if let Err(failure) = work.end(step, self.stopping, statistics) {
+            if let Err(failure) = work.end::<J>(step, self.stopping, statistics) {
                 // Where Ω is singular there may be no end.
                 point.orientation.compare(system, &work.stage.point, node)?;
                 return Err(failure);
@@ -318,7 +322,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
 
     /// Sets `next` to the end of a symmetric scheme's step, and the momentum and the rates.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn end(
+    fn end<J: Judge<T>>(
         &mut self,
         step: &Step<'_, S, T>,
         stopping: Stopping,
@@ -332,8 +336,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
             stage.rates[i] = if is_x(system, i) { unknown } else { (unknown - q[i]) / half } / h;
         }
         // From ȳ on, as far again, and what the last steps have added; from there, if that is too far.
-        self.solve_y(step, 1.0, stopping, statistics)
-            .or_else(|_| self.solve_y(step, 0.0, stopping, statistics))?;
+        self.solve_y::<J>(step, 1.0, stopping, statistics)
+            .or_else(|_| self.solve_y::<J>(step, 0.0, stopping, statistics))?;
         let Self { stage, next, turn, .. } = self;
         for i in 0..q.len() {
             let rate = stage.rates[i];
@@ -345,7 +349,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
 
     /// Sets `next` to the end of the step, with y from `again` times as far as to ȳ beyond it.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve_y(
+    fn solve_y<J: Judge<T>>(
         &mut self,
         step: &Step<'_, S, T>,
         again: f64,
@@ -362,7 +366,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
                 unknown + again * ((unknown - q[i]) + half * turn[i])
             };
         }
-        split.solve_y(system, next, *t + *h, &stage.momentum, stopping, statistics)
+        split.solve_y::<J>(system, next, *t + *h, &stage.momentum, stopping, statistics)
     }
 
     /// Moves `q` and `point` to the end of the step.

@@ -245,7 +245,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
             self.solve(step)?;
             let mut correction = T::lift(0.0);
             for (unknown, change) in self.unknowns.iter_mut().zip(&self.residuals[1..]) {
-                correction = norm::larger(correction, sizes::reduce(&self.weights, unknown, change));
+                correction =
+                    norm::larger(correction, sizes::reduce(step.system, &self.weights, unknown, change));
             }
             Ok(correction)
         })?;

@@ -97,12 +97,12 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
         let clock = self.clock.after(self.stepper.statistics.steps);
-        let taken = match &mut self.kept {
-            // Not compiled where steps are not looked at.
-            Some(kept) if S::TIME_TRANSFORMED || S::HAS_DOMAIN => {
-                self.stepper.steps_looked_at(clock, count, kept)
-            }
-            Some(_) | None => self.stepper.steps(clock, count),
+        // One of the two is not compiled.
+        let taken = if S::TIME_TRANSFORMED || S::HAS_DOMAIN {
+            let kept = self.kept.as_mut().map(|kept| -> &mut Kept<S, M, T> { kept });
+            self.stepper.steps_looked_at(clock, count, kept)
+        } else {
+            self.stepper.steps(clock, count)
         };
         taken.map_err(|failure| self.error(failure))
     }

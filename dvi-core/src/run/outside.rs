@@ -127,7 +127,7 @@ fn solved<T: Real, V: core::ops::DerefMut<Target = [T]>>(
     mut matrix: impl core::ops::DerefMut<Target = [T]>,
     mut b: V,
 ) -> V {
-    if eliminate(&mut matrix, &mut b).is_err() || b.iter().any(|b| !b.is_finite()) {
+    if eliminate(&mut matrix, &mut [], &mut b).is_err() || b.iter().any(|b| !b.is_finite()) {
         b.fill(T::lift(0.0));
     }
     b

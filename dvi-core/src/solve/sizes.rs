@@ -70,7 +70,7 @@ impl Due {
         self.carry_out(system, (weights, T::lift(1.0)), size, delta)
     }
 
-    /// The same where the unknown is `q1`, and Δ = q1 − q.
+    /// The same where the unknown is `q1` = q + Δ, in sizes |q| + |q1|.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare_end<S: System, T: Real>(
         &mut self,
@@ -79,7 +79,7 @@ impl Due {
         q: &[T],
         q1: &mut [T],
     ) {
-        let size = |k: usize, &q1: &T| Scalar::abs(q[k]) + Scalar::abs(q1 - q[k]);
+        let size = |k: usize, &q1: &T| Scalar::abs(q[k]) + Scalar::abs(q1);
         self.carry_out(system, (weights, T::lift(1.0)), size, q1);
     }
 
@@ -240,11 +240,20 @@ pub(crate) fn largest<T: Real>(weights: &[T], changes: &[T]) -> T {
 
 /// Takes `change` from the unknown `x`, and returns its size.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn reduce<T: Real>(weights: &[T], x: &mut [T], change: &[T]) -> T {
+pub(crate) fn reduce<S: System, T: Real>(system: &S, weights: &[T], x: &mut [T], change: &[T]) -> T {
     for (x, &change) in x.iter_mut().zip(change) {
         *x -= change;
     }
-    largest(weights, change)
+    size_of(system, weights, change)
+}
+
+/// The size of a change of all coordinates, of which those of a block have one weight.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn size_of<S: System, T: Real>(system: &S, weights: &[T], change: &[T]) -> T {
+    blocks(system).fold(T::lift(0.0), |largest, block| match weights.get(block.start) {
+        Some(&weight) => larger(largest, weight * largest_number(&change[block])),
+        None => largest,
+    })
 }
 
 /// Sets the unknown `x` to `new`, and returns the size of the largest change; one that is not a number does

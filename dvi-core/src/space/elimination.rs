@@ -9,11 +9,13 @@
 //! which does not change either when rows and columns are multiplied by constants of their own, as they are
 //! where coordinates have units; but it sees less of what rounding has left over of rows that depend on each
 //! other. [`factor_with_care`] sees that too, and takes longer: it holds each pivot against what errors of
-//! n ε in all entries make of it.
+//! n ε in all entries make of it. Where rows have units of their own, [`eliminate`] compares pivots in
+//! scales of the rows, and changes no number by them.
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
 use crate::scalar::norm::{finite, larger, singular};
+use crate::space::linear::set_scales;
 use crate::space::{lines, lines_mut};
 use crate::{Real, Scalar};
 
@@ -27,7 +29,7 @@ pub(crate) const LEAST: f64 = 1e-290;
 /// [`StepFailure::Singular`] with the column and the largest candidate for its pivot.
 #[inline]
 pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Result<(), StepFailure> {
-    factor_by(matrix, permutation, pivot_row)
+    factor_by(matrix, permutation, |matrix, n, k, rounding| pivot_row(matrix, &[], [n, k], rounding))
 }
 
 /// The same of a matrix whose rows and columns may have units of very different size.
@@ -40,7 +42,7 @@ pub(crate) fn factor_in_any_units<T: Real>(
     permutation: &mut [usize],
 ) -> Result<(), StepFailure> {
     factor_by(matrix, permutation, |matrix, n, k, rounding| {
-        let (row, pivot) = largest_below(matrix, n, k);
+        let (row, pivot) = largest_below(matrix, &[], [n, k]);
         let terms = (0..k).map(|j| Scalar::abs(matrix[row * n + j] * matrix[j * n + k]));
         let subtracted = terms.fold(T::lift(LEAST), |sum, term| sum + term);
         // A pivot that is not a number is no use either.
@@ -63,7 +65,7 @@ pub(crate) fn factor_with_care<T: Real>(
     work: [&mut [T]; 2],
 ) -> Result<(), StepFailure> {
     factor_by(matrix, permutation, |matrix, n, k, rounding| {
-        let (row, pivot) = largest_below(matrix, n, k);
+        let (row, pivot) = largest_below(matrix, &[], [n, k]);
         let is_usable = pivot > rounding * T::lift(LEAST);
         if is_usable { Ok(row) } else { Err(singular(pivot, k)) }
     })?;
@@ -122,24 +124,38 @@ fn factor_by<T: Real>(
     Ok(())
 }
 
+/// The size of an entry in a row, times its scale if rows have one.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn scaled<T: Real>(entry: T, row: usize, scales: &[T]) -> T {
+    Scalar::abs(scales.get(row).map_or(entry, |&scale| entry * scale))
+}
+
 /// The row at or below `k` with the largest entry in column `k`, and its size.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn largest_below<T: Real>(matrix: &[T], n: usize, k: usize) -> (usize, T) {
-    let mut best = (k, Scalar::abs(matrix[k * n + k]));
+fn largest_below<T: Real>(matrix: &[T], scales: &[T], [n, k]: [usize; 2]) -> (usize, T) {
+    let size = |row: usize| scaled(matrix[row * n + k], row, scales);
+    let (mut best, mut largest) = (k, size(k));
     for row in k + 1..n {
-        let size = Scalar::abs(matrix[row * n + k]);
-        if size > best.1 {
-            best = (row, size);
+        let size = size(row);
+        // The same comparison twice, which compiles to a maximum: a pair takes twice as many instructions.
+        if size > largest {
+            best = row;
         }
+        largest = larger(largest, size);
     }
-    best
+    (best, largest)
 }
 
 /// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of those above.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn pivot_row<T: Real>(matrix: &[T], n: usize, k: usize, rounding: T) -> Result<usize, StepFailure> {
-    let (row, pivot) = largest_below(matrix, n, k);
-    let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, Scalar::abs(matrix[i * n + k])));
+fn pivot_row<T: Real>(
+    matrix: &[T],
+    scales: &[T],
+    [n, k]: [usize; 2],
+    rounding: T,
+) -> Result<usize, StepFailure> {
+    let (row, pivot) = largest_below(matrix, scales, [n, k]);
+    let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, scaled(matrix[i * n + k], i, scales)));
     // A pivot that is not a number is no use either.
     let usable = pivot > rounding * above;
     if usable { Ok(row) } else { Err(singular(pivot, k)) }
@@ -174,7 +190,8 @@ pub(crate) fn is_positive<T: Real>(matrix: &[T], permutation: &[usize]) -> bool 
 /// The length of a row below which its end is not worth a loop of its own.
 const SHORT: usize = 8;
 
-/// Overwrites `x` with the solution of A y = x, and the row-major A with nothing of use.
+/// Overwrites `x` with the solution of A y = x, and the row-major A with nothing of use. Rows are compared in
+/// their `scales`, which come to lie as the rows do in the end, or as they are if there are no scales.
 ///
 /// As no multipliers are kept, a row operation may run over columns that are already done: over all of
 /// them in short rows, which are then straight vector code of known length, and elsewhere over those that
@@ -183,17 +200,20 @@ const SHORT: usize = 8;
 /// # Errors
 /// As [`factor`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
+pub(crate) fn eliminate<T: Real>(matrix: &mut [T], scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
     let n = x.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
-        let row = pivot_row(matrix, n, k, rounding)?;
+        let row = pivot_row(matrix, scales, [n, k], rounding)?;
         let begin = if n <= SHORT { 0 } else { (k + 1) & !3 };
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
         let upper = &mut upper[k * n..];
         if row > k {
             upper.swap_with_slice(&mut lower[(row - k - 1) * n..(row - k) * n]);
             x.swap(k, row);
+            if !scales.is_empty() {
+                scales.swap(k, row);
+            }
         }
         let reciprocal = T::lift(1.0) / upper[k];
         // The diagonal keeps 1/u for the substitution.
@@ -223,7 +243,8 @@ pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), St
     Ok(())
 }
 
-/// Two equations: overwrites `x` with the solution of A y = x, or there are not two.
+/// Two equations for unknowns with these `weights`: overwrites `x` with the solution of A y = x, or there are
+/// not two.
 ///
 /// Cramer's rule needs no choice of rows. It is taken where the determinant loses at most two bits to cancellation and products
 /// stay far from the ends of the range of numbers; its errors are then those of elimination (Higham, *Accuracy and Stability of
@@ -232,8 +253,12 @@ pub(crate) fn eliminate<T: Real>(matrix: &mut [T], x: &mut [T]) -> Result<(), St
 /// # Errors
 /// As [`factor`]; [`StepFailure::NotFinite`] if A is singular and `x` is no number.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn eliminate_two<T: Real>(matrix: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
-    let (&[a, b, c, d], [x, y]) = (matrix, x) else { return None };
+pub(crate) fn eliminate_two<T: Real>(
+    matrix: &[T],
+    weights: &[T],
+    x: &mut [T],
+) -> Option<Result<(), StepFailure>> {
+    let (&[a, b, c, d], &[of_x, of_y], [x, y]) = (matrix, weights, x) else { return None };
     let across = b * c;
     let determinant = a * d - across;
     let size = Scalar::abs(determinant);
@@ -245,15 +270,20 @@ pub(crate) fn eliminate_two<T: Real>(matrix: &[T], x: &mut [T]) -> Option<Result
         [*x, *y] = [(d * *x - b * *y) * reciprocal, (a * *y - c * *x) * reciprocal];
         return Some(Ok(()));
     }
-    Some(by_elimination([a, b, c, d], [*x, *y]).map(|solution| [*x, *y] = solution))
+    Some(by_elimination([a, b, c, d], [of_x, of_y], [*x, *y]).map(|solution| [*x, *y] = solution))
 }
 
 /// The same by elimination. It gets copies: what another function sees has no place in registers.
 #[cold]
 #[inline(never)]
-fn by_elimination<T: Real>(mut matrix: [T; 4], mut x: [T; 2]) -> Result<[T; 2], StepFailure> {
-    let finite = finite(&x);
-    eliminate(&mut matrix, &mut x).map_err(|singular| finite.err().unwrap_or(singular))?;
+fn by_elimination<T: Real>(
+    mut matrix: [T; 4],
+    weights: [T; 2],
+    mut x: [T; 2],
+) -> Result<[T; 2], StepFailure> {
+    let (finite, mut scales) = (finite(&x), weights);
+    set_scales(&mut scales, &weights);
+    eliminate(&mut matrix, &mut scales, &mut x).map_err(|singular| finite.err().unwrap_or(singular))?;
     Ok(x)
 }
 
@@ -278,6 +308,8 @@ pub(crate) fn multiply_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
 mod tests {
     use super::{eliminate, eliminate_two, factor, factor_with_care, multiply_add, solve};
     use crate::error::StepFailure;
+    use crate::space::linear::set_scales;
+    use alloc::{vec, vec::Vec};
     use nalgebra::{DMatrix, DVector};
 
     /// Entries in (−1, 1) from a linear congruential generator.
@@ -305,7 +337,7 @@ mod tests {
                 assert_eq!(factor(&mut factors, &mut permutation), Ok(()));
                 solve(&factors, &permutation, &mut x);
                 let (mut consumed, mut y) = (matrix, rhs);
-                assert_eq!(eliminate(&mut consumed, &mut y), Ok(()));
+                assert_eq!(eliminate(&mut consumed, &mut [], &mut y), Ok(()));
                 for found in [x, y] {
                     let error = (DVector::from_column_slice(&found) - &expected).amax() / expected.amax();
                     assert!(error < 1e-15 * n as f64 * condition, "n = {n}, seed {seed}: {error:e}");
@@ -327,18 +359,54 @@ mod tests {
             };
             let scaled = matrix.map(|a| a * scale);
             let (mut consumed, mut x, mut y) = (scaled, [rhs[0], rhs[1]], [rhs[0], rhs[1]]);
-            assert_eq!(eliminate(&mut consumed, &mut x), Ok(()));
-            assert_eq!(eliminate_two(&scaled, &mut y), Some(Ok(())));
+            assert_eq!(eliminate(&mut consumed, &mut [], &mut x), Ok(()));
+            assert_eq!(eliminate_two(&scaled, &[1.0; 2], &mut y), Some(Ok(())));
             let reference = DMatrix::from_row_slice(2, 2, &matrix).svd(false, false).singular_values;
             let (condition, size) = (reference.max() / reference.min(), x[0].abs().max(x[1].abs()));
             let error = (x[0] - y[0]).abs().max((x[1] - y[1]).abs()) / size;
             assert!(error < 4e-16 * condition, "seed {seed}: {x:?} and {y:?}");
         }
-        assert_eq!(eliminate_two(&[1.0; 9], &mut [1.0; 3]), None);
-        let singular = eliminate_two(&[1.0, 2.0, 2.0, 4.0], &mut [1.0; 2]);
+        assert_eq!(eliminate_two(&[1.0; 9], &[1.0; 3], &mut [1.0; 3]), None);
+        let singular = eliminate_two(&[1.0, 2.0, 2.0, 4.0], &[1.0; 2], &mut [1.0; 2]);
         assert!(matches!(singular, Some(Err(StepFailure::Singular { column: 1, .. }))), "{singular:?}");
-        let none = eliminate_two(&[f64::NAN, 1.0, 1.0, 1.0], &mut [1.0, f64::NAN]);
+        let none = eliminate_two(&[f64::NAN, 1.0, 1.0, 1.0], &[1.0; 2], &mut [1.0, f64::NAN]);
         assert!(matches!(none, Some(Err(StepFailure::NotFinite { coordinate: 1, .. }))), "{none:?}");
+    }
+
+    /// An unknown times 2ᵘ, and its equation over 2ᵘ: the same rows are chosen, and the solution has the same bits.
+    #[test]
+    fn units_change_no_bit() {
+        let mut exchanged = 0;
+        for seed in 0..400 {
+            let n = [2, 2, 3, 5][seed as usize % 4];
+            let (matrix, rhs, sizes) =
+                (entries(n * n, seed), entries(n, seed + 1000), entries(n, seed + 2000));
+            let units = entries(n, seed + 3000).iter().map(|u| (u * 60.0).round().exp2()).collect::<Vec<_>>();
+            let solution = |units: &[f64]| {
+                let mut matrix = matrix.clone();
+                for (k, entry) in matrix.iter_mut().enumerate() {
+                    *entry /= units[k / n] * units[k % n];
+                }
+                let mut x: Vec<_> = rhs.iter().zip(units).map(|(b, u)| b / u).collect();
+                let weights: Vec<_> =
+                    sizes.iter().zip(units).map(|(size, u)| 1.0 / (size.abs() * u)).collect();
+                let mut scales = weights.clone();
+                set_scales(&mut scales, &weights);
+                let two = eliminate_two(&matrix, &weights, &mut x);
+                let solved = two.unwrap_or_else(|| eliminate(&mut matrix, &mut scales, &mut x));
+                assert_eq!(solved, Ok(()));
+                x.iter().zip(units).map(|(x, u)| x / u).collect::<Vec<_>>()
+            };
+            assert_eq!(
+                solution(&units),
+                solution(&vec![1.0; n]),
+                "{n} equations, seed {seed}, units {units:?}"
+            );
+            let without = &mut rhs.clone();
+            assert_eq!(eliminate(&mut matrix.clone(), &mut [], without), Ok(()));
+            exchanged += usize::from(*without != solution(&units));
+        }
+        assert!(exchanged > 100, "{exchanged} of 400 are another sum in units of their own");
     }
 
     #[test]
@@ -362,7 +430,7 @@ mod tests {
     fn singular_matrices_are_found_at_every_scale() {
         for scale in [1e-200, 1.0, 1e200] {
             let mut rank_two = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0].map(|a: f64| a * scale / 3.0);
-            let by_elimination = eliminate(&mut rank_two.clone(), &mut [1.0; 3]);
+            let by_elimination = eliminate(&mut rank_two.clone(), &mut [], &mut [1.0; 3]);
             let result = factor(&mut rank_two, &mut [0; 3]);
             assert_eq!(result, by_elimination);
             assert!(matches!(result, Err(StepFailure::Singular { column: 2, .. })), "{scale:e}: {result:?}");

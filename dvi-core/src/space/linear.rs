@@ -166,16 +166,17 @@ fn eliminate<T: Real, M: SquareMatrix<T>>(
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     equations.evaluate(x, matrix.cleared())?;
-    if let Some(solved) = matrix.eliminate_two(x) {
+    if let Some(solved) = matrix.eliminate_two(weights, x) {
         return solved;
     }
     let finite = norm::finite(x);
     set_scales(scales, weights);
-    matrix.scale_rows(scales);
-    scale(x, scales);
-    match matrix.eliminate(x) {
+    match matrix.eliminate(scales, x) {
         Ok(()) => Ok(()),
-        Err(StepFailure::Singular { .. }) if finite.is_ok() => by_factors(matrix, equations, scales, x),
+        Err(StepFailure::Singular { .. }) if finite.is_ok() => {
+            set_scales(scales, weights);
+            by_factors(matrix, equations, scales, x)
+        }
         Err(singular) => Err(finite.err().unwrap_or(singular)),
     }
 }

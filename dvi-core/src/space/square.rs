@@ -51,18 +51,20 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// Multiplies row i by sᵢ.
     fn scale_rows(&mut self, scales: &[T]);
 
-    /// Overwrites `x` with the solution of A y = x, and A with nothing of use.
+    /// Overwrites `x` with the solution of A y = x, and A and `scales` with nothing of use. Rows times their
+    /// `scales` may be compared; where there are none, as they are.
     ///
     /// # Errors
     /// [`StepFailure::Singular`] with the column that has no pivot, and the largest candidate for it;
     /// [`StepFailure::Pattern`] with an entry that has no room.
-    fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure>;
+    fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure>;
 
-    /// The same of two equations, for which there is a faster way, or there are not two; A stays as it is.
+    /// The same of two equations for unknowns with these `weights`, for which there is a faster way, or there
+    /// are not two; A stays as it is.
     ///
     /// # Errors
     /// [`StepFailure::Singular`], or [`StepFailure::NotFinite`] if x is no number then.
-    fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>>;
+    fn eliminate_two(&self, weights: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>>;
 
     /// Replaces A by its factors.
     ///
@@ -131,12 +133,12 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
         elimination::scale_rows(&mut self.matrix, scales);
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
-        elimination::eliminate(&mut self.matrix, x)
+    fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
+        elimination::eliminate(&mut self.matrix, scales, x)
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>> {
-        elimination::eliminate_two(&self.matrix, x)
+    fn eliminate_two(&self, weights: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
+        elimination::eliminate_two(&self.matrix, weights, x)
     }
     #[inline]
     fn factor(&mut self) -> Result<(), StepFailure> {

@@ -73,7 +73,7 @@ impl<S: System, T: Real> History<S, T> {
         match self.len {
             DEPTH => extrapolate(&self.ring, self.next, guess),
             0 => guess.copy_from_slice(&self.seed),
-            len => combine(&self.ring, self.next, len, guess),
+            len => combine(&self.ring, &OF_PLACES[len][self.next], guess),
         }
     }
 
@@ -125,18 +125,35 @@ pub(crate) fn extrapolate<P: Scalar>(
     place: usize,
     guess: &mut [P],
 ) {
-    combine(ring, place, DEPTH, guess);
+    combine(ring, &OF_PLACES[DEPTH][place], guess);
 }
 
+/// Row m, by where the next increment goes: the coefficients of the places of the ring.
+const OF_PLACES: [[[f64; DEPTH]; DEPTH]; DEPTH + 1] = {
+    let mut of_places = [[[0.0; DEPTH]; DEPTH]; DEPTH + 1];
+    let mut all = 0;
+    while all < (DEPTH + 1) * DEPTH * DEPTH {
+        let (len, next, age) = (all / DEPTH / DEPTH, all / DEPTH % DEPTH, all % DEPTH);
+        of_places[len][next][(next + DEPTH - 1 - age) % DEPTH] = COEFFICIENTS[len][age];
+        all += 1;
+    }
+    of_places
+};
+
+/// Coefficients that go around the ring, and not the ring: its places are then known when compiled, which
+/// takes 40 instructions less from a step of four vortices (`cargo bench -p dvi-kernels --bench instructions`).
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn combine<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], next: usize, len: usize, guess: &mut [P]) {
+fn combine<P: Scalar>(
+    ring: &[impl Deref<Target = [P]>; DEPTH],
+    coefficients: &[f64; DEPTH],
+    guess: &mut [P],
+) {
     for block in blocks(guess.len()) {
         let guess = &mut guess[block.clone()];
-        guess.fill(P::lift(0.0));
-        let mut place = next;
-        for &coefficient in &COEFFICIENTS[len][..len] {
-            place = if place == 0 { DEPTH - 1 } else { place - 1 };
-            for (guess, &s) in guess.iter_mut().zip(&ring[place][block.clone()]) {
+        // −0 is neutral for every number.
+        guess.fill(P::lift(-0.0));
+        for (s, &coefficient) in ring.iter().zip(coefficients) {
+            for (guess, &s) in guess.iter_mut().zip(&s[block.clone()]) {
                 *guess += P::lift(coefficient) * s;
             }
         }
@@ -149,7 +166,7 @@ impl<S: System, T: Real> Memory<T> for History<S, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{COEFFICIENTS, DEPTH};
+    use super::{COEFFICIENTS, DEPTH, OF_PLACES, combine};
 
     #[test]
     fn row_m_continues_polynomials_below_degree_m_and_no_others() {
@@ -159,6 +176,22 @@ mod tests {
                     (0..DEPTH).map(|i| COEFFICIENTS[m][i] * (-1.0 - i as f64).powi(degree)).sum();
                 let exact = if degree == 0 { 1.0 } else { 0.0 };
                 assert_eq!(value == exact, degree < m as i32, "row {m}, degree {degree}");
+            }
+        }
+    }
+
+    /// The k-th last increment is 2ᵏ: no two sums of such coefficients are the same.
+    #[test]
+    fn the_newest_stands_before_the_place_of_the_next() {
+        for (len, coefficients) in COEFFICIENTS.iter().enumerate() {
+            for next in 0..DEPTH {
+                let age = |place: usize| (next + 2 * DEPTH - 1 - place) % DEPTH;
+                let ring: [_; DEPTH] =
+                    core::array::from_fn(|place| [f64::powi(2.0, age(place) as i32)].to_vec());
+                let mut guess = [f64::NAN];
+                combine(&ring, &OF_PLACES[len][next], &mut guess);
+                let expected: f64 = (0..len).map(|age| coefficients[age] * f64::powi(2.0, age as i32)).sum();
+                assert_eq!(guess, [expected], "{len} increments, the next at {next}");
             }
         }
     }

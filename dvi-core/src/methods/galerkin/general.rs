@@ -58,7 +58,7 @@ where
         solver.solve(&mut equations, weights, residuals)?;
         let mut correction = T::lift(0.0);
         for (unknown, change) in unknowns.iter_mut().zip(residuals.iter()).skip(1) {
-            correction = norm::larger(correction, sizes::reduce(weights, unknown, change));
+            correction = norm::larger(correction, sizes::reduce(step.system, weights, unknown, change));
         }
         Ok(correction)
     })?;

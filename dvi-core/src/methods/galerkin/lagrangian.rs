@@ -163,7 +163,8 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             let mut correction = T::lift(0.0);
             for (displacement, change) in displacements.iter_mut().zip(residuals.iter()).take(Self::INTERIOR)
             {
-                correction = norm::larger(correction, sizes::reduce(weights, displacement, change));
+                correction =
+                    norm::larger(correction, sizes::reduce(self.system, weights, displacement, change));
             }
             Ok(correction)
         })

@@ -201,7 +201,7 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
             let impulse = impulse.fold(T::lift(0.0), |sum, term| sum + term);
             *momentum = if is_x(system, i) { p + h * impulse } else { T::lift(0.0) };
         }
-        split.solve_y(system, next, t + h, momentum, stopping, statistics)?;
+        split.solve_y::<Convergence<T>>(system, next, t + h, momentum, stopping, statistics)?;
         norm::finite(next)?;
         // Between two branches Ω changes its sign.
         for (row, &c) in tableau.a.iter().zip(&tableau.c) {
@@ -241,7 +241,7 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
             solver.solve(&mut matrix, weights, residuals)?;
             let mut correction = T::lift(0.0);
             for (increment, change) in increments.iter_mut().zip(&*residuals) {
-                correction = norm::larger(correction, sizes::reduce(weights, increment, change));
+                correction = norm::larger(correction, sizes::reduce(system, weights, increment, change));
             }
             Ok(correction)
         })?;

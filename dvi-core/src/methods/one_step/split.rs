@@ -2,7 +2,7 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Iteration, Quick, Stopping, repeat};
+use crate::solve::{Course, Due, Iteration, Judge, Stopping, repeat};
 use crate::space::sink::Places;
 use crate::space::{elimination, linear, scratch};
 use crate::state::Statistics;
@@ -13,7 +13,7 @@ use crate::{Matrix, ProperlyDegenerate, Real, Scalar, Space, System, Vector};
 pub(super) struct Split<S: System, T: Real> {
     /// ∂ϑ/∂y, the first (n/2)² entries.
     block: Matrix<S, T>,
-    /// ϑ − p, and the change of y in its order.
+    /// ϑ − p, of which an elimination leaves nothing, and the change of y in its order.
     form: Vector<S, T>,
     change: Vector<S, T>,
     /// In which the iteration judges coordinates.
@@ -46,7 +46,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] where ∂ϑ/∂y is, [`StepFailure::NotConverged`].
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn solve_y(
+    pub(super) fn solve_y<J: Judge<T>>(
         &mut self,
         system: &S,
         q: &mut Vector<S, T>,
@@ -55,37 +55,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let quick = Quick::new(stopping, stopping.max_iterations);
-        match repeat(quick, statistics, Newton { split: self, system, q, t, p }) {
-            Err(StepFailure::NotConverged { .. }) => {}
-            solved => return solved,
-        }
-        if !S::Space::ON_STACK {
-            return self.carefully(system, q, t, p, stopping, statistics);
-        }
-        // What another function sees has no place in registers.
-        let [mut apart, mut momentum]: [Vector<S, T>; 2] = system.space().vectors();
-        apart.copy_from_slice(q);
-        momentum.copy_from_slice(p);
-        let solved = Self::new(system).carefully(system, &mut apart, t, &momentum, stopping, statistics);
-        q.copy_from_slice(&apart);
-        solved
-    }
-
-    /// The same where the quick look has given up.
-    #[cold]
-    #[inline(never)]
-    fn carefully(
-        &mut self,
-        system: &S,
-        q: &mut Vector<S, T>,
-        t: T,
-        p: &Vector<S, T>,
-        stopping: Stopping,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        repeat(convergence, statistics, Newton { split: self, system, q, t, p })
+        repeat(
+            J::of(Course::new(stopping, stopping.max_iterations)),
+            statistics,
+            Newton { split: self, system, q, t, p },
+        )
     }
 
     /// Sets `change` to (∂ϑ/∂y)⁻¹`form`.
@@ -135,7 +109,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         half: usize,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { block, form, change, .. } = self;
+        let Self { block, form, change, weights } = self;
         let block = &mut block[..half * half];
         block.fill(T::lift(0.0));
         let mut sink = Places(|row: usize, column: usize, entry: T| {
@@ -151,7 +125,15 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
                 change[system.place(i)] = form;
             }
         }
-        elimination::eliminate(block, &mut change[..half])
+        // A row has the unit of the action over that of its x.
+        let (scales, of_rows) = form.split_at_mut(half);
+        for (i, &weight) in weights.iter().enumerate() {
+            if let Some(of_row) = of_rows.get_mut(system.place(i)) {
+                *of_row = weight;
+            }
+        }
+        linear::set_scales(scales, of_rows);
+        elimination::eliminate(block, scales, &mut change[..half])
     }
 }
 

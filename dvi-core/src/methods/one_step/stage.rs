@@ -10,7 +10,7 @@ use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Iteration, Quick, Stopping, repeat};
+use crate::solve::{Course, Due, Iteration, Judge, Stopping, repeat};
 use crate::space::sink::{Product, Scaled};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
 use crate::state::Statistics;
@@ -110,48 +110,17 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn solve(
+    pub(super) fn solve<J: Judge<T>>(
         &mut self,
         step: &Step<'_, S, T>,
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let quick = Quick::new(stopping, stopping.max_iterations);
-        match repeat(quick, statistics, Newton { step, stage: self }) {
-            Err(StepFailure::NotConverged { .. }) => {}
-            solved => return solved,
-        }
-        let Step { system, q, t, h, nodes } = *step;
-        if !S::Space::ON_STACK {
-            return self.carefully((system, nodes), q, [t, h], stopping, statistics);
-        }
-        // What another function sees has no place in registers.
-        let mut apart = Self::new(system, q, t);
-        apart.unknown.copy_from_slice(&self.unknown);
-        apart.momentum.copy_from_slice(&self.momentum);
-        let solved = apart.carefully((system, nodes), q, [t, h], stopping, statistics);
-        self.unknown.copy_from_slice(&apart.unknown);
-        self.correction.copy_from_slice(&apart.correction);
-        self.gradient.copy_from_slice(&apart.gradient);
-        self.one_form.copy_from_slice(&apart.one_form);
-        self.point.copy_from_slice(&apart.point);
-        solved
-    }
-
-    /// The same where the quick look has given up.
-    #[cold]
-    #[inline(never)]
-    fn carefully(
-        &mut self,
-        (system, nodes): (&S, &[Node]),
-        q: &Vector<S, T>,
-        [t, h]: [T; 2],
-        stopping: Stopping,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let step = &Step { system, q, t, h, nodes };
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        repeat(convergence, statistics, Newton { step, stage: self })
+        repeat(
+            J::of(Course::new(stopping, stopping.max_iterations)),
+            statistics,
+            Newton { step, stage: self },
+        )
     }
 
     /// The residual at the unknowns, against what it is made of.

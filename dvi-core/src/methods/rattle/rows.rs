@@ -65,7 +65,7 @@ pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
         return Ok(());
     }
     fill(gram, rows);
-    gram.eliminate(x).map_err(named)
+    gram.eliminate(&mut [], x).map_err(named)
 }
 
 /// A pivot is larger.

@@ -15,7 +15,7 @@ use crate::mechanics::combination::Inverse;
 use crate::methods::Clock;
 use crate::scalar::norm;
 use crate::scalar::simd::{apart_if, widest_if};
-use crate::solve::{Convergence, Due, Guess, Iteration, Judge, Quick, iterate, repeat, sizes};
+use crate::solve::{Convergence, Course, Due, Guess, Iteration, Judge, Quick, iterate, repeat, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
@@ -165,7 +165,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         widest_if(
             !<S::Space as Space>::ON_STACK,
             #[cfg_attr(not(debug_assertions), inline(always))]
-            || self.repeat(Quick::fixed_point(self.step.method.stopping, self.budget), statistics),
+            || {
+                self.repeat(
+                    Quick::of(Course::fixed_point(self.step.method.stopping, self.budget)),
+                    statistics,
+                )
+            },
         )
         .or_else(|failure| self.carefully(failure, statistics))
     }
@@ -304,7 +309,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Iteration<T> for Placed<'_, S, T> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+    fn improve(&mut self, _due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { step, inverse, origin, increment, trial, weights, point, gradient, .. } = self;
         let (system, sigma, time) = (step.system, step.method.sigma, step.node_time());
         if !Self::IS_LONG {
@@ -315,7 +320,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Iteration<T> for Placed<'_, S, T> {
             #[cfg_attr(not(debug_assertions), inline(always))]
             || system.hamiltonian_gradient(point, time, gradient),
         );
-        statistics.gradients += 1;
         let mut largest = T::lift(0.0);
         inverse.solve_in_blocks(
             system,
@@ -331,6 +335,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Iteration<T> for Placed<'_, S, T> {
             },
         );
         Ok(largest)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn count(&self, times: u64, statistics: &mut Statistics) {
+        statistics.gradients += times;
     }
 }
 

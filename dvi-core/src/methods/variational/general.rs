@@ -61,7 +61,7 @@ pub(super) fn by_fixed_point<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R
         for velocity in l_d.node.velocity.iter_mut() {
             *velocity *= -(step.h * inverse_kappa);
         }
-        Ok(sizes::reduce(weights, increment, &l_d.node.velocity))
+        Ok(sizes::reduce(step.system, weights, increment, &l_d.node.velocity))
     })?;
     norm::finite(increment)?;
     sum.fill(T::lift(0.0));

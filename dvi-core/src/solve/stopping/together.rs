@@ -3,7 +3,7 @@
 //! What is a branch in [`Quick`] is a choice between numbers here, of all lanes at once: 1 stands
 //! for yes, 0 for no.
 
-use super::{FINE, FLOOR, LARGE, MOST_IN_VAIN, Quick, Stopping, Verdict};
+use super::{Course, FINE, FLOOR, LARGE, MOST_IN_VAIN, Stopping, Verdict};
 use crate::Scalar;
 use crate::scalar::{Comparison, Lanes};
 
@@ -23,10 +23,10 @@ pub(crate) struct Convergences<const W: usize> {
 }
 
 impl<const W: usize> Convergences<W> {
-    /// As [`Quick::fixed_point`] in each lane.
+    /// As a [`Quick`](super::Quick) of a fixed point in each lane.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
-        let Quick(alone) = Quick::<f64>::fixed_point(stopping, budget);
+        let alone = Course::<f64>::fixed_point(stopping, budget);
         let zero = Lanes::all(0.0);
         Self {
             tolerance: Lanes::all(alone.tolerance),
@@ -109,7 +109,7 @@ impl<const W: usize> Convergences<W> {
 #[cfg(test)]
 mod tests {
     use super::super::{Judge, Quick};
-    use super::{Convergences, Stopping, Verdict};
+    use super::{Convergences, Course, Stopping, Verdict};
     use crate::scalar::Lanes;
 
     const LANES: usize = 8;
@@ -133,7 +133,7 @@ mod tests {
         for (seed, tolerance) in (0..44).flat_map(|seed| [0.0, 1e-17, 1e-12, 1e-6].map(|t| (seed, t))) {
             let stopping = Stopping { tolerance, ..Stopping::default() };
             let budget = 40;
-            let of_one: Quick<f64> = Quick::fixed_point(stopping, budget);
+            let of_one: Quick<f64> = Quick::of(Course::fixed_point(stopping, budget));
             let mut alone = [(of_one, Verdict::Continue); LANES];
             let mut together: Convergences<LANES> = Convergences::fixed_point(stopping, budget);
             let verdict = loop {

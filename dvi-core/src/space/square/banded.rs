@@ -244,7 +244,7 @@ mod tests {
                 panic!("nalgebra found no solution")
             };
             let mut found = x.clone();
-            assert_eq!(matrix.eliminate(&mut found), Ok(()));
+            assert_eq!(matrix.eliminate(&mut [], &mut found), Ok(()));
             let condition = reference.singular_values().max() / reference.singular_values().min();
             let error = (DVector::from_column_slice(&found) - &expected).amax() / expected.amax();
             assert!(error < 1e-14 * condition, "{n} {reach} {shuffled}: {error:e} of {condition:e}");
@@ -260,7 +260,7 @@ mod tests {
         assert!(matrix.is_banded());
         matrix.cleared();
         (0..n).filter(|&i| i != 12).for_each(|i| matrix.add(i, i, 2.0));
-        let failure = matrix.eliminate(&mut alloc::vec![1.0; n]);
+        let failure = matrix.eliminate(&mut [], &mut alloc::vec![1.0; n]);
         assert_eq!(failure, Err(StepFailure::Singular { column: 12, pivot: 0.0 }));
     }
 
@@ -284,10 +284,10 @@ mod tests {
         let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, diagonal);
         (0..n).for_each(|i| matrix.add(i, i, 1.0));
         matrix.add(3, 4, 1.0);
-        let failure = matrix.eliminate(&mut alloc::vec![1.0; n]);
+        let failure = matrix.eliminate(&mut [], &mut alloc::vec![1.0; n]);
         assert_eq!(failure, Err(StepFailure::Pattern { row: 3, column: 4 }));
         matrix.cleared();
         (0..n).for_each(|i| matrix.add(i, i, 1.0));
-        assert_eq!(matrix.eliminate(&mut alloc::vec![1.0; n]), Ok(()));
+        assert_eq!(matrix.eliminate(&mut [], &mut alloc::vec![1.0; n]), Ok(()));
     }
 }

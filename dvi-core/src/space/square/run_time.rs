@@ -11,6 +11,7 @@ use super::sparse::Sparse;
 use crate::error::StepFailure;
 use crate::space::RunTimeMatrix;
 use crate::space::elimination;
+use crate::space::linear::scale;
 use crate::space::sink::Sink;
 use crate::{Real, RunTime, Scalar, Space};
 
@@ -81,9 +82,13 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             Storage::Sparse(sparse) => sparse.scale_rows(scales),
         }
     }
-    fn eliminate(&mut self, x: &mut [T]) -> Result<(), StepFailure> {
+    fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
+        if !matches!(self.0, Storage::Dense(..)) && !scales.is_empty() {
+            self.scale_rows(scales);
+            scale(x, scales);
+        }
         match &mut self.0 {
-            Storage::Dense(matrix, _) => elimination::eliminate(matrix, x),
+            Storage::Dense(matrix, _) => elimination::eliminate(matrix, scales, x),
             Storage::Banded(banded) => {
                 banded.factor()?;
                 banded.solve(x);
@@ -96,9 +101,9 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
             }
         }
     }
-    fn eliminate_two(&self, x: &mut [T]) -> Option<Result<(), StepFailure>> {
+    fn eliminate_two(&self, weights: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
         match &self.0 {
-            Storage::Dense(matrix, _) => elimination::eliminate_two(matrix, x),
+            Storage::Dense(matrix, _) => elimination::eliminate_two(matrix, weights, x),
             Storage::Banded(_) | Storage::Sparse(_) => None,
         }
     }
