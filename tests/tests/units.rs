@@ -7,13 +7,13 @@
 
 mod systems;
 
-use dvi_core::methods::Method;
+use dvi_core::methods::{General, Method};
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
 
 use systems::{
-    Amplitudes, Blade, Centre, Chain, Charge, CoupledMasses, DoublePendulum, Kepler, Oscillator, Pendulum,
-    Predators, Vortices,
+    Amplitudes, Bead, Blade, Centre, Chain, Charge, CoupledMasses, DoublePendulum, Kepler, Oscillator,
+    Pendulum, Predators, Vortices,
 };
 
 /// Exponents of the units of coordinates, and of time.
@@ -138,12 +138,17 @@ fn of_regular_systems() {
     check::<3, CoupledMasses, _>("coupled masses, Gauss", Gauss::<2>::new());
     check::<2, Kepler, _>("Kepler, composition", Composition::kahan_li_8(Variational::trapezoid()));
     check::<2, DoublePendulum, _>("double pendulum, Runge-Kutta", RungeKutta::classical());
+    check::<2, DoublePendulum, _>("double pendulum, general step", General::new(Galerkin::<4>::new()));
+    check::<3, Charge, _>("charge, general step", General::new(Galerkin::<3>::new()));
+    check::<3, CoupledMasses, _>("coupled masses, general step", General::new(Galerkin::<4>::new()));
 }
 
 #[test]
 fn of_systems_with_constraints() {
     check::<2, Pendulum, _>("pendulum, RATTLE", Rattle::default());
     check::<2, Pendulum, _>("pendulum, midpoint", Constrained::new(Variational::midpoint()));
+    check::<5, Bead, _>("bead, RATTLE", Rattle::default());
+    check::<5, Bead, _>("bead, midpoint", Constrained::new(Variational::midpoint()));
     check::<3, Blade, _>("blade", Constrained::new(Variational::midpoint()));
 }
 

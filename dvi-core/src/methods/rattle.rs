@@ -127,7 +127,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         work.place.measure(&mass);
         work.align((system, &mass), t, Look::Close).map_err(StartError::Starter)?;
         let Work { place, gram, .. } = &mut work;
-        fill(gram, [&place.rows, &place.solved]);
+        fill(gram, [&place.rows, &place.solved], &place.squares);
         gram.factor().map_err(named).map_err(StartError::Starter)?;
         place.is_positive = gram.is_positive();
         let mut refinement = Refinement::for_light_coordinates(system, [q, v], t);

@@ -29,10 +29,11 @@ pub(crate) const LEAST: f64 = 1e-290;
 /// [`StepFailure::Singular`] with the column and the largest candidate for its pivot.
 #[inline]
 pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Result<(), StepFailure> {
-    factor_by(matrix, permutation, |matrix, n, k, rounding| pivot_row(matrix, &[], [n, k], rounding))
+    factor_by(matrix, permutation, &mut [], pivot_row)
 }
 
-/// The same of a matrix whose rows and columns may have units of very different size.
+/// The same of a matrix whose rows and columns may have units of very different size. Rows are compared in their
+/// `scales`, as by [`eliminate`].
 ///
 /// # Errors
 /// As [`factor`].
@@ -40,9 +41,11 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
 pub(crate) fn factor_in_any_units<T: Real>(
     matrix: &mut [T],
     permutation: &mut [usize],
+    scales: &mut [T],
 ) -> Result<(), StepFailure> {
-    factor_by(matrix, permutation, |matrix, n, k, rounding| {
-        let (row, pivot) = largest_below(matrix, &[], [n, k]);
+    factor_by(matrix, permutation, scales, |matrix, scales, [n, k], rounding| {
+        let (row, _) = largest_below(matrix, scales, [n, k]);
+        let pivot = Scalar::abs(matrix[row * n + k]);
         let terms = (0..k).map(|j| Scalar::abs(matrix[row * n + j] * matrix[j * n + k]));
         let subtracted = terms.fold(T::lift(LEAST), |sum, term| sum + term);
         // A pivot that is not a number is no use either.
@@ -64,8 +67,8 @@ pub(crate) fn factor_with_care<T: Real>(
     permutation: &mut [usize],
     work: [&mut [T]; 2],
 ) -> Result<(), StepFailure> {
-    factor_by(matrix, permutation, |matrix, n, k, rounding| {
-        let (row, pivot) = largest_below(matrix, &[], [n, k]);
+    factor_by(matrix, permutation, &mut [], |matrix, scales, [n, k], rounding| {
+        let (row, pivot) = largest_below(matrix, scales, [n, k]);
         let is_usable = pivot > rounding * T::lift(LEAST);
         if is_usable { Ok(row) } else { Err(singular(pivot, k)) }
     })?;
@@ -100,17 +103,21 @@ pub(crate) fn factor_with_care<T: Real>(
 fn factor_by<T: Real>(
     matrix: &mut [T],
     permutation: &mut [usize],
-    pivot_row: impl Fn(&[T], usize, usize, T) -> Result<usize, StepFailure>,
+    scales: &mut [T],
+    pivot_row: impl Fn(&[T], &[T], [usize; 2], T) -> Result<usize, StepFailure>,
 ) -> Result<(), StepFailure> {
     let n = permutation.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
-        let row = pivot_row(matrix, n, k, rounding)?;
+        let row = pivot_row(matrix, scales, [n, k], rounding)?;
         permutation[k] = row;
         let (upper, lower) = matrix.split_at_mut((k + 1) * n);
         let upper = &mut upper[k * n..];
         if row > k {
             upper.swap_with_slice(&mut lower[(row - k - 1) * n..(row - k) * n]);
+            if !scales.is_empty() {
+                scales.swap(k, row);
+            }
         }
         let reciprocal = T::lift(1.0) / upper[k];
         for line in lower.chunks_exact_mut(n) {

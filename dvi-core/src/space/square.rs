@@ -145,7 +145,7 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
         elimination::factor(&mut self.matrix, &mut self.permutation)
     }
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
-        elimination::factor_in_any_units(&mut self.matrix, &mut self.permutation)
+        elimination::factor_in_any_units(&mut self.matrix, &mut self.permutation, &mut [])
     }
     fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
         elimination::factor_with_care(&mut self.matrix, &mut self.permutation, work)

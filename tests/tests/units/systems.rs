@@ -201,6 +201,22 @@ pub(super) struct Pendulum {
 
 in_units!(Pendulum, [f64; 2], 0.05, [1.0, 0.0, 0.0, 0.5]);
 
+/// A bead on the circle in which a sphere meets a plane, where each constraint has a unit too.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2) + (u[2] * dot(z)).powi(2))
+        / tau.powi(2) / 2.0
+        - u[2] * z,
+    constraint = ((u[0] * x).powi(2) + (u[1] * y).powi(2) + (u[2] * z).powi(2) - 1.0) / u[3],
+    constraint = (u[0] * x - u[1] * y - 0.2) / u[4],
+)]
+pub(super) struct Bead {
+    u: [f64; 5],
+    tau: f64,
+}
+
+in_units!(Bead, [f64; 5], 0.05, [0.6, 0.4, f64::sqrt(0.48), 0.25, 0.25, -0.25 / f64::sqrt(0.48)]);
+
 /// A blade on a plane that is not level.
 #[lagrangian(
     coordinates(x, y, a),

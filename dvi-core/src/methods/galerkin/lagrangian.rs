@@ -157,9 +157,10 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             if *due == Due::Residual {
                 return Self::residual(storage, q0);
             }
-            let Storage { displacements, residuals, weights, blocks, permutation, .. } = &mut *storage;
+            let Storage { displacements, residuals, weights, blocks, permutation, node } = &mut *storage;
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
-            blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)?;
+            let units = (&weights[..], &mut node.point[..]);
+            blocks::eliminate(blocks, permutation, units, residuals, 0..Self::INTERIOR)?;
             let mut correction = T::lift(0.0);
             for (displacement, change) in displacements.iter_mut().zip(residuals.iter()).take(Self::INTERIOR)
             {
@@ -195,10 +196,11 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
     /// Leaves the second derivatives of L_d in the blocks of q0 and q1.
     fn complement(&self, storage: &mut Storage<NODES, S, T>) -> Result<(), StepFailure> {
         self.linearize(storage);
-        let Storage { residuals, blocks, permutation, .. } = storage;
+        let Storage { residuals, weights, blocks, permutation, node, .. } = storage;
         // Not asked for.
         residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
-        blocks::eliminate(blocks, permutation, residuals, 0..Self::INTERIOR)
+        let units = (&weights[..], &mut node.point[..]);
+        blocks::eliminate(blocks, permutation, units, residuals, 0..Self::INTERIOR)
     }
 }
 

@@ -4,6 +4,7 @@ use core::ops::Deref;
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
+use crate::solve::sizes::weight_of;
 use crate::space::elimination::LEAST;
 use crate::space::{Sink, SquareMatrix};
 use crate::{Real, Scalar};
@@ -37,18 +38,31 @@ pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).rev().fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
 }
 
-/// Sets a matrix to A Bᵀ, where A and B have these rows.
+/// One over the length of a gradient with this square: constraints have units of their own, and may be compared
+/// where their gradients are as long as one.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(gram: &mut Q, [a, b]: [&[V]; 2]) {
+fn scale<T: Real>(square: T) -> T {
+    weight_of(Scalar::sqrt(Scalar::abs(square)))
+}
+
+/// Sets a matrix to A Bᵀ, where A and B have these rows, times the scales of constraints whose gradients have
+/// these `squares`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
+    gram: &mut Q,
+    [a, b]: [&[V]; 2],
+    squares: &[T],
+) {
     let entries = gram.cleared();
-    for (k, a) in a.iter().enumerate() {
+    for (k, (a, &square)) in a.iter().zip(squares).enumerate() {
         for (l, b) in b.iter().enumerate() {
-            entries.add(k, l, dot(a, b));
+            entries.add(k, l, scale(square) * dot(a, b));
         }
     }
 }
 
-/// Overwrites `x` with the solution of A Bᵀ y = x, where A and B have these rows.
+/// Overwrites `x` with the solution of A Bᵀ y = x, where A and B have these rows, for constraints whose gradients
+/// have these `squares`.
 ///
 /// # Errors
 /// [`StepFailure::RedundantConstraint`] and [`StepFailure::UndefinedConstraint`].
@@ -56,6 +70,7 @@ pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(gram: &m
 pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
     rows: [&[V]; 2],
+    squares: &[T],
     x: &mut [T],
 ) -> Result<(), StepFailure> {
     if let ([a], [b], [x]) = (rows[0], rows[1], &mut *x) {
@@ -64,7 +79,8 @@ pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
         *x /= pivot;
         return Ok(());
     }
-    fill(gram, rows);
+    fill(gram, rows, squares);
+    x.iter_mut().zip(squares).for_each(|(x, &square)| *x *= scale(square));
     gram.eliminate(&mut [], x).map_err(named)
 }
 

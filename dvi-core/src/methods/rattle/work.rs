@@ -171,7 +171,7 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
     }
     // Of one constraint that is the determinant.
     if rows.len() > 1 {
-        fill(gram, [rows, &here.solved]);
+        fill(gram, [rows, &here.solved], &here.squares);
         gram.factor().map_err(named)?;
         if gram.is_positive() != here.is_positive {
             return Err(StepFailure::Branch);
@@ -251,7 +251,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         if let ([value], [square]) = (&mut values[..], &squares[..]) {
             *value /= *square;
         } else {
-            solve(gram, [rows, solved], values)?;
+            solve(gram, [rows, solved], squares, values)?;
         }
         reduce(rows, values, p);
         for (impulse, &value) in impulses.last.iter_mut().zip(values.iter()) {
@@ -300,7 +300,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
             }
             values[0] /= pivot;
         } else {
-            solve(gram, [rows, &here.solved], values)?;
+            solve(gram, [rows, &here.solved], &here.squares, values)?;
         }
         reduce_all(&mut impulses.first, values);
         vector.fill(T::lift(NEUTRAL));

@@ -8,10 +8,11 @@
 
 use crate::Real;
 use crate::error::StepFailure;
+use crate::space::linear::set_scales;
 use crate::space::{elimination, lines, lines_mut};
 use core::ops::{DerefMut, Range};
 
-/// Overwrites the entries `pivots` of `x` with the solution of A y = x in these rows and columns, and A with nothing of use
+/// Of unknowns with these `weights`, and with room for their scales, overwrites the entries `pivots` of `x` with the solution of A y = x in these rows and columns, and A with nothing of use
 /// but the Schur complement of the later rows and columns.
 ///
 /// # Errors
@@ -19,6 +20,7 @@ use core::ops::{DerefMut, Range};
 pub(crate) fn eliminate<const NODES: usize, T: Real, M, V>(
     rows: &mut [[M; NODES]; NODES],
     permutation: &mut [usize],
+    (weights, scales): (&[T], &mut [T]),
     x: &mut [V; NODES],
     pivots: Range<usize>,
 ) -> Result<(), StepFailure>
@@ -32,7 +34,8 @@ where
         let (left, right) = done[k].split_at_mut(k + 1);
         let pivot = &mut left[k];
         transpose(pivot, n);
-        elimination::factor_in_any_units(pivot, permutation)?;
+        set_scales(scales, weights);
+        elimination::factor_in_any_units(pivot, permutation, scales)?;
         for block in right.iter_mut() {
             for column in lines_mut(block, n) {
                 elimination::solve(pivot, permutation, column);
@@ -105,7 +108,7 @@ mod tests {
             let mut x: [Vec<f64>; 4] = core::array::from_fn(|r| {
                 (0..n).map(|i| if r == 0 { 0.0 } else { rhs[(r - 1) * n + i] }).collect()
             });
-            assert_eq!(eliminate(&mut rows, &mut alloc::vec![0; n], &mut x, 1..4), Ok(()));
+            assert_eq!(eliminate(&mut rows, &mut alloc::vec![0; n], (&[], &mut []), &mut x, 1..4), Ok(()));
             let Some(expected) = dense.clone().lu().solve(&rhs) else { panic!("nalgebra found no solution") };
             let found = DVector::from_vec(x[1..].concat());
             assert!((found - &expected).amax() < 1e-13 * expected.amax(), "n = {n}");

@@ -5,9 +5,9 @@ use core::cell::RefCell;
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
 
+use super::blocks;
 #[cfg(feature = "alloc")]
 use super::{LinearEquations, LinearSolver, RunTimeSolver, Storing};
-use super::{blocks, scale, set_scales};
 #[cfg(feature = "alloc")]
 use crate::RunTime;
 use crate::error::StepFailure;
@@ -115,18 +115,8 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
             }
         }
         let scales = &mut second[0][..permutation.len()];
-        set_scales(scales, weights);
-        for (row, vector) in rows.iter_mut().zip(vectors.iter_mut()).skip(M::FIRST) {
-            row[M::FIRST..].iter_mut().for_each(|block| scale_columns(block, scales));
-            scale(vector, scales);
-        }
-        blocks::eliminate(rows, permutation, vectors, M::FIRST..NODES)
+        blocks::eliminate(rows, permutation, (weights, scales), vectors, M::FIRST..NODES)
     }
-}
-
-/// Multiplies the rows of a block that is stored transposed.
-fn scale_columns<T: Real>(transposed: &mut [T], scales: &[T]) {
-    lines_mut(transposed, scales.len()).for_each(|column| scale(column, scales));
 }
 
 /// Adds the transpose of the weighted sum of second derivatives L_qq, L_qv, L_vv and L_vq.

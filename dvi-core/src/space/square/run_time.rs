@@ -116,7 +116,9 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
     }
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
         match &mut self.0 {
-            Storage::Dense(matrix, permutation) => elimination::factor_in_any_units(matrix, permutation),
+            Storage::Dense(matrix, permutation) => {
+                elimination::factor_in_any_units(matrix, permutation, &mut [])
+            }
             Storage::Banded(banded) => banded.factor(),
             Storage::Sparse(sparse) => sparse.factor(),
         }
