@@ -8,8 +8,22 @@ use crate::name::{Along, Name};
 
 pub use step::{StepError, StepFailure};
 
+/// Errors whose `Debug` is their sentence, which is what `main` prints of an error that it returns, and `expect` too.
+macro_rules! said {
+    ($($error:ty),+) => {$(
+        impl core::fmt::Debug for $error {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                core::fmt::Display::fmt(self, f)
+            }
+        }
+    )+};
+}
+pub(crate) use said;
+
+said!(LengthError, IndexError, OutsideError, StartError, CheckpointError);
+
 /// An array of a state does not have the length that its system declares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 #[error("`{array}` has length {found}, but the system declares {expected}")]
 pub struct LengthError {
     /// The array.
@@ -21,7 +35,7 @@ pub struct LengthError {
 }
 
 /// A formula goes beyond the end of an array.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 #[error("the formulas use index {index} of `{array}`, which has length {len}")]
 pub struct IndexError {
     /// The array, a coordinate or a parameter.
@@ -33,7 +47,7 @@ pub struct IndexError {
 }
 
 /// A function that holds data is evaluated where it is not known.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, PartialEq, Error)]
 #[error(
     "`{}` is not known there: its argument {} is {value}, and must be at {} {bound}",
     .argument.function,
@@ -59,7 +73,7 @@ pub struct Argument {
 }
 
 /// A run that cannot begin.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StartError {
     /// The step is zero, infinite or not a number; or it is so short that the time stays what it is or that
@@ -235,7 +249,7 @@ pub enum StartError {
 }
 
 /// A checkpoint that does not fit the run that is to go on from it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
     /// It has less than the method carries.

@@ -11,7 +11,7 @@ use std::process::Command;
 fn the_readme_gives_the_pinned_counts() {
     let readme = include_str!("../../README.md");
     for pinned::Pinned { name, generated, by_hand } in pinned::rows() {
-        let counts = format!("({generated:.0} / {by_hand:.0})");
+        let counts = format!("| {by_hand:.0} | {generated:.0} |");
         assert!(readme.contains(&counts), "the README should give {counts} for `{name}`");
     }
 }

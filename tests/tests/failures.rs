@@ -1,5 +1,6 @@
 //! Failures are values, and the last good state is kept.
 
+mod said;
 mod starts;
 
 use dvi_core::methods::{General, Method};

@@ -37,16 +37,17 @@ fn excerpt<'a>(source: &'a str, from: &str, to: &str) -> &'a str {
 }
 
 #[test]
-fn the_readme_shows_the_examples() {
+fn the_readme_shows_the_first_example() {
     let first = include_str!("../../dvi-core/examples/first.rs");
     let shown = format!("```rust\n{}\n```", excerpt(first, "use dvi_core", "no such line"));
     assert!(README.contains(&shown), "the README should show the program `first`:\n{shown}");
-    let vortices = include_str!("../../dvi-core/examples/vortices.rs");
-    let shown = format!("```rust,ignore\n{}\n```", excerpt(vortices, "/// Point vortices", "fn main"));
-    assert!(README.contains(&shown), "the README should show the system of `vortices`:\n{shown}");
-    let ensemble = include_str!("../../dvi-core/examples/ensemble.rs");
-    let shown = format!("```rust,ignore\n{}\n```", excerpt(ensemble, "fn run(", "fn main"));
-    assert!(README.contains(&shown), "the README should show the function `run` of `ensemble`:\n{shown}");
+}
+
+/// It is for readers in a hurry.
+#[test]
+fn the_readme_is_short() {
+    let words = README.split_whitespace().count();
+    assert!(words <= 1200, "the README has {words} words");
 }
 
 #[test]

@@ -308,7 +308,7 @@ fn literal_sizes_fit_on_a_small_stack() -> Checked {
     Ok(())
 }
 
-/// As they stand in the README.
+/// As they stand in the example `vortices`.
 #[degenerate_lagrangian(
     coordinates(x[N], y[N]),
     one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),

@@ -9,8 +9,10 @@ use thiserror::Error;
 use super::Shard;
 use crate::error::StartError;
 
+crate::error::said!(EnsembleError, Difference, MergeError);
+
 /// An ensemble that cannot run. The failure of a member is none: it is the [`Outcome`](super::Outcome) of that member.
-#[derive(Debug, Error)]
+#[derive(Error)]
 #[non_exhaustive]
 pub enum EnsembleError {
     /// The step is zero, infinite or not a number; or so short that 1/h may be infinite.
@@ -81,7 +83,7 @@ pub enum EnsembleError {
 }
 
 /// In what two ensembles differ.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 #[error("its {what} is `{found}`, and `{expected}` is expected")]
 pub struct Difference {
     /// What it is.
@@ -93,7 +95,7 @@ pub struct Difference {
 }
 
 /// Shards whose results are not those of one ensemble.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MergeError {
     /// There are no shards.

@@ -13,6 +13,8 @@ use super::{Ensemble, Results, Shard, ShardError, file};
 use crate::Lagrangian;
 use crate::methods::Method;
 
+crate::error::said!(RanksError);
+
 /// The process that puts the results together.
 const ROOT: i32 = 0;
 /// Results are sent in pieces of this many bytes: MPI counts them in 32 bits.
@@ -21,7 +23,7 @@ const PIECE: usize = 1 << 30;
 const NONE: u64 = u64::MAX;
 
 /// What keeps an ensemble over several processes from having results.
-#[derive(Debug, Error)]
+#[derive(Error)]
 #[non_exhaustive]
 pub enum RanksError {
     /// The shard of this process cannot run.

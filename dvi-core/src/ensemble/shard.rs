@@ -10,6 +10,8 @@ use std::string::String;
 
 use thiserror::Error;
 
+crate::error::said!(ShardError);
+
 /// One of several parts of an ensemble: of `i/n` the members k with k mod n = i, where i counts from 0.
 ///
 /// ```
@@ -27,7 +29,7 @@ pub struct Shard {
 }
 
 /// A text or a pair of numbers that is no shard.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ShardError {
     /// The text does not have the form i/n.

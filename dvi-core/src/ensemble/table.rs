@@ -10,6 +10,8 @@ use thiserror::Error;
 use crate::system::names::entries;
 use crate::{Lagrangian, Space, State};
 
+crate::error::said!(TableError);
+
 /// A table in CSV: names in the first line, then a line for each member. Columns that nobody asks for may hold any text, in
 /// UTF-8.
 ///
@@ -40,7 +42,7 @@ struct Row {
 }
 
 /// A table that cannot be read, or does not have what is asked for.
-#[derive(Debug, Error)]
+#[derive(Error)]
 #[non_exhaustive]
 pub enum TableError {
     /// It is no CSV, a line has more or fewer entries than the first, or reading fails.

@@ -2,10 +2,12 @@
 
 use thiserror::Error;
 
-use crate::error::OutsideError;
+use crate::error::{OutsideError, said};
+
+said!(StepFailure, StepError);
 
 /// Why a step could not be completed.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepFailure {
     /// The iteration ran out of its budget or moved away from a solution.
@@ -291,7 +293,7 @@ pub enum StepFailure {
 }
 
 /// A step that failed, and where. The run keeps the last good state.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, PartialEq, Error)]
 #[error("step {step} from t = {time}: {failure}")]
 pub struct StepError {
     /// The number of steps completed before this one.

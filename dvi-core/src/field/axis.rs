@@ -4,6 +4,8 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
+crate::error::said!(AxisError);
+
 /// The last point of a periodic axis is the first one, a period later, if the two differ by less than this part of the mean
 /// distance of its points, as it does when a table has few digits.
 const SAME: f64 = 1e-3;
@@ -126,7 +128,7 @@ fn is_usable(distance: f64) -> bool {
 }
 
 /// Points that are not those of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AxisError {
     /// A point is infinite or not a number.

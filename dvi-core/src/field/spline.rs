@@ -14,6 +14,8 @@ use super::interpolation::Equations;
 use super::{Axis, Expansion, ScalarField};
 use crate::Scalar;
 
+crate::error::said!(SplineError);
+
 /// Values at the two ends of a period agree to this part of the largest value of the table.
 const AGREEMENT: f64 = 1e-6;
 
@@ -331,7 +333,7 @@ fn too_unequal<const D: usize>(axes: &[Axis; D], growths: [f64; D], growth: f64)
 }
 
 /// A table that no spline can be made of.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SplineError {
     /// An axis has fewer points than the degree asks for.

@@ -11,6 +11,8 @@ use thiserror::Error;
 pub use grid::Grid;
 use row::Row;
 
+crate::error::said!(TableError);
+
 /// A table of numbers, read from text.
 ///
 /// - A line is a row of numbers. All rows have the same number of columns, separated by blanks or tabs, by commas, or by
@@ -208,7 +210,7 @@ impl Table {
 }
 
 /// Text that is no table, or a table that is no grid. Lines and columns are counted from 1, columns as those of the table.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TableError {
     /// There is no row.

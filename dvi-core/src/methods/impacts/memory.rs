@@ -1,5 +1,7 @@
 //! What a run with impacts carries from step to step.
 
+use core::fmt;
+
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::Multipliers;
 use crate::scalar::norm::reported;
@@ -8,13 +10,33 @@ use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, Real, Scalar, Space, State, System, UnilateralLagrangian, Vector};
 
 /// An impact of the last step.
-#[derive(Clone, Debug)]
 pub struct Impact<S: System, T: Real> {
     pub(super) surface: usize,
     pub(super) time: T,
     pub(super) impulse: T,
     pub(super) q: Vector<S, T>,
     pub(super) v: Vector<S, T>,
+}
+
+// Derived, these would ask for them of the system too.
+impl<S: System, T: Real> Clone for Impact<S, T> {
+    fn clone(&self) -> Self {
+        let Self { surface, time, impulse, q, v } = self;
+        Self { surface: *surface, time: *time, impulse: *impulse, q: q.clone(), v: v.clone() }
+    }
+}
+
+impl<S: System, T: Real> fmt::Debug for Impact<S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { surface, time, impulse, q, v } = self;
+        f.debug_struct("Impact")
+            .field("surface", surface)
+            .field("time", time)
+            .field("impulse", impulse)
+            .field("q", q)
+            .field("v", v)
+            .finish()
+    }
 }
 
 impl<S: System, T: Real> Impact<S, T> {
