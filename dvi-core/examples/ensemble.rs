@@ -1,8 +1,9 @@
 //! An ensemble of motions in the potential of Hénon and Heiles: which of them leave the well, and when.
 //!
-//! `cargo run --release -p dvi-core --features ensembles --example ensemble` takes all cores. A run that was killed goes on where it was.
-//! With `--shard 0/4`, …, `--shard 3/4` four processes share the members; without `--shard` and after them, `--merge 4` puts their results
-//! together. `--out folder` says where the files go.
+//! `cargo run --release -p dvi-core --features ensembles --example ensemble` takes all cores. A run that was
+//! killed goes on where it was. With `--shard 0/4`, …, `--shard 3/4` four processes share the members;
+//! without `--shard` and after them, `--merge 4` puts their results together. `--out folder` says where the
+//! files go.
 
 use std::error::Error;
 use std::fs::{File, create_dir_all};
@@ -48,7 +49,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             "--shard" => shard = value.parse()?,
             "--merge" => merged = Some(value.parse::<u64>()?),
             "--out" => folder = value.into(),
-            other => return Err(format!("{other}: there are --shard i/n, --merge n and --out folder").into()),
+            other => {
+                return Err(format!("{other}: there are --shard i/n, --merge n and --out folder").into());
+            }
         }
     }
     create_dir_all(&folder)?;

@@ -1,5 +1,5 @@
-//! Steps that follow the motion: a comet with eccentricity 0.95, with steps in proportion to r^(3/2) that can be taken
-//! backwards, and with as many steps of equal length.
+//! Steps that follow the motion: a comet with eccentricity 0.95, with steps in proportion to r^(3/2) that
+//! can be taken backwards, and with as many steps of equal length.
 
 use std::f64::consts::TAU;
 use std::fs::{self, File};

@@ -1,5 +1,5 @@
-//! A system of first order, and a question to its run: predators and prey, and the period of their cycle, from the times
-//! at which the prey passes its equilibrium.
+//! A system of first order, and a question to its run: predators and prey, and the period of their cycle,
+//! from the times at which the prey passes its equilibrium.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write as _};

@@ -1,5 +1,5 @@
-//! Why variational: the energy of a pendulum, by a variational integrator and by the classical Runge–Kutta method with
-//! four times as long steps, so that both evaluate the force equally often.
+//! Why variational: the energy of a pendulum, by a variational integrator and by the classical Runge–Kutta
+//! method with four times as long steps, so that both evaluate the force equally often.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write as _};

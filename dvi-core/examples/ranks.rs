@@ -1,7 +1,9 @@
-//! An ensemble over the processes of an MPI program: pendulums that begin at random angles, with a restoring torque and a drive.
+//! An ensemble over the processes of an MPI program: pendulums that begin at random angles, with a restoring
+//! torque and a drive.
 //!
-//! `cargo build --release -p dvi-core --features mpi --example ranks`, and then `mpirun -n 4 target/release/examples/ranks results.csv`.
-//! The table is the same, byte for byte, for every number of processes. `tests/mpi/run` compares them.
+//! `cargo build --release -p dvi-core --features mpi --example ranks`, and then
+//! `mpirun -n 4 target/release/examples/ranks results.csv`. The table is the same, byte for byte, for every
+//! number of processes. `tests/mpi/run` compares them.
 
 use std::error::Error;
 use std::fs::File;

@@ -1,4 +1,5 @@
-//! Any number of bodies: N point vortices in the plane, declared once. Here two pairs that leapfrog past each other.
+//! Any number of bodies: N point vortices in the plane, declared once. Here two pairs that leapfrog past
+//! each other.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write as _};

@@ -1,11 +1,12 @@
-//! The discrete Lagrangian: a function of the two ends of a step, close to the action of the motion between them.
+//! The discrete Lagrangian: a function of the two ends of a step, close to the action of the motion between
+//! them.
 //!
 //! ```math
 //! L_d(q_0, q_1;\ t, h) \approx \int_t^{t+h} L(q, \dot q, t')\, \mathrm{d}t'
 //! ```
 //!
-//! A step solves the first of the discrete Euler–Lagrange equations in position–momentum form for q1 = q0 + Δ, and
-//! evaluates the second (Marsden & West 2001, eqs. 1.5.2 and 1.5.3):
+//! A step solves the first of the discrete Euler–Lagrange equations in position–momentum form for q1 = q0 +
+//! Δ, and evaluates the second (Marsden & West 2001, eqs. 1.5.2 and 1.5.3):
 //!
 //! ```math
 //! p_0 = -D_1 L_d(q_0, q_1), \qquad p_1 = D_2 L_d(q_0, q_1) = p_0 + (D_1 + D_2) L_d(q_0, q_1)
@@ -28,7 +29,9 @@ use crate::space::{LinearEquations, LinearSolver, Storing, linear};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Scalar, Vector};
 
-pub use frequency::{Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, Radial, Reading, Unfitted};
+pub use frequency::{
+    Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, Radial, Reading, Unfitted,
+};
 pub(crate) use node::NodeWork;
 pub use node::OneNode;
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
@@ -80,15 +83,15 @@ impl<S, T: Copy> Copy for Span<'_, S, T> {}
 
 /// What one interval contributes to the discrete equations of a system.
 ///
-/// On a system with [forces](Lagrangian::applied_force) D₁L_d means D₁L_d + F⁻ and D₂L_d means D₂L_d + F⁺, with the discrete
-/// forces that the rule of L_d makes of F (Marsden & West 2001, section 3.2): of a rule with nodes qʲ they are
-/// F⁻ = h Σ wⱼ bⱼ F(qʲ, q̇ʲ) and F⁺ = h Σ wⱼ b̄ⱼ F(qʲ, q̇ʲ).
+/// On a system with [forces](Lagrangian::applied_force) D₁L_d means D₁L_d + F⁻ and D₂L_d means D₂L_d + F⁺,
+/// with the discrete forces that the rule of L_d makes of F (Marsden & West 2001, section 3.2): of a rule
+/// with nodes qʲ they are F⁻ = h Σ wⱼ bⱼ F(qʲ, q̇ʲ) and F⁺ = h Σ wⱼ b̄ⱼ F(qʲ, q̇ʲ).
 ///
-/// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so that nothing
-/// is allocated.
+/// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so
+/// that nothing is allocated.
 pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
-    /// A solver for equations with D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here the matrix has the entries of ∂²L in
-    /// all blocks, as a sum over nodes has whose points depend on the ends alone.
+    /// A solver for equations with D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here the matrix has
+    /// the entries of ∂²L in all blocks, as a sum over nodes has whose points depend on the ends alone.
     fn solver(&self, system: &S, q: &[T], v: &[T], t: T) -> Linear<S, T> {
         of_second_derivatives(system, q, v, t, Storing::Always)
     }
@@ -105,8 +108,8 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
 
-    /// Adds D₁L_d to `d1` and D₁D₂L_d to `sink`, entry (i, j) of q0ⁱ and q1ʲ. Of a frequency that is read from the motion
-    /// the entries take no notice, which is close enough for Newton's method to contract.
+    /// Adds D₁L_d to `d1` and D₁D₂L_d to `sink`, entry (i, j) of q0ⁱ and q1ʲ. Of a frequency that is read
+    /// from the motion the entries take no notice, which is close enough for Newton's method to contract.
     ///
     /// # Errors
     /// As [`derivatives`](Self::derivatives).
@@ -119,15 +122,16 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
     ) -> Result<(), StepFailure>;
 }
 
-/// A discrete Lagrangian with all of its second derivatives, from which tangent maps and the preserved two-form come.
+/// A discrete Lagrangian with all of its second derivatives, from which tangent maps and the preserved
+/// two-form come.
 #[diagnostic::on_unimplemented(
     message = "the second derivatives of `{Self}` in one point are not known",
     label = "has no tangent map"
 )]
 pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, T> {
-    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose D₂D₁L_d and D₂D₂L_d
-    /// to sinks. With forces on the system these are the derivatives of D₁L_d + F⁻ and D₂L_d + F⁺, and no matrix is the
-    /// transpose of another.
+    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose
+    /// D₂D₁L_d and D₂D₂L_d to sinks. With forces on the system these are the derivatives of D₁L_d + F⁻ and
+    /// D₂L_d + F⁺, and no matrix is the transpose of another.
     ///
     /// # Errors
     /// As [`derivatives`](DiscreteLagrangian::derivatives).

@@ -1,8 +1,10 @@
-//! Ensembles: many runs of one method over all cores, from a table or a distribution of initial conditions or parameters.
+//! Ensembles: many runs of one method over all cores, from a table or a distribution of initial conditions
+//! or parameters.
 //!
-//! Each member has a record of its own: how its run has ended and when, its last state, its energies and momenta. A member that fails is
-//! recorded, and the others go on. The results are bit for bit the same for every number of threads, with interruptions and without, as a
-//! whole and in shards; and for every number of lanes, if systems that are equal by `==` do the same.
+//! Each member has a record of its own: how its run has ended and when, its last state, its energies and
+//! momenta. A member that fails is recorded, and the others go on. The results are bit for bit the same for
+//! every number of threads, with interruptions and without, as a whole and in shards; and for every number
+//! of lanes, if systems that are equal by `==` do the same.
 //!
 //! ```
 //! use dvi_core::ensemble::{Draws, Ensemble, Outcome};
@@ -35,14 +37,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! All cores are those of the thread pool of rayon in which [`Ensemble::take_steps`] is called: `pool.install(|| …)` takes another, and
-//! the environment variable `RAYON_NUM_THREADS` sets the number of threads of the usual one.
+//! All cores are those of the thread pool of rayon in which [`Ensemble::take_steps`] is called:
+//! `pool.install(|| …)` takes another, and the environment variable `RAYON_NUM_THREADS` sets the number of
+//! threads of the usual one.
 //!
 //! # Checkpoints and shards
 //!
-//! With [`Ensemble::checkpoints`] a run that was killed goes on where it was: begin it again. With [`Ensemble::shard`] several processes
-//! share the members. Each writes a checkpoint, which holds its results in the end; [`Results::read`] and [`Results::merge`] put them
-//! together:
+//! With [`Ensemble::checkpoints`] a run that was killed goes on where it was: begin it again. With
+//! [`Ensemble::shard`] several processes share the members. Each writes a checkpoint, which holds its
+//! results in the end; [`Results::read`] and [`Results::merge`] put them together:
 //!
 //! ```no_run
 //! use dvi_core::ensemble::{Results, Shard};
@@ -164,21 +167,23 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         Self { settings, shard: Shard::WHOLE, checkpoints: None, on_progress: None }
     }
 
-    /// Changes the method of each member by its number: `Langevin` needs a seed of its own in each, for else all have the same noise.
+    /// Changes the method of each member by its number: `Langevin` needs a seed of its own in each, for else
+    /// all have the same noise.
     pub fn vary_method(mut self, vary: impl Fn(u64, &mut M) + Send + Sync + 'a) -> Self {
         self.settings.vary = Some(Box::new(vary));
         self
     }
 
-    /// Looks at each member every `steps` steps, at its start and at its end: at the energy, the exit condition and the section. It is 100
-    /// if nothing else is said. What happens between two looks is not seen; where a member fails, only its energy is looked at.
+    /// Looks at each member every `steps` steps, at its start and at its end: at the energy, the exit
+    /// condition and the section. It is 100 if nothing else is said. What happens between two looks is not
+    /// seen; where a member fails, only its energy is looked at.
     pub fn stride(mut self, steps: u64) -> Self {
         self.settings.stride = steps;
         self
     }
 
-    /// Ends the run of a member when `exit` gives a reason, such as "left the region". It is asked every [`stride`](Self::stride) steps,
-    /// and the first time at the start.
+    /// Ends the run of a member when `exit` gives a reason, such as "left the region". It is asked every
+    /// [`stride`](Self::stride) steps, and the first time at the start.
     pub fn until(
         mut self,
         exit: impl Fn(&S, &S::State<f64>) -> Option<&'static str> + Send + Sync + 'a,
@@ -187,8 +192,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Counts how often each member crosses the section g = 0, by the signs of `g` at the [looks](Self::stride): with a stride of one,
-    /// from step to step. The points of a section are those of [`Section`](crate::diagnostics::Section).
+    /// Counts how often each member crosses the section g = 0, by the signs of `g` at the
+    /// [looks](Self::stride): with a stride of one, from step to step. The points of a section are those of
+    /// [`Section`](crate::diagnostics::Section).
     pub fn section(
         mut self,
         direction: Direction,
@@ -198,7 +204,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Computes the [largest Lyapunov exponent](LyapunovExponent) of each member over its run. Members then go alone, not in lanes.
+    /// Computes the [largest Lyapunov exponent](LyapunovExponent) of each member over its run. Members then
+    /// go alone, not in lanes.
     pub fn exponents<L>(mut self) -> Self
     where
         M: VariationalMethod<S, f64, DiscreteLagrangian = L>,
@@ -208,9 +215,10 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Takes `W` members at a time in lanes, as [`Together`] does: members of systems that are equal, or [differ in parameters of a generic
-    /// type](crate::system::Packable) only, which are neighbours in their shard. It is faster, and the results are the same, as long
-    /// as systems that are equal by `==` do the same: 0.0 and −0.0 are equal.
+    /// Takes `W` members at a time in lanes, as [`Together`] does: members of systems that are equal, or
+    /// [differ in parameters of a generic type](crate::system::Packable) only, which are neighbours in their
+    /// shard. It is faster, and the results are the same, as long as systems that are equal by `==` do the
+    /// same: 0.0 and −0.0 are equal.
     pub fn in_lanes<const W: usize>(mut self) -> Self
     where
         S: PartialEq,
@@ -221,15 +229,16 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Writes a checkpoint to `path` about `every` so often, and at the end; goes on from it if it is there. A shard has a file of its
-    /// own, [`Shard::path`]. The file is replaced as a whole, so that a process that is killed leaves a good one. Only
-    /// one process at a time may use it.
+    /// Writes a checkpoint to `path` about `every` so often, and at the end; goes on from it if it is there.
+    /// A shard has a file of its own, [`Shard::path`]. The file is replaced as a whole, so that a process
+    /// that is killed leaves a good one. Only one process at a time may use it.
     ///
-    /// A checkpoint of another ensemble is an error that says in what it differs. Initial states are compared by their bits; the method
-    /// by its type and by what [`Debug`](fmt::Debug) says of it; the systems by their type, their formulas, energy and gradient at the
-    /// start, and by what `Debug` says of them. So that must be the same in each process, which the address of a function is not. Exit
-    /// conditions, sections and functions of your own in formulas cannot be compared: remove the file when they change. It is
-    /// written between two [looks](Self::stride), so that a long stride makes it late.
+    /// A checkpoint of another ensemble is an error that says in what it differs. Initial states are
+    /// compared by their bits; the method by its type and by what [`Debug`](fmt::Debug) says of it; the
+    /// systems by their type, their formulas, energy and gradient at the start, and by what `Debug` says of
+    /// them. So that must be the same in each process, which the address of a function is not. Exit
+    /// conditions, sections and functions of your own in formulas cannot be compared: remove the file when
+    /// they change. It is written between two [looks](Self::stride), so that a long stride makes it late.
     pub fn checkpoints(mut self, path: impl AsRef<Path>, every: Duration) -> Self
     where
         S: fmt::Debug,
@@ -245,8 +254,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Calls `tell` at the start, about once in a second as far as the [stride](Self::stride) allows, and at the end: from one thread, and
-    /// never twice at once.
+    /// Calls `tell` at the start, about once in a second as far as the [stride](Self::stride) allows, and at
+    /// the end: from one thread, and never twice at once.
     pub fn on_progress(mut self, tell: impl FnMut(&Progress) + Send + 'a) -> Self {
         self.on_progress = Some(Box::new(tell));
         self
@@ -255,8 +264,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// Takes up to `count` steps of each member.
     ///
     /// # Errors
-    /// [`EnsembleError`] if the ensemble makes no sense, or its checkpoint cannot be written or is not its own. Members that fail are no
-    /// error: their [`Outcome`] says so.
+    /// [`EnsembleError`] if the ensemble makes no sense, or its checkpoint cannot be written or is not its
+    /// own. Members that fail are no error: their [`Outcome`] says so.
     pub fn take_steps(mut self, count: u64) -> Result<Results, EnsembleError>
     where
         S: Sync,

@@ -8,7 +8,8 @@ use crate::name::{Along, Name};
 
 pub use step::{StepError, StepFailure};
 
-/// Errors whose `Debug` is their sentence, which is what `main` prints of an error that it returns, and `expect` too.
+/// Errors whose `Debug` is their sentence, which is what `main` prints of an error that it returns, and
+/// `expect` too.
 macro_rules! said {
     ($($error:ty),+) => {$(
         impl core::fmt::Debug for $error {
@@ -59,7 +60,8 @@ pub struct OutsideError {
     pub argument: &'static Argument,
     /// Its value.
     pub value: f64,
-    /// The end of the domain that it has passed; if the value is not a number, the least value that it may have.
+    /// The end of the domain that it has passed; if the value is not a number, the least value that it may
+    /// have.
     pub bound: f64,
 }
 
@@ -211,8 +213,8 @@ pub enum StartError {
         /// Its gap function, in the units of its formula.
         gap: f64,
     },
-    /// The initial state is not on the manifold that is declared: a matrix is no rotation, or a vector has another length than one or a
-    /// velocity that would change it.
+    /// The initial state is not on the manifold that is declared: a matrix is no rotation, or a vector has
+    /// another length than one or a velocity that would change it.
     #[error(
         "`{block}` is off by {defect:e} in the state, and {tolerance:e} is allowed: a rotation is an orthogonal matrix with determinant 1, a \
          unit vector has length 1 and a velocity at right angles to it; `rotations::exp` makes rotations"

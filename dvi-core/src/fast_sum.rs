@@ -1,9 +1,10 @@
 //! Sums over all pairs of many bodies, by the fast multipole method, with the feature `fast-sums`.
 //!
-//! The energy of n bodies that act on each other has n²/2 terms. [`FastSum`] is a system in the place of one with such a sum: near
-//! bodies are summed one by one, and what groups of bodies do to others far away is expanded in polynomials, so that the work
-//! grows like n where bodies fill a region, a curve or a surface with some density. It grows faster where there are clusters of less than
-//! a ten-thousandth of the extent of all bodies, which are divided into few cubes or none: one body far away from all others makes it so.
+//! The energy of n bodies that act on each other has n²/2 terms. [`FastSum`] is a system in the place of one
+//! with such a sum: near bodies are summed one by one, and what groups of bodies do to others far away is
+//! expanded in polynomials, so that the work grows like n where bodies fill a region, a curve or a surface
+//! with some density. It grows faster where there are clusters of less than a ten-thousandth of the extent
+//! of all bodies, which are divided into few cubes or none: one body far away from all others makes it so.
 //!
 //! ```
 //! use dvi_core::fast_sum::FastSum;
@@ -41,36 +42,39 @@
 //!
 //! # What is computed
 //!
-//! Cubes are divided until they hold few bodies. Where two cubes of one size do not touch, the kernel K(r²) between them is replaced by
-//! its interpolant in products of Chebyshev polynomials of both places (Fong & Darve 2009). What far cubes do in a cube is made of fewer
-//! functions than there are such products; expansions are kept in those, level by level (H²-matrices, Hackbusch & Börm 2002). This makes of the sum over pairs another function of the places,
-//! H̃, for a given division into cubes. The gradient is that of H̃, not an approximation to the gradient of H: so the motion conserves
-//! H̃ as far as the method does, and forces of bodies on each other have the symmetries that H̃ has. H̃ depends on differences of places
-//! only approximately, so momenta are conserved as far as the tolerance goes.
+//! Cubes are divided until they hold few bodies. Where two cubes of one size do not touch, the kernel K(r²)
+//! between them is replaced by its interpolant in products of Chebyshev polynomials of both places (Fong &
+//! Darve 2009). What far cubes do in a cube is made of fewer functions than there are such products;
+//! expansions are kept in those, level by level (H²-matrices, Hackbusch & Börm 2002). This makes of the sum
+//! over pairs another function of the places, H̃, for a given division into cubes. The gradient is that of
+//! H̃, not an approximation to the gradient of H: so the motion conserves H̃ as far as the method does, and
+//! forces of bodies on each other have the symmetries that H̃ has. H̃ depends on differences of places only
+//! approximately, so momenta are conserved as far as the tolerance goes.
 //!
 //! In a long run these errors may add up: by a small part of the tolerance in a unit of time.
 //!
-//! Bodies are summed one by one, too, where K has no numbers at the distances of far cubes, whether bodies are there or not, as ln(1 − r²/b²)
-//! beyond b; and where K changes so little between cubes that rounding errors of K would be seen in the forces, as that of ln(r² + c²) deep
-//! in a core.
+//! Bodies are summed one by one, too, where K has no numbers at the distances of far cubes, whether bodies
+//! are there or not, as ln(1 − r²/b²) beyond b; and where K changes so little between cubes that rounding
+//! errors of K would be seen in the forces, as that of ln(r² + c²) deep in a core.
 //!
-//! Places are to lie within 2⁵⁰⁰, some 3 · 10¹⁵⁰, of each other, so that their distances can be squared: elsewhere energy and forces are no
-//! numbers, and nothing is summed.
+//! Places are to lie within 2⁵⁰⁰, some 3 · 10¹⁵⁰, of each other, so that their distances can be squared:
+//! elsewhere energy and forces are no numbers, and nothing is summed.
 //!
-//! A kernel may have a pole at a distance of far cubes, or oscillate faster than cubes are wide. So each evaluation holds the sums of
-//! eight bodies from all regions against sums over all others. Where they differ by more than ten times the tolerance, as a part of the
-//! largest sum of the absolute values of terms, all bodies are summed one by one: the forces are right, and take as long as all
-//! pairs. [`FastSum::operations`] tells. What is wrong for a few bodies only may be missed.
+//! A kernel may have a pole at a distance of far cubes, or oscillate faster than cubes are wide. So each
+//! evaluation holds the sums of eight bodies from all regions against sums over all others. Where they
+//! differ by more than ten times the tolerance, as a part of the largest sum of the absolute values of
+//! terms, all bodies are summed one by one: the forces are right, and take as long as all pairs.
+//! [`FastSum::operations`] tells. What is wrong for a few bodies only may be missed.
 //!
-//! A body that crosses from one cube to the next changes the division. There H̃ and the forces jump by some part of the tolerance. An
-//! iteration that is to solve an implicit step further than that may go on between two sides of a jump: give such methods a
-//! [`Stopping`](crate::solve::Stopping) whose tolerance is not far below that of the sum. With the default, to rounding errors, steps take
-//! more iterations, or fail.
+//! A body that crosses from one cube to the next changes the division. There H̃ and the forces jump by some
+//! part of the tolerance. An iteration that is to solve an implicit step further than that may go on between
+//! two sides of a jump: give such methods a [`Stopping`](crate::solve::Stopping) whose tolerance is not far
+//! below that of the sum. With the default, to rounding errors, steps take more iterations, or fail.
 //!
 //! # Threads
 //!
-//! With the feature `threads` an evaluation is shared by the threads of `rayon`, those of the pool in which it is called. Results are
-//! bitwise the same for every number of threads.
+//! With the feature `threads` an evaluation is shared by the threads of `rayon`, those of the pool in which
+//! it is called. Results are bitwise the same for every number of threads.
 
 mod basis;
 mod directions;
@@ -147,12 +151,13 @@ pub struct Operations {
 
 /// A system like `S`, in which a sum over all pairs of bodies is computed by the fast multipole method.
 ///
-/// `S` is a degenerate or a regular system. It takes the methods that `S` takes and evaluates forces and energies fast. Second derivatives
-/// of its Lagrangian by places are those of `S`, at the cost of the sum over pairs: take methods whose steps are explicit or solved by the
-/// fixed point.
+/// `S` is a degenerate or a regular system. It takes the methods that `S` takes and evaluates forces and
+/// energies fast. Second derivatives of its Lagrangian by places are those of `S`, at the cost of the sum
+/// over pairs: take methods whose steps are explicit or solved by the fixed point.
 ///
-/// In space an evaluation takes longer than in the plane, and so do the matrices for it, which take memory besides. For 1/√(r² + c²) and bodies
-/// in a cube it took on one thread, with the matrices in the first evaluation:
+/// In space an evaluation takes longer than in the plane, and so do the matrices for it, which take memory
+/// besides. For 1/√(r² + c²) and bodies in a cube it took on one thread, with the matrices in the first
+/// evaluation:
 ///
 /// | tolerance | bodies | evaluation | matrices | memory | relative error |
 /// |---|---|---|---|---|---|
@@ -163,14 +168,15 @@ pub struct Operations {
 /// | 1e-6 | 2·10⁴ | 0.08 s | 2.7 s | 0.40 GB | 2e-8 |
 /// | 1e-6 | 10⁵ | 0.5 s | 6.8 s | 0.75 GB | 2e-8 |
 ///
-/// An evaluation takes memory for its cubes, which is kept for the next one; it allocates when there are more cubes than ever before. For
-/// cubes of a size that was not there before it computes matrices, which takes the time of many evaluations: where the extent of the bodies
-/// doubles, or where they come together.
+/// An evaluation takes memory for its cubes, which is kept for the next one; it allocates when there are
+/// more cubes than ever before. For cubes of a size that was not there before it computes matrices, which
+/// takes the time of many evaluations: where the extent of the bodies doubles, or where they come together.
 ///
-/// It is for one thread at a time, which may share its work with others: `ensemble` and `run::Together` do not take it, nor
-/// `Gauss::in_lanes`.
+/// It is for one thread at a time, which may share its work with others: `ensemble` and `run::Together` do
+/// not take it, nor `Gauss::in_lanes`.
 ///
-/// H̃ belongs to the tolerance: a run that is resumed from a checkpoint with another one goes on in another H̃.
+/// H̃ belongs to the tolerance: a run that is resumed from a checkpoint with another one goes on in another
+/// H̃.
 pub struct FastSum<'s, S, const D: usize> {
     system: &'s S,
     tolerance: f64,
@@ -189,14 +195,15 @@ impl<S: fmt::Debug, const D: usize> fmt::Debug for FastSum<'_, S, D> {
 
 // A bound less than below: so a system without such a sum is refused once.
 impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
-    /// Sums the pairs of `system` with forces of a relative error of about `tolerance`, ‖∇H̃ − ∇H‖/‖∇H‖ over all bodies. Tests find it
-    /// below the tolerance for ln(r² + c²) with several c, with bodies in a square, near a line and in clusters, and for 1/√(r² + c²) in
-    /// space, r² and two kernels more. It is larger where the forces on most bodies cancel, and, by up to ten times, near rounding and where
+    /// Sums the pairs of `system` with forces of a relative error of about `tolerance`, ‖∇H̃ − ∇H‖/‖∇H‖ over
+    /// all bodies. Tests find it below the tolerance for ln(r² + c²) with several c, with bodies in a
+    /// square, near a line and in clusters, and for 1/√(r² + c²) in space, r² and two kernels more. It is
+    /// larger where the forces on most bodies cancel, and, by up to ten times, near rounding and where
     /// bodies fill a thin strip. For other systems than these, ask [`measured_error`](Self::measured_error).
     ///
     /// # Errors
-    /// [`ToleranceError`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`IndexError`] as of
-    /// [`check`](crate::System::check).
+    /// [`ToleranceError`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`IndexError`] as
+    /// of [`check`](crate::System::check).
     pub fn new(system: &'s S, tolerance: f64) -> Result<Self, FastSumError> {
         system.check()?;
         let least = if D > 2 { LEAST_IN_SPACE } else { LEAST };
@@ -223,8 +230,8 @@ where
         self.tolerance
     }
 
-    /// The relative error of the forces at a state, ‖∇H̃ − ∇H‖/‖∇H‖ of the sums over pairs, over some `bodies` of equal distance in
-    /// their order, against sums over all pairs of each.
+    /// The relative error of the forces at a state, ‖∇H̃ − ∇H‖/‖∇H‖ of the sums over pairs, over some
+    /// `bodies` of equal distance in their order, against sums over all pairs of each.
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
@@ -266,8 +273,8 @@ where
 
     /// The coordinates of a state.
     ///
-    /// A system may declare more of them than there is memory for, a state has no more. So there is room for an array when the state is
-    /// known to have it.
+    /// A system may declare more of them than there is memory for, a state has no more. So there is room for
+    /// an array when the state is known to have it.
     fn point(&self, state: &S::State<f64>) -> Result<Vec<f64>, LengthError> {
         let dimension = self.system.space().dimension();
         let (mut q, mut v) = (Vec::new(), Vec::new());
@@ -334,8 +341,8 @@ where
     }
 }
 
-/// The order of the interpolation, and the least singular value of its matrices, as part of the largest. An order more divides the error
-/// by 3 to 4 where bodies lie on a line, by more elsewhere.
+/// The order of the interpolation, and the least singular value of its matrices, as part of the largest. An
+/// order more divides the error by 3 to 4 where bodies lie on a line, by more elsewhere.
 fn calibrated<const D: usize>(tolerance: f64) -> (usize, f64) {
     let order = (-1.75 * tolerance.log10()).ceil() as usize + 2;
     (if D > 2 { order + 1 } else { order }, 0.03 * tolerance)

@@ -1,11 +1,11 @@
 //! Functions of several variables that hold data: what a formula calls as `psi(r, z)`.
 //!
-//! A measured or computed field is known on a grid, and no formula says what it is. A struct has such a function as one of
-//! its fields, of a type that implements [`ScalarField`], and its formulas call the field by its name. The attribute
-//! differentiates through the call by the chain rule.
+//! A measured or computed field is known on a grid, and no formula says what it is. A struct has such a
+//! function as one of its fields, of a type that implements [`ScalarField`], and its formulas call the field
+//! by its name. The attribute differentiates through the call by the chain rule.
 //!
-//! With the feature `alloc` there are functions of that kind: a [`Spline`] through the values of a table on a grid, which has
-//! one [`Axis`] for each variable, and a [`Table`] that reads the values from text.
+//! With the feature `alloc` there are functions of that kind: a [`Spline`] through the values of a table on
+//! a grid, which has one [`Axis`] for each variable, and a [`Table`] that reads the values from text.
 //!
 //! ```
 //! use dvi_core::field::{Axis, Expansion, ScalarField, Spline, Table};
@@ -62,9 +62,9 @@ pub struct Expansion<const D: usize, T = f64> {
 
 /// A function of `D` variables that has two continuous derivatives and may hold data.
 ///
-/// One evaluation gives the value with all derivatives, so that terms of a formula that need several of them at the same
-/// point share the work. The integrators rely on the derivatives being those of the value: the energy of a run drifts
-/// where they are not.
+/// One evaluation gives the value with all derivatives, so that terms of a formula that need several of them
+/// at the same point share the work. The integrators rely on the derivatives being those of the value: the
+/// energy of a run drifts where they are not.
 ///
 /// ```
 /// use dvi_core::field::{Expansion, ScalarField};
@@ -94,11 +94,12 @@ pub struct Expansion<const D: usize, T = f64> {
     note = "`dvi_core::field::ScalarField` says what such a function is"
 )]
 pub trait ScalarField<const D: usize> {
-    /// The value and the derivatives at `at`. Outside of the [domain](Self::domain) the value is not a number.
+    /// The value and the derivatives at `at`. Outside of the [domain](Self::domain) the value is not a
+    /// number.
     fn expansion<T: Scalar>(&self, at: [T; D]) -> Expansion<D, T>;
 
-    /// The least and the largest value of each variable at which the function is known. A variable without an end, or one
-    /// in which the function is periodic, is known from −∞ to ∞, and so is each by default.
+    /// The least and the largest value of each variable at which the function is known. A variable without
+    /// an end, or one in which the function is periodic, is known from −∞ to ∞, and so is each by default.
     fn domain(&self) -> [(f64, f64); D] {
         [(f64::NEG_INFINITY, f64::INFINITY); D]
     }

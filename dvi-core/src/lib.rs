@@ -1,8 +1,9 @@
 //! Variational integrators from Lagrangians, generated at compile time.
 //!
-//! You declare the Lagrangian of a mechanical system in an attribute on a struct, choose a [method](methods), and get a run:
-//! an iterator over results, each of them a state or the error that ended the run. The attribute differentiates the formula
-//! symbolically and generates the equations of a step with their exact Jacobian.
+//! You declare the Lagrangian of a mechanical system in an attribute on a struct, choose a
+//! [method](methods), and get a run: an iterator over results, each of them a state or the error that ended
+//! the run. The attribute differentiates the formula symbolically and generates the equations of a step with
+//! their exact Jacobian.
 //!
 //! ```
 //! use dvi_core::prelude::*;
@@ -32,9 +33,10 @@
 //!
 //! # What a variational integrator is
 //!
-//! The motion of a system with the Lagrangian $`L(q, \dot q, t)`$ makes the action stationary. A variational integrator
-//! replaces the action of each time step by a function of its two ends, the *discrete Lagrangian*, and makes the sum over
-//! all steps stationary. That gives the *discrete Euler–Lagrange equation*, which determines each point from the two before:
+//! The motion of a system with the Lagrangian $`L(q, \dot q, t)`$ makes the action stationary. A variational
+//! integrator replaces the action of each time step by a function of its two ends, the *discrete
+//! Lagrangian*, and makes the sum over all steps stationary. That gives the *discrete Euler–Lagrange
+//! equation*, which determines each point from the two before:
 //!
 //! ```math
 //! \delta \int L\, \mathrm{d}t = 0
@@ -42,9 +44,10 @@
 //! D_2 L_d(q_{k-1}, q_k) + D_1 L_d(q_k, q_{k+1}) = 0
 //! ```
 //!
-//! The steps of such a method preserve a symplectic form, and they conserve the momenta of the symmetries that $`L_d`$ has. As
-//! a rule their energy error does not add up from step to step, as that of a Runge–Kutta method does. This holds as long as
-//! the motion is regular and the steps are short against its periods.
+//! The steps of such a method preserve a symplectic form, and they conserve the momenta of the symmetries
+//! that $`L_d`$ has. As a rule their energy error does not add up from step to step, as that of a
+//! Runge–Kutta method does. This holds as long as the motion is regular and the steps are short against its
+//! periods.
 //!
 //! # Where to go on
 //!
@@ -58,12 +61,12 @@
 //!
 //! # The two kinds of Lagrangian
 //!
-//! - A **regular** Lagrangian has second-order equations of motion. Its states hold coordinates and velocities. It is declared
-//!   by [`lagrangian`](macro@lagrangian).
-//! - A **degenerate** Lagrangian is affine in the velocities, $`L = \alpha(q) \cdot \dot q - H(q)`$, as that of vortices, of
-//!   guiding centres, of predators and prey. Its equations of motion are of first order, $`\Omega \dot q = \nabla H`$ with
-//!   $`\Omega = (D\alpha)^\mathsf{T} - D\alpha`$. Its states hold coordinates only. It is declared by
-//!   [`degenerate_lagrangian`].
+//! - A **regular** Lagrangian has second-order equations of motion. Its states hold coordinates and
+//!   velocities. It is declared by [`lagrangian`](macro@lagrangian).
+//! - A **degenerate** Lagrangian is affine in the velocities, $`L = \alpha(q) \cdot \dot q - H(q)`$, as that
+//!   of vortices, of guiding centres, of predators and prey. Its equations of motion are of first order,
+//!   $`\Omega \dot q = \nabla H`$ with $`\Omega = (D\alpha)^\mathsf{T} - D\alpha`$. Its states hold
+//!   coordinates only. It is declared by [`degenerate_lagrangian`].
 //!
 //! # The modules
 //!
@@ -92,16 +95,20 @@
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
-//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random` and `serde`.
-//! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`; implies `std`.
-//! - `threads`: what is computed for many bodies is shared by threads: the generated sums over all pairs of 512 bodies and more, and
-//!   those of `fast-sums`. Results are bitwise the same for every number of threads. The threads are those of the pool of `rayon` that
-//!   a run is taken in. From outside of a pool they have to be woken for each sum, which pays for some 800 bodies and more. Implies
-//!   `std`.
-//! - `mpi`: ensembles over the processes of an MPI program; needs MPI on the system, and libclang to build. Implies `ensembles`.
+//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random` and
+//!   `serde`.
+//! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`;
+//!   implies `std`.
+//! - `threads`: what is computed for many bodies is shared by threads: the generated sums over all pairs of
+//!   512 bodies and more, and those of `fast-sums`. Results are bitwise the same for every number of
+//!   threads. The threads are those of the pool of `rayon` that a run is taken in. From outside of a pool
+//!   they have to be woken for each sum, which pays for some 800 bodies and more. Implies `std`.
+//! - `mpi`: ensembles over the processes of an MPI program; needs MPI on the system, and libclang to build.
+//!   Implies `ensembles`.
 //! - `random` (default): methods with noise.
-//! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the processor has, chosen when
-//!   the program runs. Without it, and in builds with debug assertions, those that the program is compiled for.
+//! - `simd` (default): what is computed in [lanes](scalar::Lanes) uses the widest instructions that the
+//!   processor has, chosen when the program runs. Without it, and in builds with debug assertions, those
+//!   that the program is compiled for.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -1,5 +1,6 @@
-//! The equations of motion, and what can be asked of a system [at one state](AtState); and what methods need beside them: the
-//! Legendre transform, matrices that are solved with, whether they keep their orientation, the phase point of a run on T*Q.
+//! The equations of motion, and what can be asked of a system [at one state](AtState); and what methods need
+//! beside them: the Legendre transform, matrices that are solved with, whether they keep their orientation,
+//! the phase point of a run on T*Q.
 
 mod at_state;
 pub(crate) mod combination;

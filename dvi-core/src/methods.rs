@@ -1,11 +1,12 @@
 //! The methods, and what one is to a run.
 //!
 //! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it, and
-//! [`Projected`] where it does not. For regular systems:
-//! [`Variational`], [`Galerkin`], [`Newmark`]. For systems with constraints: [`Constrained`] and [`Rattle`]. For systems with
-//! impacts: [`Impacts`]. For rotations and unit vectors as coordinates: [`Geodesic`]. To compare with, for both: [`Gauss`] and [`RungeKutta`] on the equations of
-//! motion. With friction and noise, for regular systems: `Langevin`. Around others: [`Composition`], [`EnergyLimit`], and
-//! [`General`] for a discrete Lagrangian that has no method.
+//! [`Projected`] where it does not. For regular systems: [`Variational`], [`Galerkin`], [`Newmark`]. For
+//! systems with constraints: [`Constrained`] and [`Rattle`]. For systems with impacts: [`Impacts`]. For
+//! rotations and unit vectors as coordinates: [`Geodesic`]. To compare with, for both: [`Gauss`] and
+//! [`RungeKutta`] on the equations of motion. With friction and noise, for regular systems: `Langevin`.
+//! Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that has no
+//! method.
 
 mod collocation;
 mod composition;
@@ -65,8 +66,8 @@ pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMem
 pub enum PreservedForm {
     /// None.
     Nothing,
-    /// The form of the equations of motion where it is constant: dq ∧ dp for a regular system; Ω = −dα on Q for a degenerate
-    /// one whose α is affine.
+    /// The form of the equations of motion where it is constant: dq ∧ dp for a regular system; Ω = −dα on Q
+    /// for a degenerate one whose α is affine.
     OmegaIfAffine,
     /// Ω = −dα on Q, of a degenerate system.
     Omega,
@@ -74,20 +75,21 @@ pub enum PreservedForm {
     Discrete,
     /// dq ∧ dp on T*Q.
     Canonical,
-    /// dq' ∧ dp, where q' differs from q by a term of first or second order in h that the method documents: its orbits are
-    /// those of a symplectic map in other coordinates.
+    /// dq' ∧ dp, where q' differs from q by a term of first or second order in h that the method documents:
+    /// its orbits are those of a symplectic map in other coordinates.
     Conjugate,
 }
 
 /// What is known of a method before it meets a system.
 pub trait Scheme {
-    /// The order of convergence on smooth systems whose Lagrangian does not depend on time. On others it is the
-    /// same, unless the documentation of the method says otherwise.
+    /// The order of convergence on smooth systems whose Lagrangian does not depend on time. On others it is
+    /// the same, unless the documentation of the method says otherwise.
     fn order(&self) -> usize;
     /// Whether a step with −h undoes a step with h.
     fn is_symmetric(&self) -> bool;
-    /// What is preserved on systems without friction or drives and, with constraints, where these are holonomic. Constraints of the
-    /// velocities leave no two-form to preserve, and a method does not know of them before it meets a system.
+    /// What is preserved on systems without friction or drives and, with constraints, where these are
+    /// holonomic. Constraints of the velocities leave no two-form to preserve, and a method does not know of
+    /// them before it meets a system.
     fn preserved_form(&self) -> PreservedForm;
 }
 
@@ -128,8 +130,8 @@ impl<T: Real> Clock<T> {
 
 /// What runs of a method carry.
 ///
-/// It is known for systems of either kind, so that a method meets the question whether it can step a system at one
-/// place only, where a run begins, and the user reads one error.
+/// It is known for systems of either kind, so that a method meets the question whether it can step a system
+/// at one place only, where a run begins, and the user reads one error.
 pub trait Carries<S: System, T: Real> {
     /// What a run carries from step to step besides the coordinates: momenta, guesses, work space.
     type Memory: Memory<T>;
@@ -269,8 +271,8 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
         false
     }
 
-    /// The discrete energy E_d = −∂L_d/∂h of a step, for L that does not depend on time (Marsden & West 2001, section 4.2); `None` if it
-    /// is not known. `work` is storage for a point and a velocity.
+    /// The discrete energy E_d = −∂L_d/∂h of a step, for L that does not depend on time (Marsden & West
+    /// 2001, section 4.2); `None` if it is not known. `work` is storage for a point and a velocity.
     fn discrete_energy(&self, _span: Span<'_, S, T>, _work: &mut [Vector<S, T>; 2]) -> Option<T> {
         None
     }
@@ -280,9 +282,10 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
         false
     }
 
-    /// An estimate of the error of the last step, which was taken from time `t` with length `h`, in units of `tolerance`, without allocation;
-    /// `None` if the method has none. It is of the order h<sup>p+1</sup> of the error, with the [order](Scheme::order) p. `usual` is the
-    /// length that steps had before: a step that begins at rest may have the error that is allowed in what its force makes in that time.
+    /// An estimate of the error of the last step, which was taken from time `t` with length `h`, in units of
+    /// `tolerance`, without allocation; `None` if the method has none. It is of the order h<sup>p+1</sup> of
+    /// the error, with the [order](Scheme::order) p. `usual` is the length that steps had before: a step
+    /// that begins at rest may have the error that is allowed in what its force makes in that time.
     ///
     /// # Errors
     /// [`StepFailure`] if the equations of motion cannot be evaluated where the step began.
@@ -299,11 +302,12 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     }
 }
 
-/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`] around it, it
-/// is a method.
+/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`]
+/// around it, it is a method.
 ///
 /// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
-/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives, if it has them all.
+/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives, if it has
+/// them all.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
@@ -317,15 +321,16 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// Checks the options of the method.
     ///
     /// # Errors
-    /// [`StartError::Parameter`] names the option that is out of range, [`StartError::Unsupported`] what does not go with
-    /// the system.
+    /// [`StartError::Parameter`] names the option that is out of range, [`StartError::Unsupported`] what
+    /// does not go with the system.
     fn admit(&self, system: &S) -> Result<(), StartError>;
 
     /// The discrete Lagrangian on `system`, with the storage that it needs.
     fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
 }
 
-/// A variational method that [`General`] and [`Constrained`] take steps of: all that these know of it is its discrete Lagrangian.
+/// A variational method that [`General`] and [`Constrained`] take steps of: all that these know of it is its
+/// discrete Lagrangian.
 ///
 /// [`EnergyLimit`] is none, because its limit would not be watched: it goes around them, as in
 /// `EnergyLimit { method: Constrained::new(…), limit }`.

@@ -3,8 +3,8 @@
 pub use crate::Number;
 pub use crate::error::Argument;
 pub use crate::scalar::pack::{
-    Sums, Waiting, add_to, all, first_unturned, load, packs, parameters, past_unturned, subtract_from, whole,
-    widest,
+    Sums, Waiting, add_to, all, first_unturned, load, packs, parameters, past_unturned, subtract_from,
+    whole, widest,
 };
 pub use crate::scalar::pairs::{are_many, halves};
 pub use crate::system::packable::{Packing, Shared};
@@ -75,9 +75,10 @@ pub fn constant<const D: usize, T: Scalar>() -> Expansion<D, T> {
     Expansion { value: T::lift(1.0), gradient: [zero; D], hessian: [[zero; D]; D] }
 }
 
-/// The argument to blame for an L that is not a number: the first that left its domain, if there is one, and if the other parts of
-/// the formulas are not to blame. Where a formula chooses between two branches (`has_choices`), the function may stand in the one
-/// that was not taken: then L is a number, or is none with a constant in place of the function either.
+/// The argument to blame for an L that is not a number: the first that left its domain, if there is one, and
+/// if the other parts of the formulas are not to blame. Where a formula chooses between two branches
+/// (`has_choices`), the function may stand in the one that was not taken: then L is a number, or is none
+/// with a constant in place of the function either.
 pub fn to_blame<T: Real>(
     outside: Option<OutsideError>,
     [value, with_constants]: [T; 2],

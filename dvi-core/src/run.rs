@@ -56,8 +56,8 @@ pub trait Run {
     /// The current time.
     fn time(&self) -> Self::Scalar;
 
-    /// The length h of the latest step; before the first, the one that it will have or, if a step control may reject it,
-    /// be tried with.
+    /// The length h of the latest step; before the first, the one that it will have or, if a step control
+    /// may reject it, be tried with.
     fn step_size(&self) -> Self::Scalar;
 
     /// Takes one step. Nothing is allocated.
@@ -82,8 +82,9 @@ pub trait Run {
         self.stepper().with_velocity(self.time(), |v| system.energy(q, v, self.time()))
     }
 
-    /// The power F·q' of the [forces](Lagrangian::applied_force) at the current state; zero if there are none. Not a number where
-    /// the velocities are not determined. [`Work`](crate::diagnostics::Work) is its integral.
+    /// The power F·q' of the [forces](Lagrangian::applied_force) at the current state; zero if there are
+    /// none. Not a number where the velocities are not determined. [`Work`](crate::diagnostics::Work) is its
+    /// integral.
     fn power(&self) -> Self::Scalar
     where
         <Self::System as System>::Kind: Rates<Self::System, Self::Scalar>,
@@ -161,7 +162,8 @@ pub trait Run {
     fn momentum(&self, index: usize) -> Option<Self::Scalar> {
         let Stepper { system, q, .. } = self.stepper();
         let value = |v: &[Self::Scalar]| system.momentum(index, q, v, self.time());
-        (index < Self::System::REPORT.momenta.len()).then(|| self.stepper().with_velocity(self.time(), value))
+        (index < Self::System::REPORT.momenta.len())
+            .then(|| self.stepper().with_velocity(self.time(), value))
     }
 
     /// The names and values of all declared momenta.
@@ -171,8 +173,8 @@ pub trait Run {
     }
 }
 
-/// A system, a method that steps it, and the point that they have reached. It does not know the time: the run that it
-/// is part of does.
+/// A system, a method that steps it, and the point that they have reached. It does not know the time: the
+/// run that it is part of does.
 pub struct Stepper<'a, S: System, M: Carries<S, T>, T: Real> {
     pub(crate) system: &'a S,
     pub(crate) method: M,

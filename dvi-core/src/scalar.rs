@@ -64,8 +64,8 @@ macro_rules! scalar {
             fn lift(value: f64) -> Self;
             /// `then` where `a` compares to `b` as asked, `otherwise` elsewhere.
             fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self;
-            /// A function of `self` that is constant between jumps, as an entry of a table is of the place where it is looked up:
-            /// `of` the value, without derivatives.
+            /// A function of `self` that is constant between jumps, as an entry of a table is of the place
+            /// where it is looked up: `of` the value, without derivatives.
             fn piecewise(self, of: impl Fn(f64) -> f64) -> Self;
             /// The angle of the point (`x`, `self`), in radians.
             fn atan2(self, x: Self) -> Self;
@@ -82,8 +82,8 @@ macro_rules! scalar {
                 let below = Self::choose(self, Comparison::Less, zero, -one, zero * self);
                 Self::choose(self, Comparison::Greater, zero, one, below)
             }
-            /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a quotient
-            /// where the term that it stands in has the limit 0.
+            /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a
+            /// quotient where the term that it stands in has the limit 0.
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn over_root(self, root: Self) -> Self {
                 let zero = Self::lift(0.0);
@@ -108,7 +108,8 @@ macro_rules! scalar {
             fn sinc(self) -> Self {
                 crate::scalar::sinc::bessel::<0, Self>(self)
             }
-            /// j₁(`self`)/`self` with the spherical Bessel function j₁: −1/`self` times the derivative of [`sinc`](Self::sinc).
+            /// j₁(`self`)/`self` with the spherical Bessel function j₁: −1/`self` times the derivative of
+            /// [`sinc`](Self::sinc).
             fn sinc1(self) -> Self {
                 crate::scalar::sinc::bessel::<1, Self>(self)
             }
@@ -225,8 +226,8 @@ pub trait Real: Scalar + RealField + Copy {}
 #[diagnostic::do_not_recommend]
 impl<T: RealField + Copy> Real for T {}
 
-/// Whether a number has parts that comparisons do not see, as the derivative of a dual number: it is larger than its digits
-/// need.
+/// Whether a number has parts that comparisons do not see, as the derivative of a dual number: it is larger
+/// than its digits need.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn carries_derivatives<T: Real>() -> bool {
     size_of::<T>() > if is_single::<T>() { size_of::<f32>() } else { size_of::<f64>() }

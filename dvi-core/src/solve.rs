@@ -1,4 +1,5 @@
-//! How the equation of an implicit step is solved: one loop for all iterations, and one order in which they are tried.
+//! How the equation of an implicit step is solved: one loop for all iterations, and one order in which they
+//! are tried.
 
 pub(crate) mod sizes;
 mod stopping;
@@ -19,20 +20,21 @@ pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdi
 /// The iteration that solves an implicit step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Solver {
-    /// Fixed point where it contracts fast, Newton where it does not: a step whose fixed-point iteration
-    /// is slow is done again by Newton, and so are the 31 steps after it before the fixed point is tried
-    /// anew. It holds storage for the Newton matrix, unless that would take more than 1024 numbers for each coordinate: there
-    /// it is [`NewtonKrylov`](Self::NewtonKrylov) that stands by.
+    /// Fixed point where it contracts fast, Newton where it does not: a step whose fixed-point iteration is
+    /// slow is done again by Newton, and so are the 31 steps after it before the fixed point is tried anew.
+    /// It holds storage for the Newton matrix, unless that would take more than 1024 numbers for each
+    /// coordinate: there it is [`NewtonKrylov`](Self::NewtonKrylov) that stands by.
     #[default]
     Automatic,
     /// One gradient per iteration, no matrix (nonlinear α: one matrix of first derivatives per step).
     FixedPoint,
-    /// The exact matrix of second derivatives, factored in each iteration, in the storage that its pattern needs.
+    /// The exact matrix of second derivatives, factored in each iteration, in the storage that its pattern
+    /// needs.
     Newton,
-    /// Newton's method from products of that matrix with vectors alone, by the generalised minimal residual method: for many
-    /// bodies that all depend on each other, whose matrix is too large. It fails where forces between neighbours are so stiff
-    /// that 200 products do not make the residual ten times smaller. Systems of fixed size are solved as by
-    /// [`Newton`](Self::Newton), and so are runs in dual numbers.
+    /// Newton's method from products of that matrix with vectors alone, by the generalised minimal residual
+    /// method: for many bodies that all depend on each other, whose matrix is too large. It fails where
+    /// forces between neighbours are so stiff that 200 products do not make the residual ten times smaller.
+    /// Systems of fixed size are solved as by [`Newton`](Self::Newton), and so are runs in dual numbers.
     NewtonKrylov,
 }
 
@@ -46,8 +48,8 @@ impl Solver {
         }
     }
 
-    /// The solver of a run in `T`: where numbers carry derivatives, of which a fixed point does not see whether they have
-    /// converged, Newton's method, which needs to know no more than when values have.
+    /// The solver of a run in `T`: where numbers carry derivatives, of which a fixed point does not see
+    /// whether they have converged, Newton's method, which needs to know no more than when values have.
     pub(crate) fn in_numbers<T: Real>(self) -> Self {
         match self {
             Self::Automatic | Self::NewtonKrylov if carries_derivatives::<T>() => Self::Newton,
@@ -61,8 +63,8 @@ impl Solver {
 pub(crate) enum Guess {
     /// What the last steps let expect, which is best as a rule.
     Extrapolated,
-    /// No increment: Newton's first iterate is then the linearly implicit step, which is safer where steps are so long
-    /// that extrapolation is off.
+    /// No increment: Newton's first iterate is then the linearly implicit step, which is safer where steps
+    /// are so long that extrapolation is off.
     Zero,
 }
 
@@ -162,8 +164,8 @@ pub(crate) fn repeat<T: Real>(
     result
 }
 
-/// How the implicit steps of a run are solved, decided when it begins: by the fixed point, by Newton, or by Newton
-/// where the fixed point fails.
+/// How the implicit steps of a run are solved, decided when it begins: by the fixed point, by Newton, or by
+/// Newton where the fixed point fails.
 #[derive(Debug)]
 pub(crate) struct Ladder<N> {
     newton: Option<Newton<N>>,
@@ -188,8 +190,8 @@ impl<N> Ladder<N> {
         Self { newton: Some(Newton { storage: storage(), always, steps_left: 0 }) }
     }
 
-    /// Solves the step of `attempt`: by the fixed point where this run has one, and by Newton where it has not or that
-    /// fails; by Newton a second time from another guess where it fails too.
+    /// Solves the step of `attempt`: by the fixed point where this run has one, and by Newton where it has
+    /// not or that fails; by Newton a second time from another guess where it fails too.
     ///
     /// # Errors
     /// That of the last attempt.

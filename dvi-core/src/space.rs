@@ -5,9 +5,9 @@
 //! [`Fixed`] every length is a constant, and what is small lives on the stack; with [`RunTime`], and with
 //! what is large, each array is allocated once, before the first step.
 //!
-//! A fixed space is `BLOCKS` blocks of `N` coordinates, `SINGLES` of which have one coordinate only. Stable Rust can write
-//! `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so that is the
-//! storage in a value, and the entries beyond the dimension are never seen.
+//! A fixed space is `BLOCKS` blocks of `N` coordinates, `SINGLES` of which have one coordinate only. Stable
+//! Rust can write `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so
+//! that is the storage in a value, and the entries beyond the dimension are never seen.
 
 pub(crate) mod elimination;
 pub(crate) mod inertia;
@@ -27,7 +27,9 @@ use core::ops::{Deref, DerefMut};
 
 use crate::{Real, Scalar};
 
-pub use linear::{CoupledSolver, FixedCoupled, FixedSolver, LinearEquations, LinearSolver, NodeSum, Storing};
+pub use linear::{
+    CoupledSolver, FixedCoupled, FixedSolver, LinearEquations, LinearSolver, NodeSum, Storing,
+};
 #[cfg(feature = "alloc")]
 pub use linear::{RunTimeCoupled, RunTimeSolver};
 pub use room::{FewInPlace, InPlace, Room, Store};
@@ -82,11 +84,11 @@ pub trait Space: Copy + Debug + PartialEq {
     ) -> Self::Rows<C, T>;
     /// A matrix of zeros.
     fn matrix<T: Scalar>(self) -> Self::Matrix<T>;
-    /// A matrix of zeros with room for the entries in the rows and columns, below the dimension, that `entries` visits. Others
-    /// may not be added to; see [`SquareMatrix::cleared`].
+    /// A matrix of zeros with room for the entries in the rows and columns, below the dimension, that
+    /// `entries` visits. Others may not be added to; see [`SquareMatrix::cleared`].
     fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T>;
-    /// A solver of linear equations with these entries, as of [`square`](Self::square). Where they are many and lie far apart, it
-    /// keeps none of them.
+    /// A solver of linear equations with these entries, as of [`square`](Self::square). Where they are many
+    /// and lie far apart, it keeps none of them.
     fn linear<T: Real>(
         self,
         storing: Storing,

@@ -1,11 +1,11 @@
 //! What the compiler knows of a system, as traits.
 //!
-//! [`Lagrangian`] carries any L(q, v, t): its value, its first derivatives, and one weighted sum of
-//! its second derivatives, which is all that a discrete Lagrangian of the quadrature family needs
-//! (its D1, D2, D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to
-//! L = α(q)·v − H(q): the one-form, the Hamiltonian, and products and solves with Dα.
-//! [`NondegenerateLagrangian`] adds what is special to an L whose mass matrix ∂²L/∂v∂v is regular: the force,
-//! and the structure of that matrix. [`HolonomicLagrangian`] adds the constraints of a system that has some, [`UnilateralLagrangian`] its
+//! [`Lagrangian`] carries any L(q, v, t): its value, its first derivatives, and one weighted sum of its
+//! second derivatives, which is all that a discrete Lagrangian of the quadrature family needs (its D1, D2,
+//! D1D1, D1D2 and D2D2 are such sums). [`DegenerateLagrangian`] adds what is special to L = α(q)·v − H(q):
+//! the one-form, the Hamiltonian, and products and solves with Dα. [`NondegenerateLagrangian`] adds what is
+//! special to an L whose mass matrix ∂²L/∂v∂v is regular: the force, and the structure of that matrix.
+//! [`HolonomicLagrangian`] adds the constraints of a system that has some, [`UnilateralLagrangian`] its
 //! impacts; [`ManifoldLagrangian`] has rotations or unit vectors among its coordinates.
 //!
 //! The attribute macros implement these traits. Slices are flat and of length `dimension`, in the
@@ -68,7 +68,8 @@ pub trait State<T: Scalar>: Sized {
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
-    fn write(&self, block_len: impl Fn(usize) -> usize, q: &mut [T], v: &mut [T]) -> Result<(), LengthError>;
+    fn write(&self, block_len: impl Fn(usize) -> usize, q: &mut [T], v: &mut [T])
+    -> Result<(), LengthError>;
     /// Reads the coordinates from `q` and the velocities from `v`, both in the order of declaration.
     fn read(block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) -> Self;
 }
@@ -107,7 +108,8 @@ pub trait System {
     type State<T: Scalar>: State<T> + Clone + Debug;
     /// What the compiler saw: formulas, structure, operation counts, sparsity.
     const REPORT: Report;
-    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`], or regular with constraints, with impacts, or on a [`Manifold`].
+    /// Whether the Lagrangian is [`Degenerate`] or [`Regular`], or regular with constraints, with impacts,
+    /// or on a [`Manifold`].
     type Kind: Kind;
     /// Whether the mass matrix ∂²L/∂v∂v is regular, so that states carry velocities.
     const REGULAR: bool = <Self::Kind as Kind>::REGULAR;
@@ -141,8 +143,8 @@ pub trait System {
     /// [`IndexError`] names the first array that is too short, and the index.
     fn check(&self) -> Result<(), IndexError>;
 
-    /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …: coordinates in the order of declaration, then
-    /// the velocities of a regular system.
+    /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …: coordinates in the order of
+    /// declaration, then the velocities of a regular system.
     fn names(&self) -> impl Iterator<Item = Name>
     where
         Self: Sized,
@@ -167,8 +169,9 @@ pub trait System {
 
 /// The Lagrangian L(q, v, t) of a system, in numbers of type `T`.
 ///
-/// A system whose parameters are Rust's numbers has it for every [`Scalar`]. One that is generic over the type of its
-/// parameters, `struct Kepler<P = f64> { mu: P }`, has it where that type is a [`Parameter`](crate::Parameter) of `T`.
+/// A system whose parameters are Rust's numbers has it for every [`Scalar`]. One that is generic over the
+/// type of its parameters, `struct Kepler<P = f64> { mu: P }`, has it where that type is a
+/// [`Parameter`](crate::Parameter) of `T`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system that can be computed in `{T}`",
     label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`, or a parameter that is no number",
@@ -177,11 +180,13 @@ pub trait System {
 pub trait Lagrangian<T: Scalar = f64>: System {
     /// L(q, v, t).
     fn lagrangian(&self, q: &[T], v: &[T], t: T) -> T;
-    /// Sets `l_q` to ∂L/∂q + F, where F is the [force](Self::applied_force) that acts on the system, and `l_v` to ∂L/∂v.
+    /// Sets `l_q` to ∂L/∂q + F, where F is the [force](Self::applied_force) that acts on the system, and
+    /// `l_v` to ∂L/∂v.
     fn gradient(&self, q: &[T], v: &[T], t: T, l_q: &mut [T], l_v: &mut [T]);
-    /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j),
-    /// w.qq ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ. With a force F on the system ∂L/∂qⁱ + Fᵢ stands
-    /// in the place of ∂L/∂qⁱ: w.qq ∂Fᵢ/∂qʲ + w.qv ∂Fᵢ/∂vʲ comes with it, and none of the matrices is symmetric.
+    /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j), w.qq
+    /// ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ. With a force F on the system
+    /// ∂L/∂qⁱ + Fᵢ stands in the place of ∂L/∂qⁱ: w.qq ∂Fᵢ/∂qʲ + w.qv ∂Fᵢ/∂vʲ comes with it, and none of the
+    /// matrices is symmetric.
     #[allow(clippy::too_many_arguments)]
     fn linearize<K: Sink<T>>(
         &self,
@@ -194,19 +199,20 @@ pub trait Lagrangian<T: Scalar = f64>: System {
         sink: &mut K,
     );
 
-    /// Sets `out` to the force F(q, v, t) that `force = …` or `force(x) = …` declares, one component for each coordinate, in units
-    /// of energy over those of the coordinate; zero if none is declared.
+    /// Sets `out` to the force F(q, v, t) that `force = …` or `force(x) = …` declares, one component for
+    /// each coordinate, in units of energy over those of the coordinate; zero if none is declared.
     ///
-    /// By the principle of Lagrange and d'Alembert, δ∫L dt + ∫F·δq dt = 0, the equations of motion are
-    /// d/dt ∂L/∂v = ∂L/∂q + F; of a degenerate system, Ω q' = ∇H − F + ∂α/∂t (Marsden & West 2001, section 3.1). So F stands
-    /// wherever ∂L/∂q does, in the motion and in the discrete equations of every method: with L_d come the forces that
-    /// the same rule makes of F.
+    /// By the principle of Lagrange and d'Alembert, δ∫L dt + ∫F·δq dt = 0, the equations of motion are d/dt
+    /// ∂L/∂v = ∂L/∂q + F; of a degenerate system, Ω q' = ∇H − F + ∂α/∂t (Marsden & West 2001, section 3.1).
+    /// So F stands wherever ∂L/∂q does, in the motion and in the discrete equations of every method: with
+    /// L_d come the forces that the same rule makes of F.
     fn applied_force(&self, _q: &[T], _v: &[T], _t: T, out: &mut [T]) {
         out.fill(T::lift(0.0));
     }
 
-    /// Whether L or a force is not a number at this point because a function that holds data is evaluated outside of its
-    /// [domain](crate::ScalarField::domain), and which argument of which function: the first one that is.
+    /// Whether L or a force is not a number at this point because a function that holds data is evaluated
+    /// outside of its [domain](crate::ScalarField::domain), and which argument of which function: the first
+    /// one that is.
     fn outside(&self, _q: &[T], _v: &[T], _t: T) -> Option<OutsideError>
     where
         T: Real,
@@ -244,19 +250,22 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degenerate> {
     /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
     const AFFINE: bool;
-    /// Whether Dα couples each coordinate to exactly one other, its conjugate, and to nothing else; then
-    /// a Dα + b (Dα)ᵀ is solved by one division per coordinate. True of blocks of coordinates that are coupled index by
-    /// index; of other couplings it may be false, and the general solve is taken.
+    /// Whether Dα couples each coordinate to exactly one other, its conjugate, and to nothing else; then a
+    /// Dα + b (Dα)ᵀ is solved by one division per coordinate. True of blocks of coordinates that are coupled
+    /// index by index; of other couplings it may be false, and the general solve is taken.
     const MATCHING: bool;
     /// Whether Ω = (Dα)ᵀ − Dα couples each coordinate to exactly one other. Weaker than
-    /// [`MATCHING`](Self::MATCHING): diagonal entries of Dα cancel in Ω. True and false of the same couplings.
+    /// [`MATCHING`](Self::MATCHING): diagonal entries of Dα cancel in Ω. True and false of the same
+    /// couplings.
     const CANONICAL: bool;
 
     /// H(q, t).
     fn hamiltonian(&self, q: &[T], t: T) -> T;
-    /// Sets `out` to ∇H(q, t) − F(q, t), with the [force](Lagrangian::applied_force) that acts on the system.
+    /// Sets `out` to ∇H(q, t) − F(q, t), with the [force](Lagrangian::applied_force) that acts on the
+    /// system.
     fn hamiltonian_gradient(&self, q: &[T], t: T, out: &mut [T]);
-    /// Sets `out` to ∇H(q, t) − F(q, t) + ∂α/∂t: the right side of Ω q' = ∇H − F + ∂α/∂t, the equation of the flow.
+    /// Sets `out` to ∇H(q, t) − F(q, t) + ∂α/∂t: the right side of Ω q' = ∇H − F + ∂α/∂t, the equation of
+    /// the flow.
     fn flow_source(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets `out` to the components of α(q, t).
     fn one_form(&self, q: &[T], t: T, out: &mut [T]);
@@ -283,27 +292,30 @@ pub struct TimeTransform<T> {
     pub hamiltonian: T,
 }
 
-/// A system whose time is transformed, by `time_transform = ρ` in its attribute: dt = ρ(q, t) dτ with a positive function ρ.
+/// A system whose time is transformed, by `time_transform = ρ` in its attribute: dt = ρ(q, t) dτ with a
+/// positive function ρ.
 ///
-/// A run takes steps of equal length in τ, so they are short in the physical time t where ρ is small. To be variational, the
-/// system has two coordinates more, `t` and `energy`, the conjugate of the time:
+/// A run takes steps of equal length in τ, so they are short in the physical time t where ρ is small. To be
+/// variational, the system has two coordinates more, `t` and `energy`, the conjugate of the time:
 ///
 /// ```math
 /// L'(q, t, e) = \alpha(q, t) \cdot q' - e\, t' - \rho(q, t)\, (H(q, t) - e), \qquad ' = \mathrm{d}/\mathrm{d}\tau
 /// ```
 ///
-/// Its equations of motion are t' = ρ, e' = ρ ∂H/∂t and, where H = e, those of L = α·q̇ − H times ρ (Hairer, Lubich & Wanner 2006,
-/// section VIII.2.1, after Poincaré and Sundman). If H does not depend on time, `energy` is a constant of the run, and L' is
-/// α·q' − ρ (H − H₀) with H₀ = `energy`. As `t` is a coordinate, the scheme computes it to its own order. L' is in the class of
-/// one-step schemes if L is.
+/// Its equations of motion are t' = ρ, e' = ρ ∂H/∂t and, where H = e, those of L = α·q̇ − H times ρ (Hairer,
+/// Lubich & Wanner 2006, section VIII.2.1, after Poincaré and Sundman). If H does not depend on time,
+/// `energy` is a constant of the run, and L' is α·q' − ρ (H − H₀) with H₀ = `energy`. As `t` is a
+/// coordinate, the scheme computes it to its own order. L' is in the class of one-step schemes if L is.
 ///
 /// A run is to go on from its checkpoint, with another or a negative step by
-/// [`Checkpoint::with_step_size`](crate::run::Checkpoint::with_step_size) if its method is not one of two steps. A run that begins at a state of another has to begin with
-/// the energy of that state, and is another motion by the error of the scheme. Diagnostics that speak of time mean τ. `t` and
-/// `energy` stand in the equations of a step beside the coordinates, so that units are needed in which their numbers are of
+/// [`Checkpoint::with_step_size`](crate::run::Checkpoint::with_step_size) if its method is not one of two
+/// steps. A run that begins at a state of another has to begin with the energy of that state, and is another
+/// motion by the error of the scheme. Diagnostics that speak of time mean τ. `t` and `energy` stand in the
+/// equations of a step beside the coordinates, so that units are needed in which their numbers are of
 /// moderate size: in units of time 10⁹ times too long, the matrices of a comet's steps count as singular.
 ///
-/// In such a run [`Run::energy`](crate::run::Run::energy) is ρ (H − e): zero on the motion, and in a run the error of H times ρ.
+/// In such a run [`Run::energy`](crate::run::Run::energy) is ρ (H − e): zero on the motion, and in a run the
+/// error of H times ρ.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -336,8 +348,8 @@ pub trait TimeTransformed<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degene
     /// The state with `energy` set to H(q, t), as a run begins.
     ///
     /// # Errors
-    /// [`StartError`], as the start of a run, if an array of the system or of the state has the wrong length, a coordinate
-    /// other than `energy` is not finite, or H or ρ is not.
+    /// [`StartError`], as the start of a run, if an array of the system or of the state has the wrong
+    /// length, a coordinate other than `energy` is not finite, or H or ρ is not.
     fn with_energy(&self, state: Self::State<T>) -> Result<Self::State<T>, StartError>
     where
         Self: Sized,
@@ -347,18 +359,20 @@ pub trait TimeTransformed<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degene
     }
 }
 
-/// A system in the class of one-step schemes: there is a half y of the coordinates along which α has no component, so that
-/// α = ϑ(x, y)·dx with the other half x (Ellison, Finn, Burby, Kraus, Qin & Tang 2018). Then Ω is regular where ∂ϑ/∂y is.
+/// A system in the class of one-step schemes: there is a half y of the coordinates along which α has no
+/// component, so that α = ϑ(x, y)·dx with the other half x (Ellison, Finn, Burby, Kraus, Qin & Tang 2018).
+/// Then Ω is regular where ∂ϑ/∂y is.
 ///
-/// The attribute implements it where the formula of α shows that. The class is a property of the formula: α and α + dF have
-/// the same motion, and one may be in the class and the other not.
+/// The attribute implements it where the formula of α shows that. The class is a property of the formula: α
+/// and α + dF have the same motion, and one may be in the class and the other not.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and one-step schemes are for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
     note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
 )]
 pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
-    /// The place of a coordinate, below the dimension n, in the order (x, y): below n/2 if α has a component along it.
+    /// The place of a coordinate, below the dimension n, in the order (x, y): below n/2 if α has a component
+    /// along it.
     fn place(&self, coordinate: usize) -> usize;
 }
 

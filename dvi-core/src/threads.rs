@@ -1,12 +1,14 @@
 //! Work that is cut into parts, which threads share, with the feature `threads`.
 //!
-//! Each number is computed by one part, in an order that no cut changes: so results are bitwise the same for every number of threads.
+//! Each number is computed by one part, in an order that no cut changes: so results are bitwise the same for
+//! every number of threads.
 
 /// Parts for each thread: some are done sooner than others.
 #[cfg(feature = "threads")]
 const SHARES: usize = 8;
 
-/// The largest part that is not cut, of work of the size `whole`. Parts smaller than `least` are not worth handing over.
+/// The largest part that is not cut, of work of the size `whole`. Parts smaller than `least` are not worth
+/// handing over.
 #[cfg(feature = "threads")]
 pub(crate) fn largest_part(whole: usize, least: usize) -> usize {
     let threads = rayon::current_num_threads();

@@ -1,4 +1,5 @@
-//! Sums over all pairs of many bodies: bitwise the same for every number of threads and lanes, and those by hand in another order.
+//! Sums over all pairs of many bodies: bitwise the same for every number of threads and lanes, and those by
+//! hand in another order.
 
 use core::cell::Cell;
 use core::f64::consts::PI;
@@ -111,7 +112,8 @@ fn gradient_in_lanes() {
     for n in [511, 541] {
         let system = Vortices::new(n);
         let moved = |lane: usize, i: usize| number(20_000 + i) + 0.02 * (lane * i % 7) as f64;
-        let q: Vec<_> = (0..2 * n).map(|i| Lanes::<W>(core::array::from_fn(|lane| moved(lane, i)))).collect();
+        let q: Vec<_> =
+            (0..2 * n).map(|i| Lanes::<W>(core::array::from_fn(|lane| moved(lane, i)))).collect();
         let mut together = vec![Lanes::all(0.0); 2 * n];
         system.hamiltonian_gradient(&q, Lanes::all(0.0), &mut together);
         for lane in 0..W {

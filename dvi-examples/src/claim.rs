@@ -74,7 +74,12 @@ impl Claim {
     }
 
     /// Adds a check; after [`instead`](Self::instead), to the list of what holds instead.
-    pub fn check(mut self, quantity: impl Into<String>, value: impl Into<Option<f64>>, bound: Bound) -> Self {
+    pub fn check(
+        mut self,
+        quantity: impl Into<String>,
+        value: impl Into<Option<f64>>,
+        bound: Bound,
+    ) -> Self {
         let check = Check::new(quantity, value, bound);
         match &mut self.instead {
             Some((_, checks)) => checks.push(check),

@@ -1,6 +1,7 @@
 //! How far a conserved quantity is from its initial value in the course of a run, and whether that grows.
 //!
-//! An error that stays bounded is as large in the beginning of a run as in all of it; one that drifts is not.
+//! An error that stays bounded is as large in the beginning of a run as in all of it; one that drifts is
+//! not.
 
 use crate::claim::larger;
 use crate::figure::Envelope;
@@ -19,7 +20,8 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The deviation in a run up to time `end`, with an envelope of so many intervals; the beginning is up to time `early`.
+    /// The deviation in a run up to time `end`, with an envelope of so many intervals; the beginning is up
+    /// to time `early`.
     pub fn new(end: f64, intervals: usize, early: f64) -> Self {
         let envelope = Envelope::new(end, intervals);
         Self { envelope, largest: 0.0, largest_early: 0.0, last: 0.0, early }

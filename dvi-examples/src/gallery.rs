@@ -17,7 +17,8 @@ pub struct Experiment {
     /// What `--only` takes, and what its files are called.
     pub name: &'static str,
     pub title: &'static str,
-    /// Its rough share of the time that all take, in seconds of a full run: what the time left is computed from.
+    /// Its rough share of the time that all take, in seconds of a full run: what the time left is computed
+    /// from.
     pub share: f64,
     pub run: fn(&Job<'_>) -> Result<Outcome>,
 }

@@ -104,7 +104,8 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
-    /// Like [`repeat`](Self::repeat), for runs that may be lost: the first failure ends them and is what is returned.
+    /// Like [`repeat`](Self::repeat), for runs that may be lost: the first failure ends them and is what is
+    /// returned.
     pub fn repeat_until_lost(
         &self,
         count: u64,

@@ -10,8 +10,8 @@ use crate::experiments;
 /// Reproduces the published experiments on variational integrators.
 ///
 /// Without options all experiments run at full length. Each writes a figure (SVG and PNG of the same
-/// picture) and its data (CSV); at the end `summary.md` says, claim by claim, what the paper says, what
-/// was measured, and whether it was reproduced, and `summary.csv` says the same to programs. A run replaces the
+/// picture) and its data (CSV); at the end `summary.md` says, claim by claim, what the paper says, what was
+/// measured, and whether it was reproduced, and `summary.csv` says the same to programs. A run replaces the
 /// parts of its own experiments in the summary of its folder and keeps the others.
 #[derive(Debug, Parser)]
 #[command(name = "dvi-examples", version, after_help = AFTER_HELP)]

@@ -100,7 +100,12 @@ impl Table {
     {
         let cells: Vec<String> = cells.into_iter().map(|cell| cell.text()).collect();
         // The writer itself notices only after it has written part of the row.
-        ensure!(cells.len() == self.columns, "a row of {} cells in a table of {}", cells.len(), self.columns);
+        ensure!(
+            cells.len() == self.columns,
+            "a row of {} cells in a table of {}",
+            cells.len(),
+            self.columns
+        );
         self.writer.write_record(&cells).context("a table could not be written")
     }
 
@@ -111,7 +116,8 @@ impl Table {
     }
 }
 
-/// A line, broken between words into lines of at most `width` letters; those that follow are indented by two more.
+/// A line, broken between words into lines of at most `width` letters; those that follow are indented by two
+/// more.
 pub fn wrapped(words: &str, indent: usize, width: Option<usize>) -> String {
     let width = width.unwrap_or(usize::MAX);
     let (mut text, mut used) = (" ".repeat(indent), indent);
@@ -133,7 +139,8 @@ pub fn wrapped(words: &str, indent: usize, width: Option<usize>) -> String {
     text
 }
 
-/// When a run is made, in words; `SOURCE_DATE_EPOCH` in the environment, in seconds since 1970, stands for the clock.
+/// When a run is made, in words; `SOURCE_DATE_EPOCH` in the environment, in seconds since 1970, stands for
+/// the clock.
 pub fn now() -> String {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
     let clock = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());

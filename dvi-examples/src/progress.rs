@@ -1,7 +1,7 @@
 //! How far the experiments are: bars on a terminal, plain lines in regular intervals elsewhere.
 //!
-//! A terminal shows a bar for each experiment that runs, one for all, and the time left; an experiment that has
-//! ended leaves a line. The bars are as wide as the terminal allows.
+//! A terminal shows a bar for each experiment that runs, one for all, and the time left; an experiment that
+//! has ended leaves a line. The bars are as wide as the terminal allows.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};

@@ -1,7 +1,7 @@
 //! What the runs of a folder have found, in a table that programs can read and later runs complete.
 //!
-//! A part is one experiment: the form and the time of its run, how it ended, and every number that its verdicts
-//! rest on. A run replaces the parts of its own experiments and keeps the others.
+//! A part is one experiment: the form and the time of its run, how it ended, and every number that its
+//! verdicts rest on. A run replaces the parts of its own experiments and keeps the others.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -53,8 +53,8 @@ impl Part {
     }
 }
 
-/// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of `names`. What
-/// did not start replaces nothing.
+/// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of
+/// `names`. What did not start replaces nothing.
 pub fn merged(old: Vec<Part>, new: Vec<Part>, names: &[&str]) -> Vec<Part> {
     let mut parts = Vec::new();
     for name in names {
@@ -68,7 +68,8 @@ pub fn merged(old: Vec<Part>, new: Vec<Part>, names: &[&str]) -> Vec<Part> {
 /// A row of the table; the columns that a kind of row does not use are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Row {
-    /// `complete`, `interrupted`, `not started` or `failed` begin a part; `claim`, `check`, `instead`, `reference` and `note`.
+    /// `complete`, `interrupted`, `not started` or `failed` begin a part; `claim`, `check`, `instead`,
+    /// `reference` and `note`.
     kind: String,
     place: String,
     text: String,

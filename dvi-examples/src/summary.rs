@@ -1,7 +1,7 @@
 //! The summary: claim by claim, what the paper says, what was measured, and the verdict.
 //!
-//! Claims decide on what a paper says, or on what we say beyond it. Regression checks compare a number with that of
-//! an independent program or of earlier runs; they decide on nothing and are counted apart.
+//! Claims decide on what a paper says, or on what we say beyond it. Regression checks compare a number with
+//! that of an independent program or of earlier runs; they decide on nothing and are counted apart.
 
 use std::fmt::Write as _;
 

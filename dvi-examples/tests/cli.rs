@@ -77,8 +77,8 @@ fn verdicts(table: &str) -> BTreeMap<[String; 3], String> {
     claims.map(|row| ([0, 4, 5].map(|i| row[i].to_owned()), row[10].to_owned())).collect()
 }
 
-/// The table of the full run that the README quotes has the claims of this program, and the same verdicts wherever
-/// the short form decides.
+/// The table of the full run that the README quotes has the claims of this program, and the same verdicts
+/// wherever the short form decides.
 fn same_claims(short: &str) {
     let (short, full) = (verdicts(short), verdicts(include_str!("../full-run.csv")));
     assert!(short.keys().eq(full.keys()), "full-run.csv is out of date: see tests/readme");
@@ -133,7 +133,8 @@ fn a_run_completes_the_summary_of_its_folder() {
         assert_eq!(output.status.code(), Some(0));
     }
     let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
-    let section = |name: &str| summary.split("\n## ").find(|part| part.starts_with(name)).unwrap_or_default();
+    let section =
+        |name: &str| summary.split("\n## ").find(|part| part.starts_with(name)).unwrap_or_default();
     assert!(section("momenta: ").contains("The short form, 1970-01-01 00:00 UTC."), "{summary}");
     assert!(section("barnes: ").contains("The short form, 1970-01-02 00:00 UTC."), "{summary}");
     assert_eq!(summary.matches("\n## ").count(), 2, "{summary}");

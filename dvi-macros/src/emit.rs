@@ -86,8 +86,8 @@ impl Emitter<'_> {
         self.body_of(routine, false)
     }
 
-    /// The body of a function that returns the argument to blame if the value of `routine` is no number because a function of
-    /// several variables is not known.
+    /// The body of a function that returns the argument to blame if the value of `routine` is no number
+    /// because a function of several variables is not known.
     pub(crate) fn guarded(&self, routine: &Routine) -> TokenStream {
         let (krate, value, body) = (self.krate(), self.body(routine), self.body_of(routine, true));
         let has_choices = (0..routine.code.len())

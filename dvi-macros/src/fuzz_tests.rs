@@ -182,8 +182,9 @@ fn hamiltonian(formula: &str) -> String {
         "coordinates(x[n], y[n]), lagrangian = sum(0..n, |j| dot(x[j]) * dot(y[j])) + dot(x[0]) * ({formula})"
     );
     expand_text(Kind::Regular, regular, system().to_string());
-    let attribute =
-        format!("coordinates(x[n], y[n]), one_form = sum(0..n, |j| x[j] * d(y[j])), hamiltonian = {formula}");
+    let attribute = format!(
+        "coordinates(x[n], y[n]), one_form = sum(0..n, |j| x[j] * d(y[j])), hamiltonian = {formula}"
+    );
     expand_text(Kind::Degenerate, attribute, system().to_string())
 }
 

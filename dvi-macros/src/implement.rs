@@ -210,7 +210,8 @@ fn scalar_fields(emitter: &Emitter<'_>) -> impl Iterator<Item = TokenStream> {
     })
 }
 
-/// The generics of the system and the numbers `__T` that it is computed in: those that its parameters can be lifted to.
+/// The generics of the system and the numbers `__T` that it is computed in: those that its parameters can be
+/// lifted to.
 fn over_numbers(emitter: &Emitter<'_>) -> Generics {
     let (krate, model) = (emitter.krate(), emitter.model);
     let mut generics = model.item.generics.clone();

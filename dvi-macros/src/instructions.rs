@@ -128,6 +128,9 @@ impl Instructions {
                     .for_each(|operand| seen[operand.0 as usize] = true);
             }
         }
-        (0..seen.len()).filter(|position| seen[*position]).map(|position| Register(position as u32)).collect()
+        (0..seen.len())
+            .filter(|position| seen[*position])
+            .map(|position| Register(position as u32))
+            .collect()
     }
 }

@@ -125,7 +125,9 @@ impl Model {
             if reserved().any(|reserved| name == reserved) {
                 errors.push(
                     name,
-                    format!("`{name}` has a meaning of its own in formulas; give this function another name"),
+                    format!(
+                        "`{name}` has a meaning of its own in formulas; give this function another name"
+                    ),
                 );
             }
         }
@@ -215,7 +217,8 @@ impl Model {
             });
             (index, size.to_token_stream().to_string().replace("r#", "").replace(' ', ""))
         });
-        let array = factor.coordinates().map_or(array, |size| Some((Index::literal(size), size.to_string())));
+        let array =
+            factor.coordinates().map_or(array, |size| Some((Index::literal(size), size.to_string())));
         self.blocks.push(Block { name: name.clone(), array, factor });
     }
 
@@ -258,8 +261,8 @@ impl Model {
         self.declared_scalar_fields.iter().any(|field| field.name == *name)
     }
 
-    /// The function of several variables of this name, called with so many arguments; `None` if there is none, and another
-    /// number of arguments if it was called with that before.
+    /// The function of several variables of this name, called with so many arguments; `None` if there is
+    /// none, and another number of arguments if it was called with that before.
     pub(crate) fn scalar_field(&mut self, name: &Ident, arity: usize) -> Option<Result<u32, usize>> {
         if let Some(known) = self.scalar_fields.iter().position(|field| *name == field.text) {
             let before = self.scalar_fields[known].arity;

@@ -56,8 +56,8 @@ pub(crate) enum Variable {
     Velocity,
 }
 
-/// A generalised force F: its components, each at the coordinate that it acts on. By the principle of Lagrange and d'Alembert,
-/// d/dt ∂L/∂v = ∂L/∂q + F: it stands wherever ∂L/∂q does.
+/// A generalised force F: its components, each at the coordinate that it acts on. By the principle of
+/// Lagrange and d'Alembert, d/dt ∂L/∂v = ∂L/∂q + F: it stands wherever ∂L/∂q does.
 pub(crate) type Force = Vec<Contribution>;
 
 /// What is generated for every system.
@@ -230,7 +230,8 @@ fn rates(graph: &mut Graph, statements: &[Statement]) -> Vec<Statement> {
     statements.iter().filter_map(rate).collect()
 }
 
-/// `value` on (row, column) and, with the other weight, on (column, row): on the diagonal with the sum of both.
+/// `value` on (row, column) and, with the other weight, on (column, row): on the diagonal with the sum of
+/// both.
 fn mirrored_pair(
     graph: &mut Graph,
     entry: &SecondContribution,

@@ -136,7 +136,9 @@ impl<'a> Scheduler<'a> {
         for register in needed {
             stages[register.0 as usize] = match self.code.get(*register) {
                 Instruction::Reduce(_, _, body) => 1 + self.entry(body.register, &stages),
-                other => other.operands().iter().map(|operand| stages[operand.0 as usize]).max().unwrap_or(0),
+                other => {
+                    other.operands().iter().map(|operand| stages[operand.0 as usize]).max().unwrap_or(0)
+                }
             };
         }
         stages

@@ -132,7 +132,8 @@ impl Kind {
     fn meant(self, keyword: &str) -> String {
         let other = other_word(keyword);
         if self == Self::Degenerate && ["kinetic", "potential", "T", "V", "U"].contains(&keyword) {
-            return "write `one_form = …` and `hamiltonian = …`, or all of L as `lagrangian = …`".to_string();
+            return "write `one_form = …` and `hamiltonian = …`, or all of L as `lagrangian = …`"
+                .to_string();
         }
         if other == "force" && other != keyword {
             return "a force is written `force(x) = …`".to_string();
@@ -206,8 +207,13 @@ impl Attribute {
     /// All formulas as they were written, those of a family with its index.
     pub(crate) fn scopes(&self) -> impl Iterator<Item = (&Expr, Option<&Ident>)> {
         let rate = self.time_transform.as_ref().map(|transform| &transform.rate);
-        let dynamics =
-            [self.one_form.as_ref(), self.hamiltonian.as_ref(), self.lagrangian.as_ref(), self.gauge(), rate];
+        let dynamics = [
+            self.one_form.as_ref(),
+            self.hamiltonian.as_ref(),
+            self.lagrangian.as_ref(),
+            self.gauge(),
+            rate,
+        ];
         let forces = self.forces.iter().flat_map(Force::formulas);
         let momenta = self.momenta.iter().map(|momentum| &momentum.formula);
         let constraints = self
@@ -370,7 +376,10 @@ fn read<T: Parse>(tokens: TokenStream) -> syn::Result<T> {
 
 /// Parses all of the tokens. What is missing at their end is reported on the last of them; a parser
 /// left to itself would report it on the whole attribute.
-fn read_by<T>(tokens: TokenStream, parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>) -> syn::Result<T> {
+fn read_by<T>(
+    tokens: TokenStream,
+    parser: impl FnOnce(ParseStream<'_>) -> syn::Result<T>,
+) -> syn::Result<T> {
     let last = tokens.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
     let mut group = Group::new(Delimiter::Parenthesis, tokens.clone());
     group.set_span(last);

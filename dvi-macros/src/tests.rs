@@ -379,8 +379,8 @@ fn check_of_indices() {
     );
 }
 
-/// As many functions inside one another as a long chain of `let` makes; and squares that underflow on the way to a
-/// derivative of 10⁻¹²⁰.
+/// As many functions inside one another as a long chain of `let` makes; and squares that underflow on the
+/// way to a derivative of 10⁻¹²⁰.
 #[test]
 fn extreme_formulas_expand() {
     let nested = format!("x{}", ".sin()".repeat(100));

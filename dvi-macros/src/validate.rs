@@ -7,9 +7,9 @@
 //! rounding is a compile error (translation validation; Pnueli, Siegel & Singerman 1998).
 //!
 //! Gradients and second derivatives are compared along random directions, which speak for all of their
-//! entries at once. Sizes that are not literal are small numbers, long ranges are visited at the
-//! first of their values, entries of parameters are numbers and the user's functions are sines. Comparisons are
-//! taken both ways.
+//! entries at once. Sizes that are not literal are small numbers, long ranges are visited at the first of
+//! their values, entries of parameters are numbers and the user's functions are sines. Comparisons are taken
+//! both ways.
 
 use quote::ToTokens;
 
@@ -143,7 +143,8 @@ impl Check<'_> {
                 if !outputs.is_moderate() {
                     continue;
                 }
-                if !outputs.sides.is_empty() && functions.reads_outside(self.graph, self.system.model, &point)
+                if !outputs.sides.is_empty()
+                    && functions.reads_outside(self.graph, self.system.model, &point)
                 {
                     trials.learn(NoValue::OutOfRange);
                     continue;
@@ -201,7 +202,8 @@ impl Check<'_> {
             let length = point.length(length).unwrap_or(0).min(MOST);
             (0..length).map(move |member| Support::Constraint(number, member))
         });
-        let rows: Vec<Support<'_>> = if output.is_by_constraint() { rows.collect() } else { entries.clone() };
+        let rows: Vec<Support<'_>> =
+            if output.is_by_constraint() { rows.collect() } else { entries.clone() };
         let mut worst: Option<(f64, Difference)> = None;
         for first in &rows {
             for second in if output.is_matrix { entries.as_slice() } else { std::slice::from_ref(first) } {

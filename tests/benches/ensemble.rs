@@ -1,7 +1,7 @@
 //! Ensembles of 10⁴ members on one thread and on two, each member alone and eight in lanes.
 //!
-//! `cargo bench -p dvi-benches --bench ensemble`. Each time is the best of seven, which take turns, so that other work on the machine
-//! meets all alike. Ratios within a row are what counts.
+//! `cargo bench -p dvi-benches --bench ensemble`. Each time is the best of seven, which take turns, so that
+//! other work on the machine meets all alike. Ratios within a row are what counts.
 
 use std::error::Error;
 use std::time::{Duration, Instant};
@@ -51,7 +51,8 @@ where
     Ok(())
 }
 
-/// The same by hand: members without records, a half of them in each of two threads that share nothing. So much can two threads gain now.
+/// The same by hand: members without records, a half of them in each of two threads that share nothing. So
+/// much can two threads gain now.
 fn by_hand() {
     // The compiler is not to know the parameter.
     let system = std::hint::black_box(&KEPLER);

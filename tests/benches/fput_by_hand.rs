@@ -37,7 +37,8 @@ impl Midpoint {
     pub(crate) fn improve(&mut self) -> f64 {
         force(self.alpha, &self.middle, &mut self.force);
         let mut largest = [0.0; LANES];
-        let packs = self.middle.chunks_mut(LANES).zip(self.fixed.chunks(LANES)).zip(self.force.chunks(LANES));
+        let packs =
+            self.middle.chunks_mut(LANES).zip(self.fixed.chunks(LANES)).zip(self.force.chunks(LANES));
         for ((middle, fixed), force) in packs {
             for (lane, middle) in middle.iter_mut().enumerate() {
                 let next = fixed[lane] + self.factor * force[lane];

@@ -1,8 +1,9 @@
-//! Runs taken together in lanes beside the same runs alone, and the stages of Gauss collocation and interior nodes of `Galerkin` in lanes
-//! beside the same one by one, of a rotating frame beside the same motion as p dq − H.
+//! Runs taken together in lanes beside the same runs alone, and the stages of Gauss collocation and interior
+//! nodes of `Galerkin` in lanes beside the same one by one, of a rotating frame beside the same motion as p
+//! dq − H.
 //!
-//! `cargo bench -p dvi-benches --bench lanes`. Times are those of 512 steps of eight runs, and of 64 steps of Gauss collocation or
-//! `Galerkin`. Ratios of neighbouring rows are what counts.
+//! `cargo bench -p dvi-benches --bench lanes`. Times are those of 512 steps of eight runs, and of 64 steps
+//! of Gauss collocation or `Galerkin`. Ratios of neighbouring rows are what counts.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dvi_core::Lagrangian;

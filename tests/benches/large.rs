@@ -1,8 +1,9 @@
-//! Chains of many masses: Newton's method on Toda's chain, and Verlet's steps on the chain of Fermi, Pasta, Ulam and Tsingou
-//! beside the same steps by hand; the gradient of rings; and Newton's method on vortices, each of which moves all others.
+//! Chains of many masses: Newton's method on Toda's chain, and Verlet's steps on the chain of Fermi, Pasta,
+//! Ulam and Tsingou beside the same steps by hand; the gradient of rings; and Newton's method on vortices,
+//! each of which moves all others.
 //!
-//! `cargo bench -p dvi-benches --bench large`. Times are those of one step by Newton and of a hundred by Verlet; throughput
-//! counts masses times steps.
+//! `cargo bench -p dvi-benches --bench large`. Times are those of one step by Newton and of a hundred by
+//! Verlet; throughput counts masses times steps.
 
 mod fput_by_hand;
 
@@ -34,7 +35,8 @@ struct Fput {
     alpha: f64,
 }
 
-/// Rows of `side` masses one after the other, on springs to the neighbours before and behind, left and right.
+/// Rows of `side` masses one after the other, on springs to the neighbours before and behind, left and
+/// right.
 #[lagrangian(
     coordinates(q[n]),
     lagrangian = sum(0..n, |j| dot(q[j]).powi(2) - q[j].powi(4) / 2.0) / 2.0
@@ -87,7 +89,8 @@ fn lattice(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A step of the midpoint rule by the fixed point, and as many evaluations of the force, or of ∇H, alone as it takes on average, rounded.
+/// A step of the midpoint rule by the fixed point, and as many evaluations of the force, or of ∇H, alone as
+/// it takes on average, rounded.
 fn fixed_point(criterion: &mut Criterion) {
     let method = Variational { solver: Solver::FixedPoint, ..Variational::midpoint() };
     for n in [1000, 10_000, 100_000] {
@@ -109,7 +112,8 @@ fn fixed_point(criterion: &mut Criterion) {
     }
 }
 
-/// The same by hand: what an iteration costs beside the force where a force is two additions and two products.
+/// The same by hand: what an iteration costs beside the force where a force is two additions and two
+/// products.
 fn fput_by_hand(criterion: &mut Criterion, n: usize, evaluations: u64) {
     let (q, [mut force, mut expected]) = (wave(n, 0.0), [vec![0.0; n], vec![0.0; n]]);
     Fput { n, alpha: ALPHA }.force(&q, &[], 0.0, &mut expected);
@@ -118,7 +122,8 @@ fn fput_by_hand(criterion: &mut Criterion, n: usize, evaluations: u64) {
     let mut group = criterion.benchmark_group(format!("FPUT, midpoint, fixed point, h = {H}"));
     group.throughput(Throughput::Elements(n as u64));
     group.bench_function(BenchmarkId::new(format!("{evaluations} forces by hand"), n), |bencher| {
-        bencher.iter(|| (0..evaluations).for_each(|_| fput_by_hand::force(ALPHA, black_box(&q), &mut force)));
+        bencher
+            .iter(|| (0..evaluations).for_each(|_| fput_by_hand::force(ALPHA, black_box(&q), &mut force)));
     });
     let mut midpoint = fput_by_hand::Midpoint::new(ALPHA, H, &q, &wave(n, 1.0));
     group.bench_function(BenchmarkId::new(format!("{evaluations} iterations by hand"), n), |bencher| {

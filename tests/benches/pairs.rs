@@ -1,5 +1,6 @@
-//! The right side of many vortices, each of which moves all others: the generated gradient, on one thread and on two, beside three by
-//! hand; a fast sum beside the sum over all pairs; and the check of indices before a run.
+//! The right side of many vortices, each of which moves all others: the generated gradient, on one thread
+//! and on two, beside three by hand; a fast sum beside the sum over all pairs; and the check of indices
+//! before a run.
 //!
 //! `cargo bench -p dvi-benches --bench pairs`. Throughput counts ordered pairs: n(n − 1) of n vortices.
 
@@ -116,17 +117,21 @@ fn gradients(criterion: &mut Criterion) {
         });
         for threads in [1, 2] {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            group.bench_function(BenchmarkId::new(format!("generated, {threads} thread(s)"), n), |bencher| {
-                pool.install(|| {
-                    bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
-                });
-            });
+            group.bench_function(
+                BenchmarkId::new(format!("generated, {threads} thread(s)"), n),
+                |bencher| {
+                    pool.install(|| {
+                        bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
+                    });
+                },
+            );
         }
     }
     group.finish();
 }
 
-/// ∇H by the fast multipole method beside the sum over all pairs, on one thread and on two; prints how far they are apart.
+/// ∇H by the fast multipole method beside the sum over all pairs, on one thread and on two; prints how far
+/// they are apart.
 fn fast_sums(criterion: &mut Criterion) {
     const TOLERANCE: f64 = 1e-8;
     let mut group = criterion.benchmark_group("∇H of many vortices");
@@ -140,11 +145,14 @@ fn fast_sums(criterion: &mut Criterion) {
         let mut gradient = vec![0.0; 2 * n];
         for threads in [1, 2] {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            group.bench_function(BenchmarkId::new(format!("all pairs, {threads} thread(s)"), n), |bencher| {
-                pool.install(|| {
-                    bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
-                });
-            });
+            group.bench_function(
+                BenchmarkId::new(format!("all pairs, {threads} thread(s)"), n),
+                |bencher| {
+                    pool.install(|| {
+                        bencher.iter(|| system.hamiltonian_gradient(black_box(&q), 0.0, &mut gradient));
+                    });
+                },
+            );
             group.bench_function(BenchmarkId::new(format!("fast sum, {threads} thread(s)"), n), |bencher| {
                 pool.install(|| {
                     let fast = fast();

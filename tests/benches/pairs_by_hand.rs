@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 const LANES: usize = 8;
 type Pack = [f64; LANES];
 
-/// Adds ∇H to `gradient`, each pair once: of each vortex with eight others at a time, by the widest instructions of the processor.
+/// Adds ∇H to `gradient`, each pair once: of each vortex with eight others at a time, by the widest
+/// instructions of the processor.
 pub(crate) fn add_in_lanes(gamma: &[f64], q: &[f64], gradient: &mut [f64]) {
     pulp::Arch::new().dispatch(InLanes { gamma, q, gradient });
 }
@@ -75,7 +76,8 @@ fn add_eight(
     }
 }
 
-/// Out of line, as it is called once for a vortex: else the compiler takes the lanes of the sums apart in the loop.
+/// Out of line, as it is called once for a vortex: else the compiler takes the lanes of the sums apart in
+/// the loop.
 #[inline(never)]
 fn sum(pack: &Pack) -> f64 {
     pack.iter().sum()

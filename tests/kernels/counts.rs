@@ -1,5 +1,5 @@
-//! The instructions of a step are those that are pinned, where valgrind can count them, and those that the README gives. Neither
-//! instructions nor optimisation change a number.
+//! The instructions of a step are those that are pinned, where valgrind can count them, and those that the
+//! README gives. Neither instructions nor optimisation change a number.
 
 mod pinned;
 mod printed;
@@ -16,9 +16,10 @@ fn the_readme_gives_the_pinned_counts() {
     }
 }
 
-/// Builds the benchmark as it is measured, which ends well if no step takes more instructions than are pinned. Without valgrind there
-/// is nothing to count, and the test says so. What it computes with the widest instructions of the processor is what this test
-/// computes without optimisation and with the instructions that all processors have, bit for bit.
+/// Builds the benchmark as it is measured, which ends well if no step takes more instructions than are
+/// pinned. Without valgrind there is nothing to count, and the test says so. What it computes with the
+/// widest instructions of the processor is what this test computes without optimisation and with the
+/// instructions that all processors have, bit for bit.
 #[test]
 fn the_benchmark_keeps_to_the_pins_and_to_the_bits() -> Result<(), Box<dyn std::error::Error>> {
     let bench = ["bench", "--locked", "-p", "dvi-kernels", "--bench", "instructions"];

@@ -1,9 +1,9 @@
 //! Instructions per step of the same kernels, counted under valgrind: these do not wobble.
 //!
 //! `cargo bench -p dvi-kernels --bench instructions`. The program runs itself under
-//! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up. It fails if a generated
-//! step takes more instructions than `instructions.csv` allows. It also prints a hash of gradients that use the widest
-//! instructions of the processor.
+//! `valgrind --tool=callgrind` with two numbers of steps; the difference is free of all set-up. It fails if
+//! a generated step takes more instructions than `instructions.csv` allows. It also prints a hash of
+//! gradients that use the widest instructions of the processor.
 
 #![allow(clippy::print_stdout)]
 

@@ -83,8 +83,8 @@ pub mod oracle {
     use dvi_core::{Lagrangian, Real};
     use nalgebra::{DMatrix, DVector};
 
-    /// A point at which a gradient vanishes, from zero by Newton's method with its differences, up to rounding; nothing where
-    /// its matrix is singular.
+    /// A point at which a gradient vanishes, from zero by Newton's method with its differences, up to
+    /// rounding; nothing where its matrix is singular.
     pub fn stationary(size: usize, gradient: impl Fn(&DVector<f64>) -> DVector<f64>) -> Option<Vec<f64>> {
         let mut x = DVector::zeros(size);
         for _ in 0..20 {
@@ -121,9 +121,9 @@ pub mod oracle {
         step * system.lagrangian(&point, &velocity, T::lift(t + sigma * h))
     }
 
-    /// L_d(q0, q1, δ) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh) on the Lobatto nodes, with interpolation by sin u and cos u and
-    /// displacements of the interior nodes, node by node. The derivatives of the Lagrange polynomials are those of
-    /// their factors.
+    /// L_d(q0, q1, δ) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh) on the Lobatto nodes, with interpolation by sin u and
+    /// cos u and displacements of the interior nodes, node by node. The derivatives of the Lagrange
+    /// polynomials are those of their factors.
     pub fn displaced_lagrangian<S: Lagrangian<T>, T: Real, const NODES: usize>(
         system: &S,
         u: f64,
@@ -167,8 +167,9 @@ pub mod oracle {
     }
 }
 
-/// The examples in the documentation of the attributes run. They are tested here because they need `dvi-core`: with that as a dependency of
-/// the attributes' own tests, cargo builds it once more, as code for the compiler.
+/// The examples in the documentation of the attributes run. They are tested here because they need
+/// `dvi-core`: with that as a dependency of the attributes' own tests, cargo builds it once more, as code
+/// for the compiler.
 #[cfg(doctest)]
 pub mod attributes {
     #[doc = include_str!("../../dvi-macros/docs/degenerate_lagrangian.md")]

@@ -90,8 +90,8 @@ pub struct SphereForm {
     pub gamma: f64,
 }
 
-/// A gauge in which the shift of a step is a multiple of Δ that differs from coordinate to coordinate, and the parasitic mode
-/// of σ = 0 grows by 7/3 a step.
+/// A gauge in which the shift of a step is a multiple of Δ that differs from coordinate to coordinate, and
+/// the parasitic mode of σ = 0 grows by 7/3 a step.
 #[degenerate_lagrangian(
     coordinates(x, y),
     one_form    = 0.3 * x * d(y) - 0.7 * y * d(x),

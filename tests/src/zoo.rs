@@ -1,4 +1,5 @@
-//! Systems of each kind that the macro supports, for more than one test. Most are small enough to be differentiated by an oracle.
+//! Systems of each kind that the macro supports, for more than one test. Most are small enough to be
+//! differentiated by an oracle.
 
 pub mod constrained;
 pub mod functions;

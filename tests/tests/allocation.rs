@@ -1,5 +1,5 @@
-//! No step allocates, and what a run takes before its first step is linear in the length of a chain, and in the number of
-//! vortices.
+//! No step allocates, and what a run takes before its first step is linear in the length of a chain, and in
+//! the number of vortices.
 
 use dvi_core::field::{Axis, ScalarField, Spline};
 use dvi_core::methods::Method;

@@ -1,5 +1,5 @@
-//! What a system says at one state: names and entries, rates of change, energy and Lagrangian, against the equations of
-//! motion put together from hyper-dual evaluations of L alone.
+//! What a system says at one state: names and entries, rates of change, energy and Lagrangian, against the
+//! equations of motion put together from hyper-dual evaluations of L alone.
 
 use dvi_core::mechanics::motion::Rates;
 use dvi_core::prelude::*;

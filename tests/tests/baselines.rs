@@ -42,7 +42,8 @@ fn check_order<S: Lagrangian, M: Method<S, f64> + Copy>(
     Ok(())
 }
 
-/// Against the variational method with interior displacements of order eight; Kepler's orbit against its closed form.
+/// Against the variational method with interior displacements of order eight; Kepler's orbit against its
+/// closed form.
 #[test]
 fn baselines_have_their_orders_on_regular_systems() -> Outcome {
     macro_rules! check {
@@ -199,8 +200,8 @@ struct Arc {
     r: f64,
 }
 
-/// The square of a correction is 0 long before the correction is. In units of any power of two a fixed point comes to the same
-/// numbers, and takes no fewer iterations.
+/// The square of a correction is 0 long before the correction is. In units of any power of two a fixed point
+/// comes to the same numbers, and takes no fewer iterations.
 #[test]
 fn a_fixed_point_of_tiny_numbers_ends_no_sooner() -> Outcome {
     fn check<M: Method<Arc, f64>>(method: impl Fn() -> M) -> Outcome {
@@ -263,7 +264,8 @@ struct Gauge {
     a: f64,
 }
 
-/// Stages are consistent where forces depend on velocities, and velocities that cancel in the momentum have their rounding.
+/// Stages are consistent where forces depend on velocities, and velocities that cancel in the momentum have
+/// their rounding.
 #[test]
 fn terms_linear_in_the_velocity_do_not_matter() -> Outcome {
     let start: GaugeState = GaugeState { x: 1.0, dot_x: 0.0 };

@@ -204,7 +204,8 @@ fn controlled_runs_go_on() -> Outcome {
     check_controlled(fitted, Osculating::new(1e-3, 0.01), start)
 }
 
-/// The density that a run carries is not the one that it would begin with: near the centre that is not even positive.
+/// The density that a run carries is not the one that it would begin with: near the centre that is not even
+/// positive.
 #[test]
 fn controlled_runs_go_on_from_everywhere() -> Outcome {
     let start = KeplerState { x: 1.95, y: 0.0, dot_x: 0.0, dot_y: (0.05_f64 / 1.95).sqrt() };
@@ -220,7 +221,8 @@ fn controlled_runs_go_on_from_everywhere() -> Outcome {
     Ok(())
 }
 
-/// The step of a run is halved on the way: its time goes on, and its energy stays where a run of such steps has it.
+/// The step of a run is halved on the way: its time goes on, and its energy stays where a run of such steps
+/// has it.
 #[test]
 fn a_run_goes_on_with_another_step() -> Outcome {
     let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
@@ -254,7 +256,8 @@ fn a_checkpoint_of_another_run_is_refused() -> Outcome {
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
     let other = Integrator::resume(&chain, Variational::trapezoid(), &checkpoint).err();
     assert_eq!(refused(other)?, CheckpointError::Coordinates { expected: 4, found: 2 });
-    let beyond = Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint.with_step_size(0.0)).err();
+    let beyond =
+        Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint.with_step_size(0.0)).err();
     assert!(matches!(beyond, Some(StartError::Step { .. })), "{beyond:?}");
     Ok(())
 }
@@ -296,8 +299,9 @@ fn checksum(written: &serde_json::Value) -> Option<u64> {
     Some(hash >> 11)
 }
 
-/// Resumes from a checkpoint with one number or count after the other damaged, and tells how many were refused; of the others
-/// all that can be said is that they end. Each damage is seen before that, unless its checksum is forged.
+/// Resumes from a checkpoint with one number or count after the other damaged, and tells how many were
+/// refused; of the others all that can be said is that they end. Each damage is seen before that, unless its
+/// checksum is forged.
 fn damaged(
     whole: &Checkpoint,
     resume: impl Fn(&Checkpoint) -> Result<(), StartError>,

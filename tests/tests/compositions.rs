@@ -41,7 +41,8 @@ fn lotka_volterra<M: Method<LotkaVolterra, f64>>(
     Ok([run.q()[0], run.q()[1]])
 }
 
-/// By regression over errors between those of long steps and rounding, against Gauss collocation of order sixteen.
+/// By regression over errors between those of long steps and rounding, against Gauss collocation of order
+/// sixteen.
 #[test]
 fn the_midpoint_rule_gains_the_order_of_the_composition() -> Outcome {
     let steps = [(1.0, 24), (1.0, 24), (1.0, 12), (1.0, 8), (3.0, 12), (3.0, 12)];

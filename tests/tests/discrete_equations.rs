@@ -17,7 +17,13 @@ fn dual(q: &[f64], direction: Option<usize>) -> Vec<Dual64> {
 }
 
 /// The largest component of the residual of the discrete equations.
-fn residual<S: Lagrangian<Dual64>>(system: &S, sigma: f64, t: f64, h: f64, [q0, q1, q2]: [&[f64]; 3]) -> f64 {
+fn residual<S: Lagrangian<Dual64>>(
+    system: &S,
+    sigma: f64,
+    t: f64,
+    h: f64,
+    [q0, q1, q2]: [&[f64]; 3],
+) -> f64 {
     (0..q0.len())
         .map(|i| {
             let left = discrete_lagrangian(system, sigma, t, h, &dual(q0, None), &dual(q1, Some(i)));

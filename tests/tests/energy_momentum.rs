@@ -1,4 +1,5 @@
-//! Steps whose length keeps the discrete energy: conservation, order, refusals, and where there is no such step.
+//! Steps whose length keeps the discrete energy: conservation, order, refusals, and where there is no such
+//! step.
 
 use dvi_core::discrete::{Constant, Rule};
 use dvi_core::prelude::*;

@@ -1,4 +1,5 @@
-//! Ensembles: what their records say, that they are the same however they are computed, and what becomes of mistakes.
+//! Ensembles: what their records say, that they are the same however they are computed, and what becomes of
+//! mistakes.
 
 mod every_method;
 mod files;

@@ -1,5 +1,5 @@
-//! Steps chosen by their error: that errors fall with the tolerance, that steps which are taken back leave no trace, how runs end, and
-//! that the long-time behaviour of the method is lost.
+//! Steps chosen by their error: that errors fall with the tolerance, that steps which are taken back leave
+//! no trace, how runs end, and that the long-time behaviour of the method is lost.
 
 use core::f64::consts::{PI, TAU};
 use dvi_core::methods::VariableStep;
@@ -44,8 +44,9 @@ fn errors<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     TOLERANCES.iter().map(error).collect()
 }
 
-/// Errors are within `most` tolerances, smaller for a tolerance that is a hundredth, and fall with it as the local error of this order
-/// lets expect: error and steps of one length are as hᵖ where the tolerance is as hᵖ⁺¹.
+/// Errors are within `most` tolerances, smaller for a tolerance that is a hundredth, and fall with it as the
+/// local error of this order lets expect: error and steps of one length are as hᵖ where the tolerance is as
+/// hᵖ⁺¹.
 fn check(errors: &[f64], order: f64, most: f64, band: f64) {
     for (error, tolerance) in errors.iter().zip(TOLERANCES) {
         assert!(error / tolerance < most, "{error:e} at {tolerance:e}");
@@ -189,7 +190,8 @@ fn steps_that_are_taken_back_leave_no_trace() -> Outcome {
         start: &S::State<f64>,
     ) -> Outcome {
         let run = |long| {
-            let mut run = ControlledIntegrator::new(system, method, Detour { h: 0.01, long }, start.clone())?;
+            let mut run =
+                ControlledIntegrator::new(system, method, Detour { h: 0.01, long }, start.clone())?;
             run.take_steps(100)?;
             Ok::<_, Box<dyn core::error::Error>>((run.state(), run.checkpoint()))
         };

@@ -172,7 +172,8 @@ fn a_step_over_a_place_where_the_form_is_singular_is_an_error() -> Outcome {
     Ok(())
 }
 
-/// From rest at the origin all numbers are zero but the force; the first correction says how large they become.
+/// From rest at the origin all numbers are zero but the force; the first correction says how large they
+/// become.
 #[test]
 fn steps_from_rest_at_the_origin_succeed() -> Outcome {
     #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0 - x.powi(4) / 4.0 + g * x)]

@@ -26,7 +26,8 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs() / (1.0 + a.abs())).fold(0.0, larger)
 }
 
-/// Two one-forms of the same motion: the same Ω and the same ∇H + ∂α/∂t, and no component of the second along its half.
+/// Two one-forms of the same motion: the same Ω and the same ∇H + ∂α/∂t, and no component of the second
+/// along its half.
 fn have_the_same_motion<S: DegenerateLagrangian<f64>, G: ProperlyDegenerate<f64>>(declared: &S, gauged: &G) {
     let n = declared.space().dimension();
     for point in POINTS {
@@ -144,7 +145,8 @@ fn last<S: ProperlyDegenerate>(system: &S, start: S::State<f64>, h: f64, steps: 
     [values[0], values[1]]
 }
 
-/// Gauges that end in the same one-form give the same steps; (ln y/x, 0) and (0, −ln x/y) differ by the order of the scheme.
+/// Gauges that end in the same one-form give the same steps; (ln y/x, 0) and (0, −ln x/y) differ by the
+/// order of the scheme.
 #[test]
 fn gauges_of_the_same_system_have_the_same_trajectory() -> Outcome {
     let declared = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
@@ -229,7 +231,8 @@ fn functions_of_the_user_stand_in_gauges() {
     }
 }
 
-/// Where there is a choice, no parameter is divided by, so that it may be zero; where there is none, the report says so.
+/// Where there is a choice, no parameter is divided by, so that it may be zero; where there is none, the
+/// report says so.
 #[test]
 fn parameters_stand_in_denominators_as_a_last_resort() {
     macro_rules! sentences {

@@ -1,5 +1,5 @@
-//! Where forces have a kink, the polynomial through the stages of a Gauss step leads far away in the next one, out of tables too. The
-//! stages then begin once more from where the step begins.
+//! Where forces have a kink, the polynomial through the stages of a Gauss step leads far away in the next
+//! one, out of tables too. The stages then begin once more from where the step begins.
 
 use dvi_core::field::{Axis, Spline};
 use dvi_core::methods::Method;
@@ -50,8 +50,8 @@ where
     Ok(places)
 }
 
-/// How far a run is from the reference, as the largest difference of a coordinate at the end of a step. Stages in lanes have the same
-/// numbers.
+/// How far a run is from the reference, as the largest difference of a coordinate at the end of a step.
+/// Stages in lanes have the same numbers.
 fn error<S: Lagrangian, M: Method<S, f64>, L: Method<S, f64>>(
     system: &S,
     (one_by_one, in_lanes): (M, L),

@@ -70,7 +70,8 @@ fn steps_on_degenerate_systems_equal_the_general_step() -> Outcome {
     Ok(())
 }
 
-/// The same from the second point of the fast run: both preserve the pair (q0, q1) as the state of a two-step map.
+/// The same from the second point of the fast run: both preserve the pair (q0, q1) as the state of a
+/// two-step map.
 fn from_its_momentum<S: DegenerateLagrangian>(system: &S, method: Sigma, start: &S::State<f64>) -> Outcome {
     use dvi_core::methods::Carries;
     use dvi_core::state::Statistics;
@@ -91,7 +92,8 @@ fn from_its_momentum<S: DegenerateLagrangian>(system: &S, method: Sigma, start: 
         general.step(system, &mut memory, &mut q, f64::from(step) * h, h, &mut Statistics::default())?;
         fast.advance()?;
         let apart = fast.q().iter().zip(q.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
-        // The parasitic mode of a nonlinear α grows by some 3 a step, and with it the difference of their roundings.
+        // The parasitic mode of a nonlinear α grows by some 3 a step, and with it the difference of their
+        // roundings.
         let bound = if S::AFFINE { 1e-12 } else { 1e-14 * 4.0_f64.powi(step + 3) };
         assert!(apart < bound, "{}, σ = {}, step {step}: {apart:e}", S::REPORT.system, method.sigma);
     }

@@ -1,5 +1,5 @@
-//! Packs of numbers: formulas on them are those on their lanes, and Gauss collocation with its stages in lanes is Gauss
-//! collocation, bit for bit.
+//! Packs of numbers: formulas on them are those on their lanes, and Gauss collocation with its stages in
+//! lanes is Gauss collocation, bit for bit.
 
 use dvi_core::mechanics::motion::{InLanes, StageEvaluation};
 use dvi_core::methods::Method;
@@ -145,7 +145,8 @@ fn stages_in_lanes_are_those_one_by_one_on_degenerate_systems() -> Outcome {
 
 #[test]
 fn stages_in_lanes_are_those_one_by_one_on_regular_systems() -> Outcome {
-    // M diagonal; full; depending on q; L with terms linear in v; not quadratic in v; with time; at run time.
+    // M diagonal; full; depending on q; L with terms linear in v; not quadratic in v; with time; at run
+    // time.
     all_stages!(Kepler { mu: 1.0 }, [1.0, 0.1], [0.1, 0.9], 0.05);
     all_stages!(
         Ring::<4> { mass: [1.0, 0.5, 2.0, 1.1], alpha: 0.3 },

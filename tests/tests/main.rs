@@ -1,7 +1,8 @@
 //! What is taken in few steps, or in none, without optimisation.
 //!
-//! It is one program, so that what several tests run is compiled once, and the long tests run beside the others. Apart from it
-//! are the tests that are programs of their own: one counts allocations, the other is compiled under other lints.
+//! It is one program, so that what several tests run is compiled once, and the long tests run beside the
+//! others. Apart from it are the tests that are programs of their own: one counts allocations, the other is
+//! compiled under other lints.
 
 mod at_state;
 mod baselines;

@@ -1,4 +1,5 @@
-//! Rotations and unit vectors as coordinates: orders, structure and integrals of runs along geodesics, against hand-written motion.
+//! Rotations and unit vectors as coordinates: orders, structure and integrals of runs along geodesics,
+//! against hand-written motion.
 
 // Rotations are called R.
 #![allow(non_snake_case)]

@@ -1,5 +1,5 @@
-//! Systems whose number of coordinates is known at run time only: their matrices are banded, and a run is that of the same
-//! system of fixed size, whose matrices are dense.
+//! Systems whose number of coordinates is known at run time only: their matrices are banded, and a run is
+//! that of the same system of fixed size, whose matrices are dense.
 
 use dvi_core::methods::{Composition, General, Method};
 use dvi_core::prelude::*;
@@ -33,8 +33,8 @@ macro_rules! chain {
     };
 }
 
-/// A lattice with two coordinates at each site, and a one-form that couples neighbours, with a term that is not affine
-/// where `bend` is not zero.
+/// A lattice with two coordinates at each site, and a one-form that couples neighbours, with a term that is
+/// not affine where `bend` is not zero.
 macro_rules! lattice {
     ($name:ident [$($generics:tt)*] $masses:ty, $bend:literal, $($n:tt)+) => {
         #[degenerate_lagrangian(

@@ -1,5 +1,5 @@
-//! Systems on a tree, whose matrices are sparse and have no narrow band: Newton's method with their factors, against solvers that
-//! store no matrix, and rods against what they have to keep.
+//! Systems on a tree, whose matrices are sparse and have no narrow band: Newton's method with their factors,
+//! against solvers that store no matrix, and rods against what they have to keep.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;

@@ -120,7 +120,8 @@ fn newmark_is_conjugate_to_verlet_in_the_modified_potential() -> Outcome {
         // So the momentum map of rotations is preserved at q, not at x.
         let angular = |x: &[f64], p: &[f64]| x[0] * p[1] - x[1] * p[0];
         let start = [1.0, 0.1];
-        let kept = angular(&conjugate(run.q()), run.memory().p()) - angular(&conjugate(&start), &[-0.2, 1.1]);
+        let kept =
+            angular(&conjugate(run.q()), run.memory().p()) - angular(&conjugate(&start), &[-0.2, 1.1]);
         let moved = angular(run.q(), run.memory().p()) - angular(&start, &[-0.2, 1.1]);
         assert!(kept.abs() < 1e-13 && moved.abs() > 1e-7, "beta = {beta}: {kept:e} {moved:e}");
         // −∂Ṽ/∂q = F(x), where Ṽ(q) = V(x) + ½βh² F·F: along any curve x(s), dṼ/ds = −F(x)·dq/ds.
@@ -193,7 +194,11 @@ fn a_step_back_undoes_a_step() -> Outcome {
     check_reversal(&KEPLER, planet(), 0.1)?;
     let (system, start) = driven();
     check_reversal(&system, start, 0.1)?;
-    check_reversal(&MixedVelocities {}, MixedVelocitiesState { x: 0.4, y: -0.3, dot_x: 0.2, dot_y: 0.5 }, 0.1)
+    check_reversal(
+        &MixedVelocities {},
+        MixedVelocitiesState { x: 0.4, y: -0.3, dot_x: 0.2, dot_y: 0.5 },
+        0.1,
+    )
 }
 
 #[test]

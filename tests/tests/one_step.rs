@@ -14,8 +14,8 @@ type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 const PREY: OneSided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
 
-/// No component of α is affine, nothing is separable, the halves stand mixed, and one of them begins in the middle of an
-/// array.
+/// No component of α is affine, nothing is separable, the halves stand mixed, and one of them begins in the
+/// middle of an array.
 #[degenerate_lagrangian(
     coordinates(z[3], u),
     one_form = (z[0] + z[0].powi(3) / 3.0 + 0.2 * (z[1] + u).sin() * z[2]) * d(u)
@@ -42,9 +42,9 @@ const MIXED: [f64; 4] = [0.4, 0.3, -0.5, 0.7];
 const RING: [f64; 6] = [0.3, -0.4, 0.2, 0.5, 0.1, -0.3];
 const SPHERE: SphereForm = SphereForm { gamma: 1.3 };
 
-/// A system, where it begins, and times and numbers of steps at which errors of methods of order eight are above rounding and
-/// their slopes those of short steps: of Gauss, of Kahan & Li and Suzuki & Umeno around the midpoint, and of Kahan & Li around the
-/// trapezoid.
+/// A system, where it begins, and times and numbers of steps at which errors of methods of order eight are
+/// above rounding and their slopes those of short steps: of Gauss, of Kahan & Li and Suzuki & Umeno around
+/// the midpoint, and of Kahan & Li around the trapezoid.
 struct Problem<'a, S> {
     system: &'a S,
     q0: &'a [f64],
@@ -52,13 +52,18 @@ struct Problem<'a, S> {
 }
 
 impl<S: ProperlyDegenerate> Problem<'_, S> {
-    /// The point at `time`, by Gauss collocation of order sixteen on q' = X(q), which knows nothing of the class.
+    /// The point at `time`, by Gauss collocation of order sixteen on q' = X(q), which knows nothing of the
+    /// class.
     fn reference(&self, time: f64, steps: u64) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
         stepped(self.system, &Gauss::<8>::new(), self.q0, [0.2, time / steps as f64], steps)
     }
 
     /// Whether the errors of a method have its order as their slope, from `steps` steps to twice as many.
-    fn check(&self, method: &(impl Method<S, f64> + core::fmt::Debug), (time, steps): (f64, u64)) -> Outcome {
+    fn check(
+        &self,
+        method: &(impl Method<S, f64> + core::fmt::Debug),
+        (time, steps): (f64, u64),
+    ) -> Outcome {
         let reference = self.reference(time, 160)?;
         let mut errors = Vec::new();
         for steps in [steps, steps * 5 / 4, steps * 3 / 2, 2 * steps] {
@@ -274,7 +279,8 @@ struct Oscillator {
     omega: f64,
 }
 
-/// In SI units coordinates and momenta are of very different sizes. The orbit is that of a mass of one, whose momenta are velocities.
+/// In SI units coordinates and momenta are of very different sizes. The orbit is that of a mass of one,
+/// whose momenta are velocities.
 #[test]
 fn units_do_not_matter() -> Outcome {
     const METRES: f64 = 7.8e11;
@@ -284,8 +290,9 @@ fn units_do_not_matter() -> Outcome {
     {
         let gm: f64 = 1.327e20;
         let speed = (gm / METRES).sqrt() * 0.9;
-        let orbit =
-            |m: f64| stepped(&Planet { m, gm }, method, &[METRES, 0.0, 0.0, m * speed], [0.0, 86400.0], 1000);
+        let orbit = |m: f64| {
+            stepped(&Planet { m, gm }, method, &[METRES, 0.0, 0.0, m * speed], [0.0, 86400.0], 1000)
+        };
         let light = orbit(1.0).map_err(|error| format!("{name}, one kilogram: {error}"))?;
         for m in [6e24, 1.9e27] {
             let heavy = orbit(m).map_err(|error| format!("{name}, {m:e} kg: {error}"))?;

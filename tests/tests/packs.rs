@@ -1,5 +1,6 @@
-//! Loops that run over packs of eight terms: for every number of terms, and so for every number that is left over, they add
-//! up what a loop by hand adds up, and numbers in lanes get what each of them gets alone, bit for bit.
+//! Loops that run over packs of eight terms: for every number of terms, and so for every number that is left
+//! over, they add up what a loop by hand adds up, and numbers in lanes get what each of them gets alone, bit
+//! for bit.
 
 mod neighbours;
 
@@ -226,7 +227,10 @@ fn sums_with_neighbours() {
         system.hamiltonian_gradient(&q, 0.0, &mut gradient);
         agree(&gradient, &expected, &format!("{n} terms"));
         let found = system.hamiltonian(&q, 0.0);
-        assert!((found - energy).abs() <= 1e-14 * (n * n) as f64, "{n} terms: H = {found}, by hand {energy}");
+        assert!(
+            (found - energy).abs() <= 1e-14 * (n * n) as f64,
+            "{n} terms: H = {found}, by hand {energy}"
+        );
         lanes_agree(
             &q,
             |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),

@@ -9,8 +9,8 @@ use dvi_tests::larger;
 
 const README: &str = include_str!("../../README.md");
 
-/// What an example of `dvi-core` prints, started in `folder`. It is built with the features of the workspace, as the tests are, and not
-/// again with its own.
+/// What an example of `dvi-core` prints, started in `folder`. It is built with the features of the
+/// workspace, as the tests are, and not again with its own.
 fn printed_by(example: &str, folder: &Path) -> String {
     let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
     let arguments = ["run", "--quiet", "--locked", "--example", example, "--manifest-path", manifest];
@@ -107,7 +107,8 @@ fn examples_write_their_tables_and_show_what_they_say() {
             let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
             assert!(numbers.len() == columns && numbers.iter().all(|x| x.is_finite()), "{file}: {line}");
         }
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../dvi-core/examples/{example}.rs"));
+        let source =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../dvi-core/examples/{example}.rs"));
         assert!(fs::read_to_string(source).expect("source").lines().count() < 60, "{example}");
     }
     let table = |name: &str| -> Vec<Vec<f64>> {
@@ -117,8 +118,8 @@ fn examples_write_their_tables_and_show_what_they_say() {
             .map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect())
             .collect()
     };
-    // The error of the variational integrator is as large in the last tenth of the run as in the first, and that of
-    // Runge–Kutta has grown.
+    // The error of the variational integrator is as large in the last tenth of the run as in the first, and
+    // that of Runge–Kutta has grown.
     let largest =
         |rows: &[Vec<f64>], column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, larger);
     let pendulum = table("pendulum");
@@ -128,8 +129,8 @@ fn examples_write_their_tables_and_show_what_they_say() {
     assert!(largest(&table("kepler"), 4) < 2e-3);
 }
 
-/// The period of the cycle, by another integration: the classical Runge–Kutta method, written out, with steps a tenth as
-/// long, and the passage through the equilibrium by Newton's method on it.
+/// The period of the cycle, by another integration: the classical Runge–Kutta method, written out, with
+/// steps a tenth as long, and the passage through the equilibrium by Newton's method on it.
 #[test]
 fn the_period_that_an_example_prints_is_right() {
     let printed = printed_by("lotka_volterra", &empty_folder("period"));

@@ -125,8 +125,9 @@ fn runs_are_differentiated_in_a_circulation() -> Outcome {
     Ok(())
 }
 
-/// At an equilibrium values have converged before the first iteration, and derivatives have not: those of Newton's method
-/// of all orders, those of a fixed point to what its rate leaves of them after many iterations.
+/// At an equilibrium values have converged before the first iteration, and derivatives have not: those of
+/// Newton's method of all orders, those of a fixed point to what its rate leaves of them after many
+/// iterations.
 #[test]
 fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - (x - a).powi(2)) / 2.0 - (x - a).powi(3) / 3.0)]

@@ -96,7 +96,8 @@ where
     Ok((tangent.transpose() * after * &tangent - omega(system, q0, t)).amax())
 }
 
-/// The defect of a step is of order h λ², five for the symmetric projection, and λ² of the standard one, four.
+/// The defect of a step is of order h λ², five for the symmetric projection, and λ² of the standard one,
+/// four.
 #[test]
 fn omega_is_nearly_preserved() -> Outcome {
     let steps = [0.2, 0.1, 0.05];
@@ -140,7 +141,8 @@ fn lambda<S: DegenerateLagrangian<Dual64>>(
     };
     let lifted = |q: &[Dual64], t: f64, lambda: &[Dual64]| {
         let entries = combined(system, q, t, [0.0, 1.0]);
-        let row = |i: usize| (0..n).fold(Dual64::from_re(0.0), |sum, j| sum + entries[i * n + j] * lambda[j]);
+        let row =
+            |i: usize| (0..n).fold(Dual64::from_re(0.0), |sum, j| sum + entries[i * n + j] * lambda[j]);
         (0..n).map(row).collect::<Vec<_>>()
     };
     // Ω λ ≈ defect, by a fixed point: λ is small.

@@ -22,7 +22,8 @@ const KEPLER: Kepler = Kepler { mu: 1.0 };
 #[derive(Clone, Debug)]
 struct Polar;
 
-/// Restores the memory of a run, made another way, from one that has taken `before` steps, and goes on with both.
+/// Restores the memory of a run, made another way, from one that has taken `before` steps, and goes on with
+/// both.
 fn check<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, q0: &[f64], v0: &[f64]) -> Outcome {
     let (h, t) = (0.05, 0.3);
     for before in [0, 1, 3, 40] {
@@ -98,7 +99,8 @@ fn regular_runs_go_on_from_a_copy() -> Outcome {
     check(&Polar, Galerkin::<3> { summation, ..Galerkin::new() }, &q, &v)
 }
 
-/// The run ends at the state of the last step within the limit, which is that of a run without one, bit by bit.
+/// The run ends at the state of the last step within the limit, which is that of a run without one, bit by
+/// bit.
 #[test]
 fn a_limit_of_the_energy_error_ends_any_run() -> Outcome {
     let method = Sigma { parasitic_limit: None, ..Sigma::leapfrog() };

@@ -1,5 +1,5 @@
-//! Functions of several variables that hold data, in formulas: derivatives against dual numbers, how often they are
-//! evaluated, where they may come from, and what happens where they are not known.
+//! Functions of several variables that hold data, in formulas: derivatives against dual numbers, how often
+//! they are evaluated, where they may come from, and what happens where they are not known.
 
 use std::cell::Cell;
 
@@ -201,7 +201,8 @@ struct Falling {
     slope: Table,
 }
 
-/// Runs until the table ends: the last good state lies in it but for rounding, and the error has the argument and the bounds.
+/// Runs until the table ends: the last good state lies in it but for rounding, and the error has the
+/// argument and the bounds.
 fn ends_at_the_edge<R: Run<Scalar = f64>>(method: &str, mut run: R) -> Outcome {
     let error = run.take_steps(1000).err().ok_or("an error")?;
     let StepFailure::Outside(OutsideError { argument, value, bound }) = error.failure else {
@@ -262,13 +263,17 @@ fn a_run_does_not_begin_outside_of_the_table() -> Outcome {
     let error = Integrator::new(&Drifting { slope: Table }, OneStep::midpoint(), 0.1, start)
         .err()
         .ok_or("an error")?;
-    assert_eq!(error.to_string(), "`slope` is not known there: its argument 1 is 2.5, and must be at most 2");
+    assert_eq!(
+        error.to_string(),
+        "`slope` is not known there: its argument 1 is 2.5, and must be at most 2"
+    );
     let error = Drifting { slope: Table }.vector_field(&start).err().ok_or("an error")?;
     assert!(matches!(error, StartError::Outside(_)), "{error}");
     Ok(())
 }
 
-/// A table that a formula keeps away from: it is not to blame where it is not asked, and does not keep a run from beginning.
+/// A table that a formula keeps away from: it is not to blame where it is not asked, and does not keep a run
+/// from beginning.
 #[lagrangian(
     coordinates(x),
     lagrangian = dot(x).powi(2) / 2.0 - if x < 1.5 { slope(x) } else { 0.0 } + (3.0 - x).sqrt() / 1e3,

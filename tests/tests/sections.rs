@@ -324,7 +324,8 @@ fn crossings_of_a_regular_system_have_velocities() -> Outcome {
 
 #[test]
 fn crossings_of_a_run_with_controlled_steps_lie_on_its_orbit() -> Outcome {
-    // Each step is exact, whatever its length: x = cos t, y = 2 sin t, and the steps vary by more than two to one.
+    // Each step is exact, whatever its length: x = cos t, y = 2 sin t, and the steps vary by more than two
+    // to one.
     let method = Variational::simpson().phase_fitted(Constant(1.0));
     let method = Variational { fitting: Fitting::PhaseAndMomentum, ..method };
     let start = PlanarState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 2.0 };

@@ -324,7 +324,10 @@ struct Vortices<const N: usize> {
 /// A polygon of `N` equal vortices on the unit circle turns at the rate Γ(N − 1)/4π (Thomson 1883).
 fn polygon<const N: usize>(angle: f64) -> VorticesState<N> {
     let place = |j: usize| angle + core::f64::consts::TAU * j as f64 / N as f64;
-    VorticesState { x: core::array::from_fn(|j| place(j).cos()), y: core::array::from_fn(|j| place(j).sin()) }
+    VorticesState {
+        x: core::array::from_fn(|j| place(j).cos()),
+        y: core::array::from_fn(|j| place(j).sin()),
+    }
 }
 
 fn turns<const N: usize>(method: Sigma) -> Checked {

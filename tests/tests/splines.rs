@@ -1,4 +1,5 @@
-//! Splines of a table: they take its values, are smooth, have the derivatives that they say, and know where they end.
+//! Splines of a table: they take its values, are smooth, have the derivatives that they say, and know where
+//! they end.
 
 use dvi_core::Scalar;
 use dvi_core::field::{Axis, AxisError, Expansion, ScalarField, Spline};
@@ -186,7 +187,8 @@ fn derivatives_are_those_of_the_value() -> Outcome {
                     let gradient = in_dual_numbers(x).gradient.map(|g| g.eps1);
                     assert!(difference(&gradient, &found.hessian[i]) < 1e-13, "{at:?}");
                 }
-                // Differences of the value, of fourth order, where the polynomial has no jump of higher derivatives.
+                // Differences of the value, of fourth order, where the polynomial has no jump of higher
+                // derivatives.
                 for i in 0..D {
                     let h = 1e-3;
                     let f = |steps: f64| {
@@ -209,8 +211,8 @@ fn derivatives_are_those_of_the_value() -> Outcome {
     for_each_kind!(check)
 }
 
-/// On both sides of each line of the grid the value and all derivatives that are continuous agree. Those above the second are
-/// derivatives of the Hessian on dual numbers.
+/// On both sides of each line of the grid the value and all derivatives that are continuous agree. Those
+/// above the second are derivatives of the Hessian on dual numbers.
 #[test]
 fn derivatives_are_continuous() -> Outcome {
     fn check<const D: usize>(axes: [&Axis; D]) -> Outcome {
@@ -238,7 +240,8 @@ fn derivatives_are_continuous() -> Outcome {
                     let error = difference(&higher(below), &higher(above));
                     if degree == 5 {
                         assert!(error < 1e-10, "{at:?} {i} {line}: {error:e}");
-                    } else if axis.period().is_none() && [points[1], points[points.len() - 2]].contains(&line)
+                    } else if axis.period().is_none()
+                        && [points[1], points[points.len() - 2]].contains(&line)
                     {
                         assert!(error < 1e-10, "not a knot: {at:?} {i} {line}: {error:e}");
                     } else {
@@ -277,7 +280,8 @@ fn a_period_has_no_ends() -> Outcome {
     Ok(())
 }
 
-/// Any period and any first point: what is far away is in its place in the first period, to the rounding of the argument.
+/// Any period and any first point: what is far away is in its place in the first period, to the rounding of
+/// the argument.
 #[test]
 fn periods_are_taken_off() -> Outcome {
     let mut numbers = Numbers(23);

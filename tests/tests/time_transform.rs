@@ -1,5 +1,5 @@
-//! Systems whose time is transformed: the motion is that of the untransformed system, with its time; what the schemes preserve
-//! is preserved; and a time that would stand still is an error.
+//! Systems whose time is transformed: the motion is that of the untransformed system, with its time; what
+//! the schemes preserve is preserved; and a time that would stand still is an error.
 
 use dvi_core::methods::{Composition, Method, Scheme};
 use dvi_core::prelude::*;
@@ -48,7 +48,8 @@ fn start() -> Result<Vec<f64>, StartError> {
     Ok(vec![state.x[0], state.x[1], state.y[0], state.y[1], state.t, state.energy])
 }
 
-/// Gauss collocation of order eight with short steps, on either: after a time of 3 in τ, and after as much physical time.
+/// Gauss collocation of order eight with short steps, on either: after a time of 3 in τ, and after as much
+/// physical time.
 #[test]
 fn the_motion_is_that_of_the_untransformed_system() -> Outcome {
     let end = stepped(&Transformed, &Gauss::<4>::new(), &start()?, [0.0, 3.0 / 256.0], 256)?;
@@ -161,7 +162,8 @@ fn symmetric_schemes_are_reversible() -> Outcome {
     Ok(())
 }
 
-/// Kepler's problem on the line, in canonical coordinates: a fall from rest at 1, with steps as short as the distance.
+/// Kepler's problem on the line, in canonical coordinates: a fall from rest at 1, with steps as short as the
+/// distance.
 #[degenerate_lagrangian(
     coordinates(x, y),
     one_form = y * d(x),
@@ -176,8 +178,8 @@ fn fall(energy: f64) -> FallState {
     FallState { x: 1.0, y: 0.0, t: 0.0, energy }
 }
 
-/// Without explicit time, `energy` is a constant of the run to the last bit, and the fall takes the time that it takes:
-/// t(x) = √(1/2) (√(x(1 − x)) + arccos √x).
+/// Without explicit time, `energy` is a constant of the run to the last bit, and the fall takes the time
+/// that it takes: t(x) = √(1/2) (√(x(1 − x)) + arccos √x).
 #[test]
 fn a_fall_takes_its_time() -> Outcome {
     let system = Fall { floor: 0.0 };
@@ -234,7 +236,8 @@ fn a_resumed_run_is_the_same() -> Outcome {
     Ok(())
 }
 
-/// ρ is negative for |x| < √0.2: a long step jumps across, and ends where ρ is positive. The physical time has run backwards in it.
+/// ρ is negative for |x| < √0.2: a long step jumps across, and ends where ρ is positive. The physical time
+/// has run backwards in it.
 #[degenerate_lagrangian(
     coordinates(x, p),
     one_form = p * d(x),

@@ -13,7 +13,8 @@ use dvi_tests::zoo::regular::*;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
-/// Takes the steps of `strides` with runs from all `starts`, together in packs of `W` and alone. Returns the errors.
+/// Takes the steps of `strides` with runs from all `starts`, together in packs of `W` and alone. Returns the
+/// errors.
 fn check<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq + Clone>(
     system: &S,
     method: &M,
@@ -111,7 +112,8 @@ fn sigma_is_the_same_in_lanes() -> Outcome {
     Ok(())
 }
 
-/// Two vortices are too near one another for the step, the parasitic mode takes over, a force is no number: each on its own.
+/// Two vortices are too near one another for the step, the parasitic mode takes over, a force is no number:
+/// each on its own.
 #[test]
 fn one_that_fails_does_not_disturb_the_others() -> Outcome {
     let (system, _) = quasi_periodic();

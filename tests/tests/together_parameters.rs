@@ -10,7 +10,8 @@ use dvi_tests::configurations::quasi_periodic;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
-/// Takes steps of a run on each system, together in packs of `W` and alone, and returns how many have failed.
+/// Takes steps of a run on each system, together in packs of `W` and alone, and returns how many have
+/// failed.
 fn same_as_alone<const W: usize, S, M>(
     systems: &[(S, S::State<f64>)],
     method: M,

@@ -5,8 +5,8 @@ use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 
-/// D₁D₁L_d, D₁D₂L_d, D₂D₁L_d and D₂D₂L_d at a pair of points, row-major, of the discrete Lagrangian `L`; on a system with
-/// forces, the derivatives of D₁L_d + F⁻ and D₂L_d + F⁺.
+/// D₁D₁L_d, D₁D₂L_d, D₂D₁L_d and D₂D₂L_d at a pair of points, row-major, of the discrete Lagrangian `L`; on
+/// a system with forces, the derivatives of D₁L_d + F⁻ and D₂L_d + F⁺.
 ///
 /// D₁D₂ with entries ∂²L_d/∂q0ⁱ∂q1ʲ is the matrix of the two-form D₁D₂ dq0 ∧ dq1 on Q×Q that each step
 /// preserves (Marsden & West 2001, section 1.3.2; Rowley & Marsden 2002, eq. 17).
@@ -40,8 +40,8 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> DiscreteHessian<S,
         }
     }
 
-    /// Evaluates the matrices for the step over `interval` from `q0` to `q1`. Slices shorter than the dimension
-    /// count as continued by zeros.
+    /// Evaluates the matrices for the step over `interval` from `q0` to `q1`. Slices shorter than the
+    /// dimension count as continued by zeros.
     ///
     /// # Errors
     /// Those of the discrete Lagrangian.

@@ -14,8 +14,8 @@ use crate::{Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// The growth of a perturbation along a run, accumulated step by step.
 ///
-/// Perturbations live in (q, p), so the exponent of a degenerate system is that of the two-step map, parasitic mode
-/// included.
+/// Perturbations live in (q, p), so the exponent of a degenerate system is that of the two-step map,
+/// parasitic mode included.
 #[derive(Debug)]
 pub struct LyapunovExponent<S: System, L, T: Real = f64> {
     map: TangentMap<S, L, T>,
@@ -27,8 +27,8 @@ pub struct LyapunovExponent<S: System, L, T: Real = f64> {
 }
 
 impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
-    /// The exponent of the given run, from its current state on. The first perturbation has a direction of no significance, and that of a
-    /// degenerate system keeps p = α(q).
+    /// The exponent of the given run, from its current state on. The first perturbation has a direction of
+    /// no significance, and that of a degenerate system keeps p = α(q).
     pub fn new<R: Run<System = S, Scalar = T>>(run: &R) -> Self
     where
         R::Method: VariationalMethod<S, T, DiscreteLagrangian = L>,
@@ -42,7 +42,8 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S
             vector
         };
         let dq = direction(0);
-        let dp = if S::REGULAR { direction(dq.len()) } else { Self::along(system, run.q(), run.time(), &dq) };
+        let dp =
+            if S::REGULAR { direction(dq.len()) } else { Self::along(system, run.q(), run.time(), &dq) };
         let mut exponent = Self {
             map: TangentMap::new(system, run.method()),
             dq,

@@ -116,7 +116,16 @@ impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
     {
         let step = PartialStep::new(run)?;
         let mark = Mark { part: R::Scalar::lift(1.0), g: g(run.q()) };
-        Ok(Self { g, direction, step, marks: [mark; 3], interval: INTERVALS, rate: None, failed: false, run })
+        Ok(Self {
+            g,
+            direction,
+            step,
+            marks: [mark; 3],
+            interval: INTERVALS,
+            rate: None,
+            failed: false,
+            run,
+        })
     }
 
     /// The run, at the end of the step that is searched.

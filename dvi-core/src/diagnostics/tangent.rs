@@ -22,7 +22,8 @@ pub struct TangentMap<S: System, L, T: Real = f64> {
 }
 
 impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T> {
-    /// Storage for steps of `method` on `system`; the map is that of the step given to [`evaluate`](Self::evaluate).
+    /// Storage for steps of `method` on `system`; the map is that of the step given to
+    /// [`evaluate`](Self::evaluate).
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
         let space = system.space();
         Self {
@@ -69,7 +70,8 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T
         dp.copy_from_slice(dp1);
     }
 
-    /// max |MᵀJM − J| for the matrix M of the map and J = (0 1; −1 0): zero up to rounding, unless forces act.
+    /// max |MᵀJM − J| for the matrix M of the map and J = (0 1; −1 0): zero up to rounding, unless forces
+    /// act.
     #[cfg(feature = "alloc")]
     pub fn symplectic_defect(&mut self, system: &S) -> T {
         let n = system.space().dimension();

@@ -39,7 +39,8 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap
         }
     }
 
-    /// Linearizes the step from (q0, q1) to (q1, q2); `points` are the three, and `interval` is that from q0 to q1.
+    /// Linearizes the step from (q0, q1) to (q1, q2); `points` are the three, and `interval` is that from q0
+    /// to q1.
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where D₁D₂L_d(q1, q2) is singular, or those of the discrete Lagrangian.
@@ -107,7 +108,9 @@ fn pairing<T: Real, V: core::ops::Deref<Target = [T]>>(d: &[T], u: &[V; 2], w: &
     let n = u[0].len();
     let form = |x: &[T], y: &[T]| {
         let rows = x.iter().zip(lines(d, n));
-        rows.fold(T::lift(0.0), |sum, (&x, row)| row.iter().zip(y).fold(sum, |sum, (&d, &y)| sum + x * d * y))
+        rows.fold(T::lift(0.0), |sum, (&x, row)| {
+            row.iter().zip(y).fold(sum, |sum, (&d, &y)| sum + x * d * y)
+        })
     };
     form(&u[0], &w[1]) - form(&w[0], &u[1])
 }

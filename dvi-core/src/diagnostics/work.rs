@@ -1,7 +1,7 @@
 //! The work of the forces along a run: the integral of their power F·q' over the time.
 //!
-//! Between two states the power is taken for the cubic polynomial through the last four of them, which Gauss's rule with two
-//! points integrates exactly.
+//! Between two states the power is taken for the cubic polynomial through the last four of them, which
+//! Gauss's rule with two points integrates exactly.
 
 use crate::mechanics::motion::Rates;
 use crate::run::Run;
@@ -16,8 +16,8 @@ const NODES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// The work ∫ F·q' dt that the forces on a system have done along a run.
 ///
-/// Where the Lagrangian does not depend on time, the energy changes by this work. So the difference of the two is the error of
-/// the method and of this integral, which is of order four if every state is recorded.
+/// Where the Lagrangian does not depend on time, the energy changes by this work. So the difference of the
+/// two is the error of the method and of this integral, which is of order four if every state is recorded.
 ///
 /// ```
 /// use dvi_core::diagnostics::Work;
@@ -80,7 +80,8 @@ impl<T: Real> Work<T> {
         }
     }
 
-    /// The work since the first record, in units of energy; not a number where a velocity was not determined.
+    /// The work since the first record, in units of energy; not a number where a velocity was not
+    /// determined.
     pub fn total(&self) -> T {
         self.total
     }

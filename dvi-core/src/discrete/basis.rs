@@ -1,6 +1,7 @@
 //! The interpolation between two points by the solutions of an oscillator.
 //!
-//! q(c) = b q0 + b̄ q1, q̇(c) = (B q0 + B̄ q1)/h with (Kosmas & Vlachos, eqs. 11 and 15), for u = ωh and z = u²,
+//! q(c) = b q0 + b̄ q1, q̇(c) = (B q0 + B̄ q1)/h with (Kosmas & Vlachos, eqs. 11 and 15), for u = ωh and z =
+//! u²,
 //!
 //! b = (1−c) σ((1−c)²z)/σ(z)    b̄ = c σ(c²z)/σ(z)    B = −κ((1−c)²z)/σ(z)    B̄ = κ(c²z)/σ(z)
 //!
@@ -26,8 +27,8 @@ pub(crate) struct Pair<T> {
     pub(crate) sinc: T,
 }
 
-/// Up to here the series are as accurate as the functions, and faster; beyond, doubling would lose digits near
-/// the zeros of sin u.
+/// Up to here the series are as accurate as the functions, and faster; beyond, doubling would lose digits
+/// near the zeros of sin u.
 const SERIES_TO: f64 = 0.25;
 
 /// (−1)ᵏ/(2k)! and (−1)ᵏ/(2k + 1)!.
@@ -80,8 +81,8 @@ impl<T: Real> Pair<T> {
     }
 }
 
-/// The bases of all nodes for one u, with as few sines and cosines as the nodes allow: none for 0, ½ and 1 if u is
-/// small.
+/// The bases of all nodes for one u, with as few sines and cosines as the nodes allow: none for 0, ½ and 1
+/// if u is small.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bases<T> {
     u: T,

@@ -41,15 +41,14 @@ pub trait Frequency: Debug {
 
 /// A [`Frequency`] in the arithmetic of `T`, in radians per unit of time.
 pub trait FrequencyIn<T: Real>: Frequency {
-    /// The frequency, where it does not depend on the motion: needed if
-    /// [`reading`](Frequency::reading) is `None`. Not a number unless it is given; a run that needs it is then
-    /// refused.
+    /// The frequency, where it does not depend on the motion: needed if [`reading`](Frequency::reading) is
+    /// `None`. Not a number unless it is given; a run that needs it is then refused.
     fn fixed(&self) -> T {
         T::lift(f64::NAN)
     }
 
-    /// ω at (q, v), from the acceleration a = M⁻¹∂L/∂q: needed if the frequency is read from the motion. Not a
-    /// number unless it is given; a step that needs it then fails.
+    /// ω at (q, v), from the acceleration a = M⁻¹∂L/∂q: needed if the frequency is read from the motion. Not
+    /// a number unless it is given; a step that needs it then fails.
     fn at(&self, _q: &[T], _v: &[T], _a: &[T]) -> T {
         T::lift(f64::NAN)
     }
@@ -98,8 +97,8 @@ impl<T: Real> FrequencyIn<T> for Unfitted {
     }
 }
 
-/// One frequency for all coordinates and all times. Symplectic, and with steps of one length exact on oscillators of that
-/// frequency.
+/// One frequency for all coordinates and all times. Symplectic, and with steps of one length exact on
+/// oscillators of that frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant(
     /// ω ≥ 0.
@@ -163,8 +162,9 @@ fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
 /// At both ends v is the mean velocity Δ/h; for [`Reading::LeftFrozen`] it is that of the motion. On Kepler
 /// orbits it changes fast at the pericentre; [`Radial`] is smoother there and gives order 4.
 ///
-/// On a straight path ω = 0 has a kink, as |x| has at 0. With [`Reading::Variational`] its derivatives are left out there:
-/// the step is that of the neighbouring paths, but a run on dual numbers is no tangent map at such a point.
+/// On a straight path ω = 0 has a kink, as |x| has at 0. With [`Reading::Variational`] its derivatives are
+/// left out there: the step is that of the neighbouring paths, but a run on dual numbers is no tangent map
+/// at such a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Curvature(
     /// How it enters the step.
@@ -218,9 +218,9 @@ fn area<T: Real>(v: &[T], a: &[T]) -> T {
     if square == T::lift(0.0) { square } else { Scalar::sqrt(square) }
 }
 
-/// ω = √(|a|/|q|): the frequency of the oscillator q'' = −ω²q with the same acceleration at the same distance
-/// from the origin. On Kepler orbits it is r^(−3/2), and the averaged and the variational reading are of order
-/// 4 there with Simpson's rule or a better one.
+/// ω = √(|a|/|q|): the frequency of the oscillator q'' = −ω²q with the same acceleration at the same
+/// distance from the origin. On Kepler orbits it is r^(−3/2), and the averaged and the variational reading
+/// are of order 4 there with Simpson's rule or a better one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Radial(
     /// How it enters the step.

@@ -19,8 +19,8 @@ pub trait Rule: Copy + core::fmt::Debug {
     /// The weights wⱼ.
     fn weights(&self) -> &[f64];
 
-    /// Whether c and 1 − c have the same weight, for every node c, up to rounding; a node that is given more than
-    /// once has the sum of its weights.
+    /// Whether c and 1 − c have the same weight, for every node c, up to rounding; a node that is given more
+    /// than once has the sum of its weights.
     fn is_symmetric(&self) -> bool {
         let near = |a: f64, b: f64| a - b <= 1e-15 && b - a <= 1e-15;
         let weight_at = |c: f64| {
@@ -30,7 +30,8 @@ pub trait Rule: Copy + core::fmt::Debug {
         self.nodes().iter().all(|&c| near(weight_at(c), weight_at(1.0 - c)))
     }
 
-    /// Whether Σ w c = ½, up to rounding, so that linear functions are integrated exactly: symmetric rules are, and Radau's.
+    /// Whether Σ w c = ½, up to rounding, so that linear functions are integrated exactly: symmetric rules
+    /// are, and Radau's.
     fn is_exact_for_linear(&self) -> bool {
         let sum: f64 = self.nodes().iter().zip(self.weights()).map(|(c, w)| w * (c - 0.5)).sum();
         (-1e-15..=1e-15).contains(&sum)

@@ -4,8 +4,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 
-/// Random numbers for the members of an ensemble. Those of member k depend on the seed and on k, and on nothing else: they are the k-th
-/// stream of a generator, ChaCha with 8 rounds.
+/// Random numbers for the members of an ensemble. Those of member k depend on the seed and on k, and on
+/// nothing else: they are the k-th stream of a generator, ChaCha with 8 rounds.
 ///
 /// ```
 /// use dvi_core::ensemble::Draws;
@@ -49,8 +49,8 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// A number that is uniformly distributed from `low` to below `high`. Rounding may make it `high`, where few numbers lie between; and
-    /// `high` − `low` must be a number.
+    /// A number that is uniformly distributed from `low` to below `high`. Rounding may make it `high`, where
+    /// few numbers lie between; and `high` − `low` must be a number.
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         // 53 bits, as many as a number has.
         let unit = (self.generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;

@@ -11,7 +11,8 @@ use crate::error::StartError;
 
 crate::error::said!(EnsembleError, Difference, MergeError);
 
-/// An ensemble that cannot run. The failure of a member is none: it is the [`Outcome`](super::Outcome) of that member.
+/// An ensemble that cannot run. The failure of a member is none: it is the [`Outcome`](super::Outcome) of
+/// that member.
 #[derive(Error)]
 #[non_exhaustive]
 pub enum EnsembleError {

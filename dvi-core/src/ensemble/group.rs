@@ -108,7 +108,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         Ok(())
     }
 
-    /// Begins the run of a member, or goes on with it; there is none if the member has ended, or ends at once.
+    /// Begins the run of a member, or goes on with it; there is none if the member has ended, or ends at
+    /// once.
     fn begin<'s>(
         &self,
         slot: &'s mut Slot,
@@ -186,7 +187,8 @@ impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> Runner<'s, 'a, S, M> {
         None
     }
 
-    /// Leaves the member to be gone on with, if it can be: a run that has just overflown takes a step more, which fails.
+    /// Leaves the member to be gone on with, if it can be: a run that has just overflown takes a step more,
+    /// which fails.
     fn is_left(&mut self, settings: &Settings<'_, S, M>) -> bool
     where
         M: Clone,

@@ -18,7 +18,8 @@ pub struct Member {
     pub number: u64,
     /// How its run has ended.
     pub outcome: Outcome,
-    /// The time that it has reached: the last, that of the exit, or that of the last good state before a failure.
+    /// The time that it has reached: the last, that of the exit, or that of the last good state before a
+    /// failure.
     pub time: f64,
     /// The steps that it has completed.
     pub steps: u64,
@@ -30,7 +31,8 @@ pub struct Member {
     pub energy: Energy,
     /// The first and the last value of each declared momentum.
     pub momenta: Vec<[f64; 2]>,
-    /// The largest Lyapunov exponent, if it is [asked for](super::Ensemble::exponents); none before the first step.
+    /// The largest Lyapunov exponent, if it is [asked for](super::Ensemble::exponents); none before the
+    /// first step.
     pub exponent: Option<f64>,
     /// How often it has crossed the [section](super::Ensemble::section); zero if there is none.
     pub crossings: u64,
@@ -176,8 +178,8 @@ fn flat<S: System>(system: &S, q: &[f64], v: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The number, or the one bit pattern that stands for all that are none: which of them an operation yields differs from instruction to
-/// instruction.
+/// The number, or the one bit pattern that stands for all that are none: which of them an operation yields
+/// differs from instruction to instruction.
 pub(super) fn plain(x: f64) -> f64 {
     if x.is_nan() { f64::NAN } else { x }
 }

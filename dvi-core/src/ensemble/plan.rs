@@ -138,8 +138,8 @@ fn formulas<S: Lagrangian>() -> String {
     fingerprint.to_string()
 }
 
-/// Those of the initial states, of what the parameters of the systems do there, and of what the systems say of themselves, if
-/// they are asked.
+/// Those of the initial states, of what the parameters of the systems do there, and of what the systems say
+/// of themselves, if they are asked.
 fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>) -> [String; 3] {
     let [mut starts, mut systems, mut texts] = [const { Fingerprint::new() }; 3];
     for (member, state) in settings.states.iter().enumerate() {

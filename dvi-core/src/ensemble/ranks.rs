@@ -1,4 +1,5 @@
-//! An ensemble over the processes of an MPI program: each takes a shard, and the first puts the results together.
+//! An ensemble over the processes of an MPI program: each takes a shard, and the first puts the results
+//! together.
 
 use std::fmt;
 use std::io;
@@ -55,9 +56,10 @@ pub enum RanksError {
 }
 
 impl<S: Lagrangian, M: Method<S, f64>> Ensemble<'_, S, M> {
-    /// Takes up to `count` steps of each member, on all processes of `world`, which all call this with the same ensemble: rank r of n takes
-    /// the shard r/n. The first process gets the results of all members, bit for bit those of [`take_steps`](Self::take_steps) alone, the
-    /// others get `None`. With checkpoints there is one for each process; begin again with as many.
+    /// Takes up to `count` steps of each member, on all processes of `world`, which all call this with the
+    /// same ensemble: rank r of n takes the shard r/n. The first process gets the results of all members,
+    /// bit for bit those of [`take_steps`](Self::take_steps) alone, the others get `None`. With checkpoints
+    /// there is one for each process; begin again with as many.
     ///
     /// # Errors
     /// [`RanksError`]. A shard that cannot run is an error of all processes.

@@ -52,10 +52,12 @@ impl Results {
         file::encode(&self.plan, self.shard, &slots)
     }
 
-    /// Reads the results of a shard from its [checkpoint](super::Ensemble::checkpoints), to be [put together](Self::merge) with others.
+    /// Reads the results of a shard from its [checkpoint](super::Ensemble::checkpoints), to be [put
+    /// together](Self::merge) with others.
     ///
     /// # Errors
-    /// [`EnsembleError::UnderWay`] if the shard has not ended; [`EnsembleError::File`] and [`EnsembleError::Damaged`].
+    /// [`EnsembleError::UnderWay`] if the shard has not ended; [`EnsembleError::File`] and
+    /// [`EnsembleError::Damaged`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, EnsembleError> {
         let path = path.as_ref();
         let Some(saved) = file::read(path)? else {
@@ -71,11 +73,12 @@ impl Results {
         Ok(results)
     }
 
-    /// Puts the results of all shards together, in any order: they are then, bit for bit, those of the whole.
+    /// Puts the results of all shards together, in any order: they are then, bit for bit, those of the
+    /// whole.
     ///
     /// # Errors
-    /// [`MergeError`] if they are seen to belong to different ensembles, as [a checkpoint](super::Ensemble::checkpoints) is, if a member occurs
-    /// twice, or if one is missing.
+    /// [`MergeError`] if they are seen to belong to different ensembles, as [a
+    /// checkpoint](super::Ensemble::checkpoints) is, if a member occurs twice, or if one is missing.
     pub fn merge(shards: impl IntoIterator<Item = Self>) -> Result<Self, MergeError> {
         let mut shards = shards.into_iter();
         let mut whole = shards.next().ok_or(MergeError::Nothing)?;
@@ -117,8 +120,8 @@ impl Results {
         self.plan.names.iter().map(String::as_str)
     }
 
-    /// Writes a table in CSV, with a line for each member. Its numbers can be read back without a rounding error, and
-    /// [`Table::states`](super::Table::states) reads the last states.
+    /// Writes a table in CSV, with a line for each member. Its numbers can be read back without a rounding
+    /// error, and [`Table::states`](super::Table::states) reads the last states.
     ///
     /// # Errors
     /// Those of `to`.
@@ -134,9 +137,9 @@ impl Results {
         writer.flush()
     }
 
-    /// Writes an array of records in the format of NumPy, with the columns of the CSV as its fields, but for the texts of
-    /// `run.reason`: `numpy.load(file)["energy.last"]`. `run.outcome` is 0 if the member finished, 1 if it exited, 2 if it failed. An
-    /// exponent that is none is not a number.
+    /// Writes an array of records in the format of NumPy, with the columns of the CSV as its fields, but for
+    /// the texts of `run.reason`: `numpy.load(file)["energy.last"]`. `run.outcome` is 0 if the member
+    /// finished, 1 if it exited, 2 if it failed. An exponent that is none is not a number.
     ///
     /// # Errors
     /// Those of `to`.

@@ -1,5 +1,5 @@
-//! An ensemble on all cores, round after round. Between two rounds nobody else is at work: then checkpoints are written, and progress is
-//! told.
+//! An ensemble on all cores, round after round. Between two rounds nobody else is at work: then checkpoints
+//! are written, and progress is told.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -90,7 +90,8 @@ impl Rounds {
         Ok(Results::of(self.plan, self.shard, self.slots))
     }
 
-    /// Takes members on until they have ended or, if the round has a `length`, it is over. In each round at least one of them gets on.
+    /// Takes members on until they have ended or, if the round has a `length`, it is over. In each round at
+    /// least one of them gets on.
     fn round(&mut self, work: &Work<'_>, length: Option<Duration>) -> Result<(), EnsembleError> {
         let begin = Instant::now();
         let is_over = || length.is_some_and(|length| begin.elapsed() >= length);
@@ -108,8 +109,9 @@ impl Rounds {
     }
 
     fn write(&self, checkpoints: Option<&Checkpoints>) -> Result<(), EnsembleError> {
-        checkpoints
-            .map_or(Ok(()), |Checkpoints { path, .. }| file::write(path, &self.plan, self.shard, &self.slots))
+        checkpoints.map_or(Ok(()), |Checkpoints { path, .. }| {
+            file::write(path, &self.plan, self.shard, &self.slots)
+        })
     }
 
     fn tell(&self, on_progress: &mut Option<Tell<'_>>) {

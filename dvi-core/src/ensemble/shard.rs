@@ -65,7 +65,8 @@ impl Shard {
         member % self.of == self.index
     }
 
-    /// The file of this shard among those of `path`: `run.ckpt.2-of-8` of `run.ckpt`, and `path` itself of the whole.
+    /// The file of this shard among those of `path`: `run.ckpt.2-of-8` of `run.ckpt`, and `path` itself of
+    /// the whole.
     pub fn path(self, path: impl AsRef<Path>) -> PathBuf {
         let path = path.as_ref();
         if self == Self::WHOLE {

@@ -12,8 +12,8 @@ use crate::{Lagrangian, Space, State};
 
 crate::error::said!(TableError);
 
-/// A table in CSV: names in the first line, then a line for each member. Columns that nobody asks for may hold any text, in
-/// UTF-8.
+/// A table in CSV: names in the first line, then a line for each member. Columns that nobody asks for may
+/// hold any text, in UTF-8.
 ///
 /// ```
 /// use dvi_core::ensemble::Table;
@@ -122,7 +122,8 @@ impl Table {
         self.rows.iter().map(|row| self.number(row, place)).collect()
     }
 
-    /// The states of a system, from the columns with its [names](crate::System::names); members may have other parameters than `system` has.
+    /// The states of a system, from the columns with its [names](crate::System::names); members may have
+    /// other parameters than `system` has.
     ///
     /// # Errors
     /// As of [`column`](Self::column).

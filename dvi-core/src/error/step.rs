@@ -34,8 +34,8 @@ pub enum StepFailure {
         u: f64,
         /// sin u, by which the interpolation divides.
         sine: f64,
-        /// S = Σ w cos((1 − 2c)u), which multiplies the new point; with interior displacements, what multiplies
-        /// it in place of S.
+        /// S = Σ w cos((1 − 2c)u), which multiplies the new point; with interior displacements, what
+        /// multiplies it in place of S.
         cosine_sum: f64,
     },
     /// A matrix has an entry where its pattern, which decided its storage when the run began, has none.
@@ -62,9 +62,10 @@ pub enum StepFailure {
         /// The largest candidate.
         pivot: f64,
     },
-    /// The gradient of a constraint vanishes, or depends linearly on those of the constraints before it: it says nothing that these do
-    /// not say, or contradicts them. Its multiplier is not determined then. In a gradient of size one, a part of 10⁻⁹ that those before it do
-    /// not have is lost in rounding, one of 10⁻⁶ as a rule not.
+    /// The gradient of a constraint vanishes, or depends linearly on those of the constraints before it: it
+    /// says nothing that these do not say, or contradicts them. Its multiplier is not determined then. In a
+    /// gradient of size one, a part of 10⁻⁹ that those before it do not have is lost in rounding, one of
+    /// 10⁻⁶ as a rule not.
     #[error(
         "constraint {constraint} is redundant here, or contradicts those before it: its gradient vanishes or depends on theirs \
          (pivot {pivot:e} in units of the others)"
@@ -75,9 +76,9 @@ pub enum StepFailure {
         /// The pivot without which the equations have no solution.
         pivot: f64,
     },
-    /// A step turns the gradient of a constraint of positions by a right angle or more, or leads away from one that does not move by more
-    /// than 45°, in the metric of the mass matrix: the equations of the step have several solutions then, and this one need not be that of
-    /// the motion.
+    /// A step turns the gradient of a constraint of positions by a right angle or more, or leads away from
+    /// one that does not move by more than 45°, in the metric of the mass matrix: the equations of the step
+    /// have several solutions then, and this one need not be that of the motion.
     #[error(
         "the step turns the gradient of constraint {constraint} by a right angle or more, or leads away from it by more than 45°, where \
          its equations have other solutions than the motion: a smaller step helps, unless the constraint is singular on the way"
@@ -86,24 +87,27 @@ pub enum StepFailure {
         /// Its number, counted from 0 in the order of declaration.
         constraint: usize,
     },
-    /// The equations of a step have been solved on another branch than that of the motion: the determinant of their matrix has another
-    /// sign than that of a short step. With constraints, where a rod may point to either side, that is the one of G(q1) M⁻¹ G(q0)ᵀ.
+    /// The equations of a step have been solved on another branch than that of the motion: the determinant
+    /// of their matrix has another sign than that of a short step. With constraints, where a rod may point
+    /// to either side, that is the one of G(q1) M⁻¹ G(q0)ᵀ.
     #[error(
         "the step comes out at another solution of its equations than that of the motion: a smaller step helps, unless constraints are \
          singular on the way"
     )]
     Branch,
-    /// A step turns a rotation, or moves a unit vector, by half a turn or more, where a geodesic is not the shortest way and the equations of
-    /// the step have other solutions than the motion.
-    #[error("`{block}` would turn by {angle} radians in one step, half a turn or more: a smaller step helps")]
+    /// A step turns a rotation, or moves a unit vector, by half a turn or more, where a geodesic is not the
+    /// shortest way and the equations of the step have other solutions than the motion.
+    #[error(
+        "`{block}` would turn by {angle} radians in one step, half a turn or more: a smaller step helps"
+    )]
     HalfTurn {
         /// The name of the coordinates.
         block: &'static str,
         /// The angle.
         angle: f64,
     },
-    /// Impacts follow each other so fast that a step has too many of them: they accumulate where the motion comes to rest on a
-    /// surface, or the step is too long.
+    /// Impacts follow each other so fast that a step has too many of them: they accumulate where the motion
+    /// comes to rest on a surface, or the step is too long.
     #[error(
         "a step has more than {impacts} impacts, the last on surface {surface} at t = {time}: they accumulate, as those of a ball that \
          comes to rest, or the step is too long"
@@ -139,8 +143,8 @@ pub enum StepFailure {
         /// The rate of change of that.
         rate: f64,
     },
-    /// A velocity does not keep a constraint to rounding errors, however often its equations are solved: they say too little of what is
-    /// asked.
+    /// A velocity does not keep a constraint to rounding errors, however often its equations are solved:
+    /// they say too little of what is asked.
     #[error(
         "constraint {constraint} of the velocity, or its rate of change, is still {value:e}, more than rounding errors: it depends on those \
          before it but for rounding, or masses differ by too much"
@@ -161,7 +165,8 @@ pub enum StepFailure {
         /// Its value.
         value: f64,
     },
-    /// The energy has changed by more than the limit of the run ([`EnergyLimit`](crate::methods::EnergyLimit)).
+    /// The energy has changed by more than the limit of the run
+    /// ([`EnergyLimit`](crate::methods::EnergyLimit)).
     #[error(
         "the energy was {start:e} at the start and would become {now:e}; the limit of its change is {limit:e}"
     )]
@@ -173,7 +178,8 @@ pub enum StepFailure {
         /// The largest change that was allowed.
         limit: f64,
     },
-    /// The parasitic mode of a two-step method has taken over: what the run computes is no longer its motion.
+    /// The parasitic mode of a two-step method has taken over: what the run computes is no longer its
+    /// motion.
     #[error(
         "the parasitic mode has reached {relative:.3} times a quarter of the smooth second differences, amplitude \
          {amplitude:e}; the limit is {limit}: take another sigma or method, or smaller steps for a later end"
@@ -181,16 +187,18 @@ pub enum StepFailure {
     ParasiticMode {
         /// Its amplitude in the coordinates.
         amplitude: f64,
-        /// Its size, relative to h²q̈/4: see [`ParasiticMode::relative`](crate::methods::ParasiticMode::relative).
+        /// Its size, relative to h²q̈/4: see
+        /// [`ParasiticMode::relative`](crate::methods::ParasiticMode::relative).
         relative: f64,
         /// The largest relative size that was allowed.
         limit: f64,
     },
-    /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the way, and the
-    /// motion does not lead across. What is watched is the sign of a pair of coordinates, the sign of the Pfaffian of Ω, or
-    /// the number of negative eigenvalues of the mass matrix, at the end of each step. So two passages within one step are
-    /// not seen, nor a positive and a negative eigenvalue of a mass matrix that change their signs in one step, nor two
-    /// pivots of Ω that vanish together, unless Ω couples the coordinates in pairs.
+    /// Ω or the mass matrix has changed its orientation within the step: it is singular somewhere on the
+    /// way, and the motion does not lead across. What is watched is the sign of a pair of coordinates, the
+    /// sign of the Pfaffian of Ω, or the number of negative eigenvalues of the mass matrix, at the end of
+    /// each step. So two passages within one step are not seen, nor a positive and a negative eigenvalue of
+    /// a mass matrix that change their signs in one step, nor two pivots of Ω that vanish together, unless Ω
+    /// couples the coordinates in pairs.
     #[error(
         "{matrix} has changed its sign within the step, from {before:e} to {after:e}: it is singular in between, and \
          the motion is not determined there"
@@ -198,9 +206,9 @@ pub enum StepFailure {
     Orientation {
         /// Which matrix.
         matrix: &'static str,
-        /// At the start of the step: the entry of Ω that has changed its sign, if Ω couples the coordinates in pairs; else
-        /// the smallest pivot of Ω, with the sign of the Pfaffian; or the smallest pivot of the mass matrix on the side of
-        /// zero that has been left.
+        /// At the start of the step: the entry of Ω that has changed its sign, if Ω couples the coordinates
+        /// in pairs; else the smallest pivot of Ω, with the sign of the Pfaffian; or the smallest pivot of
+        /// the mass matrix on the side of zero that has been left.
         before: f64,
         /// The same at the end of the step.
         after: f64,
@@ -257,8 +265,8 @@ pub enum StepFailure {
         /// The time that was asked for.
         target: f64,
     },
-    /// The physical time would stand still or run backwards: the time transformation is not positive any more at the end of
-    /// the step, or was negative on the way.
+    /// The physical time would stand still or run backwards: the time transformation is not positive any
+    /// more at the end of the step, or was negative on the way.
     #[error(
         "the physical time went at the rate {rate:e} in the step and must go forward: the time transformation is not positive on \
          the way, or the step is too short for the digits of the time"
@@ -267,9 +275,10 @@ pub enum StepFailure {
         /// ρ at the end of the step, or its mean over the step if that is smaller.
         rate: f64,
     },
-    /// A function that holds data was evaluated outside of its table. The argument is the one at the state where the step began
-    /// or, if that lies inside, at the first point outside on a parabola that the motion follows from there, up to two steps
-    /// ahead: iterates of a step and their guesses lie beyond it. Where the motion itself stays inside, a smaller step helps.
+    /// A function that holds data was evaluated outside of its table. The argument is the one at the state
+    /// where the step began or, if that lies inside, at the first point outside on a parabola that the
+    /// motion follows from there, up to two steps ahead: iterates of a step and their guesses lie beyond it.
+    /// Where the motion itself stays inside, a smaller step helps.
     #[error("the step leaves a table: {0}")]
     Outside(OutsideError),
     /// The step ends outside of the domain of a formula of L: the argument of a root, a logarithm or a power
@@ -280,7 +289,8 @@ pub enum StepFailure {
          logarithm is taken of: the motion leads there, or the step is too long"
     )]
     LeftDomain,
-    /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step that is too long.
+    /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step
+    /// that is too long.
     #[error(
         "coordinate {coordinate} became {value}: a collision, a formula that left its domain, or a step that is too long"
     )]
@@ -304,8 +314,8 @@ pub struct StepError {
     pub failure: StepFailure,
 }
 
-/// The result of a step is returned through every call of a run: with failures of seven words in place of five, steps of
-/// phase-fitted schemes took 13 % to 16 % more instructions.
+/// The result of a step is returned through every call of a run: with failures of seven words in place of
+/// five, steps of phase-fitted schemes took 13 % to 16 % more instructions.
 const _: () = assert!(size_of::<StepFailure>() <= 40);
 
 impl StepFailure {

@@ -23,8 +23,8 @@ impl<T: Scalar> Chebyshev<T> {
     }
 }
 
-/// Sets the polynomials at u along each axis, and their derivatives, by the recurrence T_{m+1} = 2u T_m − T_{m−1} and its derivative, for
-/// m < `order`.
+/// Sets the polynomials at u along each axis, and their derivatives, by the recurrence T_{m+1} = 2u T_m −
+/// T_{m−1} and its derivative, for m < `order`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn set_polynomials<T: Scalar, const D: usize>(
     at: &mut [Chebyshev<T>; D],
@@ -110,7 +110,8 @@ pub(super) fn nodes(order: usize) -> Vec<f64> {
     (0..order).map(|i| angle(order, i).cos()).collect()
 }
 
-/// The matrix, row by row, that makes the values of a function at the [`nodes`] the coefficients of its interpolant.
+/// The matrix, row by row, that makes the values of a function at the [`nodes`] the coefficients of its
+/// interpolant.
 pub(super) fn coefficients(order: usize) -> Vec<f64> {
     let entry = |m: usize, i: usize| {
         let weight = if m == 0 { 1.0 } else { 2.0 };

@@ -23,7 +23,8 @@ impl Directions {
         Self { functions: DMatrix::zeros(size, 0), weights: Vec::new(), parities: Vec::new() }
     }
 
-    /// The singular vectors of columns and of their reflections, of values above a bound; none if they are not found.
+    /// The singular vectors of columns and of their reflections, of values above a bound; none if they are
+    /// not found.
     pub(super) fn of_parities<const D: usize>(
         basis: &Basis<D>,
         columns: &DMatrix<f64>,
@@ -32,7 +33,8 @@ impl Directions {
         let mut found = Self::none(basis.len());
         for parity in 0..1_usize << D {
             let is_odd = |axis: usize| parity >> axis & 1 == 1;
-            let of_parity = |m: &usize| (0..D).all(|axis| (basis.degrees[*m][axis] % 2 == 1) == is_odd(axis));
+            let of_parity =
+                |m: &usize| (0..D).all(|axis| (basis.degrees[*m][axis] % 2 == 1) == is_odd(axis));
             let functions: Vec<usize> = (0..basis.len()).filter(of_parity).collect();
             if functions.is_empty() || columns.ncols() == 0 {
                 continue;

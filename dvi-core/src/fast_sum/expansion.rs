@@ -32,11 +32,13 @@ pub(super) struct Expansion<const D: usize> {
     subspaces: Vec<(Key, Subspace)>,
 }
 
-/// What a subspace depends on: that of larger cubes, the binary logarithm of the edge, and whether there are matrices between these cubes.
+/// What a subspace depends on: that of larger cubes, the binary logarithm of the edge, and whether there are
+/// matrices between these cubes.
 type Key = (Option<usize>, i32, bool);
 
 impl<const D: usize> Expansion<D> {
-    /// Functions with a total degree below `order`, and matrices without singular values below `tolerance` times the largest.
+    /// Functions with a total degree below `order`, and matrices without singular values below `tolerance`
+    /// times the largest.
     pub(super) fn new(order: usize, tolerance: f64) -> Self {
         let basis = Basis::new(order);
         let firsts = basis.degrees.iter().enumerate().filter(|(_, degrees)| degrees[D - 1] == 0);
@@ -49,7 +51,8 @@ impl<const D: usize> Expansion<D> {
         Self { basis, rows, refinement, tolerance, transfers: Vec::new(), subspaces: Vec::new() }
     }
 
-    /// Where the matrices between cubes with this edge are, if there are any; they are computed where they are needed first.
+    /// Where the matrices between cubes with this edge are, if there are any; they are computed where they
+    /// are needed first.
     pub(super) fn position(&mut self, edge: i32, kernel: impl Fn(f64) -> f64) -> Option<usize> {
         let known = self.transfers.iter().position(|(known, _)| *known == edge);
         let position = known.unwrap_or_else(|| {
@@ -63,8 +66,8 @@ impl<const D: usize> Expansion<D> {
         self.transfers[position?].1.as_ref()
     }
 
-    /// Where the functions are for cubes with this edge, within others with those at `above`, and with the matrices at `own`; none if they
-    /// are not found.
+    /// Where the functions are for cubes with this edge, within others with those at `above`, and with the
+    /// matrices at `own`; none if they are not found.
     pub(super) fn subspace_position(
         &mut self,
         above: Option<usize>,

@@ -31,7 +31,8 @@ impl Interpolant {
         let functions: Vec<usize> = basis.degrees.iter().map(place).collect();
         let mut places = alloc::vec![usize::MAX; all];
         functions.iter().enumerate().for_each(|(function, place)| places[*place] = function);
-        // First for each node of the target in the functions of the source, then these functions in those of the target.
+        // First for each node of the target in the functions of the source, then these functions in those of
+        // the target.
         let [mut values, mut room] = [alloc::vec![0.0; all * LANES], alloc::vec![0.0; all * LANES]];
         let mut half = alloc::vec![0.0; all * padded(size)];
         let mut largest = 0.0;
@@ -86,7 +87,8 @@ impl Interpolant {
     }
 }
 
-/// From values at the nodes of a cube to coefficients, several functions at once: the same matrix along each axis.
+/// From values at the nodes of a cube to coefficients, several functions at once: the same matrix along each
+/// axis.
 struct Transform {
     order: usize,
     axes: usize,

@@ -21,8 +21,8 @@ pub(super) struct Lists {
     pub(super) far: Vec<Vec<Pair>>,
     /// Cubes whose bodies act one by one, in the order of the targets.
     pub(super) near: Vec<Pair>,
-    /// For each of these pairs, the packs that the sources of the earlier ones fill, if they come after their targets; and at the end
-    /// those of all.
+    /// For each of these pairs, the packs that the sources of the earlier ones fill, if they come after
+    /// their targets; and at the end those of all.
     pub(super) packs: Vec<usize>,
     /// Where the pair stands that has target and source exchanged.
     pub(super) opposite: Vec<usize>,

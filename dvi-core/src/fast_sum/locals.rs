@@ -1,4 +1,5 @@
-//! The way down: what far cubes do, as local expansions, from the largest cubes to the smallest and from these to the bodies.
+//! The way down: what far cubes do, as local expansions, from the largest cubes to the smallest and from
+//! these to the bodies.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -34,7 +35,8 @@ pub(super) struct Actions<'w, const D: usize> {
     /// The moments of all cubes of the level, and the first of these cubes.
     pub(super) moments: &'w [f64],
     pub(super) first: usize,
-    /// The functions of the level before, if they are there; its local expansions, and the first of its cubes.
+    /// The functions of the level before, if they are there; its local expansions, and the first of its
+    /// cubes.
     pub(super) subspace_above: Option<&'w Subspace>,
     pub(super) above: &'w [f64],
     pub(super) first_above: usize,

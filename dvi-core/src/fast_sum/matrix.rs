@@ -32,7 +32,8 @@ pub(super) fn padded(entries: usize) -> usize {
 const BATCH: usize = 64;
 /// Vectors that are multiplied at once.
 pub(super) const VECTORS: usize = 4;
-/// Packs of rows that are computed at once with several vectors, and with one: as many as there are registers for.
+/// Packs of rows that are computed at once with several vectors, and with one: as many as there are
+/// registers for.
 const ROWS: usize = 5;
 const ROWS_OF_ONE: usize = 8;
 

@@ -107,7 +107,12 @@ type Values<const D: usize> = [[[Pack; TOGETHER]; MOST]; D];
 
 /// Adds the moments of the bodies of a cube.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn of_bodies<const D: usize>(from: &Sources<'_, D>, cube: &Cube<D>, at: &mut Values<D>, moments: &mut [f64]) {
+fn of_bodies<const D: usize>(
+    from: &Sources<'_, D>,
+    cube: &Cube<D>,
+    at: &mut Values<D>,
+    moments: &mut [f64],
+) {
     let frame = from.tree.frame(cube);
     for group in cube.bodies().step_by(TOGETHER * LANES) {
         let mut weights = [Pack::all(0.0); TOGETHER];

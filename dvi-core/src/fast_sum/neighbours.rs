@@ -1,7 +1,8 @@
 //! What bodies nearby do to each other one by one.
 //!
-//! Each pair of cubes is computed once, where the first of the two is the target. What its bodies do to those of the other waits in a place
-//! of its own until the sums of the other are taken up: so no sum is written by two, and its terms have one order.
+//! Each pair of cubes is computed once, where the first of the two is the target. What its bodies do to
+//! those of the other waits in a place of its own until the sums of the other are taken up: so no sum is
+//! written by two, and its terms have one order.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -32,7 +33,8 @@ impl<Q, const D: usize> Clone for Nearby<'_, Q, D> {
 
 impl<Q, const D: usize> Copy for Nearby<'_, Q, D> {}
 
-/// The sums of some cubes of one level over their own bodies and those of later cubes, and what they do to these.
+/// The sums of some cubes of one level over their own bodies and those of later cubes, and what they do to
+/// these.
 #[derive(Debug)]
 pub(super) struct Neighbours<'w, Q, const D: usize> {
     pub(super) by: Nearby<'w, Q, D>,
@@ -191,8 +193,8 @@ fn add_one<Q: Quantity<D>, const D: usize>(
     quantity.add_pair(found, weights, &difference, r2);
 }
 
-/// Adds what some bodies of one cube and those of an `other` do to each other: to what is `kept` for the ones, and to the `reactions` on
-/// the others.
+/// Adds what some bodies of one cube and those of an `other` do to each other: to what is `kept` for the
+/// ones, and to the `reactions` on the others.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn between<Q: Quantity<D>, const D: usize>(
     by: &Nearby<'_, Q, D>,

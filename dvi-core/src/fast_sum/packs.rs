@@ -51,7 +51,8 @@ pub(super) fn add_before<const D: usize>(
 
 /// Adds to each number the sum of the lanes of a pack.
 ///
-/// It is no part of what calls it: the compiler would take packs apart long before, and put them together again.
+/// It is no part of what calls it: the compiler would take packs apart long before, and put them together
+/// again.
 #[inline(never)]
 pub(super) fn add_lanes<'a>(packs: impl Iterator<Item = &'a Pack>, to: &mut [f64]) {
     for (pack, to) in packs.zip(to) {

@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 use super::packs::{LANES, Pack, load};
 
-/// Where some bodies of a cube are in it, from −1 to 1 along each axis; those from `past` on count as in its middle.
+/// Where some bodies of a cube are in it, from −1 to 1 along each axis; those from `past` on count as in its
+/// middle.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn coordinates<const D: usize>(
     places: &[Vec<f64>; D],

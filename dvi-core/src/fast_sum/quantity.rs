@@ -11,8 +11,8 @@ pub(super) trait Quantity<const D: usize>: Sync {
     fn none() -> Self::Sums;
     /// Adds that of a body with `weight` at a squared distance `r2`, seen in the direction `difference`.
     fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: &[Pack; D], r2: Pack);
-    /// Adds that of bodies with the first of the weights, and to the `reactions` on them that of the bodies in the lanes of `sums`, with
-    /// the other.
+    /// Adds that of bodies with the first of the weights, and to the `reactions` on them that of the bodies
+    /// in the lanes of `sums`, with the other.
     fn add_both(
         &self,
         sums: &mut Self::Sums,
@@ -21,8 +21,9 @@ pub(super) trait Quantity<const D: usize>: Sync {
         difference: &[Pack; D],
         r2: Pack,
     );
-    /// Adds that of one row of a local expansion: the polynomials at the place and the degrees of the row in all coordinates but the
-    /// last, the sums of coefficients times T and times T' over the degrees of the last, and du/dx.
+    /// Adds that of one row of a local expansion: the polynomials at the place and the degrees of the row in
+    /// all coordinates but the last, the sums of coefficients times T and times T' over the degrees of the
+    /// last, and du/dx.
     fn add_row(
         sums: &mut Self::Sums,
         at: &[Chebyshev<Pack>; D],

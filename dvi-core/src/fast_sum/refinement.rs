@@ -1,5 +1,5 @@
-//! Expansions of a cube and of its parts: B_m(u) = Σ_n A_{mn} B_n(c) with u = (c ± 1)/2, where the cube of c is the half of that of u on
-//! these sides. It is exact, because the degree of a term does not grow.
+//! Expansions of a cube and of its parts: B_m(u) = Σ_n A_{mn} B_n(c) with u = (c ± 1)/2, where the cube of c
+//! is the half of that of u on these sides. It is exact, because the degree of a term does not grow.
 //!
 //! A is a product of triangular matrices, one for each axis, and is applied so.
 
@@ -13,7 +13,8 @@ use super::expansion::Row;
 pub(super) struct Refinement {
     /// T_m((c ± 1)/2) = Σ_n a_{mn} T_n(c), first for the lower half: by rows.
     halves: [Vec<[f64; MOST]>; 2],
-    /// For all axes but the last: which row of functions is made of which; first those that are made of most.
+    /// For all axes but the last: which row of functions is made of which; first those that are made of
+    /// most.
     mixtures: Vec<Mixture>,
 }
 

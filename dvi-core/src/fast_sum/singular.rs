@@ -1,7 +1,7 @@
 //! Left singular vectors, by rotations of pairs of columns (one-sided Jacobi).
 //!
-//! The matrices of kernels such as r² have an exact rank far below their size. For such matrices the iteration of a bidiagonal matrix in
-//! `nalgebra` was found to lose a direction.
+//! The matrices of kernels such as r² have an exact rank far below their size. For such matrices the
+//! iteration of a bidiagonal matrix in `nalgebra` was found to lose a direction.
 
 use alloc::vec::Vec;
 
@@ -10,7 +10,8 @@ use nalgebra::DMatrix;
 /// Sweeps over all pairs. About ten are needed, and fewer for a low rank.
 const SWEEPS: usize = 60;
 
-/// The singular vectors of values above a bound, and these values; none if rotations do not end, as those of what is no number.
+/// The singular vectors of values above a bound, and these values; none if rotations do not end, as those of
+/// what is no number.
 pub(super) fn singular(columns: &DMatrix<f64>, least: f64) -> Option<(DMatrix<f64>, Vec<f64>)> {
     singular_within(SWEEPS, columns, least)
 }
@@ -28,8 +29,8 @@ fn singular_within(sweeps: usize, columns: &DMatrix<f64>, least: f64) -> Option<
     Some((vectors, values))
 }
 
-/// No more columns than rows, with the same left singular vectors and values: A = P Rᵀ Qᵀ, of which P Rᵀ is returned. Its columns get
-/// shorter, for which few rotations do.
+/// No more columns than rows, with the same left singular vectors and values: A = P Rᵀ Qᵀ, of which P Rᵀ is
+/// returned. Its columns get shorter, for which few rotations do.
 fn as_few(columns: &DMatrix<f64>) -> DMatrix<f64> {
     let decomposed = columns.transpose().col_piv_qr();
     let mut few = decomposed.r().transpose();
@@ -37,7 +38,8 @@ fn as_few(columns: &DMatrix<f64>) -> DMatrix<f64> {
     few
 }
 
-/// Makes columns orthogonal to each other, but for pairs that are too short to matter; none if some are not after so many sweeps.
+/// Makes columns orthogonal to each other, but for pairs that are too short to matter; none if some are not
+/// after so many sweeps.
 fn rotate(columns: &mut DMatrix<f64>, sweeps: usize, least: f64) -> Option<()> {
     let (size, count) = columns.shape();
     let short = least / count as f64;

@@ -1,7 +1,8 @@
 //! The sums of a few bodies, held against sums over all others.
 //!
-//! A kernel need not be what interpolation makes of it: it may have a pole between the nodes, or oscillate faster than cubes are wide.
-//! Whether that matters depends on the bodies. So it is looked for in their sums, in each evaluation.
+//! A kernel need not be what interpolation makes of it: it may have a pole between the nodes, or oscillate
+//! faster than cubes are wide. Whether that matters depends on the bodies. So it is looked for in their
+//! sums, in each evaluation.
 
 use alloc::vec::Vec;
 
@@ -15,7 +16,8 @@ use crate::scalar::simd::widest_if;
 /// Bodies whose sums are checked, at equal distances in the order of the tree: so they are from all regions.
 const BODIES: usize = 8;
 
-/// Whether the sums of some bodies are those over all others, but for `part` of the largest sum of the absolute values of terms.
+/// Whether the sums of some bodies are those over all others, but for `part` of the largest sum of the
+/// absolute values of terms.
 pub(super) fn holds<Q: Quantity<D>, const D: usize>(
     quantity: &Q,
     (places, weights): (&[Vec<f64>; D], &[f64]),
@@ -37,7 +39,8 @@ pub(super) fn holds<Q: Quantity<D>, const D: usize>(
     apart <= part * largest
 }
 
-/// The sums for one body over all others, and those of the absolute values. There is room behind the last of the weights.
+/// The sums for one body over all others, and those of the absolute values. There is room behind the last of
+/// the weights.
 fn over_all<Q: Quantity<D>, const D: usize>(
     quantity: &Q,
     (places, weights): ([&[f64]; D], &[f64]),

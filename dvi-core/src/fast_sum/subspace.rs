@@ -1,8 +1,9 @@
-//! The functions that fields of far cubes are made of, in cubes of one size: so few that an expansion in them is short.
+//! The functions that fields of far cubes are made of, in cubes of one size: so few that an expansion in
+//! them is short.
 //!
-//! They are orthonormal combinations of the basis. First stand those that [`Transfer`] finds, of cubes that are as large; then follow those
-//! that the fields of larger cubes have besides. What a cube and its parts have to do with each other is a small matrix for each side, as in
-//! an H²-matrix (Hackbusch & Börm 2002).
+//! They are orthonormal combinations of the basis. First stand those that [`Transfer`] finds, of cubes that
+//! are as large; then follow those that the fields of larger cubes have besides. What a cube and its parts
+//! have to do with each other is a small matrix for each side, as in an H²-matrix (Hackbusch & Börm 2002).
 
 use alloc::vec::Vec;
 
@@ -19,22 +20,23 @@ pub(super) struct Subspace {
     /// From one cube to the next, in the coefficients.
     pub(super) stride: usize,
     directions: Directions,
-    /// From moments in the basis to those in these functions, and from coefficients of these functions to those of the basis.
+    /// From moments in the basis to those in these functions, and from coefficients of these functions to
+    /// those of the basis.
     pub(super) compress: Matrix,
     pub(super) expand: Matrix,
-    /// For each side: from the moments of a part to those of the cube around it, and from the local expansion of this one to that of the
-    /// part. None in the largest cubes.
+    /// For each side: from the moments of a part to those of the cube around it, and from the local
+    /// expansion of this one to that of the part. None in the largest cubes.
     pub(super) widen: Vec<Matrix>,
     pub(super) narrow: Vec<Matrix>,
 }
 
-/// A direction is kept if there is more of it than this times what a [`Transfer`] leaves out: errors on each level add up, and in small
-/// clusters the forces of far bodies may be all that there is.
+/// A direction is kept if there is more of it than this times what a [`Transfer`] leaves out: errors on each
+/// level add up, and in small clusters the forces of far bodies may be all that there is.
 const SLACK: f64 = 0.1;
 
 impl Subspace {
-    /// For cubes in larger ones, if these have expansions, that act on others of their size by a matrix, if they do. None if there are no
-    /// singular vectors.
+    /// For cubes in larger ones, if these have expansions, that act on others of their size by a matrix, if
+    /// they do. None if there are no singular vectors.
     pub(super) fn new<const D: usize>(
         (basis, rows, refinement): (&Basis<D>, &[Row<D>], &Refinement),
         above: Option<&Self>,
@@ -52,7 +54,8 @@ impl Subspace {
             functions
         };
         if let Some(above) = above {
-            // A force is a slope, and the cubes are half as large. Constants make none, and have a column of their own.
+            // A force is a slope, and the cubes are half as large. Constants make none, and have a column of
+            // their own.
             let mut fields = narrowed(above, 0);
             for (mut field, weight) in fields.column_iter_mut().zip(&above.directions.weights) {
                 field *= 2.0 * weight;
@@ -69,7 +72,8 @@ impl Subspace {
         }
         let functions = &directions.functions;
         let sides = 0..above.map_or(0, |_| 1_usize << D);
-        let links = sides.filter_map(|side| above.map(|above| functions.transpose() * narrowed(above, side)));
+        let links =
+            sides.filter_map(|side| above.map(|above| functions.transpose() * narrowed(above, side)));
         let links: Vec<_> = links.collect();
         Some(Self {
             stride: padded(functions.ncols()),

@@ -1,8 +1,10 @@
-//! How cubes that do not touch act on each other: the kernel between them as a sum over products of the basis.
+//! How cubes that do not touch act on each other: the kernel between them as a sum over products of the
+//! basis.
 //!
-//! For u in the cube of the target and v in that of the source, both of half the edge a, and the source t cubes away,
-//! K(a² |u − v + 2t|²) ≈ Σ κ_{mn} B_m(u) B_n(v), by interpolation at the Chebyshev nodes. It makes no difference which of the cubes is
-//! called the source, κ for −t is the transpose of that for t; so the force on each body is the derivative of one energy.
+//! For u in the cube of the target and v in that of the source, both of half the edge a, and the source t
+//! cubes away, K(a² |u − v + 2t|²) ≈ Σ κ_{mn} B_m(u) B_n(v), by interpolation at the Chebyshev nodes. It
+//! makes no difference which of the cubes is called the source, κ for −t is the transpose of that for t; so
+//! the force on each body is the derivative of one energy.
 
 use alloc::vec::Vec;
 
@@ -37,7 +39,8 @@ fn offset<const D: usize>(number: usize) -> [i32; D] {
     core::array::from_fn(|axis| (number / SIDE.pow((D - 1 - axis) as u32) % SIDE) as i32 - FARTHEST)
 }
 
-/// The matrices κ between cubes of one size, of the rank that the tolerance asks for: κ ≈ U κ̃ Uᵀ with the same U for all t.
+/// The matrices κ between cubes of one size, of the rank that the tolerance asks for: κ ≈ U κ̃ Uᵀ with the
+/// same U for all t.
 #[derive(Clone, Debug)]
 pub(super) struct Transfer {
     /// U
@@ -47,8 +50,8 @@ pub(super) struct Transfer {
 }
 
 impl Transfer {
-    /// None where K has no numbers at these distances, or where forces to the `tolerance` are differences of K that rounding does not
-    /// leave.
+    /// None where K has no numbers at these distances, or where forces to the `tolerance` are differences of
+    /// K that rounding does not leave.
     pub(super) fn new<const D: usize>(
         basis: &Basis<D>,
         tolerance: f64,
@@ -102,8 +105,8 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }
 
-/// κ for any t, from those with t₁ ≥ … ≥ t_D ≥ 0; none for cubes that touch. K(|u − v + 2t|) is the same with coordinates exchanged and
-/// reflected, and T_m is odd or even.
+/// κ for any t, from those with t₁ ≥ … ≥ t_D ≥ 0; none for cubes that touch. K(|u − v + 2t|) is the same
+/// with coordinates exchanged and reflected, and T_m is odd or even.
 fn matrix<const D: usize>(
     basis: &Basis<D>,
     known: &[([i32; D], Interpolant)],
@@ -132,13 +135,14 @@ fn matrix<const D: usize>(
 /// Columns that a matrix is sampled by.
 const SAMPLES: usize = 8;
 
-/// An orthonormal basis of the columns of all matrices, as far as they are not below the tolerance, by the singular values of the
-/// products with a few vectors that look random (Halko, Martinsson & Tropp 2011). With each κ comes its transpose, that of −t, so the
-/// columns are the rows as well. With each t come its reflections: so the functions that are odd along the same axes are taken by
-/// themselves, for t without negative steps.
+/// An orthonormal basis of the columns of all matrices, as far as they are not below the tolerance, by the
+/// singular values of the products with a few vectors that look random (Halko, Martinsson & Tropp 2011).
+/// With each κ comes its transpose, that of −t, so the columns are the rows as well. With each t come its
+/// reflections: so the functions that are odd along the same axes are taken by themselves, for t without
+/// negative steps.
 ///
-/// Columns are measured by what varies: the constant part of a kernel makes no forces. `scale` is about the size of that. None if there
-/// are no singular values.
+/// Columns are measured by what varies: the constant part of a kernel makes no forces. `scale` is about the
+/// size of that. None if there are no singular values.
 fn range<const D: usize>(
     basis: &Basis<D>,
     offsets: impl Iterator<Item = [i32; D]>,

@@ -73,8 +73,8 @@ impl<const D: usize> Tree<D> {
 
     /// Sorts bodies at these places, into cubes that are divided if they have more than `few`.
     ///
-    /// The largest cube depends on nothing but the extent of the bodies, and its edges are powers of two, so that the same cubes are
-    /// found again while the bodies move a little.
+    /// The largest cube depends on nothing but the extent of the bodies, and its edges are powers of two, so
+    /// that the same cubes are found again while the bodies move a little.
     pub(super) fn sort(&mut self, places: [&[f64]; D], few: usize) -> Result<(), NotFinite> {
         self.enclose(places)?;
         if self.order.len() != places[0].len() {

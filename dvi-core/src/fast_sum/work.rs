@@ -1,5 +1,5 @@
-//! The passes of one evaluation: moments up the tree, from cube to cube, local expansions down, neighbours one by one
-//! (Greengard & Rokhlin 1987; with interpolation of the kernel, Fong & Darve 2009).
+//! The passes of one evaluation: moments up the tree, from cube to cube, local expansions down, neighbours
+//! one by one (Greengard & Rokhlin 1987; with interpolation of the kernel, Fong & Darve 2009).
 
 use alloc::vec::Vec;
 
@@ -23,7 +23,8 @@ const FEW: usize = 64;
 /// In space the matrices are larger. The same, for each function of the basis.
 const FEW_IN_SPACE: usize = 2;
 
-/// How far sums may be from those over all pairs, in units of the tolerance, as a part of the sum of the absolute values of terms.
+/// How far sums may be from those over all pairs, in units of the tolerance, as a part of the sum of the
+/// absolute values of terms.
 const ALLOWED: f64 = 10.0;
 
 /// Where to find what belongs to the cubes of one level.
@@ -163,7 +164,8 @@ impl<const D: usize> Work<D> {
         Ok(())
     }
 
-    /// Which cubes act as wholes, and the matrices for them; none if there are no functions for their expansions.
+    /// Which cubes act as wholes, and the matrices for them; none if there are no functions for their
+    /// expansions.
     fn plan<S: PairSum<f64, D>>(&mut self, expansion: &mut Expansion<D>, system: &S) -> Option<()> {
         self.lists.fill(&self.tree, expansion.basis.len());
         let levels = self.tree.levels.len();

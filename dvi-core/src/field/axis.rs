@@ -6,14 +6,16 @@ use thiserror::Error;
 
 crate::error::said!(AxisError);
 
-/// The last point of a periodic axis is the first one, a period later, if the two differ by less than this part of the mean
-/// distance of its points, as it does when a table has few digits.
+/// The last point of a periodic axis is the first one, a period later, if the two differ by less than this
+/// part of the mean distance of its points, as it does when a table has few digits.
 const SAME: f64 = 1e-3;
 
-/// A last point that is closer to the end of the period than this part of the mean distance, and is not the end, is refused.
+/// A last point that is closer to the end of the period than this part of the mean distance, and is not the
+/// end, is refused.
 const CLOSE: f64 = 1e-2;
 
-/// The points of a grid along one variable, strictly increasing, and the period of a variable in which the table is periodic.
+/// The points of a grid along one variable, strictly increasing, and the period of a variable in which the
+/// table is periodic.
 ///
 /// ```
 /// use dvi_core::field::Axis;
@@ -37,8 +39,8 @@ impl Axis {
     /// An axis with these points, from the first to the last.
     ///
     /// # Errors
-    /// [`AxisError::NotFinite`], [`AxisError::NotIncreasing`] and [`AxisError::Distance`]. How many points there must be is
-    /// asked by the spline that is made on them.
+    /// [`AxisError::NotFinite`], [`AxisError::NotIncreasing`] and [`AxisError::Distance`]. How many points
+    /// there must be is asked by the spline that is made on them.
     pub fn new(points: &[f64]) -> Result<Self, AxisError> {
         if let Some(index) = points.iter().position(|x| !x.is_finite()) {
             return Err(AxisError::NotFinite { index, value: points[index] });
@@ -76,9 +78,10 @@ impl Axis {
 
     /// An axis on which the table repeats itself with the given period.
     ///
-    /// The points are those of one period. The last of them may be the first one, a period later, to a thousandth of the mean
-    /// distance of the points; the table then has the same values at both. Otherwise all points lie within the
-    /// period, and the last one is at least a hundredth of the mean distance away from its end.
+    /// The points are those of one period. The last of them may be the first one, a period later, to a
+    /// thousandth of the mean distance of the points; the table then has the same values at both. Otherwise
+    /// all points lie within the period, and the last one is at least a hundredth of the mean distance away
+    /// from its end.
     ///
     /// # Errors
     /// Those of [`new`](Self::new), and [`AxisError::Period`].
@@ -151,8 +154,8 @@ pub enum AxisError {
         /// The second.
         after: f64,
     },
-    /// Two points are so close to each other or so far apart that the square of their distance, or its reciprocal, cannot be
-    /// represented.
+    /// Two points are so close to each other or so far apart that the square of their distance, or its
+    /// reciprocal, cannot be represented.
     #[error(
         "point {index} of the axis is {after:e} after {before:e}, a distance whose square is out of range"
     )]

@@ -1,15 +1,16 @@
 //! The B-splines along one axis: the cells between their knots, and their polynomials in each cell.
 //!
-//! With knots t₀ ≤ t₁ ≤ …, the B-splines of degree k are those of degree k − 1, blended (de Boor, *A Practical Guide to
-//! Splines*, 2001, chapter IX):
+//! With knots t₀ ≤ t₁ ≤ …, the B-splines of degree k are those of degree k − 1, blended (de Boor, *A
+//! Practical Guide to Splines*, 2001, chapter IX):
 //!
 //! Bⱼₖ(x) = (x − tⱼ)/(tⱼ₊ₖ − tⱼ) Bⱼ,ₖ₋₁(x) + (tⱼ₊ₖ₊₁ − x)/(tⱼ₊ₖ₊₁ − tⱼ₊₁) Bⱼ₊₁,ₖ₋₁(x)
 //!
-//! On a cell [tᵢ, tᵢ₊₁], p + 1 of degree p are not zero. Their coefficients in powers of s = (x − tᵢ)/(tᵢ₊₁ − tᵢ) are
-//! computed once. An evaluation divides by nothing, and what it reads depends on the cell only.
+//! On a cell [tᵢ, tᵢ₊₁], p + 1 of degree p are not zero. Their coefficients in powers of s = (x − tᵢ)/(tᵢ₊₁
+//! − tᵢ) are computed once. An evaluation divides by nothing, and what it reads depends on the cell only.
 //!
-//! Without a period the knots are the points of the grid but (p − 1)/2 next to each end, which are "not a knot"
-//! (chapter IV), and the two ends are knots p + 1 times. With a period all points are knots, and so are their repetitions.
+//! Without a period the knots are the points of the grid but (p − 1)/2 next to each end, which are "not a
+//! knot" (chapter IV), and the two ends are knots p + 1 times. With a period all points are knots, and so
+//! are their repetitions.
 
 use alloc::vec::Vec;
 
@@ -158,7 +159,8 @@ impl<const P: usize> Basis<P> {
     }
 }
 
-/// An entry of a row of a table. One beyond its end is not a number: a wrong index is seen in what is computed from it.
+/// An entry of a row of a table. One beyond its end is not a number: a wrong index is seen in what is
+/// computed from it.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn entry(table: &[f64], start: usize, width: usize, at: usize) -> f64 {
     // All entries of a row ask the same question, and one answer serves them.
@@ -184,7 +186,8 @@ fn horner<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, s: T) -> 
     [value, first, half_second + half_second]
 }
 
-/// Cells per unit of length between the second and the last but one of their ends, if that shows the cell up to one.
+/// Cells per unit of length between the second and the last but one of their ends, if that shows the cell up
+/// to one.
 fn density(ends: &[f64]) -> Option<f64> {
     let cells = ends.len() - 1;
     if cells < 3 {
@@ -203,7 +206,8 @@ fn polynomials<const P: usize>(knots: &[f64]) -> impl Iterator<Item = f64> + use
     for k in 1..=P {
         let lower = core::mem::take(&mut of_degree);
         for (i, function) in lower.iter().enumerate().take(k) {
-            // Bⱼ of the lower degree, on the knots from j to j + k, rises in the next function and falls in this one.
+            // Bⱼ of the lower degree, on the knots from j to j + k, rises in the next function and falls in
+            // this one.
             let j = P + 1 - k + i;
             let span = knots[j + k] - knots[j];
             let slope = width / span;

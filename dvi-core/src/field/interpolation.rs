@@ -1,9 +1,10 @@
 //! From the values at the points of an axis to the coefficients of the B-splines that take them.
 //!
-//! Σⱼ cⱼ Bⱼ(xᵢ) = fᵢ is a banded system. It is solved by elimination without exchanges, which is stable here because the
-//! matrix is totally positive (de Boor, *A Practical Guide to Splines*, 2001, chapter XIII). With a period, B-splines at one
-//! end are in the equations of the other. The last (p − 1)/2 unknowns and equations stand beside the band then, which has no
-//! more such entries, and are eliminated last, without exchanges too:
+//! Σⱼ cⱼ Bⱼ(xᵢ) = fᵢ is a banded system. It is solved by elimination without exchanges, which is stable here
+//! because the matrix is totally positive (de Boor, *A Practical Guide to Splines*, 2001, chapter XIII).
+//! With a period, B-splines at one end are in the equations of the other. The last (p − 1)/2 unknowns and
+//! equations stand beside the band then, which has no more such entries, and are eliminated last, without
+//! exchanges too:
 //!
 //! ```text
 //! ⎛ B  E ⎞ ⎛ x ⎞   ⎛ f ⎞
@@ -136,9 +137,11 @@ impl Equations {
         line.iter().fold(0.0, larger)
     }
 
-    /// From values to coefficients in all lines of an array along one axis. Neighbours on the axis are `stride` apart.
+    /// From values to coefficients in all lines of an array along one axis. Neighbours on the axis are
+    /// `stride` apart.
     ///
-    /// With a period of `count` values, the coefficients are repeated until there are `coefficients` of them.
+    /// With a period of `count` values, the coefficients are repeated until there are `coefficients` of
+    /// them.
     pub(super) fn solve_lines(&self, values: &[f64], stride: usize, coefficients: usize) -> Vec<f64> {
         let count = self.count();
         let mut result = vec![0.0; values.len() / count * coefficients];

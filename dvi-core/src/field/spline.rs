@@ -1,9 +1,9 @@
 //! Tensor-product B-splines: functions of several variables that take the values of a table on a grid.
 //!
-//! f(x) = Σ c_{j₁…j_D} B_{j₁}(x₁) ⋯ B_{j_D}(x_D), with the coefficients that are found axis by axis (de Boor, *A Practical
-//! Guide to Splines*, 2001, chapter XVII). One pass over the (p + 1)ᴰ coefficients of a cell gives the value with all
-//! first and second derivatives: a line of p + 1 of them along the last axis is a function of the last variable, and is
-//! multiplied by a B-spline of each of the others.
+//! f(x) = Σ c_{j₁…j_D} B_{j₁}(x₁) ⋯ B_{j_D}(x_D), with the coefficients that are found axis by axis (de
+//! Boor, *A Practical Guide to Splines*, 2001, chapter XVII). One pass over the (p + 1)ᴰ coefficients of a
+//! cell gives the value with all first and second derivatives: a line of p + 1 of them along the last axis
+//! is a function of the last variable, and is multiplied by a B-spline of each of the others.
 
 use alloc::vec::Vec;
 
@@ -22,18 +22,19 @@ const AGREEMENT: f64 = 1e-6;
 /// Rounding errors of values may show in a spline enlarged by this factor: half of the digits are left.
 const LARGEST_GROWTH: f64 = 1e8;
 
-/// A spline of `D` variables through the values of a table: piecewise polynomials, of degree 3 with two continuous
-/// derivatives, or of degree 5 with four.
+/// A spline of `D` variables through the values of a table: piecewise polynomials, of degree 3 with two
+/// continuous derivatives, or of degree 5 with four.
 ///
-/// [`new`](Self::new) makes a cubic spline and [`quintic`](Spline::quintic) one of degree 5. Both take the values at the
-/// points of the grid, up to rounding. Where the table was sampled from a smooth function at distances h, the value of the
-/// cubic spline differs from it by a multiple of h⁴, the first derivatives by h³ and the second by h²; for the quintic
-/// spline these are h⁶, h⁵ and h⁴.
+/// [`new`](Self::new) makes a cubic spline and [`quintic`](Spline::quintic) one of degree 5. Both take the
+/// values at the points of the grid, up to rounding. Where the table was sampled from a smooth function at
+/// distances h, the value of the cubic spline differs from it by a multiple of h⁴, the first derivatives by
+/// h³ and the second by h²; for the quintic spline these are h⁶, h⁵ and h⁴.
 ///
-/// Neighbouring distances of a grid should be similar. Where they grow by a large factor from each to the next, splines
-/// oscillate between the points, those of degree 5 sooner. Of cubic splines through random values between 0 and 1 at 40 points, 200
-/// of them, the largest values were between 0.9 and 5 for a factor of 2, and between 19 and 6700 for a factor of 3. Of quintic
-/// ones they were between 0.9 and 6 for a factor of 1.2, and between 3 and 4000 for a factor of 1.5.
+/// Neighbouring distances of a grid should be similar. Where they grow by a large factor from each to the
+/// next, splines oscillate between the points, those of degree 5 sooner. Of cubic splines through random
+/// values between 0 and 1 at 40 points, 200 of them, the largest values were between 0.9 and 5 for a factor
+/// of 2, and between 19 and 6700 for a factor of 3. Of quintic ones they were between 0.9 and 6 for a factor
+/// of 1.2, and between 3 and 4000 for a factor of 1.5.
 ///
 /// Rounding errors of values grow where two points are close beside their neighbours, by the ratio of these
 /// distances and more, and the factors of all axes multiply. A grid on which they could grow more than 10⁸
@@ -42,16 +43,16 @@ const LARGEST_GROWTH: f64 = 1e8;
 /// not 10⁹ times. Through the values of 1 + x²/10, with two points 10⁻⁷ apart among others at distances of
 /// 0.3 to 0.9, a cubic spline and its second derivative were off by no more than 10⁻⁹ and 10⁻⁷.
 ///
-/// At an end without a period the polynomials of the first two cells are the same one (*not a knot*; of the first three,
-/// in degree 5), and no derivative there has to be known. In every variable, polynomials up to the degree of the spline are
-/// reproduced.
+/// At an end without a period the polynomials of the first two cells are the same one (*not a knot*; of the
+/// first three, in degree 5), and no derivative there has to be known. In every variable, polynomials up to
+/// the degree of the spline are reproduced.
 ///
-/// Outside of the [domain](ScalarField::domain) the value and all derivatives are not numbers. A spline is never
-/// extrapolated. In a variable with a period every finite number is inside.
+/// Outside of the [domain](ScalarField::domain) the value and all derivatives are not numbers. A spline is
+/// never extrapolated. In a variable with a period every finite number is inside.
 ///
 /// An evaluation does not allocate. It finds a cell in a fixed time on a grid that is nearly uniform, and by
-/// bisection on any other. In single precision a spline of more than 2²⁴ coefficients is not a number, because the place of
-/// a coefficient is not one.
+/// bisection on any other. In single precision a spline of more than 2²⁴ coefficients is not a number,
+/// because the place of a coefficient is not one.
 ///
 /// ```
 /// use dvi_core::field::{Axis, Expansion, ScalarField, Spline};
@@ -79,9 +80,11 @@ pub struct Spline<const D: usize, const DEGREE: usize = 3> {
 }
 
 impl<const D: usize> Spline<D> {
-    /// The cubic spline through `values` at the points of a grid. The last axis is that of neighbouring values.
+    /// The cubic spline through `values` at the points of a grid. The last axis is that of neighbouring
+    /// values.
     ///
-    /// Each axis has at least four points, of which an end of a period that repeats the first point does not count.
+    /// Each axis has at least four points, of which an end of a period that repeats the first point does not
+    /// count.
     ///
     /// # Errors
     /// What is wrong with the table, as a [`SplineError`].
@@ -99,9 +102,11 @@ impl<const D: usize> Spline<D> {
 }
 
 impl<const D: usize> Spline<D, 5> {
-    /// The spline of degree 5 through `values` at the points of a grid. The last axis is that of neighbouring values.
+    /// The spline of degree 5 through `values` at the points of a grid. The last axis is that of
+    /// neighbouring values.
     ///
-    /// Each axis has at least six points, of which an end of a period that repeats the first point does not count.
+    /// Each axis has at least six points, of which an end of a period that repeats the first point does not
+    /// count.
     ///
     /// # Errors
     /// What is wrong with the table, as a [`SplineError`].
@@ -216,8 +221,8 @@ fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
     Expansion { value: T::lift(value), gradient: [zero; D], hessian: [[zero; D]; D] }
 }
 
-/// Multiplies a function of the variables before `axis` by one of that variable, given with its two derivatives. Of the
-/// matrix of second derivatives the lower half is computed.
+/// Multiplies a function of the variables before `axis` by one of that variable, given with its two
+/// derivatives. Of the matrix of second derivatives the lower half is computed.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn multiply<const D: usize, T: Scalar>(f: &mut Expansion<D, T>, axis: usize, [g, dg, ddg]: [T; 3]) {
     for i in 0..axis {
@@ -362,8 +367,8 @@ pub enum SplineError {
         /// The value.
         value: f64,
     },
-    /// The value at the end of a period is not that at its start: they differ by more than a millionth of the largest value
-    /// of the table.
+    /// The value at the end of a period is not that at its start: they differ by more than a millionth of
+    /// the largest value of the table.
     #[error(
         "value {index} of the table is {value} at the end of the period of axis {axis}, and {expected} is expected, \
          as value {start} is at its start"
@@ -401,7 +406,8 @@ pub enum SplineError {
         /// The factor, of all axes together.
         growth: f64,
     },
-    /// A coefficient became infinite or not a number: the values are too large, or the distances on an axis too unequal.
+    /// A coefficient became infinite or not a number: the values are too large, or the distances on an axis
+    /// too unequal.
     #[error(
         "a coefficient of the spline is not finite: the values are too large or the distances on an axis too unequal"
     )]

@@ -15,8 +15,9 @@ crate::error::said!(TableError);
 
 /// A table of numbers, read from text.
 ///
-/// - A line is a row of numbers. All rows have the same number of columns, separated by blanks or tabs, by commas, or by
-///   semicolons; blanks may stand around commas and semicolons. One table has one kind of separator.
+/// - A line is a row of numbers. All rows have the same number of columns, separated by blanks or tabs, by
+///   commas, or by semicolons; blanks may stand around commas and semicolons. One table has one kind of
+///   separator.
 /// - Numbers have a decimal point, and exponents after `e`, `E`, or, as Fortran writes them, `d`, `D`.
 /// - Empty lines do not count, and neither do comments, lines that begin with `#` or `%`. Errors of
 ///   spreadsheets, such as `#N/A`, are no comments.
@@ -88,8 +89,8 @@ impl Table {
     /// The table in `text`, the contents of a file.
     ///
     /// # Errors
-    /// A [`TableError`], with line and column, where the text is not such a table. Numbers that are infinite or NaN are errors
-    /// only in columns that are asked for.
+    /// A [`TableError`], with line and column, where the text is not such a table. Numbers that are infinite
+    /// or NaN are errors only in columns that are asked for.
     pub fn read(text: &str) -> Result<Self, TableError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut comment = None;
@@ -138,13 +139,14 @@ impl Table {
 
     /// The grid whose points have their coordinates in these columns, given by names or by numbers from 1.
     ///
-    /// The rows may be nested in any order. On each axis the numbers increase, or decrease, from each new one to the next. The
-    /// rows must form a full grid: each combination of the numbers of the axes stands in one row. Numbers that differ in their
-    /// last digit are different numbers.
+    /// The rows may be nested in any order. On each axis the numbers increase, or decrease, from each new
+    /// one to the next. The rows must form a full grid: each combination of the numbers of the axes stands
+    /// in one row. Numbers that differ in their last digit are different numbers.
     ///
     /// # Errors
-    /// [`TableError::NoName`], [`TableError::NoColumn`], [`TableError::SameName`], [`TableError::NotFinite`],
-    /// [`TableError::NotMonotone`], [`TableError::Doubled`], and [`TableError::Missing`].
+    /// [`TableError::NoName`], [`TableError::NoColumn`], [`TableError::SameName`],
+    /// [`TableError::NotFinite`], [`TableError::NotMonotone`], [`TableError::Doubled`], and
+    /// [`TableError::Missing`].
     pub fn grid<'a, const D: usize>(
         &self,
         coordinates: [impl Into<Column<'a>>; D],
@@ -159,7 +161,8 @@ impl Table {
     /// The numbers of a column, from row to row, all of them finite.
     ///
     /// # Errors
-    /// [`TableError::NoName`], [`TableError::NoColumn`], [`TableError::SameName`], and [`TableError::NotFinite`].
+    /// [`TableError::NoName`], [`TableError::NoColumn`], [`TableError::SameName`], and
+    /// [`TableError::NotFinite`].
     pub fn column<'a>(&self, column: impl Into<Column<'a>>) -> Result<Vec<f64>, TableError> {
         let column = self.find(column.into())?;
         (0..self.rows()).map(|row| self.number(row, column)).collect()
@@ -194,7 +197,9 @@ impl Table {
                 first: first + 1,
                 name: name.to_string(),
             }),
-            (None, _) => Err(TableError::NoName { line, name: name.to_string(), names: self.listed_names() }),
+            (None, _) => {
+                Err(TableError::NoName { line, name: name.to_string(), names: self.listed_names() })
+            }
         }
     }
 
@@ -209,7 +214,8 @@ impl Table {
     }
 }
 
-/// Text that is no table, or a table that is no grid. Lines and columns are counted from 1, columns as those of the table.
+/// Text that is no table, or a table that is no grid. Lines and columns are counted from 1, columns as those
+/// of the table.
 #[derive(Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TableError {
@@ -351,8 +357,8 @@ pub enum TableError {
         /// The first of the two lines.
         first: usize,
     },
-    /// A point of the grid stands in no row. It is one of those whose number on one axis is in too few rows; line and column
-    /// are where that number is found first.
+    /// A point of the grid stands in no row. It is one of those whose number on one axis is in too few rows;
+    /// line and column are where that number is found first.
     #[error(
         "line {line}, column {column}: {number} is found in {found} of {expected} rows that are expected; the point {point} is \
          missing"

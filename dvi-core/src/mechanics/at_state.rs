@@ -32,21 +32,22 @@ pub struct AtTime<'a, S, T = f64> {
 /// ```
 ///
 /// # Errors
-/// All of these functions return [`StartError`], as the start of a run does, if an array of the system or of the state has
-/// the wrong length, a coordinate is not finite, or energy or first derivatives of L are not finite there.
+/// All of these functions return [`StartError`], as the start of a run does, if an array of the system or of
+/// the state has the wrong length, a coordinate is not finite, or energy or first derivatives of L are not
+/// finite there.
 pub trait AtState<T: Real = f64>: Lagrangian<T> + Sized {
     /// The system at time `t`.
     fn at_time(&self, t: T) -> AtTime<'_, Self, T> {
         AtTime { system: self, t }
     }
 
-    /// The rates of change of all entries of `state` along the motion, named as they are: X(q), that is q' of
-    /// Ω q' = ∇H + ∂α/∂t, for a degenerate system; velocities and accelerations for a regular one.
+    /// The rates of change of all entries of `state` along the motion, named as they are: X(q), that is q'
+    /// of Ω q' = ∇H + ∂α/∂t, for a degenerate system; velocities and accelerations for a regular one.
     ///
     /// # Errors
-    /// Besides those of the trait, [`StartError::Undetermined`] where Ω or the mass matrix is singular. With constraints the state need
-    /// not keep them: the accelerations are those with which their rates of change stay as they are, as other integrators
-    /// need them for states in between.
+    /// Besides those of the trait, [`StartError::Undetermined`] where Ω or the mass matrix is singular. With
+    /// constraints the state need not keep them: the accelerations are those with which their rates of
+    /// change stay as they are, as other integrators need them for states in between.
     fn vector_field(&self, state: &Self::State<T>) -> Result<Self::State<T>, StartError>
     where
         Self: System<Kind: Rates<Self, T>>,

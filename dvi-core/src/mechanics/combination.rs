@@ -47,7 +47,8 @@ impl<S: System, T: Real> Clone for Inverse<S, T> {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
-    /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from [`prepare`](Self::prepare).
+    /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from
+    /// [`prepare`](Self::prepare).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
         let space = system.space();
         if combination.is_matching::<S>() {
@@ -108,7 +109,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 }
 
-/// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of the conjugates.
+/// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of
+/// the conjugates.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn divide<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
@@ -167,8 +169,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         }
     }
 
-    /// Gives the entries of the solution, as of [`solve`](Self::solve), to `set`; with another matrix in each lane: entry i of `entries`
-    /// is the only one of row i.
+    /// Gives the entries of the solution, as of [`solve`](Self::solve), to `set`; with another matrix in
+    /// each lane: entry i of `entries` is the only one of row i.
     ///
     /// # Errors
     /// As [`prepare`](Self::prepare), of the first lane that fails.

@@ -1,12 +1,14 @@
-//! Linear equations with Lagrange multipliers, and what is made of them: points on the constraints, velocities along them.
+//! Linear equations with Lagrange multipliers, and what is made of them: points on the constraints,
+//! velocities along them.
 //!
 //! ```text
 //! ( A   G(q₀)ᵀ ) ( x )   ( b )
 //! ( G(q₁)    0 ) ( ν ) = ( c )
 //! ```
 //!
-//! A is n×n, and there are m constraints. The equations are solved as one system of n + m unknowns, in the storage that their
-//! pattern needs: banded along a chain. [`Constraints`] says what G and c are, for constraints of positions and of velocities.
+//! A is n×n, and there are m constraints. The equations are solved as one system of n + m unknowns, in the
+//! storage that their pattern needs: banded along a chain. [`Constraints`] says what G and c are, for
+//! constraints of positions and of velocities.
 
 pub(crate) mod consistent;
 mod holonomic;
@@ -34,9 +36,9 @@ pub(crate) type Multipliers<S, T> = <<S as ConstrainedSystem>::Multipliers as Sp
 /// One number for each coordinate, then one for each constraint.
 pub(crate) type Augmented<S, T> = <<S as ConstrainedSystem>::Augmented as Space>::Vector<T>;
 
-/// How constraints of a kind enter the equations: those of positions, g(q, t) = 0, with A = ∂g/∂q, and those of velocities,
-/// A(q, t) v + b(q, t) = 0. All functions set `out` to one number for each constraint and **add** a matrix with a row for each to
-/// `sink`.
+/// How constraints of a kind enter the equations: those of positions, g(q, t) = 0, with A = ∂g/∂q, and those
+/// of velocities, A(q, t) v + b(q, t) = 0. All functions set `out` to one number for each constraint and
+/// **add** a matrix with a row for each to `sink`.
 pub trait Constraints<S: System, T: Real>: Kind {
     /// Whether positions are constrained.
     const OF_POSITIONS: bool;
@@ -45,7 +47,8 @@ pub trait Constraints<S: System, T: Real>: Kind {
     fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
     /// What vanishes at a position, and A.
     fn of_position<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
-    /// What vanishes at the end of a step, with its derivative by Δ. `work` is storage for a point and a velocity.
+    /// What vanishes at the end of a step, with its derivative by Δ. `work` is storage for a point and a
+    /// velocity.
     fn of_step<K: Sink<T>>(
         system: &S,
         span: Span<'_, S, T>,
@@ -127,8 +130,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfAcceleration
     }
 }
 
-/// The equations, linearised: `upper` evaluates b and the entries of A, to b is added Gᵀν, and `lower` evaluates c and the entries
-/// of the lower rows.
+/// The equations, linearised: `upper` evaluates b and the entries of A, to b is added Gᵀν, and `lower`
+/// evaluates c and the entries of the lower rows.
 pub(crate) struct Bordered<'a, S, T, U, W> {
     pub(crate) system: &'a S,
     pub(crate) upper: U,
@@ -195,7 +198,8 @@ pub(crate) struct Tangent<'a, T> {
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
-    /// Adds the impulse Gᵀι to p that makes the velocity v, ∂L/∂v(q, v, t) = p, one that the constraints admit.
+    /// Adds the impulse Gᵀι to p that makes the velocity v, ∂L/∂v(q, v, t) = p, one that the constraints
+    /// admit.
     ///
     /// # Errors
     /// As [`solve`](Self::solve), and [`StepFailure::NotConverged`].

@@ -76,8 +76,8 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         norm::finite(v)
     }
 
-    /// Improves the guess `v` until ∂L/∂v = `p`, and begins again from rest where that does not lead to a velocity:
-    /// extrapolated, it may be beyond what L is defined for.
+    /// Improves the guess `v` until ∂L/∂v = `p`, and begins again from rest where that does not lead to a
+    /// velocity: extrapolated, it may be beyond what L is defined for.
     ///
     /// # Errors
     /// As [`solve`](Self::solve).
@@ -121,7 +121,8 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     /// Sets `next` to the correction of v at (q, v), p.
     ///
     /// # Errors
-    /// [`StepFailure::NotFinite`] where L is not defined, [`StepFailure::Singular`] where the mass matrix is.
+    /// [`StepFailure::NotFinite`] where L is not defined, [`StepFailure::Singular`] where the mass matrix
+    /// is.
     fn solve_once(&mut self, system: &S, points: [&[T]; 3], t: T) -> Result<(), StepFailure> {
         let Self { solver, weights, next, l_q, .. } = self;
         solver.solve(&mut Equations { system, points, t, l_q }, weights, next)?;

@@ -1,8 +1,10 @@
-//! Configuration spaces with rotations and unit vectors: the product of ℝⁿ, of SO(3) and of S², a block of coordinates each.
+//! Configuration spaces with rotations and unit vectors: the product of ℝⁿ, of SO(3) and of S², a block of
+//! coordinates each.
 //!
-//! A displacement has a place for each coordinate, as velocities have: of a rotation the first three hold the rotation vector u in the
-//! body, R ↦ R exp(û); of a unit vector they hold the rotation vector w in space, at right angles to it, s ↦ exp(ŵ) s. Along such a
-//! displacement times c, 0 ≤ c ≤ 1, both move on geodesics with constant speed.
+//! A displacement has a place for each coordinate, as velocities have: of a rotation the first three hold
+//! the rotation vector u in the body, R ↦ R exp(û); of a unit vector they hold the rotation vector w in
+//! space, at right angles to it, s ↦ exp(ŵ) s. Along such a displacement times c, 0 ≤ c ≤ 1, both move on
+//! geodesics with constant speed.
 
 pub(crate) mod rotation;
 pub(crate) mod series;
@@ -77,8 +79,9 @@ pub(crate) fn set<T: Real>(numbers: &mut [T], block: Block, value: Vector3<T>) {
     numbers[block.vector()].copy_from_slice(value.as_slice());
 }
 
-/// What a run carries of the coordinates: of a rotation a quaternion, in the first four places, of a unit vector one along it. Their lengths
-/// say nothing, so that rounding errors of many steps do not lead off the manifold.
+/// What a run carries of the coordinates: of a rotation a quaternion, in the first four places, of a unit
+/// vector one along it. Their lengths say nothing, so that rounding errors of many steps do not lead off the
+/// manifold.
 pub(crate) fn lift<S: ManifoldSystem, T: Real>(system: &S, q: &[T], lifted: &mut [T]) {
     lifted.copy_from_slice(q);
     for block in blocks(system).filter(|block| block.factor == Factor::Rotation) {
@@ -142,7 +145,8 @@ pub(crate) fn check<S: ManifoldSystem, T: Real>(system: &S, [q, v]: [&[T]; 2]) -
 /// Whether a run can begin with a velocity `v` in numbers with derivatives.
 ///
 /// # Errors
-/// [`StartError::Unsupported`] if a unit vector rests, where the direction of a great circle has no derivative.
+/// [`StartError::Unsupported`] if a unit vector rests, where the direction of a great circle has no
+/// derivative.
 pub(crate) fn admit_numbers<S: ManifoldSystem, T: Real>(system: &S, v: &[T]) -> Result<(), StartError> {
     let mut spheres = blocks(system).filter(|block| block.factor == Factor::Sphere);
     if carries_derivatives::<T>() && spheres.any(|block| vector(v, block) == Vector3::zeros()) {

@@ -65,7 +65,8 @@ fn positive_root<T: Real>(pivot: T, column: usize) -> Result<T, StepFailure> {
     if is_positive { Ok(Scalar::sqrt(pivot)) } else { Err(norm::singular(pivot, column)) }
 }
 
-/// Overwrites the lower triangle of a symmetric matrix with that of its factor (Golub & Van Loan 2013, section 4.2.5).
+/// Overwrites the lower triangle of a symmetric matrix with that of its factor (Golub & Van Loan 2013,
+/// section 4.2.5).
 fn factor<T: Real>(matrix: &mut [T], n: usize) -> Result<(), StepFailure> {
     for i in 0..n {
         for j in 0..=i {

@@ -1,7 +1,9 @@
-//! The equations of motion as ordinary differential equations of first order, y' = X(y, t): what the baselines solve.
+//! The equations of motion as ordinary differential equations of first order, y' = X(y, t): what the
+//! baselines solve.
 //!
-//! A degenerate system has y = q and Ω q' = ∇H + ∂α/∂t. A regular one has y = (q, p) and Hamilton's equations in terms
-//! of L: q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t) (Marsden & Ratiu 1999, section 7.2).
+//! A degenerate system has y = q and Ω q' = ∇H + ∂α/∂t. A regular one has y = (q, p) and Hamilton's
+//! equations in terms of L: q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t) (Marsden & Ratiu 1999,
+//! section 7.2).
 
 pub(crate) mod constrained;
 mod flow_on_q;
@@ -67,11 +69,12 @@ impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, 
     label = "it is no system, it has rotations or unit vectors, or a parameter of it is no number"
 )]
 pub trait Rates<S: System, T: Real>: Kind {
-    /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a degenerate system,
-    /// which has no velocities, the second is zero.
+    /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a
+    /// degenerate system, which has no velocities, the second is zero.
     ///
     /// # Errors
-    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular; [`StepFailure::RedundantConstraint`].
+    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular;
+    /// [`StepFailure::RedundantConstraint`].
     fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure>;
 }
 
@@ -130,8 +133,8 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// Sets `slope` to X(`y`, `t`).
     ///
     /// # Errors
-    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular, [`StepFailure::NotConverged`] where no velocity
-    /// belongs to the momentum.
+    /// [`StepFailure::Singular`] where Ω or the mass matrix is singular, [`StepFailure::NotConverged`] where
+    /// no velocity belongs to the momentum.
     fn evaluate(
         equations: &mut Self::Equations,
         system: &S,
@@ -140,8 +143,8 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
-    /// Sets `out` to entry `part` of X(`y`, `t`), from a guess `slope` of it: the velocity that belongs to the momentum, or
-    /// the force at the velocity of `slope`.
+    /// Sets `out` to entry `part` of X(`y`, `t`), from a guess `slope` of it: the velocity that belongs to
+    /// the momentum, or the force at the velocity of `slope`.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
@@ -194,8 +197,8 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// Moves to `y`, the end of a step; all but `q` is kept here.
     ///
     /// # Errors
-    /// [`StepFailure::NotFinite`], and [`StepFailure::Orientation`] where Ω or the mass matrix has lost its orientation;
-    /// nothing has moved then.
+    /// [`StepFailure::NotFinite`], and [`StepFailure::Orientation`] where Ω or the mass matrix has lost its
+    /// orientation; nothing has moved then.
     fn arrive(
         equations: &mut Self::Equations,
         system: &S,

@@ -40,12 +40,13 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
         consistent::projected(self, t, state)
     }
 
-    /// The Lagrange multipliers λ at a state that the constraints admit at time `t`, one for each constraint: Gᵀλ is the force of the
-    /// constraints, with G = ∂g/∂q or, of constraints of velocities, A.
+    /// The Lagrange multipliers λ at a state that the constraints admit at time `t`, one for each
+    /// constraint: Gᵀλ is the force of the constraints, with G = ∂g/∂q or, of constraints of velocities, A.
     ///
     /// # Errors
-    /// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] at other states; [`StartError::Undetermined`] where a constraint
-    /// is redundant or the mass matrix singular; others as the start of a run has.
+    /// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] at other states;
+    /// [`StartError::Undetermined`] where a constraint is redundant or the mass matrix singular; others as
+    /// the start of a run has.
     fn multipliers_at(&self, t: T, state: &Self::State<T>) -> Result<Multipliers<Self, T>, StartError> {
         validate(self, t)?;
         let [q, v] = flatten(self, state)?;

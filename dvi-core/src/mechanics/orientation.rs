@@ -1,10 +1,11 @@
 //! Whether Ω and the mass matrix keep their orientation from step to step.
 //!
-//! Where Ω or ∂²L/∂v∂v is singular, the motion is not determined, and no step may pass: on the other side there is
-//! another system. A step that jumps over such a place finds regular matrices at both ends, but another number of
-//! negative eigenvalues of the mass matrix, or another sign of the Pfaffian of Ω. Two passages within one step are not
-//! seen, nor eigenvalues of a mass matrix that change their signs in opposite directions, nor two pivots of Ω that vanish
-//! together, unless Ω couples the coordinates in pairs, whose entries are compared one by one.
+//! Where Ω or ∂²L/∂v∂v is singular, the motion is not determined, and no step may pass: on the other side
+//! there is another system. A step that jumps over such a place finds regular matrices at both ends, but
+//! another number of negative eigenvalues of the mass matrix, or another sign of the Pfaffian of Ω. Two
+//! passages within one step are not seen, nor eigenvalues of a mass matrix that change their signs in
+//! opposite directions, nor two pivots of Ω that vanish together, unless Ω couples the coordinates in pairs,
+//! whose entries are compared one by one.
 //!
 //! The Pfaffian comes from skew elimination, A = P L T Lᵀ Pᵀ (Wimmer 2012, ACM TOMS 38, algorithm 923).
 
@@ -63,7 +64,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
         self.pass(system, &[], (q, t))
     }
 
-    /// Compares Ω at points and times `within` a step and at its `end` with the last, and keeps that at the end.
+    /// Compares Ω at points and times `within` a step and at its `end` with the last, and keeps that at the
+    /// end.
     ///
     /// # Errors
     /// [`StepFailure::Orientation`]; the last is kept then.

@@ -4,8 +4,8 @@ use crate::space::Storing;
 use crate::space::sink::Places;
 use crate::{Coupled, Lagrangian, Linear, Real, Space, Square, Vector, Weights};
 
-/// A solver for Newton's method, with room for all second derivatives of L. Where they stand does not depend on the point,
-/// but the formulas are evaluated, and are defined at (q, v, t).
+/// A solver for Newton's method, with room for all second derivatives of L. Where they stand does not depend
+/// on the point, but the formulas are evaluated, and are defined at (q, v, t).
 pub(crate) fn of_second_derivatives<S: Lagrangian<T>, T: Real>(
     system: &S,
     q: &[T],

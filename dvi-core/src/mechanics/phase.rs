@@ -1,4 +1,5 @@
-//! Where a run on T*Q is, and what its next step is guessed from: all that a checkpoint needs besides the coordinates.
+//! Where a run on T*Q is, and what its next step is guessed from: all that a checkpoint needs besides the
+//! coordinates.
 
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
@@ -73,8 +74,9 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         is_similar(h, self.last_step)
     }
 
-    /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if they had about
-    /// this length; else that of a free motion with `momentum`, where the mass matrix is known.
+    /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if
+    /// they had about this length; else that of a free motion with `momentum`, where the mass matrix is
+    /// known.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn guess(&self, mass: Option<&Mass<S, T>>, momentum: &[T], h: T, increment: &mut [T]) {
         match mass {
@@ -130,7 +132,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         Ok(())
     }
 
-    /// The same where sums are plain, to q1, p1 and, if L is separable, ∂L/∂q in `to`, which has other numbers afterwards.
+    /// The same where sums are plain, to q1, p1 and, if L is separable, ∂L/∂q in `to`, which has other
+    /// numbers afterwards.
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
@@ -151,7 +154,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         Ok(())
     }
 
-    /// Adds an impulse to the momentum. The next step is guessed from `velocity`, about what the impulse leads to.
+    /// Adds an impulse to the momentum. The next step is guessed from `velocity`, about what the impulse
+    /// leads to.
     pub(crate) fn jump(&mut self, impulse: &[T], velocity: &[T]) {
         for (p, &impulse) in self.p.iter_mut().zip(impulse) {
             *p += impulse;
@@ -226,8 +230,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
         }
     }
 
-    /// Whether the matrix has kept its orientation at (`q`, `t`), which was reached with Δ = `increment`; `velocity` is
-    /// storage.
+    /// Whether the matrix has kept its orientation at (`q`, `t`), which was reached with Δ = `increment`;
+    /// `velocity` is storage.
     ///
     /// # Errors
     /// As [`MassOrientation::check`].

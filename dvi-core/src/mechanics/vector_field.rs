@@ -29,7 +29,11 @@ pub(crate) struct LaneWork<'a, const W: usize, T> {
 
 impl<S: System, T: Real> Clone for VectorField<S, T> {
     fn clone(&self) -> Self {
-        Self { inverse: self.inverse.clone(), gradient: self.gradient.clone(), entries: self.entries.clone() }
+        Self {
+            inverse: self.inverse.clone(),
+            gradient: self.gradient.clone(),
+            entries: self.entries.clone(),
+        }
     }
 }
 
@@ -80,8 +84,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, velocity, statistics)
     }
 
-    /// Gives the entries of X, each with its place, to `set`: at the points in the lanes of `q`, at the times in those of `t`, bit for
-    /// bit as [`evaluate`](Self::evaluate) finds them one by one.
+    /// Gives the entries of X, each with its place, to `set`: at the points in the lanes of `q`, at the
+    /// times in those of `t`, bit for bit as [`evaluate`](Self::evaluate) finds them one by one.
     ///
     /// # Errors
     /// As there, of the first lane that fails.

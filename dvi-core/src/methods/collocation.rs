@@ -1,14 +1,15 @@
 //! Gauss collocation with S stages: nodes, weights and the matrix of the stages.
 //!
-//! c are the zeros of the shifted Legendre polynomial P_S, bᵢ = ∫₀¹ lᵢ and aᵢⱼ = ∫₀^cᵢ lⱼ with the Lagrange polynomials lⱼ of the
-//! nodes (Hairer, Lubich & Wanner 2006, section II.1.3). In Legendre polynomials, whose values at the nodes are at most 1,
+//! c are the zeros of the shifted Legendre polynomial P_S, bᵢ = ∫₀¹ lᵢ and aᵢⱼ = ∫₀^cᵢ lⱼ with the Lagrange
+//! polynomials lⱼ of the nodes (Hairer, Lubich & Wanner 2006, section II.1.3). In Legendre polynomials,
+//! whose values at the nodes are at most 1,
 //!
 //! lⱼ = bⱼ Σₖ (2k+1) Pₖ(cⱼ) Pₖ,   1/bⱼ = Σₖ (2k+1) Pₖ(cⱼ)²,   k = 0 … S−1
 //! μᵢⱼ = aᵢⱼ/bⱼ = cᵢ + ½ Σₖ Pₖ(cⱼ) (Pₖ₊₁(cᵢ) − Pₖ₋₁(cᵢ)),   k = 1 … S−1
 //!
-//! Steps are symplectic if bᵢaᵢⱼ + bⱼaⱼᵢ = bᵢbⱼ (Sanz-Serna 1988). With the numbers μ this is μᵢⱼ + μⱼᵢ = 1, which holds
-//! exactly in the arithmetic: of each pair the larger number is rounded, and the other is what it leaves of 1
-//! (Antoñana, Makazaga & Murua 2017, section 3).
+//! Steps are symplectic if bᵢaᵢⱼ + bⱼaⱼᵢ = bᵢbⱼ (Sanz-Serna 1988). With the numbers μ this is μᵢⱼ + μⱼᵢ = 1,
+//! which holds exactly in the arithmetic: of each pair the larger number is rounded, and the other is what
+//! it leaves of 1 (Antoñana, Makazaga & Murua 2017, section 3).
 
 pub(super) mod lobatto;
 pub(super) mod packs;
@@ -17,7 +18,8 @@ pub(super) mod steps;
 /// The largest number of stages.
 pub(super) const MOST: usize = 8;
 
-/// The zeros of the Legendre polynomial of degree S that are not negative (Abramowitz & Stegun 1964, table 25.4).
+/// The zeros of the Legendre polynomial of degree S that are not negative (Abramowitz & Stegun 1964, table
+/// 25.4).
 #[rustfmt::skip]
 const ZEROS: [&[f64]; MOST] = [
     &[0.0],
@@ -82,12 +84,14 @@ impl<const S: usize> Collocation<S> {
         Self { mu, a, b, c }
     }
 
-    /// ν and β of the method on q'' = f(q, t), with the velocities of the stages eliminated: aᵢⱼ = νᵢⱼbⱼ in Qᵢ and bⱼβⱼ in q⁺, where
+    /// ν and β of the method on q'' = f(q, t), with the velocities of the stages eliminated: aᵢⱼ = νᵢⱼbⱼ in
+    /// Qᵢ and bⱼβⱼ in q⁺, where
     ///
     /// νᵢⱼ = Σₖ μᵢₖ bₖ μₖⱼ,   βⱼ = Σₖ bₖ μₖⱼ = 1 − cⱼ
     ///
-    /// Steps are symplectic if νᵢⱼ − νⱼᵢ = βⱼ − βᵢ (Suris 1989). This holds exactly in the arithmetic, since all these numbers are multiples of
-    /// 2⁻⁵³ below 1, whose differences are not rounded (Antoñana, Makazaga & Murua 2025).
+    /// Steps are symplectic if νᵢⱼ − νⱼᵢ = βⱼ − βᵢ (Suris 1989). This holds exactly in the arithmetic, since
+    /// all these numbers are multiples of 2⁻⁵³ below 1, whose differences are not rounded (Antoñana,
+    /// Makazaga & Murua 2025).
     pub(super) fn nystrom(&self) -> ([[f64; S]; S], [f64; S]) {
         let Self { mu, b, c, .. } = self;
         // Below the centre a node has finer digits than 2⁻⁵³, and is what that above leaves of 1.
@@ -124,7 +128,8 @@ impl<const S: usize> Collocation<S> {
         [core::array::from_fn(values), core::array::from_fn(integrals)]
     }
 
-    /// Entry (i, j): the j-th Lagrange polynomial at 1 + cᵢ, to continue a polynomial through the stages into the next step.
+    /// Entry (i, j): the j-th Lagrange polynomial at 1 + cᵢ, to continue a polynomial through the stages
+    /// into the next step.
     pub(super) fn continuation(&self) -> [[f64; S]; S] {
         let (within, beyond) = (self.c.map(legendre), self.c.map(|c| legendre(1.0 + c)));
         core::array::from_fn(|i| core::array::from_fn(|j| self.b[j] * sum::<S>(&within[j], &beyond[i])))
@@ -162,7 +167,8 @@ mod tests {
             assert!((beta[i] + c[i] - 1.0).abs() < 1e-15);
             for j in 0..S {
                 // Without rounding: each is a multiple of 2⁻⁵³, and so in integers.
-                let [ij, ji, of_i, of_j] = [nu[i][j], nu[j][i], beta[i], beta[j]].map(|x| x * 2_f64.powi(53));
+                let [ij, ji, of_i, of_j] =
+                    [nu[i][j], nu[j][i], beta[i], beta[j]].map(|x| x * 2_f64.powi(53));
                 assert!([ij, ji, of_i, of_j].iter().all(|x| x.fract() == 0.0), "{S} stages, ({i}, {j})");
                 assert_eq!(ij as i64 - ji as i64, of_j as i64 - of_i as i64, "{S} stages, ({i}, {j})");
             }

@@ -72,15 +72,17 @@ static KAHAN_LI_8: Table = Table {
               0.258_374_387_686_322_04,  0.295_011_723_609_310_3,  -0.605_508_533_830_034_6],
 };
 
-/// A symmetric composition: several steps of a method `M`, of different lengths, make one step of higher order.
+/// A symmetric composition: several steps of a method `M`, of different lengths, make one step of higher
+/// order.
 ///
 /// ```math
 /// \Phi_h = \varphi_{\gamma_s h} \circ \dots \circ \varphi_{\gamma_2 h} \circ \varphi_{\gamma_1 h}, \qquad
 /// \gamma_{s+1-i} = \gamma_i, \quad \sum_i \gamma_i = 1
 /// ```
 ///
-/// `M` is to be a symmetric method of order two, such as `Variational::trapezoid()` or `Gauss::<1>`; another one that is accepted
-/// gains what [`order`](Scheme::order) says. Some γ are negative: the composition steps back on the way.
+/// `M` is to be a symmetric method of order two, such as `Variational::trapezoid()` or `Gauss::<1>`; another
+/// one that is accepted gains what [`order`](Scheme::order) says. Some γ are negative: the composition steps
+/// back on the way.
 ///
 /// | constructor | order | steps |
 /// |---|---|---|
@@ -91,8 +93,8 @@ static KAHAN_LI_8: Table = Table {
 /// | [`suzuki_umeno`](Self::suzuki_umeno) | 8 | 15 |
 /// | [`kahan_li_8`](Self::kahan_li_8) | 8 | 17 |
 ///
-/// More steps of smaller size have much smaller errors: of two compositions of one order the longer one is usually better at
-/// equal cost.
+/// More steps of smaller size have much smaller errors: of two compositions of one order the longer one is
+/// usually better at equal cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composition<M> {
     method: M,
@@ -290,7 +292,8 @@ mod tests {
                     prefixes[end] = (0..=end).map(split).sum();
                 }
             }
-            let exact = if word.iter().all(|&letter| letter == 1) { over_factorial(word.len()) } else { 0.0 };
+            let exact =
+                if word.iter().all(|&letter| letter == 1) { over_factorial(word.len()) } else { 0.0 };
             (prefixes[word.len()] - exact).abs()
         };
         words(weight).iter().map(of_word).fold(0.0, f64::max)

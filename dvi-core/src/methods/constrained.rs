@@ -2,9 +2,9 @@
 //!
 //! p0 = −D₁L_d(q0, q1) − A(q0)ᵀι0      p1 = D₂L_d(q0, q1) + A(q1)ᵀι1, with p1 = ∂L/∂v(q1, v1)
 //!
-//! for q1 and the impulses ι0 and ι1 of the constraints at both ends. Of constraints of positions, g(q, t) = 0, A is ∂g/∂q, and
-//! g(q1) = 0 and A(q1) v1 + ∂g/∂t = 0; of those of velocities, A v + b = 0, what vanishes is A Δ + h b in the middle of the step and
-//! A(q1) v1 + b.
+//! for q1 and the impulses ι0 and ι1 of the constraints at both ends. Of constraints of positions, g(q, t) =
+//! 0, A is ∂g/∂q, and g(q1) = 0 and A(q1) v1 + ∂g/∂t = 0; of those of velocities, A v + b = 0, what vanishes
+//! is A Δ + h b in the middle of the step and A(q1) v1 + b.
 
 use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
@@ -24,34 +24,37 @@ use crate::state::rates::is_similar;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
-/// The step of a variational method for systems with constraints, of positions by `constraint = …` or of velocities by
-/// `nonholonomic = …`. The method is [`Variational`](crate::methods::Variational) with any rule, fitted to a frequency that is given or not
-/// fitted. Its solver, its `stopping` and its summation would have no effect here, and are errors of the
-/// start if they are not left at their defaults.
+/// The step of a variational method for systems with constraints, of positions by `constraint = …` or of
+/// velocities by `nonholonomic = …`. The method is [`Variational`](crate::methods::Variational) with any
+/// rule, fitted to a frequency that is given or not fitted. Its solver, its `stopping` and its summation
+/// would have no effect here, and are errors of the start if they are not left at their defaults.
 ///
 /// ```math
 /// p_0 = -D_1 L_d(q_0, q_1) - A(q_0)^\mathsf{T} \iota_0, \qquad p_1 = D_2 L_d(q_0, q_1) + A(q_1)^\mathsf{T} \iota_1
 /// ```
 ///
-/// The impulses ι are those of the constraints at the two ends of the step, one number for each; p1 = ∂L/∂v(q1, v1).
+/// The impulses ι are those of the constraints at the two ends of the step, one number for each; p1 =
+/// ∂L/∂v(q1, v1).
 ///
 /// | constraints | A | q1 and ι0 | v1 and ι1 |
 /// |---|---|---|---|
 /// | g(q, t) = 0 | ∂g/∂q | g(q1, t1) = 0 | A(q1) v1 + ∂g/∂t = 0 |
 /// | A(q, t) v + b(q, t) = 0 | A | A Δ + h b = 0 at (q0 + Δ/2, t + h/2) | A(q1) v1 + b(q1) = 0 |
 ///
-/// So positions are on holonomic constraints and velocities agree with both, to rounding errors. With the trapezoidal rule and
-/// holonomic constraints this is RATTLE (Andersen 1983), with the positions of SHAKE; [`Rattle`](crate::methods::Rattle) takes the same
-/// steps faster where L is separable. With nonholonomic constraints it is the discrete principle of Lagrange and d'Alembert
-/// (Cortés & Martínez 2001). Each step is solved by Newton's method for q1 and ι0 together; along a chain its equations are banded.
+/// So positions are on holonomic constraints and velocities agree with both, to rounding errors. With the
+/// trapezoidal rule and holonomic constraints this is RATTLE (Andersen 1983), with the positions of SHAKE;
+/// [`Rattle`](crate::methods::Rattle) takes the same steps faster where L is separable. With nonholonomic
+/// constraints it is the discrete principle of Lagrange and d'Alembert (Cortés & Martínez 2001). Each step
+/// is solved by Newton's method for q1 and ι0 together; along a chain its equations are banded.
 ///
-/// On holonomic constraints the steps preserve dq ∧ dp, and the momentum maps of symmetries that act linearly and leave L and g as
-/// they are (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997). With nonholonomic ones neither the motion nor the steps
-/// preserve a two-form or, as a rule, momenta, whatever [`preserved_form`](Scheme::preserved_form) says, which knows the method only;
-/// symmetric steps are reversible. In a chaotic motion the energy of a nonholonomic run
-/// may drift: [what can go wrong](crate::guide::what_can_go_wrong) measures one. The order is that of the rule, 1 or 2; a
-/// [`Composition`](crate::methods::Composition) of symmetric steps has a higher one. A run begins at a state that the constraints admit:
-/// [`projected`](crate::mechanics::OnConstraints::projected) finds one.
+/// On holonomic constraints the steps preserve dq ∧ dp, and the momentum maps of symmetries that act
+/// linearly and leave L and g as they are (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997).
+/// With nonholonomic ones neither the motion nor the steps preserve a two-form or, as a rule, momenta,
+/// whatever [`preserved_form`](Scheme::preserved_form) says, which knows the method only; symmetric steps
+/// are reversible. In a chaotic motion the energy of a nonholonomic run may drift: [what can go
+/// wrong](crate::guide::what_can_go_wrong) measures one. The order is that of the rule, 1 or 2; a
+/// [`Composition`](crate::methods::Composition) of symmetric steps has a higher one. A run begins at a state
+/// that the constraints admit: [`projected`](crate::mechanics::OnConstraints::projected) finds one.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -158,13 +161,15 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
         &self.p
     }
 
-    /// The Lagrange multipliers λ of the last step, one for each constraint, so that G(q)ᵀλ is the force of the constraints. With a
-    /// symmetric rule they are those in the middle of the step, to order h². Zero before the first.
+    /// The Lagrange multipliers λ of the last step, one for each constraint, so that G(q)ᵀλ is the force of
+    /// the constraints. With a symmetric rule they are those in the middle of the step, to order h². Zero
+    /// before the first.
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
         self.impulses.over(self.last_step)
     }
 
-    /// The impulses G(q)ᵀι of the constraints at the beginning and at the end of the last step, as numbers ι, one for each constraint.
+    /// The impulses G(q)ᵀι of the constraints at the beginning and at the end of the last step, as numbers
+    /// ι, one for each constraint.
     pub fn impulses(&self) -> [&[T]; 2] {
         let Impulses { first, last } = &self.impulses;
         [first, last]
@@ -200,8 +205,8 @@ struct Step<'a, S, T> {
 }
 
 impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> ConstrainedMemory<S, L, T> {
-    /// Sets Δ to a guess: that of the velocity, bent as in the step before. Newton's method finds the nearest of several solutions, so
-    /// that no guess is extrapolated far.
+    /// Sets Δ to a guess: that of the velocity, bent as in the step before. Newton's method finds the
+    /// nearest of several solutions, so that no guess is extrapolated far.
     fn guess(&mut self, h: T, guess: Guess) {
         let Self { v, bend, impulses, last_step, arrival, .. } = self;
         let ratio = match guess {
@@ -250,7 +255,8 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         })?;
         reach(q, increment, next);
         norm::finite(next)?;
-        // On the way from a step of no length the determinant of its equations changes its sign where solutions meet.
+        // On the way from a step of no length the determinant of its equations changes its sign where
+        // solutions meet.
         let is_odd = (if interval.h > T::lift(0.0) { q.len() + impulse.len() } else { 0 }) % 2 == 1;
         if solver.is_positive() != (*is_positive ^ is_odd) {
             return Err(StepFailure::Branch);

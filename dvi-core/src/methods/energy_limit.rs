@@ -1,7 +1,8 @@
 //! A run that ends when its energy has gone astray: |E(q, v, t) − E at the start| ≤ limit after every step.
 //!
-//! What this is for: a method that steps over a singularity finds finite numbers on the other side. Störmer–Verlet on a
-//! head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the energy says so.
+//! What this is for: a method that steps over a singularity finds finite numbers on the other side.
+//! Störmer–Verlet on a head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the
+//! energy says so.
 
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
@@ -15,19 +16,22 @@ use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// A method whose steps fail where the energy has changed by more than a limit since the start of the run.
 ///
-/// The step that goes beyond the limit fails with [`StepFailure::Energy`], and the run stays at the state before it.
-/// Meant for systems whose Lagrangian does not depend on time; of others it limits by how much the energy may change.
-/// Each step costs a copy of what the method carries and one evaluation of the energy, of a regular system one of the
-/// velocity too; on a Lagrangian that is not ½ v·M v − V(q, t), of a size known at run time only, that allocates.
+/// The step that goes beyond the limit fails with [`StepFailure::Energy`], and the run stays at the state
+/// before it. Meant for systems whose Lagrangian does not depend on time; of others it limits by how much
+/// the energy may change. Each step costs a copy of what the method carries and one evaluation of the
+/// energy, of a regular system one of the velocity too; on a Lagrangian that is not ½ v·M v − V(q, t), of a
+/// size known at run time only, that allocates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyLimit<M> {
     /// The method.
     pub method: M,
-    /// The largest |E − E(start)|, in the units of the energy; E is H − `energy` if the time of the system is transformed.
+    /// The largest |E − E(start)|, in the units of the energy; E is H − `energy` if the time of the system
+    /// is transformed.
     pub limit: f64,
 }
 
-/// What a run with a limited energy carries: the memory of its method, where a step began, and the energy at the start.
+/// What a run with a limited energy carries: the memory of its method, where a step began, and the energy at
+/// the start.
 #[derive(Debug)]
 pub struct EnergyLimitMemory<I, V, T> {
     inner: I,
@@ -48,7 +52,8 @@ impl<I: Memory<T>, V, T: Real> Memory<T> for EnergyLimitMemory<I, V, T> {
     lasting!(T; part inner, number start);
 }
 
-/// The energy; of a system whose time is transformed H − `energy`, as ρ (H − `energy`) says little where ρ is small.
+/// The energy; of a system whose time is transformed H − `energy`, as ρ (H − `energy`) says little where ρ
+/// is small.
 fn watched<S: Lagrangian<T>, T: Real>(system: &S, q: &[T], v: &[T], t: T) -> T {
     match system.time_transform(q) {
         Some(TimeTransform { hamiltonian, .. }) => hamiltonian - q[extended(system)[1]],

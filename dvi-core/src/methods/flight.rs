@@ -6,8 +6,9 @@ use crate::methods::{Carries, Scheme};
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Vector};
 
-/// A method that takes a system from impact to impact: its steps have any lengths, and its momentum may be changed between two of
-/// them. It knows nothing of constraints and impacts; [`Impacts`](crate::methods::Impacts) around it does.
+/// A method that takes a system from impact to impact: its steps have any lengths, and its momentum may be
+/// changed between two of them. It knows nothing of constraints and impacts;
+/// [`Impacts`](crate::methods::Impacts) around it does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot be stopped at impacts",
     label = "its memory belongs to one length of the step, or it has no momentum",
@@ -54,8 +55,8 @@ pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S
         false
     }
 
-    /// The discrete energy E_d = −∂L_d/∂h of a flight, for L that does not depend on time; `None` if it is not known. `work` is
-    /// storage for a point and a velocity.
+    /// The discrete energy E_d = −∂L_d/∂h of a flight, for L that does not depend on time; `None` if it is
+    /// not known. `work` is storage for a point and a velocity.
     fn energy_of_flight(&self, _span: Span<'_, S, T>, _work: &mut [Vector<S, T>; 2]) -> Option<T> {
         None
     }

@@ -3,10 +3,11 @@
 //! qʲ = bⱼ q0 + b̄ⱼ q1 + δʲ      q̇ʲ = (Bⱼ q0 + B̄ⱼ q1 + Σₖ aⱼₖ δᵏ)/h      δ¹ = δˢ = 0
 //! L_d(q0, q1) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh), stationary in the δ of the interior nodes
 //!
-//! with the nodes cⱼ and weights wⱼ of a Lobatto rule, and aⱼₖ the derivative at cⱼ of the Lagrange polynomial of
-//! node k (Kosmas & Vlachos, eqs. 26 to 29). With linear interpolation q(c) is any polynomial of degree s − 1, and
-//! the step is the Lobatto IIIA–IIIB pair (Marsden & West 2001, theorem 2.6.1). A step solves p0 = −D₁L_d(q0, q1)
-//! together with ∂L_d/∂δ = 0 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
+//! with the nodes cⱼ and weights wⱼ of a Lobatto rule, and aⱼₖ the derivative at cⱼ of the Lagrange
+//! polynomial of node k (Kosmas & Vlachos, eqs. 26 to 29). With linear interpolation q(c) is any polynomial
+//! of degree s − 1, and the step is the Lobatto IIIA–IIIB pair (Marsden & West 2001, theorem 2.6.1). A step
+//! solves p0 = −D₁L_d(q0, q1) together with ∂L_d/∂δ = 0 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ +
+//! D₂)L_d, which rounds less.
 
 mod coefficients;
 mod eliminated;
@@ -28,24 +29,29 @@ use evaluation::NodeEvaluation;
 pub use lagrangian::GalerkinLagrangian;
 pub use memory::GalerkinMemory;
 
-/// The discrete Lagrangian of the Lobatto rule with `S` nodes, 3 ≤ `S` ≤ 9, stationary in displacements of the interior nodes.
+/// The discrete Lagrangian of the Lobatto rule with `S` nodes, 3 ≤ `S` ≤ 9, stationary in displacements of
+/// the interior nodes.
 ///
 /// ```math
 /// L_d(q_0, q_1) = \operatorname*{ext}_{\delta_2, \dots, \delta_{S-1}} \; h \sum_{j=1}^{S} w_j\, L(q^j, \dot q^j, t + c_j h)
 /// ```
 ///
-/// The order is 2`S` − 2 for every regular L, and the method is symmetric. It preserves dq ∧ dp and the momentum maps of
-/// symmetries that act linearly, unless the frequency is read from the motion. For L = ½ v·M v − V(q, t) a step is solved by a
-/// fixed point that needs `S` − 2 values of ∂L/∂q an iteration, and one more for the step. For any other L it is solved by Newton's method
-/// in (`S` − 1) n unknowns for n coordinates, with all second derivatives of L: about `S`² n² numbers where n is known when compiled.
+/// The order is 2`S` − 2 for every regular L, and the method is symmetric. It preserves dq ∧ dp and the
+/// momentum maps of symmetries that act linearly, unless the frequency is read from the motion. For L = ½
+/// v·M v − V(q, t) a step is solved by a fixed point that needs `S` − 2 values of ∂L/∂q an iteration, and
+/// one more for the step. For any other L it is solved by Newton's method in (`S` − 1) n unknowns for n
+/// coordinates, with all second derivatives of L: about `S`² n² numbers where n is known when compiled.
 ///
-/// [`in_lanes`](Self::in_lanes) evaluates ∂L/∂q at all interior nodes at once, in SIMD lanes, and gives the same numbers, bit for bit.
-/// [`Summation::Compensated`] goes with high orders, whose steps are long: with it energies are kept to rounding errors.
+/// [`in_lanes`](Self::in_lanes) evaluates ∂L/∂q at all interior nodes at once, in SIMD lanes, and gives the
+/// same numbers, bit for bit. [`Summation::Compensated`] goes with high orders, whose steps are long: with
+/// it energies are kept to rounding errors.
 ///
-/// The interpolation may be [fitted](Self::phase_fitted) to a frequency that is [`Constant`](crate::discrete::Constant) or
-/// read from the motion as [`Reading::Averaged`](crate::discrete::Reading::Averaged). On the oscillator of that frequency the phase error of a step is then of order
-/// 2`S` + 1 in ωh, not 2`S` − 1. It is not zero, as it would be without displacements, because the polynomials of the
-/// displacements are not fitted. The fitted interpolation is not translation invariant.
+/// The interpolation may be [fitted](Self::phase_fitted) to a frequency that is
+/// [`Constant`](crate::discrete::Constant) or read from the motion as
+/// [`Reading::Averaged`](crate::discrete::Reading::Averaged). On the oscillator of that frequency the phase
+/// error of a step is then of order 2`S` + 1 in ωh, not 2`S` − 1. It is not zero, as it would be without
+/// displacements, because the polynomials of the displacements are not fitted. The fitted interpolation is
+/// not translation invariant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Galerkin<const S: usize, F = Unfitted, E = OneByOne> {
     /// What the interpolation between the ends is fitted to.
@@ -61,7 +67,8 @@ pub struct Galerkin<const S: usize, F = Unfitted, E = OneByOne> {
 }
 
 impl<const S: usize> Galerkin<S> {
-    /// The method with linear interpolation between the ends: Lobatto IIIA–IIIB. A number of nodes below 3 or above 9 does not compile.
+    /// The method with linear interpolation between the ends: Lobatto IIIA–IIIB. A number of nodes below 3
+    /// or above 9 does not compile.
     pub fn new() -> Self {
         const { assert!(S >= FEWEST && S <= MOST, "interior displacements are available with 3 to 9 nodes") };
         Self {
@@ -75,8 +82,8 @@ impl<const S: usize> Galerkin<S> {
 
     /// The same with ∂L/∂q at all interior nodes evaluated at once, for 4 ≤ `S`.
     ///
-    /// It has to do with L = ½ v·M v − V(q, t) solved by the fixed point. Steps of other L, those with a frequency, and those that are
-    /// left to Newton's method are solved as without.
+    /// It has to do with L = ½ v·M v − V(q, t) solved by the fixed point. Steps of other L, those with a
+    /// frequency, and those that are left to Newton's method are solved as without.
     #[must_use]
     pub fn in_lanes(self) -> Galerkin<S, Unfitted, InLanes> {
         let Self { frequency, solver, stopping, summation, .. } = self;

@@ -2,15 +2,17 @@
 //!
 //! Kᵢ = X(Yᵢ, t + cᵢh),   Yᵢ = y + Σⱼ μᵢⱼ Lⱼ,   y⁺ = y + Σᵢ Lᵢ,   Lᵢ = hbᵢ Kᵢ,   μᵢⱼ = aᵢⱼ/bⱼ
 //!
-//! with c the zeros of the shifted Legendre polynomial (Butcher 1964; Hairer, Lubich & Wanner 2006, section II.1.3), written in
-//! the numbers L so that the step is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2017). The stages are iterated as a
-//! fixed point down to rounding errors, from the collocation polynomial of the last step, continued; where
-//! that does not contract, they are found by Newton's method (the module `newton`).
+//! with c the zeros of the shifted Legendre polynomial (Butcher 1964; Hairer, Lubich & Wanner 2006, section
+//! II.1.3), written in the numbers L so that the step is symplectic in the arithmetic (Antoñana, Makazaga &
+//! Murua 2017). The stages are iterated as a fixed point down to rounding errors, from the collocation
+//! polynomial of the last step, continued; where that does not contract, they are found by Newton's method
+//! (the module `newton`).
 //!
-//! Of q'' = M⁻¹f(q, t) with a constant diagonal M only forces are evaluated in the iteration (the module `second_order`).
+//! Of q'' = M⁻¹f(q, t) with a constant diagonal M only forces are evaluated in the iteration (the module
+//! `second_order`).
 //!
-//! Each number of a point stands once for each stage, in the lanes of a pack; the equations of motion are evaluated stage by
-//! stage, or for all stages at once.
+//! Each number of a point stands once for each stage, in the lanes of a pack; the equations of motion are
+//! evaluated stage by stage, or for all stages at once.
 
 mod coefficients;
 mod local_error;
@@ -40,30 +42,33 @@ pub use memory::GaussMemory;
 /// K_i = X\Bigl(y + h \sum_j a_{ij} K_j,\ t + c_i h\Bigr), \qquad y^+ = y + h \sum_i b_i K_i
 /// ```
 ///
-/// Of a degenerate system y = q, and of a regular one y = (q, p). With `S` = 1 the method is the implicit midpoint rule.
+/// Of a degenerate system y = q, and of a regular one y = (q, p). With `S` = 1 the method is the implicit
+/// midpoint rule.
 ///
-/// It is symmetric. On Hamilton's equations of a regular system it preserves dq ∧ dp, and all momenta that are bilinear in q
-/// and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all quadratic momenta. The stages are found
-/// by a fixed point, which contracts if h is small against the fastest time scale only. It begins on the
-/// polynomial through the stages of the last step and, where that does not lead to a step, once more from
-/// the slope at the start. Where neither does, Newton's method solves for the velocities of all stages at
-/// once, with the second derivatives of L: `S`² n² numbers stand by for n coordinates. Where n is known when
-/// compiled, and they would take more than 128 kilobytes of the stack, and for a fast sum over pairs,
-/// [`Solver::Automatic`] is [`Solver::FixedPoint`].
+/// It is symmetric. On Hamilton's equations of a regular system it preserves dq ∧ dp, and all momenta that
+/// are bilinear in q and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all
+/// quadratic momenta. The stages are found by a fixed point, which contracts if h is small against the
+/// fastest time scale only. It begins on the polynomial through the stages of the last step and, where that
+/// does not lead to a step, once more from the slope at the start. Where neither does, Newton's method
+/// solves for the velocities of all stages at once, with the second derivatives of L: `S`² n² numbers stand
+/// by for n coordinates. Where n is known when compiled, and they would take more than 128 kilobytes of the
+/// stack, and for a fast sum over pairs, [`Solver::Automatic`] is [`Solver::FixedPoint`].
 ///
-/// Where L = ½ v·M v − V(q, t) with a constant diagonal M, and forces have no velocities in them, the velocities of the stages are
-/// eliminated, and only positions are iterated (Antoñana, Makazaga & Murua 2025): it is the same method, in fewer operations.
+/// Where L = ½ v·M v − V(q, t) with a constant diagonal M, and forces have no velocities in them, the
+/// velocities of the stages are eliminated, and only positions are iterated (Antoñana, Makazaga & Murua
+/// 2025): it is the same method, in fewer operations.
 ///
-/// [`in_lanes`](Self::in_lanes) evaluates all stages at once, in SIMD lanes, and gives the same numbers, bit for bit: with eight stages,
-/// order 16, it is the method for energies that are to be kept to rounding errors.
+/// [`in_lanes`](Self::in_lanes) evaluates all stages at once, in SIMD lanes, and gives the same numbers, bit
+/// for bit: with eight stages, order 16, it is the method for energies that are to be kept to rounding
+/// errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gauss<const S: usize, E = OneByOne> {
     /// How steps are solved.
     pub solver: Solver,
     /// The criterion by which the stages count as converged. Default: to rounding errors.
     pub stopping: Stopping,
-    /// How the increments of the steps are added up. Default: [`Summation::Compensated`]; the stages are then iterated until
-    /// nothing is left to gain, which takes about one iteration more.
+    /// How the increments of the steps are added up. Default: [`Summation::Compensated`]; the stages are
+    /// then iterated until nothing is left to gain, which takes about one iteration more.
     pub summation: Summation,
     /// How the stages are evaluated.
     pub evaluation: E,
@@ -83,8 +88,9 @@ impl<const S: usize> Gauss<S> {
 
     /// The same with all stages evaluated at once.
     ///
-    /// The equations of motion are evaluated on packs of `S` numbers where Ω couples the coordinates in pairs, or the mass
-    /// matrix is constant and diagonal. Of other systems forces and ∇H are, and linear equations are solved stage by stage.
+    /// The equations of motion are evaluated on packs of `S` numbers where Ω couples the coordinates in
+    /// pairs, or the mass matrix is constant and diagonal. Of other systems forces and ∇H are, and linear
+    /// equations are solved stage by stage.
     #[must_use]
     pub fn in_lanes(self) -> Gauss<S, InLanes> {
         let Self { solver, stopping, summation, .. } = self;
@@ -310,7 +316,8 @@ where
         if S::Kind::OF_SECOND_ORDER {
             return path.improve_places::<E>(system, *t, *h, statistics);
         }
-        // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates that are in place.
+        // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates
+        // that are in place.
         for part in (1..path.y.len()).rev() {
             path.reach((part + 1) % path.y.len());
             path.evaluate_part::<E>(part, system, *t, *h, statistics)?;

@@ -15,14 +15,16 @@ use crate::system::Unconstrained;
 use crate::system::start::evaluate;
 use crate::{Lagrangian, Linear, Real, Space, System, Vector};
 
-/// The general step of the discrete Lagrangian of `scheme`, by Newton's method, on degenerate and on regular systems
-/// (Marsden & West 2001, eqs. 1.5.2 and 1.5.3). Runs start from p = ∂L/∂v, which is α(q) for a degenerate system.
+/// The general step of the discrete Lagrangian of `scheme`, by Newton's method, on degenerate and on regular
+/// systems (Marsden & West 2001, eqs. 1.5.2 and 1.5.3). Runs start from p = ∂L/∂v, which is α(q) for a
+/// degenerate system.
 ///
-/// The methods of this crate have faster steps of the same equations, and guards and starts of their own. This one is for
-/// discrete Lagrangians that have no method yet, and what the others are tested against. It has no guards: a parasitic mode
-/// is not limited, and a step across a place where Ω or the mass matrix changes its sign passes if it has a solution.
-/// What is inside may not have options that have no effect here: see [`InnerScheme`].
-/// [`EnergyLimit`](crate::methods::EnergyLimit) around it ends a run whose energy tells.
+/// The methods of this crate have faster steps of the same equations, and guards and starts of their own.
+/// This one is for discrete Lagrangians that have no method yet, and what the others are tested against. It
+/// has no guards: a parasitic mode is not limited, and a step across a place where Ω or the mass matrix
+/// changes its sign passes if it has a solution. What is inside may not have options that have no effect
+/// here: see [`InnerScheme`]. [`EnergyLimit`](crate::methods::EnergyLimit) around it ends a run whose energy
+/// tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct General<M> {
     /// What has a discrete Lagrangian.
@@ -59,8 +61,8 @@ impl<S: Lagrangian<T>, L, T: Real> GeneralMemory<S, L, T> {
         &self.p
     }
 
-    /// Makes `p` the discrete momentum at the current point: that of a two-step run, for instance. Entries beyond the
-    /// dimension are left out.
+    /// Makes `p` the discrete momentum at the current point: that of a two-step run, for instance. Entries
+    /// beyond the dimension are left out.
     pub fn set_p(&mut self, p: &[T]) {
         for (kept, &p) in self.p.iter_mut().zip(p) {
             *kept = p;

@@ -1,9 +1,11 @@
-//! Variational integrators on manifolds: the discrete Lagrangian is a quadrature rule of L on a geodesic between the two ends.
+//! Variational integrators on manifolds: the discrete Lagrangian is a quadrature rule of L on a geodesic
+//! between the two ends.
 //!
 //! L_d(q0, q1) = h Σⱼ wⱼ L(γ(cⱼ), γ'(cⱼ)/h, t + cⱼh),   γ(0) = q0, γ(1) = q1
 //!
-//! with γ(c) = R0 exp(cû) of a rotation, a great circle of a unit vector, a straight line of numbers. In the moving frame of the body
-//! the discrete Euler–Lagrange equations of a rotation are those of Euler and Poincaré (Marsden, Pekarsky & Shkoller 1999).
+//! with γ(c) = R0 exp(cû) of a rotation, a great circle of a unit vector, a straight line of numbers. In the
+//! moving frame of the body the discrete Euler–Lagrange equations of a rotation are those of Euler and
+//! Poincaré (Marsden, Pekarsky & Shkoller 1999).
 
 mod kicks;
 mod legendre;
@@ -28,7 +30,8 @@ pub use memory::GeodesicMemory;
 use memory::{Kicks, Work};
 use orientation::TangentMass;
 
-/// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, beside numbers.
+/// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, beside
+/// numbers.
 ///
 /// ```math
 /// L_d(q_0, q_1) = h \sum_j w_j\, L(\gamma(c_j), \gamma'(c_j)/h, t + c_j h), \qquad
@@ -36,15 +39,17 @@ use orientation::TangentMass;
 /// \text{a great circle} & \text{on S²} \\ x_0 + c\, \Delta & \text{of numbers} \end{cases}
 /// ```
 ///
-/// A step solves p0 = −D₁L_d(q0, q1) by Newton's method for the displacement, three numbers of a rotation and two of a unit vector, and
-/// moves along it (Marsden, Pekarsky & Shkoller 1999; Lee, Leok & McClamroch 2007, 2009). A run carries a rotation as a quaternion, with what
-/// rounding leaves out of it. Its length says nothing, so that it need not be corrected: the matrix that is made of it is orthogonal to
-/// rounding after 10⁷ steps as after one, which the experiment `top` of the gallery measures.
+/// A step solves p0 = −D₁L_d(q0, q1) by Newton's method for the displacement, three numbers of a rotation
+/// and two of a unit vector, and moves along it (Marsden, Pekarsky & Shkoller 1999; Lee, Leok & McClamroch
+/// 2007, 2009). A run carries a rotation as a quaternion, with what rounding leaves out of it. Its length
+/// says nothing, so that it need not be corrected: the matrix that is made of it is orthogonal to rounding
+/// after 10⁷ steps as after one, which the experiment `top` of the gallery measures.
 ///
-/// The steps preserve the canonical form on T*Q and the momenta of rotations of space that leave L as it is. Their order is two
-/// for every rule that is exact for linear functions, and one for others; a [`Composition`](crate::methods::Composition) of symmetric
-/// steps has a higher one. A step by half a turn or more is an error. A run begins at rotation matrices and unit vectors to 4096 units
-/// of rounding, with velocities tangent to them; [`rotations`](crate::rotations) has functions that make some.
+/// The steps preserve the canonical form on T*Q and the momenta of rotations of space that leave L as it is.
+/// Their order is two for every rule that is exact for linear functions, and one for others; a
+/// [`Composition`](crate::methods::Composition) of symmetric steps has a higher one. A step by half a turn
+/// or more is an error. A run begins at rotation matrices and unit vectors to 4096 units of rounding, with
+/// velocities tangent to them; [`rotations`](crate::rotations) has functions that make some.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -176,8 +181,12 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         memory.rates.extrapolate([v]);
         let Work { mut node, mut matrix, mut residual, .. } = Work::new(system);
         let mut weights = system.tangent().vector();
-        let mut legendre =
-            Legendre { node: &mut node, matrix: &mut matrix, residual: &mut residual, weights: &mut weights };
+        let mut legendre = Legendre {
+            node: &mut node,
+            matrix: &mut matrix,
+            residual: &mut residual,
+            weights: &mut weights,
+        };
         legendre.solve(system, [q, &memory.p], t, v)
     }
 }

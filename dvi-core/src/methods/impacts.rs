@@ -1,4 +1,5 @@
-//! Impacts: steps of a variational method that are divided where a gap closes, with a jump of the momentum there.
+//! Impacts: steps of a variational method that are divided where a gap closes, with a jump of the momentum
+//! there.
 
 mod crossing;
 mod jump;
@@ -17,18 +18,19 @@ use passage::Passage;
 /// What is kept at an impact, beside the components of the momentum along the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Collision {
-    /// The discrete energy: that of the flight before the impact and of the one after it are the same (Fetecau, Marsden, Ortiz & West 2003,
-    /// eqs. 3.9 and 3.10). The steps are symplectic.
+    /// The discrete energy: that of the flight before the impact and of the one after it are the same
+    /// (Fetecau, Marsden, Ortiz & West 2003, eqs. 3.9 and 3.10). The steps are symplectic.
     #[default]
     Variational,
     /// The energy E at the point of impact. The steps are not symplectic.
     Reflection,
 }
 
-/// The steps of a variational method on a system with impacts, `impact = g`, whose motion stays where g(q, t) ≥ 0.
+/// The steps of a variational method on a system with impacts, `impact = g`, whose motion stays where g(q,
+/// t) ≥ 0.
 ///
-/// A step in which a gap closes is divided at the time of the impact, t + αh, which is an unknown of the step beside the point of
-/// impact q̃ and the impulse λ:
+/// A step in which a gap closes is divided at the time of the impact, t + αh, which is an unknown of the
+/// step beside the point of impact q̃ and the impulse λ:
 ///
 /// ```math
 /// \begin{aligned}
@@ -37,9 +39,10 @@ pub enum Collision {
 /// \end{aligned}
 /// ```
 ///
-/// and one equation for λ, which [`Collision`] chooses: the discrete energies −∂L_d/∂h of both flights are the same, up to −λ ∂g/∂t where
-/// the surface moves; or the energies at q̃ are. A step may have several impacts, on one surface or on several; with more than `MOST` it
-/// fails with [`StepFailure::Accumulation`]. Steps end at the times t0 + kh, whether there are impacts or not.
+/// and one equation for λ, which [`Collision`] chooses: the discrete energies −∂L_d/∂h of both flights are
+/// the same, up to −λ ∂g/∂t where the surface moves; or the energies at q̃ are. A step may have several
+/// impacts, on one surface or on several; with more than `MOST` it fails with [`StepFailure::Accumulation`].
+/// Steps end at the times t0 + kh, whether there are impacts or not.
 ///
 /// | | [`new`](Self::new) | [`reflecting`](Self::reflecting) |
 /// |---|---|---|
@@ -48,21 +51,24 @@ pub enum Collision {
 /// | order | that of the method: 2 or 1 | that of the method, [`Galerkin`](crate::methods::Galerkin) too |
 /// | restitution below 1, forces, L with time | refused | yes |
 ///
-/// E_d differs from E by a term that depends on the length of the flight, so with [`Collision::Variational`] each impact changes the
-/// energy by a small amount of the order h² that depends on α. As α is as good as random, these amounts add up as in a random walk. Where
-/// energies count more than the two-form, take [`reflecting`](Self::reflecting): the experiment `bounces` of the gallery compares them.
+/// E_d differs from E by a term that depends on the length of the flight, so with [`Collision::Variational`]
+/// each impact changes the energy by a small amount of the order h² that depends on α. As α is as good as
+/// random, these amounts add up as in a random walk. Where energies count more than the two-form, take
+/// [`reflecting`](Self::reflecting): the experiment `bounces` of the gallery compares them.
 ///
-/// A step without an impact is one of the method, and evaluates all gaps and their rates of change at its two ends, which needs the
-/// velocities there.
+/// A step without an impact is one of the method, and evaluates all gaps and their rates of change at its
+/// two ends, which needs the velocities there.
 ///
-/// An impact is looked for where a gap is negative at the end of a flight, and where it falls at the beginning, rises at the end, and the
-/// tangents there meet below zero, or the cubic through gaps and rates does; a gap that is a convex function of the time is not missed. A
-/// gap that closes and opens again more often within one step may pass unseen: steps are to be short against the features of the
-/// surfaces. Where a step is so long that the velocity leads away from a surface before the path has reached it, there is no impact, and
-/// the step is divided there.
+/// An impact is looked for where a gap is negative at the end of a flight, and where it falls at the
+/// beginning, rises at the end, and the tangents there meet below zero, or the cubic through gaps and rates
+/// does; a gap that is a convex function of the time is not missed. A gap that closes and opens again more
+/// often within one step may pass unseen: steps are to be short against the features of the surfaces. Where
+/// a step is so long that the velocity leads away from a surface before the path has reached it, there is no
+/// impact, and the step is divided there.
 ///
-/// Restitution e < 1 takes away 1 − e² of the energy of the motion towards the surface, so that $`\dot g^+ = -e\, \dot g^-`$ where L is
-/// quadratic in the velocities. A run back in time gains it, with 1/e. It is the same for all surfaces.
+/// Restitution e < 1 takes away 1 − e² of the energy of the motion towards the surface, so that
+/// $`\dot g^+ = -e\, \dot g^-`$ where L is quadratic in the velocities. A run back in time gains it, with
+/// 1/e. It is the same for all surfaces.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -106,7 +112,8 @@ impl<M> Impacts<M> {
 }
 
 impl<M, const MOST: usize> Impacts<M, MOST> {
-    /// The same with coefficient of restitution `restitution`; below 1 it goes with [`Collision::Reflection`] only.
+    /// The same with coefficient of restitution `restitution`; below 1 it goes with
+    /// [`Collision::Reflection`] only.
     #[must_use]
     pub fn with_restitution(self, restitution: f64) -> Self {
         Self { restitution, ..self }

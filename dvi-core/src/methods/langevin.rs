@@ -1,12 +1,12 @@
-//! Langevin dynamics by the splitting BAOAB: the kicks and drifts of the trapezoidal variational integrator with the exact
-//! solution of friction and noise between its two drifts.
+//! Langevin dynamics by the splitting BAOAB: the kicks and drifts of the trapezoidal variational integrator
+//! with the exact solution of friction and noise between its two drifts.
 //!
 //! dq = M⁻¹p dt      dp = F dt − γp dt + √(2γθ) A dW,   A Aᵀ = M
 //!
 //! B  p ← p + (h/2)F(q, t)      A  q ← q + (h/2)M⁻¹p      O  p ← c p + √(θ(1 − c²)) A ξ,   c = e^(−γh)
 //!
-//! The normal numbers ξ of step k are those of the k-th stream of a generator, ChaCha with 8 rounds, whose key is made from the
-//! seed. They depend on nothing else, so that runs can be repeated and resumed.
+//! The normal numbers ξ of step k are those of the k-th stream of a generator, ChaCha with 8 rounds, whose
+//! key is made from the seed. They depend on nothing else, so that runs can be repeated and resumed.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -21,24 +21,27 @@ use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
 
-/// Langevin dynamics, for [`Separable`] systems: friction and noise as of a heat bath, by the splitting BAOAB (Leimkuhler &
-/// Matthews 2013).
+/// Langevin dynamics, for [`Separable`] systems: friction and noise as of a heat bath, by the splitting
+/// BAOAB (Leimkuhler & Matthews 2013).
 ///
 /// ```math
 /// \mathrm{d}q = M^{-1} p\, \mathrm{d}t, \qquad
 /// \mathrm{d}p = F(q, t)\, \mathrm{d}t - \gamma p\, \mathrm{d}t + \sqrt{2 \gamma \theta}\; M^{1/2}\, \mathrm{d}W
 /// ```
 ///
-/// Here F is −∇V and what `force = …` declares, γ the friction and θ = k_B T the temperature. If F is −∇V(q), states of a long
-/// run are distributed as e^(−E/θ). A step is one of `Variational::trapezoid()` with the exact solution of friction and noise in
-/// its middle; with γ = 0 it is that step. It evaluates F once.
+/// Here F is −∇V and what `force = …` declares, γ the friction and θ = k_B T the temperature. If F is
+/// −∇V(q), states of a long run are distributed as e^(−E/θ). A step is one of `Variational::trapezoid()`
+/// with the exact solution of friction and noise in its middle; with γ = 0 it is that step. It evaluates F
+/// once.
 ///
-/// Averages over a run have errors of order h². On a harmonic oscillator the positions have the exact distribution at every
-/// stable step, ωh < 2, and the mean kinetic energy is too small by the factor 1 − (ωh)²/4. Free particles diffuse too fast, by the
-/// factor (γh/2) coth(γh/2). With noise M has to be positive definite.
+/// Averages over a run have errors of order h². On a harmonic oscillator the positions have the exact
+/// distribution at every stable step, ωh < 2, and the mean kinetic energy is too small by the factor 1 −
+/// (ωh)²/4. Free particles diffuse too fast, by the factor (γh/2) coth(γh/2). With noise M has to be
+/// positive definite.
 ///
-/// The noise comes from `seed` and the number of the step alone: a run with the same seed is the same to the last bit, and goes
-/// on from a [`Checkpoint`](crate::run::Checkpoint) as if it had not stopped. Steps are positive, because friction has a direction in time.
+/// The noise comes from `seed` and the number of the step alone: a run with the same seed is the same to the
+/// last bit, and goes on from a [`Checkpoint`](crate::run::Checkpoint) as if it had not stopped. Steps are
+/// positive, because friction has a direction in time.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -121,7 +124,13 @@ impl<S: Separable<T>, T: Real> Work<S, T> {
     }
 
     /// Friction and noise over a time `h`, with normal numbers from `generator`.
-    fn exchange(&mut self, bath: &Langevin, root: Option<&MassRoot<S, T>>, h: T, generator: &mut ChaCha8Rng) {
+    fn exchange(
+        &mut self,
+        bath: &Langevin,
+        root: Option<&MassRoot<S, T>>,
+        h: T,
+        generator: &mut ChaCha8Rng,
+    ) {
         let kept = Scalar::exp(T::lift(-bath.friction) * h);
         let Some(root) = root else {
             self.p.iter_mut().for_each(|p| *p *= kept);

@@ -2,13 +2,13 @@
 //!
 //! x1 = x0 + h v0 + h²[(½ − β) a0 + β a1]      v1 = v0 + (h/2)(a0 + a1)      a = M⁻¹F(x, t), F = −∇V
 //!
-//! In q = x − βh² a(x) this is Störmer–Verlet with the acceleration a(x), which as a function of q is that of the
-//! potential Ṽ(q) = V(x) + ½βh² ∇V·M⁻¹∇V: dṼ = ∇V·(1 + βh² M⁻¹V″)dx = ∇V·dq. So the method is symplectic, for
-//! dq ∧ dp (Kane, Marsden, Ortiz & West 2000, section 3.2; Newmark 1959). Here it is written with momenta, as
-//! p½ = p0 + (h/2)F0,   x1 = x0 + h M⁻¹[p½ + βh(F1 − F0)],   p1 = p½ + (h/2)F1,
+//! In q = x − βh² a(x) this is Störmer–Verlet with the acceleration a(x), which as a function of q is that
+//! of the potential Ṽ(q) = V(x) + ½βh² ∇V·M⁻¹∇V: dṼ = ∇V·(1 + βh² M⁻¹V″)dx = ∇V·dq. So the method is
+//! symplectic, for dq ∧ dp (Kane, Marsden, Ortiz & West 2000, section 3.2; Newmark 1959). Here it is written
+//! with momenta, as p½ = p0 + (h/2)F0, x1 = x0 + h M⁻¹[p½ + βh(F1 − F0)], p1 = p½ + (h/2)F1,
 //!
-//! which is the general step of the discrete Lagrangian in x with both of its equations divided by η′ᵀ, so that no
-//! second derivatives are left in them.
+//! which is the general step of the discrete Lagrangian in x with both of its equations divided by η′ᵀ, so
+//! that no second derivatives are left in them.
 
 mod lagrangian;
 
@@ -24,7 +24,9 @@ use crate::space::{LinearEquations, LinearSolver, Sink, linear};
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
-use crate::{Lagrangian, Linear, Real, RegularLagrangian, Scalar, Separable, Space, System, Vector, Weights};
+use crate::{
+    Lagrangian, Linear, Real, RegularLagrangian, Scalar, Separable, Space, System, Vector, Weights,
+};
 
 pub use lagrangian::NewmarkLagrangian;
 
@@ -37,13 +39,13 @@ pub use lagrangian::NewmarkLagrangian;
 /// \end{aligned}
 /// ```
 ///
-/// The method is symmetric and of order 2. With β = 0 it is Störmer–Verlet, and explicit. With β = ¼ it is the average
-/// acceleration method, which is stable on linear oscillators at every step. With other β > 0 it is implicit too, and stable on
-/// them for (¼ − β)(ωh)² < 1. An iteration evaluates ∂L/∂q once.
+/// The method is symmetric and of order 2. With β = 0 it is Störmer–Verlet, and explicit. With β = ¼ it is
+/// the average acceleration method, which is stable on linear oscillators at every step. With other β > 0 it
+/// is implicit too, and stable on them for (¼ − β)(ωh)² < 1. An iteration evaluates ∂L/∂q once.
 ///
-/// It preserves d(q − βh² a(q)) ∧ dp, a form that depends on h. Steps of different lengths would preserve nothing, so the
-/// method is no [`VariableStep`](crate::methods::VariableStep) and cannot be composed. Momenta of symmetries that act linearly
-/// are preserved in the form that they have at q − βh² a(q).
+/// It preserves d(q − βh² a(q)) ∧ dp, a form that depends on h. Steps of different lengths would preserve
+/// nothing, so the method is no [`VariableStep`](crate::methods::VariableStep) and cannot be composed.
+/// Momenta of symmetries that act linearly are preserved in the form that they have at q − βh² a(q).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newmark<T = f64> {
     /// β, from 0 to ½.

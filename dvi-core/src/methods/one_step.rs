@@ -1,11 +1,12 @@
 //! One-step schemes for degenerate systems in class, α = ϑ(x, y)·dx.
 //!
-//! As α has no component along y, the discrete Lagrangian of a rule with nodes cⱼ and weights wⱼ needs one ȳ for the step,
+//! As α has no component along y, the discrete Lagrangian of a rule with nodes cⱼ and weights wⱼ needs one ȳ
+//! for the step,
 //!
 //! L_d(x0, x1, ȳ) = h Σⱼ wⱼ L((x0 + cⱼΔ, ȳ), Δ/h),   Δ = x1 − x0, stationary in ȳ,
 //!
-//! so that its step couples two points and not three (Ellison, Finn, Burby, Kraus, Qin & Tang 2018; Burby, Finn &
-//! Ellison 2022). With f = ∂L/∂q it is
+//! so that its step couples two points and not three (Ellison, Finn, Burby, Kraus, Qin & Tang 2018; Burby,
+//! Finn & Ellison 2022). With f = ∂L/∂q it is
 //!
 //! p0 = Σⱼ wⱼ(ϑⱼ − h(1 − cⱼ) f_xⱼ),   0 = Σⱼ wⱼ f_yⱼ,   p1 = p0 + h Σⱼ wⱼ f_xⱼ,   ϑ(x1, y1) = p1
 //!
@@ -31,9 +32,9 @@ use stage::{Rule, Stage, Step};
 
 /// A one-step scheme for degenerate systems in class: [`ProperlyDegenerate`].
 ///
-/// In class, α = ϑ(x, y)·dx has components along one half x of the coordinates only. The schemes couple two points, and not three
-/// as [`Sigma`](crate::methods::Sigma) does, so that they have no parasitic mode. With f = ∂L/∂q, v = Δ/h and Δ = x1 − x0 they
-/// are
+/// In class, α = ϑ(x, y)·dx has components along one half x of the coordinates only. The schemes couple two
+/// points, and not three as [`Sigma`](crate::methods::Sigma) does, so that they have no parasitic mode. With
+/// f = ∂L/∂q, v = Δ/h and Δ = x1 − x0 they are
 ///
 /// ```math
 /// \begin{aligned}
@@ -46,8 +47,8 @@ use stage::{Rule, Stage, Step};
 /// \end{aligned}
 /// ```
 ///
-/// where p = ϑ(q), v(q) is the velocity of x at q, and q̃ = (x0 + ½Δ, ȳ); the signs − and + stand for values at (x0, ȳ) and
-/// (x1, ȳ). The first two schemes end with ϑ(q1) = p1.
+/// where p = ϑ(q), v(q) is the velocity of x at q, and q̃ = (x0 + ½Δ, ȳ); the signs − and + stand for values
+/// at (x0, ȳ) and (x1, ȳ). The first two schemes end with ϑ(q1) = p1.
 ///
 /// | scheme | order | symmetric | preserves |
 /// |---|---|---|---|
@@ -56,10 +57,11 @@ use stage::{Rule, Stage, Step};
 /// | [`scheme_a`](Self::scheme_a) | 1 | no; B is its adjoint | dϑ ∧ d(x − h v(q)) |
 /// | [`scheme_b`](Self::scheme_b) | 1 | no; A is its adjoint | dϑ ∧ d(x + h v(q)) |
 ///
-/// A step is solved by Newton's method with all second derivatives of L. If Ω does not couple the coordinates in pairs, ϑ = p is
-/// solved by full elimination of n/2 rows. A step that would lead to another branch of ϑ(x, y) = p ends with
-/// [`StepFailure::Orientation`](crate::error::StepFailure::Orientation), as far as Ω has another sign halfway. A system that is not in class has no such scheme, and
-/// using one is a compile error: out of class their equations converge to a wrong motion.
+/// A step is solved by Newton's method with all second derivatives of L. If Ω does not couple the
+/// coordinates in pairs, ϑ = p is solved by full elimination of n/2 rows. A step that would lead to another
+/// branch of ϑ(x, y) = p ends with [`StepFailure::Orientation`](crate::error::StepFailure::Orientation), as
+/// far as Ω has another sign halfway. A system that is not in class has no such scheme, and using one is a
+/// compile error: out of class their equations converge to a wrong motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneStep {
     rule: Rule,
@@ -120,8 +122,8 @@ pub struct OneStepMemory<S: System, T: Real> {
 struct Point<S: System, T: Real> {
     /// ϑ at the current point, zero along y.
     p: Vector<S, T>,
-    /// The mean rates of change of the last steps, that of y to where it stands in the equations; and along y, for symmetric
-    /// schemes, by how much the rate from there to the end was another.
+    /// The mean rates of change of the last steps, that of y to where it stands in the equations; and along
+    /// y, for symmetric schemes, by how much the rate from there to the end was another.
     rates: Rates<S, T, 2>,
     orientation: FormOrientation<S, T>,
 }
@@ -150,7 +152,14 @@ impl<S: System, T: Real> Carries<S, T> for OneStep {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
-    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+    fn begin(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        _v: &[T],
+        t: T,
+        _h: T,
+    ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let mut p = system.space().vector();
         system.one_form(q, t, &mut p);
@@ -173,8 +182,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     ) -> Result<(), StepFailure> {
         let mut guess = Guess::Extrapolated;
         if S::Space::ON_STACK && self.rule == Rule::Midpoint {
-            // What no other function sees may stay in registers, and of one rule the compiler knows the nodes. Nothing up to
-            // `leave` may therefore be a closure or a function that is not inlined.
+            // What no other function sees may stay in registers, and of one rule the compiler knows the
+            // nodes. Nothing up to `leave` may therefore be a closure or a function that is not inlined.
             let midpoint = Self { rule: Rule::Midpoint, ..*self };
             let (point, mut work) = (&mut memory.point, Work::new(system, q, t));
             let step = Step { system, q: &*q, t, h, nodes: midpoint.rule.nodes() };
@@ -222,8 +231,8 @@ impl OneStep {
         Ok(())
     }
 
-    /// Sets `work.next` to q1, `work.stage.momentum` to p1, and `work.stage.rates` to the rates of change, if q1 is on the branch
-    /// of ϑ(x, y) = p that q0 is on.
+    /// Sets `work.next` to q1, `work.stage.momentum` to p1, and `work.stage.rates` to the rates of change,
+    /// if q1 is on the branch of ϑ(x, y) = p that q0 is on.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn attempt<J: Judge<T>, S: ProperlyDegenerate<T>, T: Real>(
         &self,
@@ -262,8 +271,8 @@ impl OneStep {
         point.orientation.pass(system, within, (next, t + h))
     }
 
-    /// Sets `work.next` to where A and B begin and `work.stage.momentum` to the momentum there, and returns its time. The node
-    /// of A is at the end, that of B at the beginning of the interval that comes next.
+    /// Sets `work.next` to where A and B begin and `work.stage.momentum` to the momentum there, and returns
+    /// its time. The node of A is at the end, that of B at the beginning of the interval that comes next.
     fn depart<S: ProperlyDegenerate<T>, T: Real>(
         &self,
         step: &Step<'_, S, T>,

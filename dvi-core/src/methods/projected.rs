@@ -1,12 +1,13 @@
 //! The variational midpoint scheme of a degenerate Lagrangian, projected onto p = α(q) (Kraus 2017).
 //!
-//! The scheme σ = ½ leaves the surface p = α(q), on which the motion is: that is its parasitic mode. A projection moves both
-//! ends of a step by a vector λ along the directions that Ω makes of the constraint,
+//! The scheme σ = ½ leaves the surface p = α(q), on which the motion is: that is its parasitic mode. A
+//! projection moves both ends of a step by a vector λ along the directions that Ω makes of the constraint,
 //!
 //! (q̃0, p̃0) = (q0 + aλ, α(q0) + a Dα(q0)ᵀλ),   (q̃1, p̃1) = (q1 + bλ, α(q1) + b Dα(q1)ᵀλ),
 //!
-//! between which stand the equations p̃0 = −D₁L_d(q̃0, q̃1) and p̃1 = D₂L_d(q̃0, q̃1) for q1 and λ: 2n unknowns. The symmetric
-//! projection has a = b = 1, since the midpoint scheme reverses what is off the surface; the standard one has a = 0, b = −1.
+//! between which stand the equations p̃0 = −D₁L_d(q̃0, q̃1) and p̃1 = D₂L_d(q̃0, q̃1) for q1 and λ: 2n
+//! unknowns. The symmetric projection has a = b = 1, since the midpoint scheme reverses what is off the
+//! surface; the standard one has a = 0, b = −1.
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
@@ -35,16 +36,17 @@ use crate::{Coupled, DegenerateLagrangian, Real, Scalar, Space, System, Vector, 
 /// | [`symmetric`](Self::symmetric) | 1, 1 | 2 | yes |
 /// | [`standard`](Self::standard) | 0, −1 | 2 | no |
 ///
-/// The schemes are for one-forms that no gauge brings into the class of [`OneStep`](super::OneStep), which is to be preferred
-/// where it can be used. They couple two points and have no parasitic mode. Where α is affine with constant coefficients, λ = 0
-/// and both are the implicit midpoint rule, which preserves Ω.
+/// The schemes are for one-forms that no gauge brings into the class of [`OneStep`](super::OneStep), which
+/// is to be preferred where it can be used. They couple two points and have no parasitic mode. Where α is
+/// affine with constant coefficients, λ = 0 and both are the implicit midpoint rule, which preserves Ω.
 ///
-/// Elsewhere they do not preserve Ω exactly: with ζ = Σᵢⱼ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + a² dζ at q0 the form dα + b² dζ at
-/// q1. As λ is of the order h², the symmetric projection changes Ω by terms of the order h⁵ in a step, the standard one by h⁴. The
-/// energy of both drifts, by terms of the order h⁴ per unit of time for the symmetric one and h³ for the standard one. Where a
-/// motion has a reversing symmetry, as that of a guiding centre in a magnetic mirror, the symmetric one shows no drift: its energy
-/// error is no larger after 2·10⁵ steps than after a tenth of them. Source: Kraus 2017, *Projected variational integrators for
-/// degenerate Lagrangian systems*, with the midpoint rule.
+/// Elsewhere they do not preserve Ω exactly: with ζ = Σᵢⱼ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + a² dζ at q0
+/// the form dα + b² dζ at q1. As λ is of the order h², the symmetric projection changes Ω by terms of the
+/// order h⁵ in a step, the standard one by h⁴. The energy of both drifts, by terms of the order h⁴ per unit
+/// of time for the symmetric one and h³ for the standard one. Where a motion has a reversing symmetry, as
+/// that of a guiding centre in a magnetic mirror, the symmetric one shows no drift: its energy error is no
+/// larger after 2·10⁵ steps than after a tenth of them. Source: Kraus 2017, *Projected variational
+/// integrators for degenerate Lagrangian systems*, with the midpoint rule.
 ///
 /// A step is solved by Newton's method for 2n unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,8 +112,8 @@ pub struct ProjectedMemory<S: System, T: Real> {
     work: Work<S, T>,
 }
 
-/// The points q0, (q̃0 + q̃1)/2 and q1, at which second derivatives are taken. The equations are as many as unknown vectors, one
-/// less.
+/// The points q0, (q̃0 + q̃1)/2 and q1, at which second derivatives are taken. The equations are as many as
+/// unknown vectors, one less.
 const NODES: usize = 3;
 
 #[derive(Debug)]
@@ -139,7 +141,14 @@ impl<S: System, T: Real> Carries<S, T> for Projected {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
-    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+    fn begin(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        _v: &[T],
+        t: T,
+        _h: T,
+    ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let vector = || system.space().vector();
         let mut p: Vector<S, T> = vector();
@@ -270,7 +279,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
 
     /// Sets the residuals:
     ///
-    /// r₁ = α(q0) + a Dα(q0)ᵀλ − α(q̃) + ½h ∂L/∂q(q̃, ṽ)      r₂ = α(q̃) + ½h ∂L/∂q(q̃, ṽ) − α(q1) − b Dα(q1)ᵀλ
+    /// r₁ = α(q0) + a Dα(q0)ᵀλ − α(q̃) + ½h ∂L/∂q(q̃, ṽ) r₂ = α(q̃) + ½h ∂L/∂q(q̃, ṽ) − α(q1) − b Dα(q1)ᵀλ
     fn differentiate(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) {
         step.place(&self.unknowns, &mut self.work);
         let Self { p, unknowns: [_, lambda], residuals: [_, r1, r2], work, .. } = self;
@@ -290,7 +299,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
             if factor == T::lift(0.0) {
                 continue;
             }
-            // h(∂L/∂q + ∇H) = Dαᵀλ, in which what the gradients of H leave by rounding is no larger than that of a step.
+            // h(∂L/∂q + ∇H) = Dαᵀλ, in which what the gradients of H leave by rounding is no larger than
+            // that of a step.
             system.gradient(point, slope, time, lifted, one_form);
             system.hamiltonian_gradient(point, time, force);
             for i in 0..q.len() {
@@ -308,7 +318,13 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
     fn residual(&mut self, step: &Step<'_, S, T>) -> Result<T, StepFailure> {
         let Self { p, unknowns: [delta, _], residuals, weights, work, .. } = self;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(delta[j]);
-        linear::residual_of_nodes(&mut Linearized { step, node: 0, work }, size, |i| p[i], residuals, weights)
+        linear::residual_of_nodes(
+            &mut Linearized { step, node: 0, work },
+            size,
+            |i| p[i],
+            residuals,
+            weights,
+        )
     }
 
     /// Overwrites the residuals with the corrections.
@@ -369,7 +385,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S
         let (point, time): (&[T], T) = [(q, t), (&**middle, centre), (&**end, after)][self.node];
         system.linearize(point, rest, time, Weights { qv: one, ..none }, gradient, one_form, qv);
         match self.node {
-            1 => system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq),
+            1 => {
+                system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq);
+            }
             2 => {
                 // h L_qq at (q, λ/h) without that at (q, 0), which is of H.
                 let w = Weights { qq: h, ..none };

@@ -3,7 +3,8 @@
 //! p½ = p0 + (h/2)F(q0) + G(q0)ᵀι0      q1 = q0 + h M⁻¹p½, with g(q1) = 0
 //! p1 = p½ + (h/2)F(q1) + G(q1)ᵀι1, with G(q1) M⁻¹p1 + ∂g/∂t = 0
 //!
-//! h ι0 is found by Newton's method, whose matrix is G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with G(q1) M⁻¹ G(q1)ᵀ.
+//! h ι0 is found by Newton's method, whose matrix is G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with
+//! G(q1) M⁻¹ G(q1)ᵀ.
 
 mod refinement;
 mod rows;
@@ -24,19 +25,22 @@ use rows::{fill, named};
 use stride::Point;
 use work::{Look, Work, constrain};
 
-/// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of [`Constrained`](crate::methods::Constrained) around
+/// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of
+/// [`Constrained`](crate::methods::Constrained) around
 /// [`Variational::trapezoid`](crate::methods::Variational::trapezoid), without second derivatives of L.
 ///
-/// A step evaluates the force once. Its linear equations have one unknown for each constraint and a full matrix, and the gradients of
-/// all constraints are kept with an entry for each coordinate; from about ten constraints on, the equations of `Constrained` are cheaper,
-/// which are banded along a chain. With sizes that are fixed at compile time all of that is part of the run: with a hundred rods in the
-/// plane 0.7 MB, on the stack of the thread that begins it. With sizes that are known at run time only it is on the heap.
+/// A step evaluates the force once. Its linear equations have one unknown for each constraint and a full
+/// matrix, and the gradients of all constraints are kept with an entry for each coordinate; from about ten
+/// constraints on, the equations of `Constrained` are cheaper, which are banded along a chain. With sizes
+/// that are fixed at compile time all of that is part of the run: with a hundred rods in the plane 0.7 MB,
+/// on the stack of the thread that begins it. With sizes that are known at run time only it is on the heap.
 ///
-/// Where a coordinate is light against others that a constraint couples with it as a run begins, velocities are corrected until they keep
-/// the constraints. With masses that differ by a factor of 10¹⁶ and more its matrix is singular to rounding, and `Constrained` goes on.
+/// Where a coordinate is light against others that a constraint couples with it as a run begins, velocities
+/// are corrected until they keep the constraints. With masses that differ by a factor of 10¹⁶ and more its
+/// matrix is singular to rounding, and `Constrained` goes on.
 ///
-/// What is said of `Constrained`, of its structure and its order, is true of this method. Positions are those of SHAKE (Ryckaert,
-/// Ciccotti & Berendsen 1977) with a start on the constraints.
+/// What is said of `Constrained`, of its structure and its order, is true of this method. Positions are
+/// those of SHAKE (Ryckaert, Ciccotti & Berendsen 1977) with a start on the constraints.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -86,12 +90,14 @@ impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
         &self.point.here.p
     }
 
-    /// The Lagrange multipliers λ of the last step: see [`ConstrainedMemory::multipliers`](crate::methods::ConstrainedMemory::multipliers).
+    /// The Lagrange multipliers λ of the last step: see
+    /// [`ConstrainedMemory::multipliers`](crate::methods::ConstrainedMemory::multipliers).
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
         self.point.impulses.over(self.point.last_step)
     }
 
-    /// The impulses of the last step: see [`ConstrainedMemory::impulses`](crate::methods::ConstrainedMemory::impulses).
+    /// The impulses of the last step: see
+    /// [`ConstrainedMemory::impulses`](crate::methods::ConstrainedMemory::impulses).
     pub fn impulses(&self) -> [&[T]; 2] {
         [&self.point.impulses.first, &self.point.impulses.last]
     }

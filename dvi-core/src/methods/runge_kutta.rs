@@ -66,8 +66,8 @@ static CLASSICAL: Tableau = Tableau {
 /// k_i = X\Bigl(y + h \sum_{j < i} a_{ij} k_j,\ t + c_i h\Bigr), \qquad y^+ = y + h \sum_i b_i k_i
 /// ```
 ///
-/// Of a degenerate system y = q, and of a regular one y = (q, p). The method is neither symmetric nor symplectic: the energy
-/// drifts, and so do all momenta but linear ones on nonlinear systems.
+/// Of a degenerate system y = q, and of a regular one y = (q, p). The method is neither symmetric nor
+/// symplectic: the energy drifts, and so do all momenta but linear ones on nonlinear systems.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RungeKutta {
     tableau: &'static Tableau,

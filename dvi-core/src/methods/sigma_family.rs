@@ -38,13 +38,14 @@ pub use start::Start;
 /// L_d(q_0, q_1) = \alpha(q_\sigma) \cdot (q_1 - q_0) - h H(q_\sigma), \qquad q_\sigma = (1 - \sigma) q_0 + \sigma q_1
 /// ```
 ///
-/// For σ = ½ it is symmetric and of second order, and for every other σ in \[0, 1\] it is of second order where Dα is
-/// antisymmetric, as that of ½(p dq − q dp) is. Elsewhere the order is one unless σ = ½: a term dF of α with F'' ≠ 0 adds
-/// (σ − ½) Δ·F''Δ to L_d, beside a difference of F. It is one too if α depends on time, be it by an added function of t alone. For
-/// σ = (3 − √3)/6 and σ = (3 + √3)/6 it is of fourth order on linear systems with an antisymmetric Dα.
+/// For σ = ½ it is symmetric and of second order, and for every other σ in \[0, 1\] it is of second order
+/// where Dα is antisymmetric, as that of ½(p dq − q dp) is. Elsewhere the order is one unless σ = ½: a term
+/// dF of α with F'' ≠ 0 adds (σ − ½) Δ·F''Δ to L_d, beside a difference of F. It is one too if α depends on
+/// time, be it by an added function of t alone. For σ = (3 − √3)/6 and σ = (3 + √3)/6 it is of fourth order
+/// on linear systems with an antisymmetric Dα.
 ///
-/// Each step preserves the discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for symmetries that act by affine maps,
-/// the discrete momenta.
+/// Each step preserves the discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for symmetries that
+/// act by affine maps, the discrete momenta.
 ///
 /// | α | σ = 0 | 0 < σ < 1 | σ = 1 |
 /// |---|---|---|---|
@@ -71,13 +72,13 @@ pub use start::Start;
 /// if the system is in their class, [`Projected`](super::Projected) and [`Gauss`](super::Gauss) on all
 /// systems.
 ///
-/// The mode is measured while a run goes on ([`ParasiticMode`]; [`Integrator::parasitic_mode`](crate::run::Integrator)
-/// reads it), and a run in which it has taken over ends with
-/// [`StepFailure::ParasiticMode`](crate::error::StepFailure): see [`parasitic_limit`](Self::parasitic_limit).
-/// On a linear oscillation of frequency ω the scheme is
-/// stable for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a run takes
-/// [`Start::RungeKutta`] or two points.
-/// If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a singular matrix and cannot be stepped this way.
+/// The mode is measured while a run goes on ([`ParasiticMode`];
+/// [`Integrator::parasitic_mode`](crate::run::Integrator) reads it), and a run in which it has taken over
+/// ends with [`StepFailure::ParasiticMode`](crate::error::StepFailure): see
+/// [`parasitic_limit`](Self::parasitic_limit). On a linear oscillation of frequency ω the scheme is stable
+/// for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a
+/// run takes [`Start::RungeKutta`] or two points. If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a
+/// singular matrix and cannot be stepped this way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sigma<T = f64> {
     /// The point between q0 and q1 at which the Lagrangian is evaluated: 0 is q0, 1 is q1.
@@ -88,28 +89,30 @@ pub struct Sigma<T = f64> {
     pub solver: Solver,
     /// The criterion by which an implicit step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
-    /// How the increments of the steps are added up. [`Summation::Compensated`] is for affine α and 0 < σ < 1; what is
-    /// compensated are the coordinates. Default: [`Summation::Plain`].
+    /// How the increments of the steps are added up. [`Summation::Compensated`] is for affine α and 0 < σ <
+    /// 1; what is compensated are the coordinates. Default: [`Summation::Plain`].
     pub summation: Summation,
-    /// The largest [relative size](ParasiticMode::relative) of the parasitic mode, above which a step fails with
-    /// [`StepFailure::ParasiticMode`](crate::error::StepFailure) and the run stays where it is. Default: ½. `None` lets
-    /// the run go on whatever it has become.
+    /// The largest [relative size](ParasiticMode::relative) of the parasitic mode, above which a step fails
+    /// with [`StepFailure::ParasiticMode`](crate::error::StepFailure) and the run stays where it is.
+    /// Default: ½. `None` lets the run go on whatever it has become.
     ///
-    /// The limit is tested before each step, except in two cases. If Dα is constant and antisymmetric and σ ≠ ½, the
-    /// mode is measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow; there a mode
-    /// that is large from the first steps on may become three times as large, if that is more than the limit. If α is
-    /// affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
+    /// The limit is tested before each step, except in two cases. If Dα is constant and antisymmetric and σ
+    /// ≠ ½, the mode is measured after 4 to 256 steps, before it can have reached the limit at a rate of the
+    /// flow; there a mode that is large from the first steps on may become three times as large, if that is
+    /// more than the limit. If α is affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
     ///
     /// The limit is one of the mode and not of the energy, and has limits of its own:
-    /// - A mode that appears from one step to the next is judged when it has been seen several times. Where α is not affine and
-    ///   σ ≠ ½, a mode can grow tenfold in a step: such a run can become huge first, and end with another failure.
-    /// - Where α is far from affine, or the motion passes near a saddle, the energy error of short steps may have grown tenfold
-    ///   before.
-    /// - The mode is compared with the motion of the coordinates together, and of each that moves at least a tenth as much
-    ///   as the largest. In coordinates that are small beside another that is not lost, it is seen late or not at all:
-    ///   choose units in which they are of one size.
-    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can, if α is not affine or Dα not
-    ///   antisymmetric, a path whose curvature changes several times within two or three steps: such a run may be stopped.
+    /// - A mode that appears from one step to the next is judged when it has been seen several times. Where
+    ///   α is not affine and σ ≠ ½, a mode can grow tenfold in a step: such a run can become huge first, and
+    ///   end with another failure.
+    /// - Where α is far from affine, or the motion passes near a saddle, the energy error of short steps may
+    ///   have grown tenfold before.
+    /// - The mode is compared with the motion of the coordinates together, and of each that moves at least a
+    ///   tenth as much as the largest. In coordinates that are small beside another that is not lost, it is
+    ///   seen late or not at all: choose units in which they are of one size.
+    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can, if α is not
+    ///   affine or Dα not antisymmetric, a path whose curvature changes several times within two or three
+    ///   steps: such a run may be stopped.
     ///
     /// [`EnergyLimit`](crate::methods::EnergyLimit) around the method limits the energy.
     pub parasitic_limit: Option<f64>,
@@ -217,7 +220,8 @@ impl<S, T: Real> Step<'_, S, T> {
         Interval { t: self.t, h: self.h }
     }
 
-    /// A slow contraction is given up as soon as Newton would be cheaper; its advantage shrinks with the dimension.
+    /// A slow contraction is given up as soon as Newton would be cheaper; its advantage shrinks with the
+    /// dimension.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
         ladder.budget(self.method.stopping.max_iterations, 12 + dimension)

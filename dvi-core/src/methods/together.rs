@@ -1,8 +1,9 @@
 //! Runs taken together, one in each lane of a pack.
 //!
-//! Several runs of one method, on systems that share packs, with the same step and at the same time, are loaded into packs, moved on by
-//! the steps of the method, and stored again. Where one of them has to be looked at or decides otherwise than the others do, it
-//! goes on alone from the last point that all have reached: so each run is, bit by bit, what it would have been alone.
+//! Several runs of one method, on systems that share packs, with the same step and at the same time, are
+//! loaded into packs, moved on by the steps of the method, and stored again. Where one of them has to be
+//! looked at or decides otherwise than the others do, it goes on alone from the last point that all have
+//! reached: so each run is, bit by bit, what it would have been alone.
 
 use crate::methods::{Carries, Clock, Method};
 use crate::scalar::Lanes;
@@ -29,8 +30,9 @@ impl<S: System, M: Carries<S, f64>> core::fmt::Debug for Companion<'_, S, M> {
 
 /// A method whose runs can be taken together, `W` at a time.
 ///
-/// `Sigma` with σ = 0 or ½ where α is affine and couples the coordinates in pairs, and `Variational::trapezoid` where it is explicit and
-/// the mass matrix diagonal, take steps in lanes. Of other systems and options each run is taken alone.
+/// `Sigma` with σ = 0 or ½ where α is affine and couples the coordinates in pairs, and
+/// `Variational::trapezoid` where it is explicit and the mass matrix diagonal, take steps in lanes. Of other
+/// systems and options each run is taken alone.
 #[diagnostic::on_unimplemented(
     message = "runs of `{Self}` on `{S}` cannot be taken together in lanes",
     label = "it is neither `Sigma` nor `Variational`, or a parameter of the system is not of one type in all lanes"
@@ -45,8 +47,9 @@ pub trait InStep<const W: usize, S: Lagrangian>: Method<S, f64> {
     /// Whether two systems differ in nothing but what may differ from lane to lane: [`Packable::fits`].
     fn fit(a: &S, b: &S) -> Option<bool>;
 
-    /// Takes up to `count` steps of all `runs`, of which there are 1 to `W`, from the present time of `clock`, bit for bit as each
-    /// would alone. Their `systems` share packs. Returns how many: fewer, or none, where one of the runs has to go on alone.
+    /// Takes up to `count` steps of all `runs`, of which there are 1 to `W`, from the present time of
+    /// `clock`, bit for bit as each would alone. Their `systems` share packs. Returns how many: fewer, or
+    /// none, where one of the runs has to go on alone.
     fn steps_together(
         &self,
         systems: &[&S],

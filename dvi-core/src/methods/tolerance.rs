@@ -4,7 +4,8 @@ use crate::error::StartError;
 use crate::scalar::norm::{larger, reported};
 use crate::{Real, Scalar};
 
-/// The error that a step may have: in a coordinate qⱼ absolute + relative |qⱼ|, and in a momentum relative · max|p|.
+/// The error that a step may have: in a coordinate qⱼ absolute + relative |qⱼ|, and in a momentum relative ·
+/// max|p|.
 ///
 /// Momenta are small where masses are, and have other units than coordinates; so their error is compared
 /// with the largest momentum of the last steps, with that which the step adds; from rest, with that which
@@ -13,8 +14,8 @@ use crate::{Real, Scalar};
 pub struct Tolerance {
     /// In units of the numbers, and no less than their rounding, 2.3 · 10⁻¹⁶ in double precision.
     pub relative: f64,
-    /// In the units of the coordinates; zero or positive. Zero asks for the digits of a coordinate that is zero but for rounding errors, which
-    /// no step gives.
+    /// In the units of the coordinates; zero or positive. Zero asks for the digits of a coordinate that is
+    /// zero but for rounding errors, which no step gives.
     pub absolute: f64,
 }
 

@@ -3,8 +3,8 @@
 //! L_d(q0, q1) = h Σⱼ wⱼ L(qʲ, q̇ʲ, t + cⱼh),   qʲ = bⱼ q0 + b̄ⱼ q1,   q̇ʲ = (Bⱼ q0 + B̄ⱼ q1)/h
 //!
 //! with the nodes and weights of a [`Quadrature`] and an interpolation that is linear, or fitted to a
-//! [`Frequency`] (Marsden & West 2001, section 2.3; Kosmas & Vlachos, eqs. 9, 11 and 15). A step solves
-//! p0 = −D₁L_d(q0, q1) for q1 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
+//! [`Frequency`] (Marsden & West 2001, section 2.3; Kosmas & Vlachos, eqs. 9, 11 and 15). A step solves p0 =
+//! −D₁L_d(q0, q1) for q1 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
 
 mod coefficients;
 mod flight;
@@ -42,7 +42,8 @@ pub enum Fitting {
     PhaseAndMomentum,
 }
 
-/// The quadrature family: the discrete Lagrangian is a quadrature rule of L on an interpolation between the two ends.
+/// The quadrature family: the discrete Lagrangian is a quadrature rule of L on an interpolation between the
+/// two ends.
 ///
 /// ```math
 /// L_d(q_0, q_1) = h \sum_j w_j\, L(q^j, \dot q^j, t + c_j h), \qquad
@@ -59,17 +60,19 @@ pub enum Fitting {
 /// | others with Σ w c = ½, such as symmetric rules | implicit in q1 | 2 |
 /// | others | implicit in q1 | 1 |
 ///
-/// For other Lagrangians every step is implicit. The order is two for every rule that is exact for linear functions, however
-/// many nodes it has, because the interpolation is linear; [`Galerkin`](crate::methods::Galerkin) has higher orders. A run starts
-/// from p0 = ∂L/∂v(q0, v0).
+/// For other Lagrangians every step is implicit. The order is two for every rule that is exact for linear
+/// functions, however many nodes it has, because the interpolation is linear;
+/// [`Galerkin`](crate::methods::Galerkin) has higher orders. A run starts from p0 = ∂L/∂v(q0, v0).
 ///
-/// The steps preserve dq ∧ dp, unless a frequency is read from the motion without being differentiated ([`Reading`]). They
-/// conserve the momentum maps of symmetries that act linearly and leave the frequency as it is.
+/// The steps preserve dq ∧ dp, unless a frequency is read from the motion without being differentiated
+/// ([`Reading`]). They conserve the momentum maps of symmetries that act linearly and leave the frequency as
+/// it is.
 ///
-/// On the oscillator of the fitted frequency ω steps of one length are exact, whatever the rule, if sin u ≠ 0 and S ≠ 0 for
-/// u = ωh; near a zero of either a step ends with [`StepFailure::Resonance`]. Steps of different lengths are exact there with
-/// [`Fitting::PhaseAndMomentum`] only, because the momentum between them is off by a factor that depends on the length. A fitted
-/// interpolation is not translation invariant: constants are not among the functions that it interpolates.
+/// On the oscillator of the fitted frequency ω steps of one length are exact, whatever the rule, if sin u ≠
+/// 0 and S ≠ 0 for u = ωh; near a zero of either a step ends with [`StepFailure::Resonance`]. Steps of
+/// different lengths are exact there with [`Fitting::PhaseAndMomentum`] only, because the momentum between
+/// them is off by a factor that depends on the length. A fitted interpolation is not translation invariant:
+/// constants are not among the functions that it interpolates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variational<F = Unfitted, R = Quadrature> {
     /// Nodes and weights.

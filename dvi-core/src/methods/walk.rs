@@ -1,8 +1,8 @@
 //! Many explicit steps at once, with the state in local arrays that the compiler can keep in registers.
 //!
-//! The points are examined once in a block of steps. A number that is not finite stays so from step to step, so
-//! that nothing is missed; the steps of the block are then taken once more, one by one, to find the last good
-//! point.
+//! The points are examined once in a block of steps. A number that is not finite stays so from step to step,
+//! so that nothing is missed; the steps of the block are then taken once more, one by one, to find the last
+//! good point.
 
 use crate::error::StepFailure;
 
@@ -40,8 +40,8 @@ pub(crate) trait Walk {
     fn go_back(&mut self);
 }
 
-/// Takes `count` steps after `before` steps of the run, or as many as succeed, and returns how many; the last good
-/// state has been kept. Blocks begin at the same steps, however many are taken at once.
+/// Takes `count` steps after `before` steps of the run, or as many as succeed, and returns how many; the
+/// last good state has been kept. Blocks begin at the same steps, however many are taken at once.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Result<(), StepFailure>) {
     let position = before & (state.block() - 1);

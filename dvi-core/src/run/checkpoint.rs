@@ -12,17 +12,17 @@ use crate::system::start::{finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
 
 /// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) and
-/// [`ControlledIntegrator::resume`](crate::run::ControlledIntegrator::resume) go on, bit by bit as if the run had not stopped:
-/// on a system with the same parameters, and with the same method and options. That they are the same is not checked beyond
-/// the amount of what they carry.
+/// [`ControlledIntegrator::resume`](crate::run::ControlledIntegrator::resume) go on, bit by bit as if the
+/// run had not stopped: on a system with the same parameters, and with the same method and options. That
+/// they are the same is not checked beyond the amount of what they carry.
 ///
 /// With the feature `serde` it can be written to a file. A text format must write and read numbers without
 /// a rounding error; `serde_json` does it with its feature `float_roundtrip`. A checkpoint has a checksum,
 /// and to read one whose numbers have changed is an error of the reader with the text of
 /// [`CheckpointError::Changed`].
 ///
-/// With other parameters a run begins anew, at the time and in the state of the one before. Here a spring is stiffened half way,
-/// and the error stays of the order of the method:
+/// With other parameters a run begins anew, at the time and in the state of the one before. Here a spring is
+/// stiffened half way, and the error stays of the order of the method:
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -125,7 +125,8 @@ impl<T: Real> Checkpoint<T> {
         &self.0.q
     }
 
-    /// The velocities of a regular system; empty for a degenerate one, and where the momenta of the run have no velocity.
+    /// The velocities of a regular system; empty for a degenerate one, and where the momenta of the run have
+    /// no velocity.
     pub fn v(&self) -> &[T] {
         &self.0.v
     }
@@ -145,9 +146,9 @@ impl<T: Real> Checkpoint<T> {
         self.0.statistics
     }
 
-    /// A checkpoint from which a run with a fixed step goes on with steps of length `h`. The defect of a run of
-    /// [`Sigma`](crate::methods::Sigma) belongs to its step: with another one it becomes a parasitic mode, unless α is affine and
-    /// σ = ½. Begin such a run anew.
+    /// A checkpoint from which a run with a fixed step goes on with steps of length `h`. The defect of a run
+    /// of [`Sigma`](crate::methods::Sigma) belongs to its step: with another one it becomes a parasitic
+    /// mode, unless α is affine and σ = ½. Begin such a run anew.
     #[must_use]
     pub fn with_step_size(self, h: T) -> Self {
         Self(Sealed { step_size: h, ..self.0 }.with_checksum())
@@ -167,7 +168,8 @@ impl<T: Real> Checkpoint<T> {
         if self.0.statistics.counts().iter().any(|&count| count > BEYOND) || !self.0.record.is_finite() {
             return Err(CheckpointError::Damaged.into());
         }
-        let (mut q, mut v): (Vector<S, T>, Vector<S, T>) = (system.space().vector(), system.space().vector());
+        let (mut q, mut v): (Vector<S, T>, Vector<S, T>) =
+            (system.space().vector(), system.space().vector());
         q.copy_from_slice(&self.0.q);
         v[..found].copy_from_slice(&self.0.v);
         Ok([q, v])

@@ -59,8 +59,8 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// [step](Checkpoint::with_step_size) from the same momenta.
     ///
     /// # Errors
-    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method carries on this
-    /// system, or numbers that no run has.
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method
+    /// carries on this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
     pub fn resume(system: &'a S, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
@@ -195,9 +195,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Integrator<'_, S, Sigma<T>, T> {
         self.stepper.memory.parasitic_mode()
     }
 
-    /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere it is of
-    /// order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be trusted; take
-    /// [`parasitic_mode`](Self::parasitic_mode).
+    /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere
+    /// it is of order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be
+    /// trusted; take [`parasitic_mode`](Self::parasitic_mode).
     pub fn parasitic_amplitude(&self) -> T {
         SigmaMemory::parasitic_amplitude(&self.stepper.memory)
     }

@@ -47,7 +47,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
 /// Why steps have ended.
 struct Stop<'k, S: System, M: Carries<S, T>, T: Real> {
     failure: StepFailure,
-    /// Of a step that is to be taken back: the point that was kept, and how many good steps lead on from there.
+    /// Of a step that is to be taken back: the point that was kept, and how many good steps lead on from
+    /// there.
     back: Option<(&'k Kept<S, M, T>, u64)>,
 }
 

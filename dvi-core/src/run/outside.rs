@@ -1,9 +1,9 @@
 //! Whether a step has failed because a function that holds data is not known where the step has looked.
 //!
-//! Outside of its table such a function is not a number, and what fails then is an iteration or a coordinate. The points at
-//! which it was evaluated are gone, so they are looked for along the parabola q + vτ + ½aτ² from the last good state, with its
-//! velocity and, of a regular system, its acceleration at rest. On a manifold, where no parabola leads on, they are looked for at that
-//! state.
+//! Outside of its table such a function is not a number, and what fails then is an iteration or a
+//! coordinate. The points at which it was evaluated are gone, so they are looked for along the parabola q +
+//! vτ + ½aτ² from the last good state, with its velocity and, of a regular system, its acceleration at rest.
+//! On a manifold, where no parabola leads on, they are looked for at that state.
 
 use crate::error::{OutsideError, StepFailure};
 use crate::methods::Method;

@@ -1,9 +1,10 @@
 //! What decides how long the steps of a run are.
 //!
-//! A method keeps its good long-time behaviour under variable steps if the whole map, step control included, is
-//! symmetric or comes from a transformed system; choosing each step by the error of the one before destroys it
-//! (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind, [`ErrorControl`] and [`Osculating`] of
-//! the other. With [`EnergyMomentum`] the length of a step is an unknown of its equations.
+//! A method keeps its good long-time behaviour under variable steps if the whole map, step control included,
+//! is symmetric or comes from a transformed system; choosing each step by the error of the one before
+//! destroys it (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind,
+//! [`ErrorControl`] and [`Osculating`] of the other. With [`EnergyMomentum`] the length of a step is an
+//! unknown of its equations.
 
 mod controlled;
 mod energy_momentum;
@@ -41,11 +42,12 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Debug {
     /// length of the first step too. Everything that needs memory is allocated here.
     ///
     /// # Errors
-    /// [`StartError::Parameter`] if an option is out of range, [`StartError::Unsupported`] if the control needs
-    /// what the system does not have, [`StartError::Starter`] if its formulas fail at the start.
+    /// [`StartError::Parameter`] if an option is out of range, [`StartError::Unsupported`] if the control
+    /// needs what the system does not have, [`StartError::Starter`] if its formulas fail at the start.
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError>;
 
-    /// Prepares the control of a run that goes on from a checkpoint, for a memory that is [loaded](Memory::load) next.
+    /// Prepares the control of a run that goes on from a checkpoint, for a memory that is
+    /// [loaded](Memory::load) next.
     ///
     /// # Errors
     /// As [`begin`](Self::begin).

@@ -15,11 +15,12 @@ const ALONE: u64 = 16;
 
 /// Takes steps of several runs in lanes, `W` at a time.
 ///
-/// Those of equal systems, with equal methods, the same step and at the same time go together, and so do those of systems that differ in
-/// parameters of a generic type only ([`Packable`]). Each run ends, bit for bit, where it
-/// would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same error, also where others
-/// fail. Systems and methods are equal that `==` says are; it must not say so of two that do different things, as of parameters
-/// 0.0 and −0.0 in `atan2`. Runs for which the method has no lanes are taken one by one.
+/// Those of equal systems, with equal methods, the same step and at the same time go together, and so do
+/// those of systems that differ in parameters of a generic type only ([`Packable`]). Each run ends, bit for
+/// bit, where it would have ended alone, with the same [`Statistics`](crate::state::Statistics) and the same
+/// error, also where others fail. Systems and methods are equal that `==` says are; it must not say so of
+/// two that do different things, as of parameters 0.0 and −0.0 in `atan2`. Runs for which the method has no
+/// lanes are taken one by one.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -92,9 +93,9 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
         count: u64,
         results: &mut [Result<(), StepError>],
     ) {
-        let in_lanes = group
-            .iter()
-            .all(|&run| runs[run].is_unwatched() && runs[run].system().space().dimension() == self.dimension);
+        let in_lanes = group.iter().all(|&run| {
+            runs[run].is_unwatched() && runs[run].system().space().dimension() == self.dimension
+        });
         let mut left = count;
         while left > 0 && !group.is_empty() {
             if in_lanes {

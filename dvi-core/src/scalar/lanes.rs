@@ -1,7 +1,8 @@
 //! Several numbers in the lanes of one: what is done to one is done to all.
 //!
-//! Each operation is one on an array, which the compiler turns into SIMD instructions where it finds them. Results are those
-//! of the numbers one by one, bit for bit: no lane sees another, and nothing is contracted.
+//! Each operation is one on an array, which the compiler turns into SIMD instructions where it finds them.
+//! Results are those of the numbers one by one, bit for bit: no lane sees another, and nothing is
+//! contracted.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -10,10 +11,10 @@ use crate::{Real, Scalar};
 
 /// A pack of `W` numbers, the lanes, on which formulas are evaluated at once.
 ///
-/// Generated code takes it as it takes a number. Elementary functions other than roots are computed lane by lane. There is no
-/// order of packs: what has to decide does so for each lane. Parameters that differ from lane to lane are of type
-/// [`Varied<Lanes<W>>`](crate::Varied). Packs lie at multiples of 64 bytes, so that none of eight numbers is loaded in two parts;
-/// those of fewer take as much room.
+/// Generated code takes it as it takes a number. Elementary functions other than roots are computed lane by
+/// lane. There is no order of packs: what has to decide does so for each lane. Parameters that differ from
+/// lane to lane are of type [`Varied<Lanes<W>>`](crate::Varied). Packs lie at multiples of 64 bytes, so that
+/// none of eight numbers is loaded in two parts; those of fewer take as much room.
 ///
 /// ```
 /// use dvi_core::prelude::*;

@@ -17,8 +17,9 @@ pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     fold(x, T::lift(0.0), Scalar::abs, larger)
 }
 
-/// Joins `start` and what `value` makes of each entry, by an operation for which neither the order matters nor whether `start`
-/// counts once or more often: eight that do not wait for one another if there are many, joined in the end.
+/// Joins `start` and what `value` makes of each entry, by an operation for which neither the order matters
+/// nor whether `start` counts once or more often: eight that do not wait for one another if there are many,
+/// joined in the end.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn fold<T: Real>(x: &[T], start: T, value: impl Fn(T) -> T, join: impl Fn(T, T) -> T) -> T {
     let one_by_one = |x: &[T]| x.iter().fold(start, |joined, &x| join(joined, value(x)));
@@ -86,7 +87,8 @@ pub(crate) fn finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
 /// Zero if all entries are finite, and else, or if their sum overflows, not a number.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
-    // Four partial sums do not wait for one another. They begin at −0, which the compiler knows to add nothing.
+    // Four partial sums do not wait for one another. They begin at −0, which the compiler knows to add
+    // nothing.
     let (chunks, rest) = x.as_chunks::<4>();
     let partial = chunks.iter().fold([T::lift(-0.0); 4], |sum, x| [0, 1, 2, 3].map(|i| sum[i] + x[i]));
     let sum = rest.iter().fold((partial[0] + partial[2]) + (partial[1] + partial[3]), |sum, &x| sum + x);

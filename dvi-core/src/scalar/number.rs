@@ -33,13 +33,14 @@ impl<N: Number> Number for &N {
     }
 }
 
-/// What can be a parameter of a system that is computed in `T`: any [`Number`], which is a constant there, and
-/// [`Varied<T>`](Varied), which is not.
+/// What can be a parameter of a system that is computed in `T`: any [`Number`], which is a constant there,
+/// and [`Varied<T>`](Varied), which is not.
 ///
-/// A struct may be generic over the type of its parameters. Derivatives with respect to one then come from dual numbers,
-/// as they do for a coordinate. Whether a step has converged is decided by its values. Newton's method, which solves the steps
-/// of a run in dual numbers by default, therefore takes two iterations more, which brings derivatives of up to third order where its
-/// matrix is exact: where no frequency is read from the motion. A fixed point takes 64 more, which leave r⁶⁴ of an error of the
+/// A struct may be generic over the type of its parameters. Derivatives with respect to one then come from
+/// dual numbers, as they do for a coordinate. Whether a step has converged is decided by its values.
+/// Newton's method, which solves the steps of a run in dual numbers by default, therefore takes two
+/// iterations more, which brings derivatives of up to third order where its matrix is exact: where no
+/// frequency is read from the motion. A fixed point takes 64 more, which leave r⁶⁴ of an error of the
 /// derivatives at a rate of convergence r.
 ///
 ///
@@ -78,8 +79,8 @@ impl<N: Number, T: Scalar> Parameter<T> for N {
     }
 }
 
-/// A parameter that is a number of the kind that the system is computed in: a dual number with a derivative, or a pack of
-/// lanes with a value each.
+/// A parameter that is a number of the kind that the system is computed in: a dual number with a derivative,
+/// or a pack of lanes with a value each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Varied<T>(
     /// Its value.

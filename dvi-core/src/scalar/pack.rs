@@ -1,8 +1,9 @@
 //! The terms of a sum, several at a time.
 //!
-//! A generated loop whose terms need arithmetic alone runs over its first terms in packs of [`CHUNK`], and over the rest one
-//! by one. Each sum then has one partial sum for each place in a pack. Where numbers are packs themselves, the same loop takes
-//! one term at a time and adds it to the same partial sum: its results are those of the lanes, bit for bit.
+//! A generated loop whose terms need arithmetic alone runs over its first terms in packs of [`CHUNK`], and
+//! over the rest one by one. Each sum then has one partial sum for each place in a pack. Where numbers are
+//! packs themselves, the same loop takes one term at a time and adds it to the same partial sum: its results
+//! are those of the lanes, bit for bit.
 
 use core::marker::PhantomData;
 
@@ -138,13 +139,14 @@ pub fn subtract_from<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
     T::Pack::subtract(to, at, terms);
 }
 
-/// The last terms of a pack, where each term is added `K` places behind the first entry that the pack adds to: they wait for the next
-/// pack, which adds to their entries.
+/// The last terms of a pack, where each term is added `K` places behind the first entry that the pack adds
+/// to: they wait for the next pack, which adds to their entries.
 #[derive(Clone, Copy, Debug)]
 pub struct Waiting<const K: usize, T>(pub [T; K]);
 
 impl<const K: usize, T: Scalar> Waiting<K, T> {
-    /// The terms that belong to the entries of a pack: those that have waited, and then the first of `terms`. The others wait.
+    /// The terms that belong to the entries of a pack: those that have waited, and then the first of
+    /// `terms`. The others wait.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn exchange(&mut self, terms: T::Pack) -> T::Pack {
         terms.exchange(&mut self.0)
@@ -212,7 +214,8 @@ pub fn first_unturned(lower: usize, upper: usize, before: usize) -> usize {
     lower.max(before).min(upper)
 }
 
-/// The end of the places, from `first` on, for which none of the `behind` places behind them is beyond the end, `length`, of a ring.
+/// The end of the places, from `first` on, for which none of the `behind` places behind them is beyond the
+/// end, `length`, of a ring.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn past_unturned(first: usize, length: usize, behind: usize) -> usize {
     length.saturating_sub(behind).max(first)
@@ -247,7 +250,8 @@ impl<T: Scalar> Iterator for Packs<T> {
 /// Loops over fewer numbers than this are not worth a choice of instructions.
 const FEW: usize = 32;
 
-/// What `body` returns; where it takes many numbers at once, it runs compiled for the widest instructions of the processor.
+/// What `body` returns; where it takes many numbers at once, it runs compiled for the widest instructions of
+/// the processor.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn widest<T: Scalar, R>(size: usize, body: impl FnOnce() -> R) -> R {
     widest_if(T::Pack::WIDTH > 1 && size >= FEW, body)

@@ -1,9 +1,10 @@
 //! The pairs of many bodies, which threads share.
 //!
-//! Each pair is computed once, and adds to the entries of both of its bodies. First come the pairs within each half of the bodies, at
-//! once, and then those of one half with the other; pairs of two groups are those of their first halves and, at once, of their
-//! second halves, and then those crosswise. What is done at once has no body in common. To each entry is added in an order that depends
-//! on the number of bodies alone: so results are bitwise the same for every number of threads.
+//! Each pair is computed once, and adds to the entries of both of its bodies. First come the pairs within
+//! each half of the bodies, at once, and then those of one half with the other; pairs of two groups are
+//! those of their first halves and, at once, of their second halves, and then those crosswise. What is done
+//! at once has no body in common. To each entry is added in an order that depends on the number of bodies
+//! alone: so results are bitwise the same for every number of threads.
 
 use crate::Scalar;
 use crate::scalar::pack::CHUNK;
@@ -27,8 +28,9 @@ pub fn are_many(bodies: usize) -> bool {
 
 /// Adds what the pairs of `bodies` are to their `entries` in `B` vectors.
 ///
-/// `row(body, [lower, upper, first], entries)` takes the pairs of `body` with those from `lower` to before `upper`, which all come
-/// after it. It adds to their `entries`, which begin with that of `first`, and returns what is to be added to those of `body`.
+/// `row(body, [lower, upper, first], entries)` takes the pairs of `body` with those from `lower` to before
+/// `upper`, which all come after it. It adds to their `entries`, which begin with that of `first`, and
+/// returns what is to be added to those of `body`.
 #[inline(never)]
 pub fn halves<const B: usize, T: Scalar>(
     bodies: usize,

@@ -10,8 +10,9 @@ pub trait Task {
 
 /// Runs `task`, compiled for the widest instructions that this processor has, as far as it is inlined.
 ///
-/// The results are the same on every processor: operations on packs are those on their lanes. Where there are debug assertions, nothing
-/// is forced inline, and all instructions are those of every processor: there code is compiled once, and not for each of them.
+/// The results are the same on every processor: operations on packs are those on their lanes. Where there
+/// are debug assertions, nothing is forced inline, and all instructions are those of every processor: there
+/// code is compiled once, and not for each of them.
 #[cfg(all(feature = "simd", not(debug_assertions)))]
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
@@ -35,7 +36,8 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     task.run()
 }
 
-/// Runs `body`, a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is written; compiled as by [`widest`] if it is `worth_it`.
+/// Runs `body`, a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is written;
+/// compiled as by [`widest`] if it is `worth_it`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     struct Body<F>(F);
@@ -51,11 +53,11 @@ pub(crate) fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     if worth_it { widest(Body(body)) } else { body() }
 }
 
-/// Runs `body` apart from its caller, if it is `worth_it`: compiled for the instructions of every processor, as far as it does not choose
-/// others itself.
+/// Runs `body` apart from its caller, if it is `worth_it`: compiled for the instructions of every processor,
+/// as far as it does not choose others itself.
 ///
-/// Elementary functions take one number at a time, and a call of one takes longer between the widest instructions. So the formulas of a
-/// system stand apart from a step that uses these.
+/// Elementary functions take one number at a time, and a call of one takes longer between the widest
+/// instructions. So the formulas of a system stand apart from a step that uses these.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn apart_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     #[inline(never)]

@@ -1,8 +1,8 @@
-//! λₙ(x) = jₙ(x)/xⁿ for the spherical Bessel functions j₀ to j₂, on every scalar: sinc x = λ₀, and λₙ' = −xλₙ₊₁
-//! (Abramowitz & Stegun 1964, 10.1.2, 10.1.19 and 10.1.24).
+//! λₙ(x) = jₙ(x)/xⁿ for the spherical Bessel functions j₀ to j₂, on every scalar: sinc x = λ₀, and λₙ' =
+//! −xλₙ₊₁ (Abramowitz & Stegun 1964, 10.1.2, 10.1.19 and 10.1.24).
 //!
-//! For |x| ≤ 2 it is the power series, beyond that the recursion from λ₋₁ = cos x, which loses digits near 0. Both are
-//! evaluated and one is chosen, so that there is no branch for lanes to diverge on.
+//! For |x| ≤ 2 it is the power series, beyond that the recursion from λ₋₁ = cos x, which loses digits
+//! near 0. Both are evaluated and one is chosen, so that there is no branch for lanes to diverge on.
 
 use crate::{Comparison, Scalar};
 

@@ -1,10 +1,10 @@
 //! The sizes of coordinates in a step, in which their corrections are judged.
 //!
-//! The coordinates of a block, `x[n]`, have one unit, and one size: the largest |q| + |Δ| among them. So what
-//! is next to nothing beside its neighbours, as where a wave has not arrived yet, is no task of its own.
-//! Sizes go with the units of blocks, and what is judged in them does not: units do not matter. They are
-//! those of the guess; where a correction is as large as its block, they are taken again. They are kept as
-//! weights, one over the size of each coordinate.
+//! The coordinates of a block, `x[n]`, have one unit, and one size: the largest |q| + |Δ| among them. So
+//! what is next to nothing beside its neighbours, as where a wave has not arrived yet, is no task of its
+//! own. Sizes go with the units of blocks, and what is judged in them does not: units do not matter. They
+//! are those of the guess; where a correction is as large as its block, they are taken again. They are kept
+//! as weights, one over the size of each coordinate.
 
 use core::ops::{DerefMut, Range};
 
@@ -45,7 +45,11 @@ pub(crate) fn blocks<S: System>(system: &S) -> impl Iterator<Item = Range<usize>
 
 /// Sets the weights of all coordinates of each block to that of the largest `size` in it, times `unit`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn set_weights<S: System, T: Real>(system: &S, (weights, unit): (&mut [T], T), size: impl Fn(usize, T) -> T) {
+fn set_weights<S: System, T: Real>(
+    system: &S,
+    (weights, unit): (&mut [T], T),
+    size: impl Fn(usize, T) -> T,
+) {
     for block in blocks(system) {
         let largest = |largest: T, k: usize| larger(largest, size(k, weights[k]));
         let largest = block.clone().fold(T::lift(0.0), largest);
@@ -145,8 +149,8 @@ impl Due {
         self.carry_out(system, (weights, h), size, slopes)
     }
 
-    /// Does what is due with the unknowns of each coordinate, whose `size` is that of coordinate k where they
-    /// have these values, in units of coordinates over `unit`; whether it moves them.
+    /// Does what is due with the unknowns of each coordinate, whose `size` is that of coordinate k where
+    /// they have these values, in units of coordinates over `unit`; whether it moves them.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn carry_out<S: System, T: Real, X: Unknowns<T>>(
         &mut self,

@@ -6,10 +6,11 @@
 //! the next one, θ d/(1 − θ) with all that follow, will be (Hairer & Wanner 1996, section IV.8); or when
 //! corrections have stopped shrinking and are nothing but rounding errors.
 //!
-//! What a fixed point leaves over has the same direction in every step, and adds up to a drift however far below the
-//! rounding of one step it is (Hairer, McLachlan & Razakarivony 2008). So a tolerance that asks for less than rounding
-//! is never reached by a fixed point, and its rounding errors are those that no longer shrink at all.
-//! Newton's method squares its error in the iteration that is accepted, and leaves nothing over.
+//! What a fixed point leaves over has the same direction in every step, and adds up to a drift however far
+//! below the rounding of one step it is (Hairer, McLachlan & Razakarivony 2008). So a tolerance that asks
+//! for less than rounding is never reached by a fixed point, and its rounding errors are those that no
+//! longer shrink at all. Newton's method squares its error in the iteration that is accepted, and leaves
+//! nothing over.
 //!
 //! Where the terms of an equation cancel, rounding errors are larger than their coordinate says: a body at
 //! rest between two springs. What they are is measured where an iterate no longer improves. The unknowns of
@@ -31,8 +32,9 @@ pub(crate) use together::Convergences;
 /// The criterion by which an iteration is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
-    /// The largest error of a coordinate to accept, relative to its size |q| + |Δ|, where Δ is its increment,
-    /// or to the largest of these in its array. Default: 1e-17, below the rounding of double precision.
+    /// The largest error of a coordinate to accept, relative to its size |q| + |Δ|, where Δ is its
+    /// increment, or to the largest of these in its array. Default: 1e-17, below the rounding of double
+    /// precision.
     ///
     /// Below the rounding of the arithmetic, an iteration goes on until its corrections no longer shrink.
     /// Units do not matter: with other units of coordinates and of time iterates are the same, scaled. On
@@ -65,8 +67,8 @@ impl Stopping {
 }
 
 impl Stopping {
-    /// An iteration that may go to rounding goes on until nothing is left to gain: beside compensated sums, which round
-    /// less than a step, what it leaves over would be seen.
+    /// An iteration that may go to rounding goes on until nothing is left to gain: beside compensated sums,
+    /// which round less than a step, what it leaves over would be seen.
     pub(crate) fn exhaustive(self) -> Self {
         if is_below_rounding::<f64>(self) { Self { tolerance: 0.0, ..self } } else { self }
     }
@@ -131,8 +133,8 @@ pub(crate) struct Course<T> {
     /// The iteration by which it has to be decided.
     last: usize,
     is_fixed_point: bool,
-    /// A correction that has shrunk by no more than so many times itself no longer counts as shrinking, where
-    /// it is a rounding error.
+    /// A correction that has shrunk by no more than so many times itself no longer counts as shrinking,
+    /// where it is a rounding error.
     stalling: T,
     /// How many more iterations derivatives take that come with the numbers.
     pub(crate) more: usize,
@@ -210,7 +212,8 @@ impl<T: Real> Judge<T> for Quick<T> {
     }
 }
 
-/// How many iterations of Newton's method after the last bring derivatives of up to third order: each doubles the order.
+/// How many iterations of Newton's method after the last bring derivatives of up to third order: each
+/// doubles the order.
 const MORE_BY_NEWTON: usize = 2;
 
 /// How many a fixed point takes: at a rate of ½ they leave 10⁻¹⁹.

@@ -1,6 +1,6 @@
-//! Gaussian elimination with partial pivoting, in place on a row-major slice: [`factor`] keeps PA = LU
-//! for many right-hand sides, [`eliminate`] serves one and is faster. Two equations are solved by determinants where
-//! these lose nothing.
+//! Gaussian elimination with partial pivoting, in place on a row-major slice: [`factor`] keeps PA = LU for
+//! many right-hand sides, [`eliminate`] serves one and is faster. Two equations are solved by determinants
+//! where these lose nothing.
 //!
 //! A pivot counts as zero when it is no larger than the rounding errors of the numbers that were
 //! subtracted to form its column: |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k. The test does not change when the
@@ -32,8 +32,8 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
     factor_by(matrix, permutation, &mut [], pivot_row)
 }
 
-/// The same of a matrix whose rows and columns may have units of very different size. Rows are compared in their
-/// `scales`, as by [`eliminate`].
+/// The same of a matrix whose rows and columns may have units of very different size. Rows are compared in
+/// their `scales`, as by [`eliminate`].
 ///
 /// # Errors
 /// As [`factor`].
@@ -54,11 +54,12 @@ pub(crate) fn factor_in_any_units<T: Real>(
     })
 }
 
-/// The same, which also finds singular what errors of n ε in the entries of |L||U| could make singular. `work` has two vectors of n
-/// entries.
+/// The same, which also finds singular what errors of n ε in the entries of |L||U| could make singular.
+/// `work` has two vectors of n entries.
 ///
-/// To first order, errors δA change pivot k by x·δA y, where x is row k of L⁻¹ and y solves U y = uₖₖ eₖ within the first k columns: that
-/// is the derivative of uₖₖ = det Aₖ / det Aₖ₋₁ with respect to the entries, for the leading minors Aₖ of PA.
+/// To first order, errors δA change pivot k by x·δA y, where x is row k of L⁻¹ and y solves U y = uₖₖ eₖ
+/// within the first k columns: that is the derivative of uₖₖ = det Aₖ / det Aₖ₋₁ with respect to the
+/// entries, for the leading minors Aₖ of PA.
 ///
 /// # Errors
 /// As [`factor`].
@@ -153,7 +154,8 @@ fn largest_below<T: Real>(matrix: &[T], scales: &[T], [n, k]: [usize; 2]) -> (us
     (best, largest)
 }
 
-/// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of those above.
+/// The row at or below `k` with the largest entry in column `k`, if that is more than rounding errors of
+/// those above.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn pivot_row<T: Real>(
     matrix: &[T],
@@ -197,8 +199,8 @@ pub(crate) fn is_positive<T: Real>(matrix: &[T], permutation: &[usize]) -> bool 
 /// The length of a row below which its end is not worth a loop of its own.
 const SHORT: usize = 8;
 
-/// Overwrites `x` with the solution of A y = x, and the row-major A with nothing of use. Rows are compared in
-/// their `scales`, which come to lie as the rows do in the end, or as they are if there are no scales.
+/// Overwrites `x` with the solution of A y = x, and the row-major A with nothing of use. Rows are compared
+/// in their `scales`, which come to lie as the rows do in the end, or as they are if there are no scales.
 ///
 /// As no multipliers are kept, a row operation may run over columns that are already done: over all of
 /// them in short rows, which are then straight vector code of known length, and elsewhere over those that
@@ -207,7 +209,11 @@ const SHORT: usize = 8;
 /// # Errors
 /// As [`factor`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn eliminate<T: Real>(matrix: &mut [T], scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
+pub(crate) fn eliminate<T: Real>(
+    matrix: &mut [T],
+    scales: &mut [T],
+    x: &mut [T],
+) -> Result<(), StepFailure> {
     let n = x.len();
     let rounding = T::default_epsilon() * T::lift(n as f64);
     for k in 0..n {
@@ -250,12 +256,13 @@ pub(crate) fn eliminate<T: Real>(matrix: &mut [T], scales: &mut [T], x: &mut [T]
     Ok(())
 }
 
-/// Two equations for unknowns with these `weights`: overwrites `x` with the solution of A y = x, or there are
-/// not two.
+/// Two equations for unknowns with these `weights`: overwrites `x` with the solution of A y = x, or there
+/// are not two.
 ///
-/// Cramer's rule needs no choice of rows. It is taken where the determinant loses at most two bits to cancellation and products
-/// stay far from the ends of the range of numbers; its errors are then those of elimination (Higham, *Accuracy and Stability of
-/// Numerical Algorithms*, 2002, section 1.10.1), which solves the others.
+/// Cramer's rule needs no choice of rows. It is taken where the determinant loses at most two bits to
+/// cancellation and products stay far from the ends of the range of numbers; its errors are then those of
+/// elimination (Higham, *Accuracy and Stability of Numerical Algorithms*, 2002, section 1.10.1), which
+/// solves the others.
 ///
 /// # Errors
 /// As [`factor`]; [`StepFailure::NotFinite`] if A is singular and `x` is no number.
@@ -380,7 +387,8 @@ mod tests {
         assert!(matches!(none, Some(Err(StepFailure::NotFinite { coordinate: 1, .. }))), "{none:?}");
     }
 
-    /// An unknown times 2ᵘ, and its equation over 2ᵘ: the same rows are chosen, and the solution has the same bits.
+    /// An unknown times 2ᵘ, and its equation over 2ᵘ: the same rows are chosen, and the solution has the
+    /// same bits.
     #[test]
     fn units_change_no_bit() {
         let mut exchanged = 0;
@@ -388,7 +396,8 @@ mod tests {
             let n = [2, 2, 3, 5][seed as usize % 4];
             let (matrix, rhs, sizes) =
                 (entries(n * n, seed), entries(n, seed + 1000), entries(n, seed + 2000));
-            let units = entries(n, seed + 3000).iter().map(|u| (u * 60.0).round().exp2()).collect::<Vec<_>>();
+            let units =
+                entries(n, seed + 3000).iter().map(|u| (u * 60.0).round().exp2()).collect::<Vec<_>>();
             let solution = |units: &[f64]| {
                 let mut matrix = matrix.clone();
                 for (k, entry) in matrix.iter_mut().enumerate() {

@@ -1,7 +1,8 @@
-//! How many eigenvalues of a symmetric matrix are negative, from A = P L D Lᵀ Pᵀ with pivots of one or two rows.
+//! How many eigenvalues of a symmetric matrix are negative, from A = P L D Lᵀ Pᵀ with pivots of one or two
+//! rows.
 //!
-//! L does not change the numbers of positive and negative eigenvalues (Sylvester's law of inertia), so that those of
-//! the blocks of D count. Source: Bunch & Kaufman 1977, Math. Comp. 31, 163–179.
+//! L does not change the numbers of positive and negative eigenvalues (Sylvester's law of inertia), so that
+//! those of the blocks of D count. Source: Bunch & Kaufman 1977, Math. Comp. 31, 163–179.
 
 use crate::error::StepFailure;
 use crate::scalar::norm::{larger, reported};
@@ -53,8 +54,8 @@ impl<T: Real> Memory<T> for Inertia<T> {
     lasting!(T; count negative, numbers least);
 }
 
-/// Of the row-major n×n `matrix`, which is overwritten; `removed` has n entries of storage. A pivot counts as zero when
-/// it is no larger than n ε times the largest number that was subtracted to form it.
+/// Of the row-major n×n `matrix`, which is overwritten; `removed` has n entries of storage. A pivot counts
+/// as zero when it is no larger than n ε times the largest number that was subtracted to form it.
 ///
 /// # Errors
 /// [`StepFailure::Singular`] with the row of the pivot and its size.

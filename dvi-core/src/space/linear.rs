@@ -1,5 +1,5 @@
-//! Linear equations whose matrix comes entry by entry: by elimination in the storage of its pattern, or, where that would
-//! be that of a full matrix of high dimension, from products with vectors alone.
+//! Linear equations whose matrix comes entry by entry: by elimination in the storage of its pattern, or,
+//! where that would be that of a full matrix of high dimension, from products with vectors alone.
 
 pub(crate) mod blocks;
 mod coupled;
@@ -78,7 +78,12 @@ pub(crate) fn relative<T: Real>(rows: impl Iterator<Item = (T, T)>) -> Result<T,
 /// The same of equations for several vectors, whose residuals are in `vectors`, but the first.
 #[cold]
 #[inline(never)]
-pub(crate) fn residual_of_nodes<const NODES: usize, T: Real, M: NodeSum<NODES, T>, V: Deref<Target = [T]>>(
+pub(crate) fn residual_of_nodes<
+    const NODES: usize,
+    T: Real,
+    M: NodeSum<NODES, T>,
+    V: Deref<Target = [T]>,
+>(
     matrix: &mut M,
     size: impl Fn(usize) -> T,
     given: impl Fn(usize) -> T,
@@ -121,9 +126,9 @@ pub trait LinearSolver<T: Real>: Debug {
     /// Sets `x` to the solution, whose entries have the sizes one over `weights`.
     ///
     /// # Errors
-    /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if b is no number
-    /// there; [`StepFailure::NotConverged`] where products with vectors lead to no solution. Of a regular A and a b that is no
-    /// number, the solution may be no number.
+    /// Those of the equations; [`StepFailure::Singular`] if A is singular, or [`StepFailure::NotFinite`] if
+    /// b is no number there; [`StepFailure::NotConverged`] where products with vectors lead to no solution.
+    /// Of a regular A and a b that is no number, the solution may be no number.
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,

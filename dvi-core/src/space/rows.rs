@@ -1,7 +1,7 @@
 //! The rows of a matrix that has one for each constraint and a column for each coordinate.
 //!
-//! With sizes that are fixed at compile time the rows are full and on the stack. With one that is known at run time only, they keep
-//! the entries that their pattern has.
+//! With sizes that are fixed at compile time the rows are full and on the stack. With one that is known at
+//! run time only, they keep the entries that their pattern has.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;

@@ -1,9 +1,9 @@
 //! What becomes of the entries of a matrix.
 //!
-//! Generated second derivatives go entry by entry to a [`Sink`]: into a matrix of this crate ([`Space`](crate::Space)),
-//! into a slice ([`Dense`]), into the product with a vector, for which no matrix is stored ([`Product`],
-//! [`TransposedProduct`]), or, for the pattern, to a function that is told where they stand ([`Places`]). An entry may
-//! come in several parts, which a sink adds.
+//! Generated second derivatives go entry by entry to a [`Sink`]: into a matrix of this crate
+//! ([`Space`](crate::Space)), into a slice ([`Dense`]), into the product with a vector, for which no matrix
+//! is stored ([`Product`], [`TransposedProduct`]), or, for the pattern, to a function that is told where
+//! they stand ([`Places`]). An entry may come in several parts, which a sink adds.
 
 use crate::Scalar;
 

@@ -1,13 +1,14 @@
 //! Square matrices that a sink fills and that are then solved with, in the storage that their pattern needs.
 //!
-//! With a dimension fixed at compile time they are dense. With one that is known at run time only, they
-//! are stored in the way in which their elimination takes the least work. They are banded where the entries, in the best order
-//! that is found, lie close enough to the diagonal: chains and rings, whose coordinates may stand in several blocks. With n
-//! coordinates and b diagonals on each side, storage grows as n b and the time of a solution as n b². They are sparse where
-//! there are few entries and no narrow band: trees, networks, wide lattices. All others are full, also where one coordinate
-//! couples to all: its row may be the pivot of any column, and then all columns fill. The search for an order of elimination ends
-//! where it takes long, as in networks with links everywhere. Rows are exchanged in each of them, for the
-//! largest pivot in a column.
+//! With a dimension fixed at compile time they are dense. With one that is known at run time only, they are
+//! stored in the way in which their elimination takes the least work. They are banded where the entries, in
+//! the best order that is found, lie close enough to the diagonal: chains and rings, whose coordinates may
+//! stand in several blocks. With n coordinates and b diagonals on each side, storage grows as n b and the
+//! time of a solution as n b². They are sparse where there are few entries and no narrow band: trees,
+//! networks, wide lattices. All others are full, also where one coordinate couples to all: its row may be
+//! the pivot of any column, and then all columns fill. The search for an order of elimination ends where it
+//! takes long, as in networks with links everywhere. Rows are exchanged in each of them, for the largest
+//! pivot in a column.
 
 #[cfg(feature = "alloc")]
 mod banded;
@@ -39,13 +40,14 @@ pub(crate) use ordering::Pattern;
 #[cfg(feature = "alloc")]
 pub use run_time::RunTimeSquare;
 
-/// A square matrix A that is filled entry by entry and then solved with. Its storage is chosen when it is made.
+/// A square matrix A that is filled entry by entry and then solved with. Its storage is chosen when it is
+/// made.
 pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// What takes the entries.
     type Entries: Sink<T>;
 
-    /// The entries, all of them set to zero. What is added to others than those that the matrix was made with is an error
-    /// when it is solved with.
+    /// The entries, all of them set to zero. What is added to others than those that the matrix was made
+    /// with is an error when it is solved with.
     fn cleared(&mut self) -> &mut Self::Entries;
 
     /// Multiplies row i by sᵢ.
@@ -59,8 +61,8 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// [`StepFailure::Pattern`] with an entry that has no room.
     fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure>;
 
-    /// The same of two equations for unknowns with these `weights`, for which there is a faster way, or there
-    /// are not two; A stays as it is.
+    /// The same of two equations for unknowns with these `weights`, for which there is a faster way, or
+    /// there are not two; A stays as it is.
     ///
     /// # Errors
     /// [`StepFailure::Singular`], or [`StepFailure::NotFinite`] if x is no number then.
@@ -72,14 +74,15 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// As [`eliminate`](Self::eliminate).
     fn factor(&mut self) -> Result<(), StepFailure>;
 
-    /// The same of a matrix whose rows and columns may have units of very different size, if its storage has a way for it.
+    /// The same of a matrix whose rows and columns may have units of very different size, if its storage has
+    /// a way for it.
     ///
     /// # Errors
     /// As [`eliminate`](Self::eliminate).
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure>;
 
-    /// The same, which also finds singular what rounding errors of its entries may make singular, if its storage has a way for it.
-    /// `work` has room for two vectors.
+    /// The same, which also finds singular what rounding errors of its entries may make singular, if its
+    /// storage has a way for it. `work` has room for two vectors.
     ///
     /// # Errors
     /// As [`eliminate`](Self::eliminate).

@@ -141,7 +141,8 @@ const OF_PLACES: [[[f64; DEPTH]; DEPTH]; DEPTH + 1] = {
 };
 
 /// Coefficients that go around the ring, and not the ring: its places are then known when compiled, which
-/// takes 40 instructions less from a step of four vortices (`cargo bench -p dvi-kernels --bench instructions`).
+/// takes 40 instructions less from a step of four vortices
+/// (`cargo bench -p dvi-kernels --bench instructions`).
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn combine<P: Scalar>(
     ring: &[impl Deref<Target = [P]>; DEPTH],

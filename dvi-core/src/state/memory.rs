@@ -1,7 +1,8 @@
-//! What a run carries from step to step: copied when a step is taken back, and written down when a run is to go on another
-//! day.
+//! What a run carries from step to step: copied when a step is taken back, and written down when a run is to
+//! go on another day.
 //!
-//! Each type that carries something lists it once, by [`lasting!`]; copying, saving and loading follow from the list.
+//! Each type that carries something lists it once, by [`lasting!`]; copying, saving and loading follow from
+//! the list.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -17,11 +18,11 @@ pub(crate) type Aside<R> = alloc::boxed::Box<R>;
 #[cfg(not(feature = "alloc"))]
 pub(crate) type Aside<R> = R;
 
-/// What a run of a method carries from step to step besides the coordinates. Of work space, which each step writes before
-/// it reads it, these functions take no notice.
+/// What a run of a method carries from step to step besides the coordinates. Of work space, which each step
+/// writes before it reads it, these functions take no notice.
 pub trait Memory<T> {
-    /// Takes over from `from` all that the next step can depend on, without allocation. Both belong to one method on one
-    /// system.
+    /// Takes over from `from` all that the next step can depend on, without allocation. Both belong to one
+    /// method on one system.
     fn restore(&mut self, from: &Self);
 
     /// Appends all that the next step can depend on.
@@ -132,14 +133,17 @@ impl<T: Copy> Reader<'_, T> {
     }
 }
 
-/// `lasting!(T; kind field, …)`: the functions of [`Memory`] for a struct, from the list of what it carries. The kinds are
+/// `lasting!(T; kind field, …)`: the functions of [`Memory`] for a struct, from the list of what it carries.
+/// The kinds are
 ///
-/// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`; `size`, a `T` that is no
-///   part of the motion and may be no number
+/// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`; `size`,
+///   a `T` that is no part of the motion and may be no number
 /// - `packs`, vectors of packs
-/// - `part`, something that has a list of its own; `parts`, an array or `Option` of such, `vectors`, an array of vectors
+/// - `part`, something that has a list of its own; `parts`, an array or `Option` of such, `vectors`, an
+///   array of vectors
 ///
-/// After `; name` stands a function that says whether what has been loaded can be gone on with: a file may be damaged.
+/// After `; name` stands a function that says whether what has been loaded can be gone on with: a file may
+/// be damaged.
 macro_rules! lasting {
     ($T:ty; $($kind:ident $field:ident),* $(,)? $(; $sound:ident)?) => {
         #[inline]

@@ -1,5 +1,5 @@
-//! The mean rates of change of the last steps, extrapolated to guess those of the next, for methods whose steps are of any
-//! length.
+//! The mean rates of change of the last steps, extrapolated to guess those of the next, for methods whose
+//! steps are of any length.
 
 use super::history::{COEFFICIENTS, DEPTH};
 use crate::solve::Guess;
@@ -80,7 +80,10 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
 
     /// Sets `rates` to what those of the last steps lead to.
     pub(crate) fn extrapolate(&self, rates: [&mut Vector<S, T>; KINDS]) {
-        self.kinds.iter().zip(rates).for_each(|(kind, rates)| kind.extrapolate(self.newest, self.len, rates));
+        self.kinds
+            .iter()
+            .zip(rates)
+            .for_each(|(kind, rates)| kind.extrapolate(self.newest, self.len, rates));
     }
 
     #[cfg(feature = "alloc")]
@@ -122,8 +125,8 @@ impl<S: System, T: Real> Memory<T> for Kind<S, T> {
     lasting!(T; vectors last, numbers seed);
 }
 
-/// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the same
-/// sign, and neither is twice as long as the other.
+/// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the
+/// same sign, and neither is twice as long as the other.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
     let [size, last_size] = [h, last].map(Scalar::abs);

@@ -8,7 +8,8 @@ use core::ops::AddAssign;
 pub struct Statistics {
     /// Completed steps.
     pub steps: u64,
-    /// Steps that a step control has tried and taken back, because their error was too large or because they failed.
+    /// Steps that a step control has tried and taken back, because their error was too large or because they
+    /// failed.
     pub rejected: u64,
     /// Iterations of nonlinear solvers, of both kinds.
     pub iterations: u64,

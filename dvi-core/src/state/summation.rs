@@ -1,8 +1,10 @@
 //! How increments are added up over a run: plainly, or with what rounding leaves out carried on.
 //!
-//! s = x + (Δ + e)      e' = (x − s) + (Δ + e), the rounding error of that sum, or (Δ + e − s) + x if |x| is the smaller
+//! s = x + (Δ + e) e' = (x − s) + (Δ + e), the rounding error of that sum, or (Δ + e − s) + x if |x| is the
+//! smaller
 //!
-//! (Kahan 1965; Neumaier 1974). A plain sum rounds x, a compensated one Δ, which is smaller by a factor of order h.
+//! (Kahan 1965; Neumaier 1974). A plain sum rounds x, a compensated one Δ, which is smaller by a factor of
+//! order h.
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
@@ -16,10 +18,11 @@ pub enum Summation {
     /// independent, and to more where they are not.
     #[default]
     Plain,
-    /// What rounding leaves out of x + Δ is carried on and added to the next increment (Kahan 1965), so that only Δ itself is
-    /// rounded: worth it for long runs with small steps. It costs two vectors, some eight additions a step and coordinate,
-    /// and the fast path of explicit steps. What a run shows are the sums rounded; forces are evaluated at these.
-    /// A fixed point is then iterated until nothing is left to gain. Newton's method rounds as much as a plain sum.
+    /// What rounding leaves out of x + Δ is carried on and added to the next increment (Kahan 1965), so that
+    /// only Δ itself is rounded: worth it for long runs with small steps. It costs two vectors, some eight
+    /// additions a step and coordinate, and the fast path of explicit steps. What a run shows are the sums
+    /// rounded; forces are evaluated at these. A fixed point is then iterated until nothing is left to gain.
+    /// Newton's method rounds as much as a plain sum.
     Compensated,
 }
 
@@ -67,7 +70,12 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
 
     /// Moves `x` by an increment, if the sum is finite.
     #[inline(never)]
-    pub(crate) fn move_by(&mut self, x: &mut [T], increment: &[T], sum: &mut [T]) -> Result<(), StepFailure> {
+    pub(crate) fn move_by(
+        &mut self,
+        x: &mut [T],
+        increment: &[T],
+        sum: &mut [T],
+    ) -> Result<(), StepFailure> {
         self.add(x, increment, sum);
         norm::finite(sum)?;
         self.advance(x, increment, sum);

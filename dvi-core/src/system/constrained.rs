@@ -15,7 +15,8 @@ pub trait ConstrainedSystem: System {
     /// The space of (q, λ).
     type Augmented: Space;
 
-    /// The space of the multipliers of this system. Its dimension m is the number of constraints or surfaces.
+    /// The space of the multipliers of this system. Its dimension m is the number of constraints or
+    /// surfaces.
     fn multipliers(&self) -> Self::Multipliers;
     /// The space of (q, λ), of dimension n + m.
     fn augmented(&self) -> Self::Augmented;

@@ -11,8 +11,8 @@ use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Syste
 /// g(q, t) = 0, \qquad G = \frac{\partial g}{\partial q}
 /// ```
 ///
-/// Constraint k is counted from 0 in the order of declaration, the members of `constraint(i in …)` one after the other in its
-/// place. All functions take slices of n coordinates and m constraints.
+/// Constraint k is counted from 0 in the order of declaration, the members of `constraint(i in …)` one after
+/// the other in its place. All functions take slices of n coordinates and m constraints.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constraints of positions in `{T}`",
     label = "its attribute has no `constraint`, or a parameter is no number",
@@ -24,12 +24,12 @@ pub trait HolonomicLagrangian<T: Scalar = f64>:
 {
     /// Sets `out` to g(q, t), one entry for each constraint, in the units of its formula.
     fn constraint(&self, q: &[T], t: T, out: &mut [T]);
-    /// Sets `out` to g(q, t), and **adds** the entries of G = ∂g/∂q to `sink`, with a row for each constraint and a column for
-    /// each coordinate.
+    /// Sets `out` to g(q, t), and **adds** the entries of G = ∂g/∂q to `sink`, with a row for each
+    /// constraint and a column for each coordinate.
     fn constraint_jacobian<K: Sink<T>>(&self, q: &[T], t: T, out: &mut [T], sink: &mut K);
     /// Sets `out` to G v + ∂g/∂t, the rate of change of g along a motion with velocity `v`.
     fn constraint_rate(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
-    /// Sets `out` to v·∂²g/∂q∂q v + 2 ∂²g/∂t∂q v + ∂²g/∂t∂t: the second derivative of g along a motion with velocity `v` and without
-    /// acceleration.
+    /// Sets `out` to v·∂²g/∂q∂q v + 2 ∂²g/∂t∂q v + ∂²g/∂t∂t: the second derivative of g along a motion with
+    /// velocity `v` and without acceleration.
     fn constraint_curvature(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
 }

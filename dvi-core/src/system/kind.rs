@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Manifold`], [`Holonomic`],
-/// [`Nonholonomic`] or [`Unilateral`].
+/// What decides which equations of motion a system has: [`Degenerate`], [`Regular`], [`Manifold`],
+/// [`Holonomic`], [`Nonholonomic`] or [`Unilateral`].
 pub trait Kind: Debug {
     /// Whether the mass matrix is regular.
     const REGULAR: bool;
@@ -13,12 +13,13 @@ pub trait Kind: Debug {
 #[derive(Clone, Copy, Debug)]
 pub enum Degenerate {}
 
-/// The kind of L(q, v, t) with a regular mass matrix: the equations of motion are of second order, or of first order on
-/// T*Q.
+/// The kind of L(q, v, t) with a regular mass matrix: the equations of motion are of second order, or of
+/// first order on T*Q.
 #[derive(Clone, Copy, Debug)]
 pub enum Regular {}
 
-/// The kind of L(q, v, t) with a regular mass matrix on a manifold: some coordinates are rotation matrices or unit vectors.
+/// The kind of L(q, v, t) with a regular mass matrix on a manifold: some coordinates are rotation matrices
+/// or unit vectors.
 #[derive(Clone, Copy, Debug)]
 pub enum Manifold {}
 
@@ -26,11 +27,13 @@ pub enum Manifold {}
 #[derive(Clone, Copy, Debug)]
 pub enum Holonomic {}
 
-/// The kind of L(q, v, t) with a regular mass matrix and constraints of the velocities, A(q, t) v + b(q, t) = 0.
+/// The kind of L(q, v, t) with a regular mass matrix and constraints of the velocities,
+/// A(q, t) v + b(q, t) = 0.
 #[derive(Clone, Copy, Debug)]
 pub enum Nonholonomic {}
 
-/// The kind of L(q, v, t) with a regular mass matrix whose motion stays where g(q, t) ≥ 0: between impacts that of [`Regular`].
+/// The kind of L(q, v, t) with a regular mass matrix whose motion stays where g(q, t) ≥ 0: between impacts
+/// that of [`Regular`].
 #[derive(Clone, Copy, Debug)]
 pub enum Unilateral {}
 
@@ -71,8 +74,8 @@ pub trait Unconstrained: Kind {}
 impl Unconstrained for Degenerate {}
 impl Unconstrained for Regular {}
 
-/// The kinds of systems whose motion is a smooth curve of numbers, between two of which one may interpolate: all but [`Unilateral`] and
-/// [`Manifold`].
+/// The kinds of systems whose motion is a smooth curve of numbers, between two of which one may interpolate:
+/// all but [`Unilateral`] and [`Manifold`].
 #[diagnostic::on_unimplemented(
     message = "the motion of the system jumps at impacts, or has rotations or unit vectors, and this interpolates numbers",
     label = "it would go through the impacts, or leave the manifold",

@@ -9,10 +9,12 @@ pub enum Factor {
     /// ℝⁿ: `x`, or `x[n]`.
     #[default]
     Line,
-    /// SO(3): `R: SO3`. The coordinates are the nine entries of a rotation matrix, row by row, which takes vectors of the body to those
-    /// of space. The velocities are the three entries of the angular velocity in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
+    /// SO(3): `R: SO3`. The coordinates are the nine entries of a rotation matrix, row by row, which takes
+    /// vectors of the body to those of space. The velocities are the three entries of the angular velocity
+    /// in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
     Rotation,
-    /// S²: `s: S2`. The coordinates are the entries of a unit vector, the velocities those of its rate of change.
+    /// S²: `s: S2`. The coordinates are the entries of a unit vector, the velocities those of its rate of
+    /// change.
     Sphere,
 }
 
@@ -45,22 +47,25 @@ pub trait ManifoldSystem: System {
     /// The space of tangent vectors.
     type Tangent: Space;
 
-    /// The space of tangent vectors of this system. Its dimension is that of the manifold: 3 for a rotation, 2 for a unit vector.
+    /// The space of tangent vectors of this system. Its dimension is that of the manifold: 3 for a rotation,
+    /// 2 for a unit vector.
     fn tangent(&self) -> Self::Tangent;
 }
 
 /// A regular Lagrangian on ℝⁿ × SO(3) × … × S² × …, declared by coordinates such as `R: SO3` and `s: S2`.
 ///
-/// The functions of its other traits take vectors with a place for each coordinate. The angular velocity of a rotation has the
-/// first three of its nine places, and the other six are not read. Derivatives with respect to coordinates are those of the formula, as
-/// if the entries of a rotation or of a unit vector were independent; methods take from them what is tangent.
+/// The functions of its other traits take vectors with a place for each coordinate. The angular velocity of
+/// a rotation has the first three of its nine places, and the other six are not read. Derivatives with
+/// respect to coordinates are those of the formula, as if the entries of a rotation or of a unit vector were
+/// independent; methods take from them what is tangent.
 ///
 /// ```math
 /// \frac{\mathrm{d}}{\mathrm{d}t} \frac{\partial L}{\partial \omega} = \frac{\partial L}{\partial \omega} \times \omega + f, \qquad
 /// f \cdot \eta = \frac{\partial L}{\partial R} : R \hat \eta
 /// ```
 ///
-/// are the equations of motion of a rotation, those of Euler and Poincaré (Marsden & Ratiu 1999, section 13.5).
+/// are the equations of motion of a rotation, those of Euler and Poincaré (Marsden & Ratiu 1999, section
+/// 13.5).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no rotations and no unit vectors in `{T}`",
     label = "none of its coordinates is declared as `R: SO3` or `s: S2`, or a parameter is no number",

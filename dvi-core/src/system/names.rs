@@ -3,8 +3,8 @@
 use super::{CoordinateBlock, System};
 use crate::name::Name;
 
-/// The names of all entries of the states of `system`, coordinates first, each with its place among the coordinates or among the
-/// velocities.
+/// The names of all entries of the states of `system`, coordinates first, each with its place among the
+/// coordinates or among the velocities.
 pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
     Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
 }

@@ -3,8 +3,8 @@
 use crate::Scalar;
 use crate::system::{Lagrangian, Regular, System};
 
-/// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform
-/// (q, v) ↦ (q, p = ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2). There may be constraints
+/// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform (q, v) ↦ (q, p =
+/// ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2). There may be constraints
 /// beside L.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
@@ -12,23 +12,24 @@ use crate::system::{Lagrangian, Regular, System};
     note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`"
 )]
 pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
-    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no term is linear in v. Then
-    /// p = M v, whatever forces act.
+    /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no term
+    /// is linear in v. Then p = M v, whatever forces act.
     const CONSTANT_MASS: bool;
     /// Whether L = ½ v·M v + a(q, t)·v − V(q, t) with a constant matrix M, as
     /// [`CONSTANT_MASS`](Self::CONSTANT_MASS) where a is zero. Then p = M v + a(q, t): in rotating frames,
     /// and of charges in a magnetic field.
     const UNIFORM_MASS: bool;
-    /// Whether, with [`CONSTANT_MASS`](Self::CONSTANT_MASS), no force depends on v either. Then the trapezoidal discrete Lagrangian gives an explicit step, that of
-    /// Störmer and Verlet (Marsden & West 2001, section 2.6).
+    /// Whether, with [`CONSTANT_MASS`](Self::CONSTANT_MASS), no force depends on v either. Then the
+    /// trapezoidal discrete Lagrangian gives an explicit step, that of Störmer and Verlet (Marsden & West
+    /// 2001, section 2.6).
     const SEPARABLE: bool;
     /// Whether M has entries on its diagonal only, so that it is solved by divisions.
     const DIAGONAL_MASS: bool;
     /// Whether L is a polynomial of degree at most two in v, so that p = ∂L/∂v is affine in v.
     const QUADRATIC: bool;
 
-    /// Sets `out` to ∂L/∂q + F alone, with the [force](Lagrangian::applied_force) that acts on the system. Where
-    /// [`SEPARABLE`](Self::SEPARABLE) holds, this is F − ∇V(q, t): `v` is not read, and may be empty.
+    /// Sets `out` to ∂L/∂q + F alone, with the [force](Lagrangian::applied_force) that acts on the system.
+    /// Where [`SEPARABLE`](Self::SEPARABLE) holds, this is F − ∇V(q, t): `v` is not read, and may be empty.
     fn force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
     /// Sets `out` to p = ∂L/∂v(q, v, t) alone.
     fn conjugate_momentum(&self, q: &[T], v: &[T], t: T, out: &mut [T]);

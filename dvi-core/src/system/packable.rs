@@ -5,10 +5,11 @@ use crate::{System, Varied};
 
 /// A system whose runs can be taken together, with parameters of their own in each of `W` lanes.
 ///
-/// The attributes implement it for every system. A struct that is generic over the type of its parameters, `struct Kepler<P = f64>`, is
-/// packed where that type is `f64`: what is of the generic type, a number or an array or vector of numbers, may differ from lane to
-/// lane, and all other fields must be equal. There must be no other generic type, no lifetime and no `where`. Systems of all other
-/// structs share a pack if they are equal.
+/// The attributes implement it for every system. A struct that is generic over the type of its parameters,
+/// `struct Kepler<P = f64>`, is packed where that type is `f64`: what is of the generic type, a number or an
+/// array or vector of numbers, may differ from lane to lane, and all other fields must be equal. There must
+/// be no other generic type, no lifetime and no `where`. Systems of all other structs share a pack if they
+/// are equal.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not say how its parameters stand in the lanes of a pack",
     label = "its runs cannot be taken together",
@@ -18,13 +19,14 @@ pub trait Packable<const W: usize>: System {
     /// A system in packs.
     type Packed: System<Space = Self::Space>;
 
-    /// Whether it differs from `other` in nothing but what may differ from lane to lane; `None` if only equal systems share a pack.
+    /// Whether it differs from `other` in nothing but what may differ from lane to lane; `None` if only
+    /// equal systems share a pack.
     fn fits(&self, _other: &Self) -> Option<bool> {
         None
     }
 
-    /// Calls `f` with the pack of `systems`, of which there is at least one, each of which [`fits`](Self::fits) the first, or is equal to
-    /// it; lanes without a system have the first.
+    /// Calls `f` with the pack of `systems`, of which there is at least one, each of which
+    /// [`fits`](Self::fits) the first, or is equal to it; lanes without a system have the first.
     fn packed<R>(systems: &[&Self; W], f: impl FnOnce(&Self::Packed) -> R) -> R;
 }
 
@@ -69,7 +71,8 @@ impl<const W: usize, F: Packing<W>> Packing<W> for alloc::vec::Vec<F> {
     }
 }
 
-/// A field that all systems of a pack have alike. A bound on what it has itself would be one without `W`, which has to hold.
+/// A field that all systems of a pack have alike. A bound on what it has itself would be one without `W`,
+/// which has to hold.
 pub trait Shared<const W: usize> {
     /// Whether it is that of `other`.
     fn same(&self, other: &Self) -> bool;

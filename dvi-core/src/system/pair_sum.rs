@@ -10,13 +10,15 @@ use crate::{DegenerateLagrangian, Lagrangian, NondegenerateLagrangian, Scalar, W
 /// \qquad r_{jk}^2 = \sum_{a<D} (q_{a,j} - q_{a,k})^2
 /// ```
 ///
-/// The attribute implements it where it finds such a sum in L or H: `sum_pairs(0..n, |j, k| …)` over all n bodies, where n is known at run
-/// time only and is the length of an array for each coordinate of a body. The sum is a term, or a factor of a term whose others depend on
-/// parameters alone. It sums products of weights, which are parameters with one index, the same for j as for k, and of K. In K the
-/// coordinates stand in `(x[j] - x[k]).powi(2) + …`, as such or as a `hypot` in the plane; no other index, coordinate, velocity or the time stands
-/// there. Other ways to write the same are not recognised, such as sums over ordered pairs, or a sum within a bracket. If there are several
-/// such sums it is the first. There are no constraints, impacts, rotations or unit vectors. `fast_sum::FastSum`, with the feature
-/// `fast-sums`, is for such systems.
+/// The attribute implements it where it finds such a sum in L or H: `sum_pairs(0..n, |j, k| …)` over all n
+/// bodies, where n is known at run time only and is the length of an array for each coordinate of a body.
+/// The sum is a term, or a factor of a term whose others depend on parameters alone. It sums products of
+/// weights, which are parameters with one index, the same for j as for k, and of K. In K the coordinates
+/// stand in `(x[j] - x[k]).powi(2) + …`, as such or as a `hypot` in the plane; no other index, coordinate,
+/// velocity or the time stands there. Other ways to write the same are not recognised, such as sums over
+/// ordered pairs, or a sum within a bracket. If there are several such sums it is the first. There are no
+/// constraints, impacts, rotations or unit vectors. `fast_sum::FastSum`, with the feature `fast-sums`, is
+/// for such systems.
 #[diagnostic::on_unimplemented(
     message = "no sum over all pairs of bodies of a function of their distance is seen in the energy of `{Self}`",
     label = "its pairs cannot be summed fast",
@@ -51,7 +53,8 @@ pub trait PairSum<T: Scalar, const D: usize>: Lagrangian<T> {
         l_v: &mut [T],
         sink: &mut K,
     );
-    /// The [energy](Lagrangian::energy) without the sum. Of a degenerate system it is H without the sum; `v` is not read, and may be empty.
+    /// The [energy](Lagrangian::energy) without the sum. Of a degenerate system it is H without the sum; `v`
+    /// is not read, and may be empty.
     fn rest_energy(&self, q: &[T], v: &[T], t: T) -> T;
 }
 

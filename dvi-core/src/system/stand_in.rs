@@ -1,5 +1,6 @@
-//! What takes the place of a system with mistakes in it: it has every trait, so that the mistakes in its attribute are
-//! the only ones that the compiler reports. None of the functions is ever called, as such a program does not compile.
+//! What takes the place of a system with mistakes in it: it has every trait, so that the mistakes in its
+//! attribute are the only ones that the compiler reports. None of the functions is ever called, as such a
+//! program does not compile.
 
 use super::{
     AffineOneForm, ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian,

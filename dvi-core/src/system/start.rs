@@ -20,7 +20,8 @@ pub(crate) fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T) -> Result<()
 /// More steps than a run takes.
 const MOST_STEPS: f64 = 9_223_372_036_854_775_808.0;
 
-/// Whether steps can have the length `h`: below the smallest number that has all digits, 1/h may be infinite.
+/// Whether steps can have the length `h`: below the smallest number that has all digits, 1/h may be
+/// infinite.
 pub(crate) fn is_length<T: Real>(h: T) -> bool {
     h.is_finite() && Scalar::abs(h) >= smallest_normal()
 }
@@ -79,8 +80,9 @@ fn coordinate<S: System>(system: &S, place: usize) -> Option<Name> {
 /// Whether energy and derivatives of L are finite at the start of a run.
 ///
 /// # Errors
-/// [`StartError::Outside`] where that is because a function that holds data is not known; else [`StartError::Undefined`] names
-/// the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is −∇H for one, and the energy that is not.
+/// [`StartError::Outside`] where that is because a function that holds data is not known; else
+/// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is
+/// −∇H for one, and the energy that is not.
 pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
@@ -130,8 +132,8 @@ pub(crate) fn extended<S: System>(system: &S) -> [usize; 2] {
     [dimension - 2, dimension - 1]
 }
 
-/// If the time is transformed: whether it passes at the start of a run, and `energy` is the value of H. On another level of
-/// H − `energy` the motion would be that of another system.
+/// If the time is transformed: whether it passes at the start of a run, and `energy` is the value of H. On
+/// another level of H − `energy` the motion would be that of another system.
 ///
 /// # Errors
 /// [`StartError::TimeRate`] and [`StartError::EnergyCoordinate`].

@@ -4,19 +4,19 @@ use crate::Scalar;
 use crate::space::sink::Sink;
 use crate::system::{ConstrainedSystem, NondegenerateLagrangian, System, Unilateral};
 
-/// A regular Lagrangian whose motion stays where g(q, t) ≥ 0, declared by `impact = g`. Between impacts it is that of L; where a gap
-/// function g becomes zero, the momentum jumps by a multiple of ∂g/∂q.
+/// A regular Lagrangian whose motion stays where g(q, t) ≥ 0, declared by `impact = g`. Between impacts it
+/// is that of L; where a gap function g becomes zero, the momentum jumps by a multiple of ∂g/∂q.
 ///
 /// ```math
 /// p^+ - p^- = \lambda\, \frac{\partial g}{\partial q}, \qquad E^+ - E^- = -\lambda\, \frac{\partial g}{\partial t}, \qquad \lambda > 0
 /// ```
 ///
-/// These are the conditions under which the action is stationary with respect to place and time of the impact, with the energy
-/// $`E = v \cdot \partial L/\partial v - L`$ (Fetecau, Marsden, Ortiz & West 2003, section 2.3; with a wall that moves, by the same
-/// variation along g(q, t) = 0).
+/// These are the conditions under which the action is stationary with respect to place and time of the
+/// impact, with the energy $`E = v \cdot \partial L/\partial v - L`$ (Fetecau, Marsden, Ortiz & West 2003,
+/// section 2.3; with a wall that moves, by the same variation along g(q, t) = 0).
 ///
-/// Surface k is counted from 0 in the order of declaration, the members of `impact(i in …)` one after the other in its place.
-/// All functions take slices of n coordinates and m gaps.
+/// Surface k is counted from 0 in the order of declaration, the members of `impact(i in …)` one after the
+/// other in its place. All functions take slices of n coordinates and m gaps.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no impacts in `{T}`",
     label = "its attribute has no `impact`, or a parameter is no number",
@@ -27,8 +27,8 @@ pub trait UnilateralLagrangian<T: Scalar = f64>:
 {
     /// Sets `out` to g(q, t), one entry for each surface, in the units of its formula.
     fn gap(&self, q: &[T], t: T, out: &mut [T]);
-    /// Sets `out` to g(q, t), and **adds** the entries of ∂g/∂q to `sink`, with a row for each surface and a column for each
-    /// coordinate.
+    /// Sets `out` to g(q, t), and **adds** the entries of ∂g/∂q to `sink`, with a row for each surface and a
+    /// column for each coordinate.
     fn gap_jacobian<K: Sink<T>>(&self, q: &[T], t: T, out: &mut [T], sink: &mut K);
     /// Sets `out` to v·∂g/∂q + ∂g/∂t, the rate of change of g along a motion with velocity `v`.
     fn gap_rate(&self, q: &[T], v: &[T], t: T, out: &mut [T]);

@@ -141,7 +141,8 @@ fn deep_inside_of_a_core() {
     }
 }
 
-/// Between the size of a cluster and the distance of the clusters there are cubes that have none far from them.
+/// Between the size of a cluster and the distance of the clusters there are cubes that have none far from
+/// them.
 #[test]
 fn clusters_far_apart() {
     let n = 1200;

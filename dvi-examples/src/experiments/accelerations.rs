@@ -1,7 +1,8 @@
-//! What a system with constraints is without them: RK4 on the equations of motion with the accelerations at each state.
+//! What a system with constraints is without them: RK4 on the equations of motion with the accelerations at
+//! each state.
 //!
-//! The forces of the constraints make their second derivative in time vanish, and nothing else. So RK4 keeps the constraints
-//! only up to its error.
+//! The forces of the constraints make their second derivative in time vanish, and nothing else. So RK4 keeps
+//! the constraints only up to its error.
 
 use anyhow::Result;
 use dvi_core::State;

@@ -1,7 +1,8 @@
-//! Accuracy and cost: the largest error of the energy against evaluations of the gradient, for methods of order 2 to 16, on four
-//! vortices, on a Kepler orbit, and on the outer solar system.
+//! Accuracy and cost: the largest error of the energy against evaluations of the gradient, for methods of
+//! order 2 to 16, on four vortices, on a Kepler orbit, and on the outer solar system.
 //!
-//! The cost is counted, not timed, so that it is the same on every machine. The benchmark `accuracy` measures times.
+//! The cost is counted, not timed, so that it is the same on every machine. The benchmark `accuracy`
+//! measures times.
 
 mod claims;
 mod picture;

@@ -1,5 +1,5 @@
-//! Barnes's phase flows (Second-Order Dynamical Systems, 1997, problems 6 and 7): leapfrog on x'' = −x, x and
-//! −sin x, and a circle of points carried along.
+//! Barnes's phase flows (Second-Order Dynamical Systems, 1997, problems 6 and 7): leapfrog on x'' = −x, x
+//! and −sin x, and a circle of points carried along.
 //!
 //! The step is symplectic: in the plane, it preserves area. Of a polygon it preserves the area exactly if it
 //! is linear; where it bends the sides, the corners alone leave a deficit that falls like n⁻².
@@ -10,14 +10,20 @@ use dvi_core::RegularLagrangian;
 use dvi_core::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Check, Claim};
-use crate::figure::{Anchor, Axis, BLUE, Colour, Corner, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION};
+use crate::figure::{
+    Anchor, Axis, BLUE, Colour, Corner, Figure, GREEN, Panel, SEQUENCE, Stroke, VERMILLION,
+};
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
 use crate::models::{Pendulum, PendulumState, Spring, SpringState};
 use crate::output::{Table, number};
 
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "barnes", title: "Barnes's phase flows, and a circle carried along", share: 1.0, run };
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "barnes",
+    title: "Barnes's phase flows, and a circle carried along",
+    share: 1.0,
+    run,
+};
 
 const H: f64 = 1.0 / 32.0;
 /// Until when phase curves are followed: the pendulum from (3, 0) has the period 16.16.
@@ -121,7 +127,11 @@ fn area(polygon: &[[f64; 2]]) -> f64 {
     polygon.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() / 2.0
 }
 
-fn judged(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>]) -> (Vec<Claim>, Vec<Check>) {
+fn judged(
+    curves: &[Vec<Curve>],
+    circles: &[Vec<Curve>],
+    refined: &[Vec<Curve>],
+) -> (Vec<Claim>, Vec<Check>) {
     let contours = |flow: usize| {
         let energy = FLOWS[flow].energy;
         let departure = |curve: &Curve| {
@@ -131,9 +141,10 @@ fn judged(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>])
         // Relative to the size of the terms.
         curves[flow].iter().zip(STARTS).map(|(curve, (x, _))| departure(curve) / (x * x)).fold(0.0, larger)
     };
-    let phase_curves = Claim::new("Barnes, section 6.3", "the phase curves are contours of the total energy")
-        .check("a = −x: max|ΔE|/x(0)²", contours(0), Bound::AtMost(2e-4))
-        .check("a = −sin x: max|ΔE|/x(0)²", contours(2), Bound::AtMost(2e-4));
+    let phase_curves =
+        Claim::new("Barnes, section 6.3", "the phase curves are contours of the total energy")
+            .check("a = −x: max|ΔE|/x(0)²", contours(0), Bound::AtMost(2e-4))
+            .check("a = −sin x: max|ΔE|/x(0)²", contours(2), Bound::AtMost(2e-4));
     let ends = [
         (0, 0, [-0.145_822_118_200_617_4, -0.989_190_052_844_622]),
         (1, 0, [1_489.994_111_581_187, 1_490.175_648_915_25]),
@@ -144,8 +155,10 @@ fn judged(curves: &[Vec<Curve>], circles: &[Vec<Curve>], refined: &[Vec<Curve>])
             let end = curves[flow][start].get(steps(COMPARED) as usize).copied().unwrap_or([f64::NAN; 2]);
             let error = |i: usize| (end[i] - exact[i]).abs() / exact[i].abs().max(1.0);
             let name = FLOWS[flow].name.replace('*', "");
-            let quantity =
-                format!("{name} from ({}, 0) at t = 8: deviation from independent programs", STARTS[start].0);
+            let quantity = format!(
+                "{name} from ({}, 0) at t = 8: deviation from independent programs",
+                STARTS[start].0
+            );
             Check::new(quantity, larger(error(0), error(1)), Bound::AtMost(1e-12))
         })
         .to_vec();

@@ -1,9 +1,11 @@
-//! A vibrating beam with hundreds of degrees of freedom, by finite elements and by an elastic rod, with Newmark's method.
+//! A vibrating beam with hundreds of degrees of freedom, by finite elements and by an elastic rod, with
+//! Newmark's method.
 //!
-//! With β = ¼ the step does not need to resolve the fastest vibrations, and Newton's method solves banded equations. On the linear beam
-//! the method conserves the energy exactly (Hughes 2000, chapter 9), and the frequencies of the elements are compared with those of
-//! Euler and Bernoulli. At large deflections symplectic implicit steps are no longer stable at every length (Simo, Tarnow & Wong
-//! 1992; Gonzalez & Simo 1996): steps that keep the energy of a rod are lost when it is divided further.
+//! With β = ¼ the step does not need to resolve the fastest vibrations, and Newton's method solves banded
+//! equations. On the linear beam the method conserves the energy exactly (Hughes 2000, chapter 9), and the
+//! frequencies of the elements are compared with those of Euler and Bernoulli. At large deflections
+//! symplectic implicit steps are no longer stable at every length (Simo, Tarnow & Wong 1992; Gonzalez & Simo
+//! 1996): steps that keep the energy of a rod are lost when it is divided further.
 
 mod claims;
 mod frequency;
@@ -41,7 +43,8 @@ const COUNTED: [usize; 4] = [25, 50, 100, 200];
 const OF_BEAM: f64 = 1e-10;
 const OF_ROD: f64 = 1e-11;
 const STRETCHING: f64 = 1e4;
-/// The factor of the velocities of a mode with which frequencies of the rod are measured, small so that they do not depend on it.
+/// The factor of the velocities of a mode with which frequencies of the rod are measured, small so that they
+/// do not depend on it.
 const SPEED: f64 = 1e-4;
 /// The deflection of the end of the linear beam, and the angle of the end of the rod.
 const DEFLECTION: f64 = 0.1;
@@ -84,8 +87,8 @@ fn period() -> f64 {
     std::f64::consts::TAU / Mode::new(0).frequency()
 }
 
-/// Newmark's method with β = ¼ and Newton's method alone, up to `tolerance`: the equations of a step are so ill conditioned that
-/// corrections end in rounding errors which are larger than those of the coordinates.
+/// Newmark's method with β = ¼ and Newton's method alone, up to `tolerance`: the equations of a step are so
+/// ill conditioned that corrections end in rounding errors which are larger than those of the coordinates.
 fn newmark(tolerance: f64) -> Newmark {
     let stopping = Stopping { tolerance, ..Stopping::default() };
     Newmark { solver: Solver::Newton, stopping, ..Newmark::new(0.25) }

@@ -1,8 +1,9 @@
 //! Two billiards: the section of an integrable one and of a chaotic one.
 //!
-//! Between impacts a particle is free, and steps of any length follow its straight path. What is computed is where and when the path
-//! meets the curve, within each step. In an ellipse the product of the angular momenta about the foci is a constant of the motion, so
-//! that each orbit has a curve in the section (Birkhoff 1927). In the curve x⁴ + y⁴ = 1 some orbits fill regions of it.
+//! Between impacts a particle is free, and steps of any length follow its straight path. What is computed is
+//! where and when the path meets the curve, within each step. In an ellipse the product of the angular
+//! momenta about the foci is a constant of the motion, so that each orbit has a curve in the section
+//! (Birkhoff 1927). In the curve x⁴ + y⁴ = 1 some orbits fill regions of it.
 
 mod claims;
 mod orbit;

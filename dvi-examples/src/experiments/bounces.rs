@@ -1,9 +1,10 @@
 //! A particle that bounces on a curved floor: what its energy does over 10⁵ bounces.
 //!
-//! A step in which the particle reaches the floor is divided there. At the impact either the discrete energy is kept, which makes the
-//! steps symplectic (Fetecau, Marsden, Ortiz & West 2003), or the energy at the point of impact. The discrete energies of two flights
-//! of different lengths differ by terms of the order h² from the same energy, so the first changes it at each bounce, by amounts that add up as
-//! in a random walk.
+//! A step in which the particle reaches the floor is divided there. At the impact either the discrete energy
+//! is kept, which makes the steps symplectic (Fetecau, Marsden, Ortiz & West 2003), or the energy at the
+//! point of impact. The discrete energies of two flights of different lengths differ by terms of the order
+//! h² from the same energy, so the first changes it at each bounce, by amounts that add up as in a random
+//! walk.
 
 mod claims;
 mod picture;
@@ -62,11 +63,13 @@ struct Measured {
     variational: [Series; 2],
     reflecting: [Series; 2],
     rk4: Series,
-    /// The random walks: with the discrete energy for each of [`STEPS`], with the energy at the point of impact for the longer one.
+    /// The random walks: with the discrete energy for each of [`STEPS`], with the energy at the point of
+    /// impact for the longer one.
     walks: [Walk; 3],
     /// The orders of both with the trapezoidal rule, and with three Galerkin nodes.
     orders: [Option<f64>; 3],
-    /// The largest difference of a coordinate or velocity from the start after [`ORDER_TIME`] there and back, of both.
+    /// The largest difference of a coordinate or velocity from the start after [`ORDER_TIME`] there and
+    /// back, of both.
     there_and_back: [f64; 2],
     /// The path of the beginning, and the impacts on it.
     path: Vec<[f64; 2]>,

@@ -1,9 +1,9 @@
 //! A disc that rolls upright on a plane, and a sleigh on a blade: constraints of velocities.
 //!
-//! A step solves the discrete equations of Lagrange and d'Alembert (Cortés & Martínez 2001). It is reversible, as the motion is, but
-//! neither is symplectic. So the energy of a step need not stay near that of the beginning: it does in regular motions, which the
-//! reversal takes into themselves, and wanders in others (Modin & Verdier 2020). The sleigh ends in straight motion, to which no
-//! symplectic map could lead.
+//! A step solves the discrete equations of Lagrange and d'Alembert (Cortés & Martínez 2001). It is
+//! reversible, as the motion is, but neither is symplectic. So the energy of a step need not stay near that
+//! of the beginning: it does in regular motions, which the reversal takes into themselves, and wanders in
+//! others (Modin & Verdier 2020). The sleigh ends in straight motion, to which no symplectic map could lead.
 
 mod claims;
 mod growth;
@@ -68,8 +68,8 @@ struct Measured {
     /// The end of the runs whose energy is followed.
     end: f64,
     free: Free,
-    /// Distances at [`ORDER_TIME`] for each of [`ORDER_STEPS`]: of the free disc from the circle, of the one with a magnet from RK4,
-    /// and the same by a composition of order 4.
+    /// Distances at [`ORDER_TIME`] for each of [`ORDER_STEPS`]: of the free disc from the circle, of the one
+    /// with a magnet from RK4, and the same by a composition of order 4.
     errors: [[f64; 4]; 3],
     between_references: f64,
     /// The largest difference of a coordinate or velocity from the start, after steps there and back.
@@ -185,7 +185,8 @@ fn free(job: &Job<'_>) -> Result<Free> {
     Ok(free)
 }
 
-/// The largest difference of a coordinate or velocity from the start, after `steps` steps of length [`H`] and as many back.
+/// The largest difference of a coordinate or velocity from the start, after `steps` steps of length [`H`]
+/// and as many back.
 fn there_and_back<S>(system: &S, start: &S::State<f64>, steps: u64) -> Result<f64>
 where
     S: Lagrangian,

@@ -92,8 +92,8 @@ fn moved(z: [f64; 4], h: f64, k: [f64; 4]) -> [f64; 4] {
     std::array::from_fn(|i| z[i] + h * k[i])
 }
 
-/// a'' and b'' of two unit masses on rods of equal length, solved from
-/// 2a'' + b'' cos δ + b'² sin δ + 2(g/l) sin a = 0 and b'' + a'' cos δ − a'² sin δ + (g/l) sin b = 0, δ = a − b.
+/// a'' and b'' of two unit masses on rods of equal length, solved from 2a'' + b'' cos δ + b'² sin δ + 2(g/l)
+/// sin a = 0 and b'' + a'' cos δ − a'² sin δ + (g/l) sin b = 0, δ = a − b.
 fn motion([a, b, da, db]: [f64; 4]) -> [f64; 4] {
     let (sin, cos) = (a - b).sin_cos();
     let gravity = SYSTEM.g / SYSTEM.length;

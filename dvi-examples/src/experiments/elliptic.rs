@@ -49,7 +49,8 @@ mod tests {
         Elliptic { modulus: (1.0 - complementary * complementary).sqrt(), complementary }
     }
 
-    /// ∫₀^π/2 dθ/√(1 − k² sin² θ) by the trapezoidal rule, which is exact to rounding for periodic functions.
+    /// ∫₀^π/2 dθ/√(1 − k² sin² θ) by the trapezoidal rule, which is exact to rounding for periodic
+    /// functions.
     #[test]
     fn the_quarter_period_is_the_integral() {
         for complementary in [0.9, 0.3, 0.05] {

@@ -99,11 +99,12 @@ fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series, times: Option<[f64; 2]>) ->
             Bound::AtLeast(10.0),
         );
     let bounded =
-        Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value, t ≤ 2·10⁵").check(
-            "max|ΔH| over all / over the first tenth",
-            job.only_full(ve2.error.growth()),
-            Bound::AtMost(1.02),
-        );
+        Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value, t ≤ 2·10⁵")
+            .check(
+                "max|ΔH| over all / over the first tenth",
+                job.only_full(ve2.error.growth()),
+                Bound::AtMost(1.02),
+            );
     let [read, bulk] = [0, 1].map(|i| times.map(|times| times[i]));
     let [when_read, in_bulk] = ["every state read", "every hundredth state read"]
         .map(|how| format!("time of RK2 / time of VE2, {how}, least of {TIMINGS} runs each"));
@@ -132,7 +133,8 @@ fn references(job: &Job<'_>, ve2: &Series, rk2: &Series) -> Vec<Check> {
 /// Runs of each scheme that are timed.
 const TIMINGS: u32 = 15;
 
-/// The time that RK2 takes for the run of Fig. 2 over the time that VE2 takes: each state being read, and none.
+/// The time that RK2 takes for the run of Fig. 2 over the time that VE2 takes: each state being read, and
+/// none.
 fn time_ratios(job: &Job<'_>) -> Result<[f64; 2]> {
     let mut least = [[f64::INFINITY; 2]; 2];
     for _ in 0..TIMINGS {

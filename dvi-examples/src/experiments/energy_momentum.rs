@@ -1,8 +1,9 @@
 //! The symplectic-energy-momentum scheme: steps of such a length that the discrete energy stays the same.
 //!
-//! The scheme of Kane, Marsden & Ortiz 1999 with the variational midpoint rule, on a spring that stiffens and on a Kepler orbit,
-//! beside the same rule with steps of one length: discrete energy, energy, angular momentum, lengths of the steps and distance
-//! from the motion. With the trapezoidal rule the scheme ends where its equation has no solution.
+//! The scheme of Kane, Marsden & Ortiz 1999 with the variational midpoint rule, on a spring that stiffens
+//! and on a Kepler orbit, beside the same rule with steps of one length: discrete energy, energy, angular
+//! momentum, lengths of the steps and distance from the motion. With the trapezoidal rule the scheme ends
+//! where its equation has no solution.
 
 mod claims;
 mod ending;
@@ -53,7 +54,8 @@ struct Runs {
     kept: Series,
     /// With as many steps of one length, the mean of those.
     mean: Series,
-    /// With steps of one length and at most as many evaluations of derivatives in the same time as with those of the first kind.
+    /// With steps of one length and at most as many evaluations of derivatives in the same time as with
+    /// those of the first kind.
     work: Series,
 }
 

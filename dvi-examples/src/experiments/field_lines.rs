@@ -1,7 +1,8 @@
 //! Magnetic field lines: Poincaré plots of two fields by a one-step scheme.
 //!
-//! A field line is the flow of a degenerate Lagrangian whose Ω is the flux of the field. A scheme that preserves Ω keeps the flux
-//! through each loop that is carried along, and with it the surfaces, islands and chaotic layers of the field.
+//! A field line is the flow of a degenerate Lagrangian whose Ω is the flux of the field. A scheme that
+//! preserves Ω keeps the flux through each loop that is carried along, and with it the surfaces, islands and
+//! chaotic layers of the field.
 
 use std::f64::consts::{PI, TAU};
 
@@ -189,7 +190,8 @@ fn flux_change<F: Field, M: Method<F, f64> + Copy>(
     Ok(largest)
 }
 
-/// ∮A·dx, with the derivative of the trigonometric polynomial through all points: exact for what they resolve.
+/// ∮A·dx, with the derivative of the trigonometric polynomial through all points: exact for what they
+/// resolve.
 fn flux<F: Field>(field: &F, circle: &[Place]) -> f64 {
     let derivative = |j: usize| {
         let others = (0..POINTS).filter(|&k| k != j);
@@ -290,10 +292,13 @@ fn figure(abc: Vec<Vec<Place>>, tokamak: Vec<Vec<Place>>, surfaces: &[Surface; 2
             .fold(panel, |panel, (i, line)| panel.dots(line, 0.7, SEQUENCE[3 * i % SEQUENCE.len()]))
     };
     let angle = |label, low| Axis::linear(label).within(low, low + TAU);
-    let plane =
-        Panel::new("ABC flow and a uniform field, plane *z* = 0", angle("*x*", -PI / 2.0), angle("*y*", -PI));
-    // The field is periodic in x and y. The one-form of the scheme is not, and so neither are its errors: lines are folded into
-    // one period here and not as they run.
+    let plane = Panel::new(
+        "ABC flow and a uniform field, plane *z* = 0",
+        angle("*x*", -PI / 2.0),
+        angle("*y*", -PI),
+    );
+    // The field is periodic in x and y. The one-form of the scheme is not, and so neither are its errors:
+    // lines are folded into one period here and not as they run.
     let folded = |[x, y]: Place| [(x + PI / 2.0).rem_euclid(TAU) - PI / 2.0, (y + PI).rem_euclid(TAU) - PI];
     let abc = abc.into_iter().map(|line| line.into_iter().map(folded).collect());
     let abc = dots(plane.equal(), abc.collect());

@@ -1,8 +1,9 @@
-//! A particle with friction in a radial polynomial potential: what the energy loses, and what a method adds to that.
+//! A particle with friction in a radial polynomial potential: what the energy loses, and what a method adds
+//! to that.
 //!
-//! The test case of Kane, Marsden, Ortiz & West 2000. The forces enter the discrete equations by the principle of Lagrange and
-//! d'Alembert. The angular momentum decays as e^{−γt}, and by the forced discrete Noether theorem its discrete rate is known
-//! in closed form.
+//! The test case of Kane, Marsden, Ortiz & West 2000. The forces enter the discrete equations by the
+//! principle of Lagrange and d'Alembert. The angular momentum decays as e^{−γt}, and by the forced discrete
+//! Noether theorem its discrete rate is known in closed form.
 
 mod average_acceleration;
 mod claims;
@@ -87,7 +88,8 @@ struct Measured {
     /// Without friction, at the longest step.
     conservative: Runs,
     factors: claims::Factors,
-    /// The largest distance of the points of Newmark's method, half a step back, from those of the midpoint rule.
+    /// The largest distance of the points of Newmark's method, half a step back, from those of the midpoint
+    /// rule.
     conjugate: f64,
 }
 
@@ -248,7 +250,8 @@ impl Series {
         self.error.envelope.mean().iter().map(|[_, mean]| mean.abs()).fold(0.0, larger)
     }
 
-    /// By how much the energy decays faster than it should, between the first and the last window, in units of γ.
+    /// By how much the energy decays faster than it should, between the first and the last window, in units
+    /// of γ.
     fn excess(&self) -> f64 {
         let [first, last] = self.means();
         ((1.0 + first) / (1.0 + last)).ln() / (GAMMA * (self.case.end - WINDOW))

@@ -1,7 +1,8 @@
-//! A guiding centre in a tokamak: a one-step scheme where the one-form is in class, a projected one where it is not.
+//! A guiding centre in a tokamak: a one-step scheme where the one-form is in class, a projected one where it
+//! is not.
 //!
-//! A particle that has little velocity along the field is reflected where the field is strong, and its orbit in the poloidal
-//! plane is a banana; one with more goes around. Energy and toroidal momentum are conserved.
+//! A particle that has little velocity along the field is reflected where the field is strong, and its orbit
+//! in the poloidal plane is a banana; one with more goes around. Energy and toroidal momentum are conserved.
 
 use anyhow::Result;
 use dvi_core::methods::Method;

@@ -1,8 +1,8 @@
 //! Kosmas & Vlachos, Fig. 4: the frequency of a Kepler orbit with e = 0.95 over ten periods.
 //!
-//! ω = |q' × q''|/|q'|² (eq. 19), the angular velocity of the osculating circle, beside √(|q''|/|q|), the frequency
-//! of the oscillator with the same acceleration at the same place. On an orbit of semi-major axis 1 they are
-//! √(1 − e²)/(2r² − r³) and r^(−3/2).
+//! ω = |q' × q''|/|q'|² (eq. 19), the angular velocity of the osculating circle, beside √(|q''|/|q|), the
+//! frequency of the oscillator with the same acceleration at the same place. On an orbit of semi-major axis
+//! 1 they are √(1 − e²)/(2r² − r³) and r^(−3/2).
 
 use crate::claim::larger;
 use std::f64::consts::TAU;

@@ -1,10 +1,10 @@
 //! Kosmas & Vlachos, Fig. 3: energy and position over 10⁵ periods of an orbit with e = 0.95.
 //!
-//! The paper's method has the frequency (19) left-frozen and steps by (23). As printed, (23) mixes lengths and times,
-//! and the orbit is lost; read per unit of arc length it makes a controller that locks in to the motion: after some
-//! hundred periods each period is like the one before, and the energy error stays what it is. The method is neither
-//! symplectic nor reversible, and with reversible steps it drifts. Beside it stand a frequency that is a part of the
-//! discrete Lagrangian, with reversible steps, and Verlet.
+//! The paper's method has the frequency (19) left-frozen and steps by (23). As printed, (23) mixes lengths
+//! and times, and the orbit is lost; read per unit of arc length it makes a controller that locks in to the
+//! motion: after some hundred periods each period is like the one before, and the energy error stays what it
+//! is. The method is neither symplectic nor reversible, and with reversible steps it drifts. Beside it stand
+//! a frequency that is a part of the discrete Lagrangian, with reversible steps, and Verlet.
 
 use crate::claim::larger;
 use std::f64::consts::TAU;
@@ -37,7 +37,8 @@ const EPSILON: f64 = 0.02;
 const TOLERANCE: f64 = 0.01;
 /// After so many periods of steps by (23) as printed there is nothing left of the orbit.
 const LOST: u64 = 1000;
-/// Steps per unit of arc length are short: a period takes so many times as long as one with reversible steps.
+/// Steps per unit of arc length are short: a period takes so many times as long as one with reversible
+/// steps.
 const SHORT_STEPS: u64 = 12;
 /// Periods after which the early energy errors are noted.
 const EARLY: f64 = 100.0;
@@ -259,7 +260,8 @@ fn figure(all: &[Series], periods: u64) -> Figure {
             panel.line(points, Stroke::solid(series.colour).width(1.6)).labelled(series.name)
         })
     };
-    let energy = panel("Energy", Axis::logarithmic("largest |*E* − *E*(0)|   [μ/*a*]").within(1e-8, 10.0), 1);
+    let energy =
+        panel("Energy", Axis::logarithmic("largest |*E* − *E*(0)|   [μ/*a*]").within(1e-8, 10.0), 1);
     let label = "largest distance from the exact position   [*a*]";
     let position = panel("Position", Axis::logarithmic(label).within(1e-8, 10.0), 2)
         .line(vec![[0.1, 2.0], [periods as f64, 2.0]], Stroke::dashed(INK).width(1.2))

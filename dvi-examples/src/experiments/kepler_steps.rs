@@ -1,4 +1,5 @@
-//! Kosmas & Vlachos, Fig. 2: “the phase fitting decreases close to one third the number of integration steps”.
+//! Kosmas & Vlachos, Fig. 2: “the phase fitting decreases close to one third the number of integration
+//! steps”.
 //!
 //! A phase-fitted run over one period has a largest energy error; how many steps does a linear rule need for
 //! the same? The answer depends on what is compared: the rule of the reference, and whether both runs choose
@@ -148,8 +149,8 @@ struct Ratios {
 
 const THIRD: f64 = 1.0 / 3.0;
 
-/// The ratios with the given choice of steps, at the given eccentricity, against midpoint and trapezoid or, if
-/// `simpson`, against linear Simpson; `None` if there are none.
+/// The ratios with the given choice of steps, at the given eccentricity, against midpoint and trapezoid or,
+/// if `simpson`, against linear Simpson; `None` if there are none.
 fn ratios(all: &[Comparison], steps: Steps, e: f64, simpson: bool) -> Option<Ratios> {
     let is_asked =
         |c: &&Comparison| c.steps == steps && c.e == e && (c.reference == "Simpson, linear") == simpson;

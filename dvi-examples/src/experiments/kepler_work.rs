@@ -1,5 +1,6 @@
 //! Work and precision on Kepler orbits: evaluations of the force per period against the largest errors of
-//! energy and position over many periods, for all families of this library, with the state of the art beside.
+//! energy and position over many periods, for all families of this library, with the state of the art
+//! beside.
 
 use anyhow::Result;
 use dvi_core::prelude::*;

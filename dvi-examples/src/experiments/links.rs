@@ -1,9 +1,9 @@
 //! A pendulum of 50 links, by constraints: each rod is an equation, and no angle occurs.
 //!
-//! Positions stay on the constraints and velocities along them to rounding, and the energy does not drift (Wendlandt & Marsden
-//! 1997; Leimkuhler & Skeel 1994). RK4 on the equations of motion with the accelerations at each state does neither. The
-//! potential is linear, so that RATTLE and the constrained steps of the trapezoidal and of the midpoint rule are one method,
-//! which three codes compute.
+//! Positions stay on the constraints and velocities along them to rounding, and the energy does not drift
+//! (Wendlandt & Marsden 1997; Leimkuhler & Skeel 1994). RK4 on the equations of motion with the
+//! accelerations at each state does neither. The potential is linear, so that RATTLE and the constrained
+//! steps of the trapezoidal and of the midpoint rule are one method, which three codes compute.
 
 mod claims;
 mod picture;
@@ -57,7 +57,8 @@ struct Measured {
     instants: Vec<(f64, Shape)>,
     /// Iterations of a step with 25, 50 and 100 links: trapezoid, midpoint, RATTLE.
     iterations: [[f64; 3]; 3],
-    /// The distances of the masses from the reference at [`ORDER_TIME`], for each of [`ORDER_STEPS`]: the same methods.
+    /// The distances of the masses from the reference at [`ORDER_TIME`], for each of [`ORDER_STEPS`]: the
+    /// same methods.
     errors: [[f64; 4]; 3],
     /// The distance of two references.
     between_references: f64,

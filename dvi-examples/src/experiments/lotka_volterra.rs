@@ -1,7 +1,8 @@
 //! Predators and prey: one-step schemes where the two-step scheme fails.
 //!
-//! The one-form is not affine. With a component along one coordinate only it is in the class of one-step schemes; in the
-//! symmetric form of the same motion it is not, and the two-step midpoint scheme loses it to its parasitic mode.
+//! The one-form is not affine. With a component along one coordinate only it is in the class of one-step
+//! schemes; in the symmetric form of the same motion it is not, and the two-step midpoint scheme loses it to
+//! its parasitic mode.
 
 use anyhow::Result;
 use dvi_core::Space;
@@ -115,7 +116,11 @@ fn claims([one_step, gauss, runge_kutta, two_step]: &[Series; 4], watched: &Seri
         "the energy error of one-step schemes is no larger in the whole run than in its beginning",
     )
     .check("midpoint: max|ΔH| over all / over 1000 steps", one_step.error.growth(), Bound::AtMost(1.001))
-    .check("Gauss of order 4: max|ΔH| over all / over 1000 steps", gauss.error.growth(), Bound::AtMost(1.001))
+    .check(
+        "Gauss of order 4: max|ΔH| over all / over 1000 steps",
+        gauss.error.growth(),
+        Bound::AtMost(1.001),
+    )
     .check("RK4: max|ΔH| over all / over 1000 steps", runge_kutta.error.growth(), Bound::AtLeast(5.0));
     let number = |step: Option<u64>| step.map_or(f64::INFINITY, |step| step as f64);
     let fails = Claim::new(
@@ -153,11 +158,9 @@ fn gauges() -> Result<Claim> {
     };
     let (coarse, fine) = (spread(H)?, spread(H / 2.0)?);
     let text = "four gauges have one Ω, and their runs differ by the second order of the scheme";
-    Ok(Claim::new(BEYOND, text).check("largest relative difference of Ω", apart, Bound::AtMost(1e-14)).check(
-        "projected, spread at t = 10: h = 0.1 over h = 0.05",
-        coarse / fine,
-        Bound::Near(4.0, 0.4),
-    ))
+    Ok(Claim::new(BEYOND, text)
+        .check("largest relative difference of Ω", apart, Bound::AtMost(1e-14))
+        .check("projected, spread at t = 10: h = 0.1 over h = 0.05", coarse / fine, Bound::Near(4.0, 0.4)))
 }
 
 /// The entry of Ω at some points.

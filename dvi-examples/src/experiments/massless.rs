@@ -1,7 +1,8 @@
 //! A charged particle without mass, in two gauges of one field: what each of them allows.
 //!
-//! Ω is the magnetic field and does not depend on the gauge, and neither does the motion. The schemes do: with a potential along x
-//! only there are one-step schemes; with the symmetric one the two-step midpoint scheme has a parasitic mode that grows.
+//! Ω is the magnetic field and does not depend on the gauge, and neither does the motion. The schemes do:
+//! with a potential along x only there are one-step schemes; with the symmetric one the two-step midpoint
+//! scheme has a parasitic mode that grows.
 
 use anyhow::Result;
 use dvi_core::methods::Method;
@@ -162,8 +163,8 @@ fn flat(all: &[Series; 3]) -> Claim {
 }
 
 impl Parasite {
-    /// The exponential rate of growth, from the medians of two windows of two turns, three turns apart. Where the path bends
-    /// most, the smooth motion is seen in the amplitude too.
+    /// The exponential rate of growth, from the medians of two windows of two turns, three turns apart.
+    /// Where the path bends most, the smooth motion is seen in the amplitude too.
     fn rate(&self) -> f64 {
         const TURN: f64 = 65.0;
         let median = |start: f64| {
@@ -252,7 +253,12 @@ fn table(all: &[Series; 3], parasites: &[Parasite]) -> Result<Table> {
     }
     for Parasite { h, amplitudes, .. } in parasites {
         for [t, amplitude] in amplitudes {
-            table.row([format!("parasitic mode, h = {h}"), number(*t), number(*amplitude), String::new()])?;
+            table.row([
+                format!("parasitic mode, h = {h}"),
+                number(*t),
+                number(*amplitude),
+                String::new(),
+            ])?;
         }
     }
     Ok(table)

@@ -1,8 +1,8 @@
 //! A chain of rigid molecules by RATTLE, and the same molecules with stiff springs in place of the rods.
 //!
-//! RATTLE keeps momenta and rods to rounding, and the energy has no trend (Andersen 1983; Leimkuhler & Skeel 1994). Steps with
-//! springs must be shorter than 2/ω for the fastest vibration of a molecule, ω² = 3k/m, whatever the chain does; with rods the
-//! chain sets the length of the steps.
+//! RATTLE keeps momenta and rods to rounding, and the energy has no trend (Andersen 1983; Leimkuhler & Skeel
+//! 1994). Steps with springs must be shorter than 2/ω for the fastest vibration of a molecule, ω² = 3k/m,
+//! whatever the chain does; with rods the chain sets the length of the steps.
 
 mod claims;
 mod picture;

@@ -30,8 +30,8 @@ struct Drifts {
     momenta: [f64; 3],
     /// J_d, of the variational schemes.
     discrete: Option<f64>,
-    /// The largest change of the two-form under the tangent map of a step: of the discrete one (17), of one-step
-    /// methods Ω.
+    /// The largest change of the two-form under the tangent map of a step: of the discrete one (17), of
+    /// one-step methods Ω.
     two_form: Option<f64>,
 }
 
@@ -92,8 +92,8 @@ fn conserved(
 /// Points of the orbit at which the tangent map of a one-step method is looked at.
 const LOOKS: u64 = 10;
 
-/// The largest change of the two-form Ω = ΣΓ dx ∧ dy under the tangent map of a step, by finite differences of
-/// fourth order.
+/// The largest change of the two-form Ω = ΣΓ dx ∧ dy under the tangent map of a step, by finite differences
+/// of fourth order.
 fn one_step_defect(
     Case { vortices, start }: &Case,
     method: impl Method<FourVortices, f64> + Copy,
@@ -174,7 +174,11 @@ fn claims(all: &[Drifts; 7]) -> Vec<Claim> {
         ),
         Claim::new("section 6", "the schemes are momentum preserving")
             .check("largest drift of ΣΓx and ΣΓy, all schemes", linear, Bound::AtMost(1e-12))
-            .check("largest drift of the discrete momentum J_d, σ = 0, ¼, ½", discrete, Bound::AtMost(1e-11)),
+            .check(
+                "largest drift of the discrete momentum J_d, σ = 0, ¼, ½",
+                discrete,
+                Bound::AtMost(1e-11),
+            ),
         Claim::new(
             BEYOND,
             "the angular impulse ΣΓ|z|² itself is preserved by VI2, and by none of the others of the family",
@@ -232,7 +236,8 @@ fn figure(all: &[Drifts]) -> Figure {
 }
 
 fn table(all: &[Drifts]) -> Result<Table> {
-    let mut table = Table::new(&["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"])?;
+    let mut table =
+        Table::new(&["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"])?;
     for drifts in all {
         let numbers = QUANTITIES.map(|Quantity { value, .. }| value(drifts).map_or(String::new(), number));
         table.row([drifts.scheme.to_owned()].into_iter().chain(numbers))?;

@@ -15,10 +15,12 @@ use crate::job::Job;
 use crate::models::{self, Case, Rotation, RotationState};
 use crate::output::{Table, number};
 
-pub const EXPERIMENT: Experiment =
-    Experiment {
-        name: "order", title: "Orders of convergence over σ, linear and vortices", share: 1.0, run
-    };
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "order",
+    title: "Orders of convergence over σ, linear and vortices",
+    share: 1.0,
+    run,
+};
 
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
 /// (3 − √3)/6, of fourth order on linear equations, and its mirror image.
@@ -201,7 +203,8 @@ fn error_panel(title: &str, rows: &[Row], problem: fn(&Row) -> &Convergence) -> 
     let empty = Panel::new(title, Axis::logarithmic("step *h*"), Axis::logarithmic("error at the end"));
     DRAWN.into_iter().fold(empty, |panel, (sigma, name, colour)| {
         let row = rows.iter().filter(|row| row.sigma == sigma);
-        let points: Vec<_> = row.flat_map(|row| &problem(row).errors).map(|&(h, error)| [h, error]).collect();
+        let points: Vec<_> =
+            row.flat_map(|row| &problem(row).errors).map(|&(h, error)| [h, error]).collect();
         panel.line(points.clone(), Stroke::solid(colour)).discs(points, colour, Fill::Hollow).labelled(name)
     })
 }

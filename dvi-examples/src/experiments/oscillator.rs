@@ -1,8 +1,8 @@
 //! The harmonic oscillator, solved exactly at any step (Kosmas & Vlachos, eqs. 12–15).
 //!
-//! With interpolation fitted to u = ωh, every rule gives the recursion q_{k+1} = 2 cos(u) q_k − q_{k−1}, where
-//! sin u ≠ 0 and S = Σ w cos((1 − 2c)u) ≠ 0. The momentum is s·v with s = uS/sin u: a run that starts from a
-//! velocity has a wrong amplitude for ever, unless the weights are fitted too.
+//! With interpolation fitted to u = ωh, every rule gives the recursion q_{k+1} = 2 cos(u) q_k − q_{k−1},
+//! where sin u ≠ 0 and S = Σ w cos((1 − 2c)u) ≠ 0. The momentum is s·v with s = uS/sin u: a run that starts
+//! from a velocity has a wrong amplitude for ever, unless the weights are fitted too.
 
 use crate::claim::larger;
 use anyhow::Result;
@@ -12,7 +12,8 @@ use rayon::prelude::*;
 
 use crate::claim::{BEYOND, Bound, Check, Claim};
 use crate::figure::{
-    Anchor, Axis, BLUE, Colour, Corner, Figure, GREEN, INK, PURPLE, Panel, SLATE, Stroke, VERMILLION, at_most,
+    Anchor, Axis, BLUE, Colour, Corner, Figure, GREEN, INK, PURPLE, Panel, SLATE, Stroke, VERMILLION,
+    at_most,
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -198,7 +199,8 @@ fn references(rows: &[Row]) -> Vec<Check> {
 
 fn claims(rows: &[Row], all: &[Errors]) -> Result<Vec<Claim>> {
     let largest = |curve: &Curve| curve.iter().map(|[_, y]| *y).fold(0.0, larger);
-    let exact = Claim::new("eqs. 13–15", "the phase-fitted family solves the oscillator exactly at any step");
+    let exact =
+        Claim::new("eqs. 13–15", "the phase-fitted family solves the oscillator exactly at any step");
     let rules = rules()?;
     let mut exact = exact;
     for (row, (name, rule)) in rows.iter().zip(&rules) {

@@ -175,7 +175,8 @@ fn notes<'a>(all: impl Iterator<Item = &'a Series>) -> Vec<String> {
 }
 
 fn figure(leapfrogging: &[Series], chaotic: &[Series]) -> Figure {
-    let amplitude = || Axis::logarithmic("amplitude of the alternating component   [*L*]").within(1e-9, 30.0);
+    let amplitude =
+        || Axis::logarithmic("amplitude of the alternating component   [*L*]").within(1e-9, 30.0);
     let left = panel("Leapfrogging pairs", amplitude(), leapfrogging, 1);
     let middle = panel("Chaotic motion", amplitude(), chaotic, 1);
     let energy = Axis::logarithmic("largest |*H* − *H*(0)| so far   [Γ²]").within(1e-9, 30.0);

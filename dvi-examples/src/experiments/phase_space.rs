@@ -1,7 +1,7 @@
 //! The pendulum in phase-space form, L = p x' − H: what one-step schemes are where α = p dx.
 //!
-//! There the trapezoidal scheme is leapfrog, kick–drift–kick, and the midpoint scheme is the implicit midpoint rule. Both preserve
-//! area.
+//! There the trapezoidal scheme is leapfrog, kick–drift–kick, and the midpoint scheme is the implicit
+//! midpoint rule. Both preserve area.
 
 use std::f64::consts::TAU;
 

@@ -1,8 +1,9 @@
-//! A free body that turns about its middle axis and flips, by rotation matrices: against elliptic functions, and its angular momentum.
+//! A free body that turns about its middle axis and flips, by rotation matrices: against elliptic functions,
+//! and its angular momentum.
 //!
-//! Rotation about the axis of the middle moment of inertia is unstable (Landau & Lifshitz 1976, section 37): the body turns over and
-//! back, in a period that grows with the logarithm of the nearness to the axis. Steps along geodesics keep the angular momentum in space,
-//! as the motion does.
+//! Rotation about the axis of the middle moment of inertia is unstable (Landau & Lifshitz 1976, section 37):
+//! the body turns over and back, in a period that grows with the logarithm of the nearness to the axis.
+//! Steps along geodesics keep the angular momentum in space, as the motion does.
 
 mod claims;
 mod flips;
@@ -41,7 +42,8 @@ const ORDER_STEPS: [f64; 3] = [0.1, 0.05, 0.025];
 const FINE: f64 = 2e-3;
 /// How long ω₂ is drawn.
 const DRAWN: f64 = 80.0;
-/// Angular velocities of the curves that are drawn: around the first and the third axis, and through the neighbourhood of the second.
+/// Angular velocities of the curves that are drawn: around the first and the third axis, and through the
+/// neighbourhood of the second.
 const AROUND: [[f64; 3]; 6] = [
     [2.0, 0.4, 0.0],
     [1.8, 0.65, 0.0],
@@ -59,8 +61,8 @@ struct Measured {
     wave: Wave,
     /// For each of [`FLIP_STEPS`].
     flips: [Flips; 3],
-    /// The largest differences of an entry of R or ω from the reference at [`ORDER_TIME`], for each of [`ORDER_STEPS`]: by geodesics,
-    /// and by their composition of order 4.
+    /// The largest differences of an entry of R or ω from the reference at [`ORDER_TIME`], for each of
+    /// [`ORDER_STEPS`]: by geodesics, and by their composition of order 4.
     errors: [[f64; 3]; 2],
     between_references: f64,
     /// For each of [`AROUND`] with both signs, once around.
@@ -76,8 +78,10 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose(20.0, 1.5);
     let [coarse, middle, fine] = FLIP_STEPS.map(|h| Flips::new(&wave, h, periods));
     let exact = reference(FINE);
-    let errors =
-        [errors(Geodesic::trapezoid(), &exact)?, errors(Composition::suzuki(Geodesic::trapezoid()), &exact)?];
+    let errors = [
+        errors(Geodesic::trapezoid(), &exact)?,
+        errors(Composition::suzuki(Geodesic::trapezoid()), &exact)?,
+    ];
     let measured = Measured {
         steps,
         geodesic: Series::geodesic(job, steps)?,

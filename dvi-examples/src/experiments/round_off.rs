@@ -1,9 +1,10 @@
 //! How rounding errors add up over many steps, with plain and with compensated sums.
 //!
-//! What each run should conserve exactly is looked at: the energy of an oscillator with σ = ½; p² + ω²(1 − (ωh/2)²)q² of
-//! an oscillator with Störmer and Verlet's method; ½ΣΓ|z|² of vortices with σ = ½; the angular momentum of a Kepler orbit
-//! with Störmer and Verlet's. Errors of independent roundings grow as √n (Brouwer 1937). A plain sum rounds the
-//! coordinates, in units of ε|q|; a compensated one the increments, in units of εh|q'|.
+//! What each run should conserve exactly is looked at: the energy of an oscillator with σ = ½; p² + ω²(1 −
+//! (ωh/2)²)q² of an oscillator with Störmer and Verlet's method; ½ΣΓ|z|² of vortices with σ = ½; the angular
+//! momentum of a Kepler orbit with Störmer and Verlet's. Errors of independent roundings grow as √n (Brouwer
+//! 1937). A plain sum rounds the coordinates, in units of ε|q|; a compensated one the increments, in units
+//! of εh|q'|.
 
 use anyhow::Result;
 use dvi_core::prelude::*;

@@ -1,8 +1,8 @@
 //! A discrete breather: an excitation of a lattice that stays where it is.
 //!
-//! The discrete nonlinear Schrödinger equation has solutions ψ_n = u_n e^{iωt} that are large at one site only (MacKay & Aubry
-//! 1994). With α = p·dq the one-step midpoint scheme is the implicit midpoint rule. It keeps the norm, which is quadratic, and it
-//! has the same breathers with another frequency.
+//! The discrete nonlinear Schrödinger equation has solutions ψ_n = u_n e^{iωt} that are large at one site
+//! only (MacKay & Aubry 1994). With α = p·dq the one-step midpoint scheme is the implicit midpoint rule. It
+//! keeps the norm, which is quadratic, and it has the same breathers with another frequency.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -13,7 +13,8 @@ use dvi_core::prelude::*;
 use crate::claim::{BEYOND, Bound, Claim, larger};
 use crate::deviation::Deviation;
 use crate::figure::{
-    AMBER, Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most, scientific,
+    AMBER, Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most,
+    scientific,
 };
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -21,7 +22,9 @@ use crate::models::{SchroedingerLattice, SchroedingerLatticeState, breather};
 use crate::output::{Table, number};
 
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "breather", title: "A discrete breather of a Schrödinger lattice", share: 11.0, run };
+    Experiment {
+        name: "breather", title: "A discrete breather of a Schrödinger lattice", share: 11.0, run
+    };
 
 const SITES: usize = 15;
 const OMEGA: f64 = 4.0;
@@ -30,7 +33,8 @@ const STEPS: u64 = 24;
 const H: f64 = TAU / (OMEGA * STEPS as f64);
 /// Periods of the beginning, with which the whole is compared.
 const EARLY: u64 = 100;
-/// By what the breather is too large at its centre at the start, and the amplitude of a weak excitation of one site.
+/// By what the breather is too large at its centre at the start, and the amplitude of a weak excitation of
+/// one site.
 const EXCESS: f64 = 1.05;
 const WEAK: f64 = 0.5;
 
@@ -133,7 +137,8 @@ fn localised([one_step, _, weak]: &[Series; 3]) -> Claim {
         .check("weak excitation: most sites that are excited", weak.most_sites, Bound::AtLeast(5.0))
 }
 
-/// At the middle of a step the scheme solves ω u = u_{n+1} − 2u_n + u_{n−1} + u³ with ω = (2/h) tan ½θ if it turns by θ.
+/// At the middle of a step the scheme solves ω u = u_{n+1} − 2u_n + u_{n−1} + u³ with ω = (2/h) tan ½θ if it
+/// turns by θ.
 fn own_breather() -> Result<Claim> {
     const COUNT: u64 = 1000;
     let angle = 2.0 * (OMEGA * H / 2.0).atan();

@@ -235,8 +235,9 @@ pub fn notes(all: &[Crossings]) -> Vec<String> {
     let relabelled = all
         .iter()
         .filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?.replace('*', ""))));
-    let ends =
-        all.iter().filter_map(|run| run.failure.map(|error| format!("{} ended early: {error}.", run.name())));
+    let ends = all
+        .iter()
+        .filter_map(|run| run.failure.map(|error| format!("{} ended early: {error}.", run.name())));
     [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
 }
 

@@ -1,5 +1,5 @@
-//! The energy of a run beside what backward error analysis says of it: steps of length h keep E − h²g up to terms of the order h⁴, for a
-//! function g that the model knows.
+//! The energy of a run beside what backward error analysis says of it: steps of length h keep E − h²g up to
+//! terms of the order h⁴, for a function g that the model knows.
 
 use dvi_core::prelude::*;
 
@@ -31,7 +31,8 @@ impl Shadow {
     }
 }
 
-/// The claim that the energy error is as predicted, of runs of a `method` with steps of several lengths, the longest first.
+/// The claim that the energy error is as predicted, of runs of a `method` with steps of several lengths, the
+/// longest first.
 pub fn claim(method: &str, runs: &[Shadow]) -> Claim {
     let text = format!(
         "{method}: backward error analysis gives the energy error in closed form, h² times a function of the state, and the rest is of the \
@@ -43,7 +44,11 @@ pub fn claim(method: &str, runs: &[Shadow]) -> Claim {
     let ratio = runs.last().map(|run| run.largest / run.predicted);
     Claim::new(BEYOND, text)
         .check(format!("{method}: order of max|ΔE|"), order(|run| run.largest), Bound::Near(2.0, 0.05))
-        .check(format!("{method}: max|ΔE| / the predicted one, shortest step"), ratio, Bound::Near(1.0, 0.01))
+        .check(
+            format!("{method}: max|ΔE| / the predicted one, shortest step"),
+            ratio,
+            Bound::Near(1.0, 0.01),
+        )
         .check(
             format!("{method}: order of the largest |ΔE − prediction|"),
             order(|run| run.rest),

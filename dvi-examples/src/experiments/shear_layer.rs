@@ -1,11 +1,14 @@
-//! A layer of vortex blobs between two flows, which rolls up: 10⁵ bodies that all act on each other, by a fast sum.
+//! A layer of vortex blobs between two flows, which rolls up: 10⁵ bodies that all act on each other, by a
+//! fast sum.
 //!
-//! Waves on a layer of thickness d between flows whose velocities differ by 1 grow and roll up (Rayleigh 1880; with blobs, Krasny 1986).
-//! The potential of a blob of radius δ is that of a vortex a distance δ off the plane. So the rate of growth is Rayleigh's, with
-//! s = √(d² + δ²) as the distance of the edges of the layer: √(e^{−2ks} − (e^{−kδ} − k(s − δ))²)/2d. Vortex blobs have an energy and a two-form, impulses and an angular impulse.
-//! Gauss collocation preserves the two-form, and the impulses with it: they are quadratic. The fast sum is the energy of a system close by,
-//! and jumps by some part of its tolerance where a body goes from one cube to the next. To iterate the stages of a step further than
-//! that makes no sense, and does not end.
+//! Waves on a layer of thickness d between flows whose velocities differ by 1 grow and roll up (Rayleigh
+//! 1880; with blobs, Krasny 1986). The potential of a blob of radius δ is that of a vortex a distance δ off
+//! the plane. So the rate of growth is Rayleigh's, with s = √(d² + δ²) as the distance of the edges of the
+//! layer: √(e^{−2ks} − (e^{−kδ} − k(s − δ))²)/2d. Vortex blobs have an energy and a two-form, impulses and
+//! an angular impulse. Gauss collocation preserves the two-form, and the impulses with it: they are
+//! quadratic. The fast sum is the energy of a system close by, and jumps by some part of its tolerance where
+//! a body goes from one cube to the next. To iterate the stages of a step further than that makes no sense,
+//! and does not end.
 
 mod claims;
 mod picture;
@@ -43,7 +46,8 @@ struct Measured {
     layer: ShearLayer,
     /// Places of the blobs at the times that the figure shows.
     snapshots: Vec<VortexBlobsState>,
-    /// Relative changes of H, ΣΓx and ΣΓy over the sum of |Γ| times the length, and the relative change of ΣΓ|z|².
+    /// Relative changes of H, ΣΓx and ΣΓy over the sum of |Γ| times the length, and the relative change of
+    /// ΣΓ|z|².
     energy: Deviation,
     impulse: Deviation,
     angular: Deviation,
@@ -51,7 +55,8 @@ struct Measured {
     evaluations: f64,
     /// The error of the forces at the start and at the end.
     errors: [f64; 2],
-    /// For each number of blobs: what an evaluation takes, in pairs of bodies and in products between groups.
+    /// For each number of blobs: what an evaluation takes, in pairs of bodies and in products between
+    /// groups.
     operations: Vec<(u64, u64, u64)>,
     /// The rate at which small waves grow.
     rate: f64,

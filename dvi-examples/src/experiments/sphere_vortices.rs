@@ -1,8 +1,10 @@
-//! Point vortices on a sphere: a one-form along the longitudes only, which is in the class of one-step schemes and not affine.
+//! Point vortices on a sphere: a one-form along the longitudes only, which is in the class of one-step
+//! schemes and not affine.
 //!
-//! A pair turns around its moment M = ΣΓr with the rate |M|/2πl², where l is its distance, and a ring of n equal vortices at
-//! height z around the axis with the rate Γ(n − 1)z/4π(1 − z²) (Polvani & Dritschel 1993). M is conserved. In coordinates along an
-//! axis a scheme is symmetric about that axis only: the component along it is kept, and M turns slowly around it.
+//! A pair turns around its moment M = ΣΓr with the rate |M|/2πl², where l is its distance, and a ring of n
+//! equal vortices at height z around the axis with the rate Γ(n − 1)z/4π(1 − z²) (Polvani & Dritschel 1993).
+//! M is conserved. In coordinates along an axis a scheme is symmetric about that axis only: the component
+//! along it is kept, and M turns slowly around it.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,8 +1,8 @@
 //! A spherical pendulum by unit vectors, along great circles, and the same by a constraint.
 //!
-//! Its height goes up and down between the roots of a cubic polynomial, while it goes around the vertical. Steps along great circles stay
-//! on the sphere without a projection (Lee, Leok & McClamroch 2009); RATTLE takes the chord in place of the arc and finds the force that
-//! keeps the length.
+//! Its height goes up and down between the roots of a cubic polynomial, while it goes around the vertical.
+//! Steps along great circles stay on the sphere without a projection (Lee, Leok & McClamroch 2009); RATTLE
+//! takes the chord in place of the arc and finds the force that keeps the length.
 
 mod claims;
 mod picture;
@@ -60,7 +60,8 @@ struct Measured {
     /// For each of [`STEPS`], by great circles and by RATTLE.
     swings: [Swings; 3],
     constrained: [Swings; 3],
-    /// The distances from the reference at [`ORDER_TIME`]: by great circles, by their composition of order 4, and by RATTLE.
+    /// The distances from the reference at [`ORDER_TIME`]: by great circles, by their composition of order
+    /// 4, and by RATTLE.
     errors: [[f64; 3]; 3],
     between_references: f64,
     path: Vec<[f64; 2]>,

@@ -1,11 +1,13 @@
-//! Newmark's method on a chain of stiff and soft springs: energies over a long time, and how fast the stiff springs exchange theirs.
+//! Newmark's method on a chain of stiff and soft springs: energies over a long time, and how fast the stiff
+//! springs exchange theirs.
 //!
-//! With γ = ½ the method is variational (Kane, Marsden, Ortiz & West 2000), so that its energy does not drift. In the motion the sum of
-//! the energies of the stiff springs is an adiabatic invariant, and they exchange energy on the time scale ω (Hairer, Lubich & Wanner
-//! 2006, section I.5.1 and chapter XIII). Newmark's method keeps that sum with the stiffness sω², s = 1 + (β − ¼)(hω)², which it conserves on
-//! an oscillator. But it changes the speed of the exchange. With x = z(t)e^{iω̃t} and z slow, a soft force that is linear in x, −gx, turns z
-//! at the rate g/(2ω) in the motion. With δ² the second difference, the method is (1 + βh²ω²)δ²x = −h²ω²x − h²(1 + βδ²)gx. There the rate
-//! is g/(2ω) times
+//! With γ = ½ the method is variational (Kane, Marsden, Ortiz & West 2000), so that its energy does not
+//! drift. In the motion the sum of the energies of the stiff springs is an adiabatic invariant, and they
+//! exchange energy on the time scale ω (Hairer, Lubich & Wanner 2006, section I.5.1 and chapter XIII).
+//! Newmark's method keeps that sum with the stiffness sω², s = 1 + (β − ¼)(hω)², which it conserves on an
+//! oscillator. But it changes the speed of the exchange. With x = z(t)e^{iω̃t} and z slow, a soft force that
+//! is linear in x, −gx, turns z at the rate g/(2ω) in the motion. With δ² the second difference, the method
+//! is (1 + βh²ω²)δ²x = −h²ω²x − h²(1 + βδ²)gx. There the rate is g/(2ω) times
 //!
 //! 1 / ((1 + β(hω)²) √(1 + (β − ¼)(hω)²)),
 //!
@@ -58,7 +60,8 @@ struct Measured {
     /// With each of [`BETAS`].
     newmark: [Series; 4],
     rk4: Series,
-    /// Of the first of [`CENTRES`]: in the motion, with each of [`BETAS`], and with β = 1/4 and the long step.
+    /// Of the first of [`CENTRES`]: in the motion, with each of [`BETAS`], and with β = 1/4 and the long
+    /// step.
     motion: Exchange,
     exchanges: [Exchange; 4],
     long: Exchange,
@@ -66,7 +69,8 @@ struct Measured {
     long_energy: f64,
     /// The mean over the starts of the speed of the exchange over that of the motion, for each of [`BETAS`].
     speeds: [f64; 4],
-    /// Whether a run is lost that has 0.97 and 1.03 times the longest stable step, for each of [`BETAS`] but the last.
+    /// Whether a run is lost that has 0.97 and 1.03 times the longest stable step, for each of [`BETAS`] but
+    /// the last.
     lost: [[bool; 2]; 3],
     /// The distances from the reference at [`ORDER_TIME`], for each of [`BETAS`] and [`ORDER_STEPS`].
     errors: [[f64; 4]; 4],

@@ -15,10 +15,12 @@ use crate::job::Job;
 use crate::models::{Linear, LinearState, Rotation, RotationState};
 use crate::output::Table;
 
-pub const EXPERIMENT: Experiment =
-    Experiment {
-        name: "stability", title: "The stability of the σ-family, by running it", share: 20.0, run
-    };
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "stability",
+    title: "The stability of the σ-family, by running it",
+    share: 20.0,
+    run,
+};
 
 /// σ = ½ has no limit and is tested apart.
 #[rustfmt::skip]
@@ -96,7 +98,8 @@ fn claims(job: &Job<'_>, measured: &[[f64; 2]], [growth, right]: [f64; 2], dampe
 
 /// The largest ω at which runs with h = 1 stay bounded.
 fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
-    let is_stable = |omega: f64| Ok::<_, anyhow::Error>(largest_amplitude(job, sigma, omega, steps)? < LARGE);
+    let is_stable =
+        |omega: f64| Ok::<_, anyhow::Error>(largest_amplitude(job, sigma, omega, steps)? < LARGE);
     let (mut low, mut high) = (0.0, 0.5);
     while is_stable(high)? && !job.is_stopping() {
         (low, high) = (high, 2.0 * high);
@@ -111,7 +114,8 @@ fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
 /// max |z| over a run with h = 1 from 1 and from a second point that excites both modes.
 fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Result<f64> {
     let rotation = Rotation { omega };
-    let [first, second] = [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
+    let [first, second] =
+        [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
     // Both modes are wanted.
     let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
     let mut run = Integrator::from_two_points(&rotation, method, 1.0, first, second)?;
@@ -167,8 +171,8 @@ impl Damped {
         Ok(Self { sigma, lambda, factor, largest })
     }
 
-    /// The larger modulus of the roots of (1 − bλ)ρ² − 2(1 − b)λρ − (1 + bλ) = 0, b = 2σ(1 − σ), h = 1: scheme (14)
-    /// on z' = λz.
+    /// The larger modulus of the roots of (1 − bλ)ρ² − 2(1 − b)λρ − (1 + bλ) = 0, b = 2σ(1 − σ), h = 1:
+    /// scheme (14) on z' = λz.
     fn root(sigma: f64, [x, y]: [f64; 2]) -> f64 {
         let b = 2.0 * sigma * (1.0 - sigma);
         let times = |a: [f64; 2], c: [f64; 2]| [a[0] * c[0] - a[1] * c[1], a[0] * c[1] + a[1] * c[0]];

@@ -1,8 +1,8 @@
 //! How long the run of Rowley & Marsden's Fig. 2 lasts, and what carries it.
 //!
-//! Two leapfrogging pairs are mirror images of each other, and so is each step of VE2, up to rounding. While the
-//! symmetry lasts, the parasitic mode of σ = 0 has nothing to grow from; rounding breaks it slowly. With one vortex
-//! displaced there is no symmetry, and the motion is lost within the paper's time.
+//! Two leapfrogging pairs are mirror images of each other, and so is each step of VE2, up to rounding. While
+//! the symmetry lasts, the parasitic mode of σ = 0 has nothing to grow from; rounding breaks it slowly. With
+//! one vortex displaced there is no symmetry, and the motion is lost within the paper's time.
 
 use crate::claim::larger;
 use anyhow::Result;

@@ -1,7 +1,8 @@
 //! A guiding centre in a field from a table, beside the same field from formulas.
 //!
-//! The functions of the field are splines through their values on a grid. Their first derivatives, which the motion depends
-//! on, are of the order 3 in the distances of the grid for cubic splines, and of the order 5 for quintic ones.
+//! The functions of the field are splines through their values on a grid. Their first derivatives, which the
+//! motion depends on, are of the order 3 in the distances of the grid for cubic splines, and of the order 5
+//! for quintic ones.
 
 use anyhow::{Context, Result};
 use dvi_core::ProperlyDegenerate;
@@ -26,8 +27,8 @@ pub const EXPERIMENT: Experiment = Experiment {
 const Q: f64 = 2.0;
 const MU: f64 = 6e-5;
 const VELOCITY: f64 = 4e-3;
-/// The bananas that are compared begin at these distances from the magnetic axis: how large the error of a spline is along an orbit
-/// depends on where that lies between the points of the grid.
+/// The bananas that are compared begin at these distances from the magnetic axis: how large the error of a
+/// spline is along an orbit depends on where that lies between the points of the grid.
 const RADII: [f64; 12] = [0.19, 0.195, 0.198, 0.202, 0.206, 0.209, 0.214, 0.218, 0.221, 0.225, 0.231, 0.235];
 /// The one whose energy is watched.
 const RADIUS: f64 = 0.2;
@@ -44,7 +45,8 @@ const COARSE: usize = 12;
 /// One kind of spline on all grids.
 struct Differences {
     name: &'static str,
-    /// The intervals across the section, and the root mean square of how far the orbits are at most from those of the formulas.
+    /// The intervals across the section, and the root mean square of how far the orbits are at most from
+    /// those of the formulas.
     of_grids: Vec<(f64, f64)>,
     /// By which power of their number it falls.
     order: f64,
@@ -84,7 +86,8 @@ fn start(r: f64) -> TabulatedTokamakState {
     TabulatedTokamakState { r, theta: 0.0, phi: 0.0, u: VELOCITY }
 }
 
-/// How far two orbits are apart at most, in units of the width of the banana and of the velocity at the start.
+/// How far two orbits are apart at most, in units of the width of the banana and of the velocity at the
+/// start.
 fn apart(path: &[[f64; 2]], orbit: &[[f64; 2]]) -> f64 {
     let radii = || orbit.iter().map(|[r, _]| *r);
     let width = radii().fold(f64::MIN, f64::max) - radii().fold(f64::MAX, f64::min);

@@ -1,8 +1,9 @@
 //! Three species that eat each other in a circle: an odd number of coordinates, and two invariants.
 //!
-//! x' = x(y − z), y' = y(z − x), z' = z(x − y) keeps x + y + z and xyz. It is a Poisson system of rank two and has no one-form in x,
-//! y and z. In w = ln xyz, which commutes with everything, and a coordinate s conjugate to it, it has one, in the class of
-//! one-step schemes; s' = z then says that s counts the third species.
+//! x' = x(y − z), y' = y(z − x), z' = z(x − y) keeps x + y + z and xyz. It is a Poisson system of rank two
+//! and has no one-form in x, y and z. In w = ln xyz, which commutes with everything, and a coordinate s
+//! conjugate to it, it has one, in the class of one-step schemes; s' = z then says that s counts the third
+//! species.
 
 use anyhow::Result;
 use dvi_core::methods::Method;
@@ -148,7 +149,8 @@ fn kept([one_step, runge_kutta]: &[Series; 2]) -> Claim {
         )
 }
 
-/// The four coordinates against the two of x and y with xyz as a parameter, and against RK4 on x, y and z with small steps.
+/// The four coordinates against the two of x and y with xyz as a parameter, and against RK4 on x, y and z
+/// with small steps.
 fn same_motion() -> Result<Claim> {
     const END: f64 = 20.0;
     let apart = |a: Species, b: Species| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger);

@@ -1,8 +1,9 @@
-//! The top of Lagrange, by rotation matrices: against its integrals, and how long the matrices stay orthogonal.
+//! The top of Lagrange, by rotation matrices: against its integrals, and how long the matrices stay
+//! orthogonal.
 //!
-//! The axis goes up and down between the roots of a cubic polynomial (Goldstein 1980, section 5.7). The steps go along geodesics of SO(3)
-//! (Marsden, Pekarsky & Shkoller 1999; Lee, Leok & McClamroch 2007), so that nothing is projected. RK4 on the nine entries of the matrix
-//! leaves the group.
+//! The axis goes up and down between the roots of a cubic polynomial (Goldstein 1980, section 5.7). The
+//! steps go along geodesics of SO(3) (Marsden, Pekarsky & Shkoller 1999; Lee, Leok & McClamroch 2007), so
+//! that nothing is projected. RK4 on the nine entries of the matrix leaves the group.
 
 mod claims;
 mod picture;
@@ -42,7 +43,8 @@ const NUTATION_STEPS: [f64; 3] = [0.04, 0.02, 0.01];
 const ORDER_TIME: f64 = 2.0;
 const ORDER_STEPS: [f64; 3] = [0.04, 0.02, 0.01];
 const FINE: f64 = 1e-3;
-/// The precession at the start of the curves that are drawn, from the upper turning, and what they are called.
+/// The precession at the start of the curves that are drawn, from the upper turning, and what they are
+/// called.
 const CURVES: [(f64, &str); 3] = [(-0.4, "loops"), (0.0, "cusps"), (0.2, "waves")];
 const DRAWN: f64 = 30.0;
 const DRAWN_STEP: f64 = 2.0 * H;
@@ -67,8 +69,8 @@ struct Measured {
     rk4: Series,
     /// For each of [`NUTATION_STEPS`].
     nutation: [Nutation; 3],
-    /// The largest differences of an entry of R or ω from the reference at [`ORDER_TIME`], for each of [`ORDER_STEPS`]: by geodesics,
-    /// and by their composition of order 4.
+    /// The largest differences of an entry of R or ω from the reference at [`ORDER_TIME`], for each of
+    /// [`ORDER_STEPS`]: by geodesics, and by their composition of order 4.
     errors: [[f64; 3]; 2],
     between_references: f64,
     curves: [Curve; 3],

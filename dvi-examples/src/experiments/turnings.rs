@@ -31,7 +31,8 @@ struct Turning {
 pub struct Extreme {
     pub h: f64,
     pub count: usize,
-    /// The mean of height − root, the largest magnitude, and what the energy E + h²(g − g(0)) there makes of it.
+    /// The mean of height − root, the largest magnitude, and what the energy E + h²(g − g(0)) there makes of
+    /// it.
     pub mean: f64,
     pub largest: f64,
     pub predicted: f64,
@@ -83,7 +84,8 @@ impl Turnings {
     }
 }
 
-/// The claim that `what` turns at the roots, by the lowest and highest turnings of runs with three steps, each half of the one before.
+/// The claim that `what` turns at the roots, by the lowest and highest turnings of runs with three steps,
+/// each half of the one before.
 pub fn claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
     let text = format!(
         "{what} goes up and down between the roots of its cubic, up to a multiple of h², which follows from the energy error in closed form"
@@ -116,8 +118,8 @@ pub fn claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
     )
 }
 
-/// The part of a step of length `h` after which a value is zero that changes its sign in it: each of both points is a value with its
-/// rate, and a cubic polynomial goes through them.
+/// The part of a step of length `h` after which a value is zero that changes its sign in it: each of both
+/// points is a value with its rate, and a cubic polynomial goes through them.
 pub fn crossing(before: [f64; 2], after: [f64; 2], h: f64) -> f64 {
     let [first, last] = [h * before[1], h * after[1]];
     let rise = after[0] - before[0];

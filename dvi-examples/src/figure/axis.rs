@@ -111,8 +111,8 @@ fn round_numbers([low, high]: [f64; 2], wanted: f64) -> Ticks {
     Ticks { marks: marks.collect(), factor }
 }
 
-/// Powers of ten, thinned out where there are many; minor ticks at 2…9 where there are few, with labels at 2 and 5 on an
-/// axis of one decade or with fewer than two powers.
+/// Powers of ten, thinned out where there are many; minor ticks at 2…9 where there are few, with labels at 2
+/// and 5 on an axis of one decade or with fewer than two powers.
 fn decades([low, high]: [f64; 2]) -> Ticks {
     let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
     let span = last - first;

@@ -4,10 +4,11 @@
 //! of a Poincaré section costs a dozen bytes in one long path where an element of its own costs ten
 //! times as much, and the picture is the same on every machine because the fonts are carried along.
 //!
-//! The crate `kuva` 0.6 was tried on all figures: its logarithmic axes draw everything below 10⁻¹⁰ on that line, which
-//! leaves nothing of `round-off` and falsifies five others, and a value that is not finite ends the process or breaks the
-//! path. It has no italics in labels, no anchor or colour of annotations and no decimation, which takes 8.3 MB for
-//! `kepler-frequency` where 60 kB are written here, and its SVG differs from run to run.
+//! The crate `kuva` 0.6 was tried on all figures: its logarithmic axes draw everything below 10⁻¹⁰ on that
+//! line, which leaves nothing of `round-off` and falsifies five others, and a value that is not finite ends
+//! the process or breaks the path. It has no italics in labels, no anchor or colour of annotations and no
+//! decimation, which takes 8.3 MB for `kepler-frequency` where 60 kB are written here, and its SVG differs
+//! from run to run.
 
 mod axis;
 mod decimate;

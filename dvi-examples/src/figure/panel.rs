@@ -238,7 +238,12 @@ impl Panel {
 }
 
 /// Where text of `below` more height begins in a corner, `indent` away from the side.
-fn hold(corner: Corner, [left, top, width, height]: [f64; 4], indent: f64, below: f64) -> ([f64; 2], Anchor) {
+fn hold(
+    corner: Corner,
+    [left, top, width, height]: [f64; 4],
+    indent: f64,
+    below: f64,
+) -> ([f64; 2], Anchor) {
     let (first, last) = (top + 16.0, top + height - 14.0 - below);
     match corner {
         Corner::TopLeft => ([left + indent, first], Anchor::Start),

@@ -1,9 +1,11 @@
-//! A beam that is clamped at one end: small deflections by finite elements, and large ones by an elastic rod of masses.
+//! A beam that is clamped at one end: small deflections by finite elements, and large ones by an elastic rod
+//! of masses.
 
 use dvi_core::prelude::*;
 
-/// The deflection of a beam by n cubic elements (Euler and Bernoulli; Przemieniecki 1968, chapters 5 and 11): in all of mass 1, length 1
-/// and bending stiffness 1. Node i is at (i + 1)/n, with the deflection w and the slope w′; the mass matrix is the consistent one.
+/// The deflection of a beam by n cubic elements (Euler and Bernoulli; Przemieniecki 1968, chapters 5 and
+/// 11): in all of mass 1, length 1 and bending stiffness 1. Node i is at (i + 1)/n, with the deflection w
+/// and the slope w′; the mass matrix is the consistent one.
 #[lagrangian(
     coordinates(w[n], slope[n]),
     lagrangian = {
@@ -25,9 +27,9 @@ pub struct Beam {
     pub n: usize,
 }
 
-/// n segments in the plane that stretch, and bend at their joints by the angle between them (Bergou et al. 2008, in the plane): in all of
-/// mass 1, length 1 and bending stiffness 1. Mass i is at the end of segment i, and the last mass is half of another. The first segment
-/// bends against the x axis.
+/// n segments in the plane that stretch, and bend at their joints by the angle between them (Bergou et al.
+/// 2008, in the plane): in all of mass 1, length 1 and bending stiffness 1. Mass i is at the end of segment
+/// i, and the last mass is half of another. The first segment bends against the x axis.
 #[lagrangian(
     coordinates(x[n], y[n]),
     lagrangian = {
@@ -50,7 +52,8 @@ pub struct Rod {
     pub stretching: f64,
 }
 
-/// A mode of a clamped beam (Euler and Bernoulli; Meirovitch 2001, chapter 8): its frequency is β², where cos β cosh β = −1.
+/// A mode of a clamped beam (Euler and Bernoulli; Meirovitch 2001, chapter 8): its frequency is β², where
+/// cos β cosh β = −1.
 #[derive(Clone, Copy, Debug)]
 pub struct Mode {
     /// β
@@ -58,7 +61,8 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// Mode k, counted from 0. Newton's method solves cos β + 1/cosh β = 0 from (k + ½)π, which is less than 0.31 away.
+    /// Mode k, counted from 0. Newton's method solves cos β + 1/cosh β = 0 from (k + ½)π, which is less than
+    /// 0.31 away.
     pub fn new(k: u32) -> Self {
         let mut beta = (f64::from(k) + 0.5) * std::f64::consts::PI;
         for _ in 0..20 {
@@ -114,8 +118,8 @@ impl Rod {
         RodState { x, y: vec![0.0; self.n], dot_x: vec![0.0; self.n], dot_y }
     }
 
-    /// At rest and not stretched, with the curvature 3a(1 − s)² at s, so that its end has the angle a and its energy is 0.9a² but for the
-    /// length of the segments.
+    /// At rest and not stretched, with the curvature 3a(1 − s)² at s, so that its end has the angle a and
+    /// its energy is 0.9a² but for the length of the segments.
     pub fn bent(&self, angle: f64) -> RodState {
         let (mut x, mut y, mut place) = (Vec::new(), Vec::new(), [0.0; 2]);
         let l = 1.0 / self.n as f64;

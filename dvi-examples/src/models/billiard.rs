@@ -2,7 +2,8 @@
 
 use dvi_core::prelude::*;
 
-/// An ellipse with half axes a > b. The product of the angular momenta about the two foci does not change at an impact.
+/// An ellipse with half axes a > b. The product of the angular momenta about the two foci does not change at
+/// an impact.
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,

@@ -2,7 +2,8 @@
 
 use dvi_core::prelude::*;
 
-/// A particle of mass 1 under gravity, in a valley that becomes narrower with the height, above the floor y = a cos x.
+/// A particle of mass 1 under gravity, in a valley that becomes narrower with the height, above the floor
+/// y = a cos x.
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0

@@ -2,9 +2,10 @@
 
 use dvi_core::prelude::*;
 
-/// A uniform disc of mass 1 that rolls upright on a plane (Bloch 2015, section 1.4). It touches the plane at (x, y), has rolled by the
-/// angle θ, and rolls in the direction φ. It is in the potential ½(k₀x² + k₁y²) − (B₀ + gy) cos φ − (B₁ + gx) sin φ: that of springs to
-/// the origin, and that of a magnet of moment 1 along the direction of rolling, in a field with the gradient g.
+/// A uniform disc of mass 1 that rolls upright on a plane (Bloch 2015, section 1.4). It touches the plane at
+/// (x, y), has rolled by the angle θ, and rolls in the direction φ. It is in the potential ½(k₀x² + k₁y²) −
+/// (B₀ + gy) cos φ − (B₁ + gx) sin φ: that of springs to the origin, and that of a magnet of moment 1 along
+/// the direction of rolling, in a field with the gradient g.
 #[lagrangian(
     coordinates(x, y, theta, phi),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0
@@ -29,8 +30,9 @@ pub struct RollingDisc {
     pub gradient: f64,
 }
 
-/// A body of mass 1 on a blade at (x, y), which does not slip to the side, and on points that slide. It points in the direction θ, and
-/// its centre of mass is at the distance a in front of the blade (Chaplygin 1911; Bloch 2015, section 1.7).
+/// A body of mass 1 on a blade at (x, y), which does not slip to the side, and on points that slide. It
+/// points in the direction θ, and its centre of mass is at the distance a in front of the blade (Chaplygin
+/// 1911; Bloch 2015, section 1.7).
 #[lagrangian(
     coordinates(x, y, theta),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2) + (inertia + a * a) * dot(theta).powi(2)) / 2.0
@@ -78,7 +80,8 @@ impl ChaplyginSleigh {
         ChaplyginSleighState { x: 0.0, y: 0.0, theta: 0.0, dot_x: v, dot_y: 0.0, dot_theta: omega }
     }
 
-    /// The rates of (x, y, θ, v, ω) in the motion, with the constraint eliminated: v' = aω² and (I + a²)ω' = −avω.
+    /// The rates of (x, y, θ, v, ω) in the motion, with the constraint eliminated: v' = aω² and (I + a²)ω' =
+    /// −avω.
     pub fn reduced(&self, &[_, _, theta, v, omega]: &[f64; 5]) -> [f64; 5] {
         let rate = -self.a * v * omega / (self.inertia + self.a * self.a);
         [v * theta.cos(), v * theta.sin(), omega, self.a * omega * omega, rate]

@@ -1,6 +1,7 @@
 //! A charged particle without mass in the plane: its drift is B x' = −∂φ/∂y and B y' = ∂φ/∂x.
 //!
-//! L = A(x, y)·(x', y') − φ(x, y), in the field B = ∂A_y/∂x − ∂A_x/∂y = 1 + 2(x² + y²) and the potential φ = cos x + sin y.
+//! L = A(x, y)·(x', y') − φ(x, y), in the field B = ∂A_y/∂x − ∂A_x/∂y = 1 + 2(x² + y²) and the potential φ =
+//! cos x + sin y.
 
 use dvi_core::prelude::*;
 

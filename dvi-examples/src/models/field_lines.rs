@@ -1,14 +1,16 @@
 //! Magnetic field lines as a flow.
 //!
-//! Along a field line ∫A·dx is stationary (Cary & Littlejohn 1983). If the field has a component along z everywhere, z can be the
-//! time: L = A_x x' + A_y y' + A_z, a degenerate Lagrangian with H = −A_z. Its Ω is the flux of the field through the plane.
+//! Along a field line ∫A·dx is stationary (Cary & Littlejohn 1983). If the field has a component along z
+//! everywhere, z can be the time: L = A_x x' + A_y y' + A_z, a degenerate Lagrangian with H = −A_z. Its Ω is
+//! the flux of the field through the plane.
 
 use dvi_core::prelude::*;
 
 /// The field of Arnold, Beltrami and Childress with a uniform one along z, which is the time:
 /// B = (a sin z + c cos y, b sin x + a cos z, uniform + c sin y + b cos x).
 ///
-/// The first field is its own vector potential, as its curl is the field itself. B_z > 0 everywhere if uniform > |b| + |c|.
+/// The first field is its own vector potential, as its curl is the field itself. B_z > 0 everywhere if
+/// uniform > |b| + |c|.
 #[degenerate_lagrangian(
     coordinates(x, y),
     lagrangian = (a * t.sin() + c * y.cos() - uniform * y) * dot(x) + (b * x.sin() + a * t.cos()) * dot(y)
@@ -27,12 +29,14 @@ pub struct Abc {
     pub uniform: f64,
 }
 
-/// The field of a tokamak with resonant perturbations, in cylindrical coordinates, with the toroidal angle φ as the time.
+/// The field of a tokamak with resonant perturbations, in cylindrical coordinates, with the toroidal angle φ
+/// as the time.
 ///
-/// In units of the major radius and of the field there, A_Z = −ln R gives the toroidal field 1/R, and R A_φ = ψ is the poloidal
-/// flux: (ι − ½ι' s) s with s = ½ρ² and ρ² = (R − 1)² + Z², and of each perturbation the real part of
-/// ε_m (R − 1 + iZ)^m e^{−inφ}, with m/n = 2/1 and 3/2. Unperturbed surfaces are circles, and R' = −R (ι − ι's) Z and
-/// Z' = R (ι − ι's)(R − 1) turn around the axis 1/q = (ι − ι's) √(1 − ρ²) times in each turn around the torus.
+/// In units of the major radius and of the field there, A_Z = −ln R gives the toroidal field 1/R, and
+/// R A_φ = ψ is the poloidal flux: (ι − ½ι' s) s with s = ½ρ² and ρ² = (R − 1)² + Z², and of each perturbation the
+/// real part of ε_m (R − 1 + iZ)^m e^{−inφ}, with m/n = 2/1 and 3/2. Unperturbed surfaces are circles, and
+/// R' = −R (ι − ι's) Z and Z' = R (ι − ι's)(R − 1) turn around the axis 1/q = (ι − ι's) √(1 − ρ²) times in
+/// each turn around the torus.
 #[degenerate_lagrangian(
     coordinates(r, z),
     lagrangian = -r.ln() * dot(z) + {
@@ -65,7 +69,8 @@ impl PerturbedTokamak {
         (self.iota - self.shear * rho * rho / 2.0) * (1.0 - rho * rho).sqrt()
     }
 
-    /// The distance from the axis at which a line turns around it `turns` times; 1/q falls with the distance.
+    /// The distance from the axis at which a line turns around it `turns` times; 1/q falls with the
+    /// distance.
     pub fn resonance(&self, turns: f64) -> f64 {
         let halve = |[low, high]: [f64; 2], _| {
             let middle = 0.5 * (low + high);

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-/// What the height u of a top depends on: (A u̇)² = (1 − u²) 2A(E − weight u) − (vertical − spin u)², by its integrals (Goldstein 1980,
-/// section 5.7). A mass of 1 on a rod of length 1 has A = 1 and no spin.
+/// What the height u of a top depends on: (A u̇)² = (1 − u²) 2A(E − weight u) − (vertical − spin u)², by its
+/// integrals (Goldstein 1980, section 5.7). A mass of 1 on a rod of length 1 has A = 1 and no spin.
 #[derive(Clone, Copy, Debug)]
 pub struct Heights {
     /// A, the moment of inertia across the axis.

@@ -2,7 +2,8 @@
 
 use dvi_core::prelude::*;
 
-/// With ψ = (q + ip)/√2 it is the flow of L = p·q' − H with H = Σ |ψ_{n+1} − ψ_n|² − ½|ψ_n|⁴, and the norm Σ|ψ_n|² is conserved.
+/// With ψ = (q + ip)/√2 it is the flow of L = p·q' − H with H = Σ |ψ_{n+1} − ψ_n|² − ½|ψ_n|⁴, and the norm
+/// Σ|ψ_n|² is conserved.
 #[degenerate_lagrangian(
     coordinates(q[N], p[N]),
     one_form    = sum(0..N, |n| p[n] * d(q[n])),
@@ -13,9 +14,9 @@ use dvi_core::prelude::*;
 #[derive(Clone, Debug)]
 pub struct SchroedingerLattice<const N: usize> {}
 
-/// The breather of frequency ω at site N/2: ψ_n = u_n e^{iωt} with ω u = u_{n+1} − 2u_n + u_{n−1} + u³ and u large at one site
-/// only. The equations are solved one after the other for u_n, in the centre for its square, until nothing changes: that
-/// contracts where ω is larger than the coupling.
+/// The breather of frequency ω at site N/2: ψ_n = u_n e^{iωt} with ω u = u_{n+1} − 2u_n + u_{n−1} + u³ and u
+/// large at one site only. The equations are solved one after the other for u_n, in the centre for its
+/// square, until nothing changes: that contracts where ω is larger than the coupling.
 pub fn breather<const N: usize>(omega: f64) -> [f64; N] {
     let mut u = [0.0; N];
     u[N / 2] = (omega + 2.0).sqrt();

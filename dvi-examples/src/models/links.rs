@@ -2,7 +2,8 @@
 
 use dvi_core::prelude::*;
 
-/// n equal masses on equal rods without mass, one below the other: in all of mass 1 and length 1, with g = 1.
+/// n equal masses on equal rods without mass, one below the other: in all of mass 1 and length 1, with g =
+/// 1.
 #[lagrangian(
     coordinates(x[n], y[n]),
     lagrangian = sum(0..n, |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i]) / (n as f64),

@@ -5,9 +5,10 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
 
-/// n rigid triangles in a row. The atoms 3m, 3m + 1 and 3m + 2 of molecule m have mass 1 and are joined by rods of length 1. The last two
-/// of a molecule face the first two of the next one: each of these four pairs has the potential (1 − e^{−β(r − r₀)})² of Morse, with
-/// r₀ = 1 or √2, so that at rest the four are the corners of a square.
+/// n rigid triangles in a row. The atoms 3m, 3m + 1 and 3m + 2 of molecule m have mass 1 and are joined by
+/// rods of length 1. The last two of a molecule face the first two of the next one: each of these four pairs
+/// has the potential (1 − e^{−β(r − r₀)})² of Morse, with r₀ = 1 or √2, so that at rest the four are the
+/// corners of a square.
 #[lagrangian(
     coordinates(x[3 * n], y[3 * n]),
     lagrangian = sum(0..3 * n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0
@@ -63,8 +64,8 @@ pub struct SpringMolecules {
 }
 
 impl RigidMolecules {
-    /// The straight chain, in which every other molecule is upside down, with velocities that are sines of the square of the number
-    /// of the atom, of magnitude `speed` and then made those of rigid molecules.
+    /// The straight chain, in which every other molecule is upside down, with velocities that are sines of
+    /// the square of the number of the atom, of magnitude `speed` and then made those of rigid molecules.
     ///
     /// # Errors
     /// Those of [`projected`](dvi_core::mechanics::OnConstraints::projected).

@@ -14,7 +14,8 @@ pub struct Rotation {
     pub omega: f64,
 }
 
-/// z' = λz for any complex λ, by L = w·(z' − λz) with a second variable w' = −λᵀw that stays zero if it begins so.
+/// z' = λz for any complex λ, by L = w·(z' − λz) with a second variable w' = −λᵀw that stays zero if it
+/// begins so.
 #[degenerate_lagrangian(
     coordinates(z[2], w[2]),
     one_form = (w[0] * d(z[0]) + w[1] * d(z[1]) - z[0] * d(w[0]) - z[1] * d(w[1])) / 2.0,

@@ -1,4 +1,5 @@
-//! Predators and prey: x' = x(y − 2) and y' = y(1 − x) in four one-forms of the same motion, and three species in a circle.
+//! Predators and prey: x' = x(y − 2) and y' = y(1 − x) in four one-forms of the same motion, and three
+//! species in a circle.
 
 use dvi_core::prelude::*;
 
@@ -39,11 +40,13 @@ pub struct ShiftedPredators {}
 #[derive(Clone, Debug)]
 pub struct ShiftedSymmetricPredators {}
 
-/// Three species that eat each other in a circle, x' = x(y − z), y' = y(z − x), z' = z(x − y), as a degenerate system of four.
+/// Three species that eat each other in a circle, x' = x(y − z), y' = y(z − x), z' = z(x − y), as a
+/// degenerate system of four.
 ///
-/// The Poisson bracket {x, y} = xy, {y, z} = yz, {z, x} = zx of three coordinates has a function that commutes with all, its
-/// Casimir xyz, and no one-form. With w = ln xyz in place of z, and with a coordinate s that is conjugate to w and on which
-/// nothing depends, it has one: (ln y/x) dx + w ds. The energy is x + y + z, and the momentum of s is w.
+/// The Poisson bracket {x, y} = xy, {y, z} = yz, {z, x} = zx of three coordinates has a function that
+/// commutes with all, its Casimir xyz, and no one-form. With w = ln xyz in place of z, and with a coordinate
+/// s that is conjugate to w and on which nothing depends, it has one: (ln y/x) dx + w ds. The energy is x +
+/// y + z, and the momentum of s is w.
 #[degenerate_lagrangian(
     coordinates(x, s, y, w),
     one_form    = y.ln() / x * d(x) + w * d(s),

@@ -5,8 +5,8 @@ use dvi_core::rotations;
 
 use super::Heights;
 
-/// The top of Lagrange: symmetric about the third axis of the body, on which its centre of mass lies, in gravity along the third axis of
-/// space. It turns about the point on which it stands.
+/// The top of Lagrange: symmetric about the third axis of the body, on which its centre of mass lies, in
+/// gravity along the third axis of space. It turns about the point on which it stands.
 #[lagrangian(
     coordinates(R: SO3),
     lagrangian = (across * (omega(R)[0].powi(2) + omega(R)[1].powi(2)) + along * omega(R)[2].powi(2)) / 2.0 - weight * R[2][2],
@@ -42,7 +42,8 @@ pub struct RigidBody {
 }
 
 impl Top {
-    /// With its axis at the angle θ from the vertical: the rates of θ and of the precession φ, and ω along the axis.
+    /// With its axis at the angle θ from the vertical: the rates of θ and of the precession φ, and ω along
+    /// the axis.
     pub fn leaning(theta: f64, [dot_theta, dot_phi, spinning]: [f64; 3]) -> TopState {
         TopState {
             R: rotations::exp([theta, 0.0, 0.0]),
@@ -71,9 +72,10 @@ impl Top {
 
     /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴.
     ///
-    /// In a step the action of L along the geodesic exceeds that of the motion by (h³/24) ω̇·𝕀ω̇, for the motion departs from the geodesic
-    /// as a path of constant acceleration from a straight line, and has the least action. The trapezoidal rule adds to it −(h³/12) V̈ with
-    /// the second derivative along the geodesic. What a Lagrangian gains, the energy loses.
+    /// In a step the action of L along the geodesic exceeds that of the motion by (h³/24) ω̇·𝕀ω̇, for the
+    /// motion departs from the geodesic as a path of constant acceleration from a straight line, and has the
+    /// least action. The trapezoidal rule adds to it −(h³/12) V̈ with the second derivative along the
+    /// geodesic. What a Lagrangian gains, the energy loses.
     pub fn shift(&self, state: &TopState) -> f64 {
         let ([x, y, u], [a, b, c]) = (vertical(&state.R), state.omega_R);
         let bent = c * (x * a + y * b + u * c) - u * (a * a + b * b + c * c);
@@ -110,7 +112,8 @@ impl RigidBody {
         euler(self.inertia, omega, [0.0; 3])
     }
 
-    /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴: see [`Top::shift`].
+    /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴: see
+    /// [`Top::shift`].
     pub fn shift(&self, state: &RigidBodyState) -> f64 {
         accelerated(self.inertia, self.acceleration(state.omega_R)) / 24.0
     }

@@ -28,8 +28,8 @@ pub type OuterSolarSystem = Bodies<6>;
 /// A state of these.
 pub type OuterPlanets = BodiesState<6>;
 
-/// The outer solar system in astronomical units, days and masses of the sun, on September 5, 1994, at 0h00. The inner planets are
-/// counted with the sun (Hairer, Lubich & Wanner 2006, section I.2.4 and table I.2.2).
+/// The outer solar system in astronomical units, days and masses of the sun, on September 5, 1994, at 0h00.
+/// The inner planets are counted with the sun (Hairer, Lubich & Wanner 2006, section I.2.4 and table I.2.2).
 #[rustfmt::skip]
 pub fn outer_solar_system() -> (OuterSolarSystem, OuterPlanets) {
     let system = Bodies {
@@ -56,8 +56,9 @@ mod tests {
     /// The period of planet `j` if there were but the sun and it: 2π √(a³/μ), 1/a = 2/r − v²/μ.
     fn period(j: usize) -> f64 {
         let (Bodies { g, mass }, at) = outer_solar_system();
-        let square =
-            |[x, y, z]: [&[f64; 6]; 3]| [x, y, z].map(|axis| (axis[j] - axis[0]).powi(2)).iter().sum::<f64>();
+        let square = |[x, y, z]: [&[f64; 6]; 3]| {
+            [x, y, z].map(|axis| (axis[j] - axis[0]).powi(2)).iter().sum::<f64>()
+        };
         let mu = g * (mass[0] + mass[j]);
         let r = square([&at.x, &at.y, &at.z]).sqrt();
         let inverse = 2.0 / r - square([&at.dot_x, &at.dot_y, &at.dot_z]) / mu;
@@ -66,8 +67,8 @@ mod tests {
 
     #[test]
     fn the_planets_have_their_periods() {
-        // In days (NASA planetary fact sheet). The sun goes around the centre of mass with Jupiter, by which the orbit of a
-        // planet around the sun alone changes, and most that of Pluto.
+        // In days (NASA planetary fact sheet). The sun goes around the centre of mass with Jupiter, by which
+        // the orbit of a planet around the sun alone changes, and most that of Pluto.
         let within = [
             (1, 4332.6, 0.01),
             (2, 10_759.2, 0.01),

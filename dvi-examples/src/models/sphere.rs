@@ -2,8 +2,8 @@
 
 use dvi_core::prelude::*;
 
-/// In z = cos θ and the longitude φ, with α = −Σ Γ z dφ along the longitudes only. The moment Σ Γ r is conserved, of which the
-/// component along the axis belongs to the rotation of all longitudes.
+/// In z = cos θ and the longitude φ, with α = −Σ Γ z dφ along the longitudes only. The moment Σ Γ r is
+/// conserved, of which the component along the axis belongs to the rotation of all longitudes.
 #[degenerate_lagrangian(
     coordinates(z[N], phi[N]),
     one_form    = sum(0..N, |j| -gamma[j] * z[j] * d(phi[j])),

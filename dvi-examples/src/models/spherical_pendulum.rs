@@ -30,7 +30,8 @@ pub struct ConstrainedPendulum {
 }
 
 impl SphericalPendulum {
-    /// At the angle θ from the direction downwards, with the rate of θ and that of the angle about the vertical.
+    /// At the angle θ from the direction downwards, with the rate of θ and that of the angle about the
+    /// vertical.
     pub fn hanging(theta: f64, [dot_theta, dot_phi]: [f64; 2]) -> SphericalPendulumState {
         let (sine, cosine) = theta.sin_cos();
         SphericalPendulumState {
@@ -50,8 +51,9 @@ impl SphericalPendulum {
         }
     }
 
-    /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴: (1/24)|a|² − (1/12) V̈ with the
-    /// acceleration a along the sphere and the second derivative of V along the great circle. [`Top::shift`](super::Top::shift) says why.
+    /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴:
+    /// (1/24)|a|² − (1/12) V̈ with the acceleration a along the sphere and the second derivative of V along
+    /// the great circle. [`Top::shift`](super::Top::shift) says why.
     pub fn shift(&self, SphericalPendulumState { s, dot_s }: &SphericalPendulumState) -> f64 {
         let along = self.gravity * self.gravity * (1.0 - s[2] * s[2]);
         along / 24.0 + self.gravity * s[2] * squared(dot_s) / 12.0
@@ -77,8 +79,9 @@ impl ConstrainedPendulum {
         SphericalPendulumState { s: [x, y, z], dot_s: [dot_x, dot_y, dot_z] }
     }
 
-    /// The same as [`SphericalPendulum::shift`] for RATTLE: the kinetic energy of a step is that of the chord, which is shorter than the arc,
-    /// chord² = θ² − θ⁴/12 + …, so that L of a step is less by h³|ṡ|⁴/24.
+    /// The same as [`SphericalPendulum::shift`] for RATTLE: the kinetic energy of a step is that of the
+    /// chord, which is shorter than the arc, chord² = θ² − θ⁴/12 + …, so that L of a step is less by
+    /// h³|ṡ|⁴/24.
     pub fn shift(&self, state: &SphericalPendulumState) -> f64 {
         SphericalPendulum { gravity: self.gravity }.shift(state) - squared(&state.dot_s).powi(2) / 24.0
     }

@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use dvi_core::prelude::*;
 
-/// 2m equal masses between two walls (Hairer, Lubich & Wanner 2006, section I.5.1). Masses 2i and 2i + 1 are joined by a stiff linear spring;
-/// the springs between these pairs and to the walls are soft, with the potential r⁴. So x = (q_{2i+1} − q_{2i})/√2 is an oscillator of
-/// frequency ω but for the soft springs.
+/// 2m equal masses between two walls (Hairer, Lubich & Wanner 2006, section I.5.1). Masses 2i and 2i + 1 are
+/// joined by a stiff linear spring; the springs between these pairs and to the walls are soft, with the
+/// potential r⁴. So x = (q_{2i+1} − q_{2i})/√2 is an oscillator of frequency ω but for the soft springs.
 #[lagrangian(
     coordinates(q[2 * m]),
     lagrangian = sum(0..2 * m, |i| dot(q[i]).powi(2)) / 2.0
@@ -22,7 +22,8 @@ pub struct SpringChain {
 }
 
 impl SpringChain {
-    /// All energy is in the first pair: its centre (q₀ + q₁)/√2 is at `centre` with velocity 1, and its spring has the energy 1.
+    /// All energy is in the first pair: its centre (q₀ + q₁)/√2 is at `centre` with velocity 1, and its
+    /// spring has the energy 1.
     pub fn first_pair(&self, centre: f64) -> SpringChainState {
         let (mut q, mut dot_q) = (vec![0.0; 2 * self.m], vec![0.0; 2 * self.m]);
         if let ([q0, q1, ..], [v0, v1, ..]) = (&mut q[..], &mut dot_q[..]) {

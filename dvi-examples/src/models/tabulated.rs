@@ -1,8 +1,9 @@
-//! The guiding centre of [`TokamakInClass`](super::TokamakInClass) in a field that is known from a table only.
+//! The guiding centre of [`TokamakInClass`](super::TokamakInClass) in a field that is known from a table
+//! only.
 //!
-//! A computed equilibrium comes as numbers on a grid. The five functions of the section (r, θ) that the Lagrangian needs, A_θ,
-//! A_φ, b_θ, b_φ and |B|, become splines, periodic in θ. They need not be consistent with one another for a scheme to be
-//! variational: the splines are the Lagrangian.
+//! A computed equilibrium comes as numbers on a grid. The five functions of the section (r, θ) that the
+//! Lagrangian needs, A_θ, A_φ, b_θ, b_φ and |B|, become splines, periodic in θ. They need not be consistent
+//! with one another for a scheme to be variational: the splines are the Lagrangian.
 
 use core::f64::consts::TAU;
 
@@ -40,8 +41,8 @@ const SECTION: [f64; 2] = [0.06, 0.3];
 pub type Sampled<'a> = &'a dyn Fn([f64; 2]) -> f64;
 
 impl<F: ScalarField<2>> TabulatedTokamak<F> {
-    /// The field with the safety factor `q` on a grid of `n` intervals across the section and 4 `n` around it, which `spline`
-    /// makes functions of.
+    /// The field with the safety factor `q` on a grid of `n` intervals across the section and 4 `n` around
+    /// it, which `spline` makes functions of.
     ///
     /// # Errors
     /// Those of `spline`, and grids that are too small.

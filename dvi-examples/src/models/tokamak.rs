@@ -1,9 +1,10 @@
 //! The guiding centre of a charged particle in an axisymmetric tokamak field, in two sets of coordinates.
 //!
-//! In units of the major radius, of the field on the magnetic axis, and of the gyration there, the vector potential is
-//! A = ½r²(1 − ⅔ r cos θ) dθ − r²/(2q) dφ. The field has circular flux surfaces, the strength 1 − r cos θ along φ and
-//! r/(qR) along θ with R = 1 + r cos θ, and q is constant. With b the direction of the field and u the velocity along it, the
-//! one-form of the guiding centre is (A + u b)·dx (Littlejohn 1983), and the magnetic moment μ is a parameter.
+//! In units of the major radius, of the field on the magnetic axis, and of the gyration there, the vector
+//! potential is A = ½r²(1 − ⅔ r cos θ) dθ − r²/(2q) dφ. The field has circular flux surfaces, the strength 1
+//! − r cos θ along φ and r/(qR) along θ with R = 1 + r cos θ, and q is constant. With b the direction of the
+//! field and u the velocity along it, the one-form of the guiding centre is (A + u b)·dx (Littlejohn 1983),
+//! and the magnetic moment μ is a parameter.
 
 use dvi_core::prelude::*;
 
@@ -36,8 +37,8 @@ pub struct TokamakInClass {
     pub mu: f64,
 }
 
-/// In x = R − 1, z and φ: α has components along three of four coordinates, and no gauge removes those along a half of them,
-/// since u stands in each.
+/// In x = R − 1, z and φ: α has components along three of four coordinates, and no gauge removes those along
+/// a half of them, since u stands in each.
 #[degenerate_lagrangian(
     coordinates(x, z, phi, u),
     one_form    = {

@@ -43,7 +43,10 @@ fn rotations_and_unit_vectors_stay_what_they_are_as_it_is_said() {
             about(body("RK4: max|ΔE|")),
             about(body("geodesics: max|ΔE|"))
         ),
-        format!("|s|² differs from 1 by at most {}.", at_most(pendulum("great circles: largest ||s|² − 1|"))),
+        format!(
+            "|s|² differs from 1 by at most {}.",
+            at_most(pendulum("great circles: largest ||s|² − 1|"))
+        ),
         format!(
             "The momentum about the vertical changes by at most {} of itself, and by at most {} with RATTLE.",
             at_most(pendulum(&format!("great circles: {momentum}"))),

@@ -117,7 +117,9 @@ impl Emitter<'_> {
     pub(crate) fn stays_inside(&self, index: &Index, length: &Index, loops: &[Loop]) -> bool {
         let is_natural = |index: &Index| index.as_literal().is_some_and(|value| value >= 0);
         match (index.constant, index.terms.as_slice()) {
-            (_, []) => is_natural(index) && length.as_literal().is_some_and(|length| index.constant < length),
+            (_, []) => {
+                is_natural(index) && length.as_literal().is_some_and(|length| index.constant < length)
+            }
             (0, [(Atom::Open(depth), 1)]) => {
                 loops.iter().any(|over| over.depth == *depth && over.range.upper == *length)
             }

@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 
-/// Not in builds with debug assertions: there nothing is optimised as a rule, and a copy for each caller is work for the compiler that
-/// makes no step faster.
+/// Not in builds with debug assertions: there nothing is optimised as a rule, and a copy for each caller is
+/// work for the compiler that makes no step faster.
 pub(crate) struct ForceInline;
 
 impl ToTokens for ForceInline {

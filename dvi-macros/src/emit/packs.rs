@@ -1,6 +1,7 @@
 //! Loops over packs of terms.
 //!
-//! An innermost loop with many terms that need arithmetic alone, on entries that lie beside one another, becomes
+//! An innermost loop with many terms that need arithmetic alone, on entries that lie beside one another,
+//! becomes
 //! ```text
 //! let mut __r9 = __T::lift(-0.0);
 //! let __whole = whole(lower, upper);
@@ -23,11 +24,12 @@
 //!     …
 //! }
 //! ```
-//! and it is compiled for the widest instructions of the processor, with the loops around it and nothing else: between such instructions
-//! each call of an elementary function costs more. Where a term adds to several entries of one
-//! array that lie beside one another, each pack loads and stores the first of them only. What belongs to entries behind them waits for
-//! the packs of these: no pack loads what the one before has just stored in other parts. Terms whose places lie on both sides of the end of
-//! a ring, as x[(j + 1) % n] for the last j, are taken one by one before and behind the packs.
+//! and it is compiled for the widest instructions of the processor, with the loops around it and nothing
+//! else: between such instructions each call of an elementary function costs more. Where a term adds to
+//! several entries of one array that lie beside one another, each pack loads and stores the first of them
+//! only. What belongs to entries behind them waits for the packs of these: no pack loads what the one before
+//! has just stored in other parts. Terms whose places lie on both sides of the end of a ring, as x[(j + 1) %
+//! n] for the last j, are taken one by one before and behind the packs.
 
 use std::cmp::Reverse;
 
@@ -53,7 +55,8 @@ struct Addition<'a> {
     array: (Output, u32),
     index: Index,
     value: &'a Signed,
-    /// So many places before are the first entries of the array that a term adds to; those of this statement wait for their packs.
+    /// So many places before are the first entries of the array that a term adds to; those of this statement
+    /// wait for their packs.
     behind: u64,
     waiting: Ident,
 }
@@ -230,8 +233,9 @@ impl Function<'_> {
         }
     }
 
-    /// What a body adds to entries, in an order in which packs add to each of them as the terms do one by one. What adds to the entry
-    /// j + 1 comes before what adds to the entry j: so does, one by one, the earlier of the two terms that add to the same entry.
+    /// What a body adds to entries, in an order in which packs add to each of them as the terms do one by
+    /// one. What adds to the entry j + 1 comes before what adds to the entry j: so does, one by one, the
+    /// earlier of the two terms that add to the same entry.
     fn additions<'a>(&self, body: &'a [Step]) -> Vec<Addition<'a>> {
         let mut additions: Vec<Addition<'a>> = Vec::new();
         for step in body {

@@ -1,7 +1,7 @@
 //! Loops over all pairs of many bodies.
 //!
-//! A loop over bodies around a loop over packs of those that come after is cut into parts, which threads share, where there are
-//! many:
+//! A loop over bodies around a loop over packs of those that come after is cut into parts, which threads
+//! share, where there are many:
 //! ```text
 //! if are_many(n) {
 //!     let __p0 = &self.gamma[..];
@@ -19,9 +19,9 @@
 //!     … the two loops …
 //! }
 //! ```
-//! Nothing of `self` is read in a part but slices of numbers, so that other fields need not be `Sync`. What is added to the entries of
-//! a body itself must be linear in its sums over the others, which come in several parts. What does not depend on them is added
-//! before, in a loop of its own.
+//! Nothing of `self` is read in a part but slices of numbers, so that other fields need not be `Sync`. What
+//! is added to the entries of a body itself must be linear in its sums over the others, which come in
+//! several parts. What does not depend on them is added before, in a loop of its own.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens as _, quote};

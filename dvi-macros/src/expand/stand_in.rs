@@ -75,8 +75,8 @@ impl StandIn<'_> {
         let never = quote!({ ::core::unreachable!() });
         let kind = implement::kind(krate, self.kind, self.constrained, self.is_on_manifold);
         let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
-        let constrained =
-            (self.kind == Kind::Regular && self.constrained.is_some()).then(|| self.with_constraints(&never));
+        let constrained = (self.kind == Kind::Regular && self.constrained.is_some())
+            .then(|| self.with_constraints(&never));
         let manifold = (self.kind == Kind::Regular && self.is_on_manifold).then(|| self.on_manifold(&never));
         quote! {
             const _: () = {

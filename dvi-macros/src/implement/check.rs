@@ -22,7 +22,8 @@ struct Place {
     names: Vec<Renaming>,
 }
 
-/// An access: the loops around it, the length of the array as text, which says which row of a table it is, the index.
+/// An access: the loops around it, the length of the array as text, which says which row of a table it is,
+/// the index.
 #[derive(PartialEq, Eq, Hash)]
 struct Access {
     loops: Vec<Loop>,
@@ -110,8 +111,9 @@ impl Walk<'_> {
         }
     }
 
-    /// The check of one access, in the loops that it depends on: whatever else is around it may run or not, as it is read outside of
-    /// what it does not depend on. Where its index goes on by one in the innermost loop, the bounds of that are enough.
+    /// The check of one access, in the loops that it depends on: whatever else is around it may run or not,
+    /// as it is read outside of what it does not depend on. Where its index goes on by one in the innermost
+    /// loop, the bounds of that are enough.
     fn access(&mut self, place: &Place, array: String, length: &Length, index: &Index) {
         let mut needed = length.free.and(index.free()).open;
         let mut around: Vec<&Loop> = Vec::new();

@@ -56,7 +56,8 @@ impl Emitter<'_> {
     }
 }
 
-/// The implementations of `ConstrainedSystem` and of `HolonomicLagrangian`, `NonholonomicLagrangian` or `UnilateralLagrangian`.
+/// The implementations of `ConstrainedSystem` and of `HolonomicLagrangian`, `NonholonomicLagrangian` or
+/// `UnilateralLagrangian`.
 pub(super) fn constraints(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let system = system(emitter, constraints);
     let lagrangian = match (constraints.of, &constraints.curvature) {

@@ -160,8 +160,8 @@ fn in_loops(emitter: &Emitter<'_>, statement: &Statement) -> String {
     format!("{text}  for {}", print_loops(&statement.loops, emitter.model))
 }
 
-/// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with another sign; nothing where no
-/// force acts.
+/// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with another
+/// sign; nothing where no force acts.
 pub(super) fn beside_force(
     emitter: &Emitter<'_>,
     programs: &Programs,

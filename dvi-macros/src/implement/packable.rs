@@ -14,7 +14,8 @@
 //!     }
 //! }
 //! ```
-//! The bounds are on types with `__W`, so that a struct whose fields have them not has no implementation, and compiles.
+//! The bounds are on types with `__W`, so that a struct whose fields have them not has no implementation,
+//! and compiles.
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{ToTokens as _, quote};
@@ -31,7 +32,8 @@ pub(super) fn packable(krate: &Path, item: &ItemStruct) -> TokenStream {
 
 /// The type of the parameters that may differ from lane to lane, if there is one that may be any number.
 fn generic(item: &ItemStruct) -> Option<&TypeParam> {
-    let mut others = item.generics.params.iter().filter(|generic| !matches!(generic, GenericParam::Const(_)));
+    let mut others =
+        item.generics.params.iter().filter(|generic| !matches!(generic, GenericParam::Const(_)));
     let (Some(GenericParam::Type(generic)), None) = (others.next(), others.next()) else { return None };
     // What a pack has.
     let is_had = |bound: &TypeParamBound| match bound {

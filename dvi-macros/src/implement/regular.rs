@@ -69,8 +69,8 @@ fn account(
 /// The implementation of `NondegenerateLagrangian`, and of what the system is beyond that.
 fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: &MassMatrix) -> TokenStream {
     let MassMatrix { constant, uniform, separable, diagonal, quadratic, .. } = *structure;
-    let [force, momentum, rate] =
-        [&programs.force, &programs.momentum, &programs.momentum_rate].map(|routine| emitter.vector(routine));
+    let [force, momentum, rate] = [&programs.force, &programs.momentum, &programs.momentum_rate]
+        .map(|routine| emitter.vector(routine));
     let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
     let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
     let traits = traits.map(|structure| in_numbers(emitter, &structure, &TokenStream::new()));

@@ -20,8 +20,8 @@ pub(crate) struct State {
     pub(crate) space_value: TokenStream,
 }
 
-/// With so many coordinates of known number beside arrays of a const generic `N`, each of which takes the place of `N`, a
-/// space is still one of fixed size.
+/// With so many coordinates of known number beside arrays of a const generic `N`, each of which takes the
+/// place of `N`, a space is still one of fixed size.
 const MOST_SINGLES: usize = 16;
 
 /// So many numbers, if they are known when the macro runs, are kept on the stack together with matrices of
@@ -35,8 +35,9 @@ fn space(emitter: &Emitter<'_>) -> (TokenStream, TokenStream) {
     space_of(emitter, &sizes)
 }
 
-/// The space of as many numbers as these sizes are together, each of which is zero where it is negative: its type and its value.
-/// Fixed if all sizes are literals, or one const generic beside a few literals; else known at run time.
+/// The space of as many numbers as these sizes are together, each of which is zero where it is negative: its
+/// type and its value. Fixed if all sizes are literals, or one const generic beside a few literals; else
+/// known at run time.
 pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Index]) -> (TokenStream, TokenStream) {
     let (model, krate) = (emitter.model, emitter.krate());
     let constant = sizes.iter().all(|size| model.is_constant(size));

@@ -164,7 +164,8 @@ impl Lowering<'_> {
             (1, 0) if !right.1.is_zero() => right.0,
             _ => return Some(()),
         };
-        self.errors.push(stray, "this term of the one-form has no d(·): write `… * d(x)` for a coordinate x");
+        self.errors
+            .push(stray, "this term of the one-form has no d(·): write `… * d(x)` for a coordinate x");
         None
     }
 }

@@ -71,7 +71,12 @@ impl Lowering<'_> {
         self.condition(&choice.cond, then, otherwise)
     }
 
-    fn condition(&mut self, condition: &Syntax, then: Option<Expr>, otherwise: Option<Expr>) -> Option<Expr> {
+    fn condition(
+        &mut self,
+        condition: &Syntax,
+        then: Option<Expr>,
+        otherwise: Option<Expr>,
+    ) -> Option<Expr> {
         match condition {
             Syntax::Paren(inner) => self.condition(&inner.expr, then, otherwise),
             Syntax::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => {

@@ -225,7 +225,8 @@ impl Lowering<'_> {
         is_field || self.model.is_declared_scalar_field(name)
     }
 
-    /// A function of several variables, if there is one of this name; nothing inside if it is called in a wrong way.
+    /// A function of several variables, if there is one of this name; nothing inside if it is called in a
+    /// wrong way.
     fn scalar_field(&mut self, name: &str, call: &ExprCall) -> Option<Option<Expr>> {
         let Syntax::Path(path) = &*call.func else { return None };
         let ident = path.path.get_ident()?;
@@ -236,8 +237,9 @@ impl Lowering<'_> {
         if let Some(Shape::Number | Shape::Count | Shape::Array(..)) =
             parameter.map(|field| self.shape_of(field))
         {
-            let message =
-                format!("the field `{name}` holds numbers, it is no function: a product is written with `*`");
+            let message = format!(
+                "the field `{name}` holds numbers, it is no function: a product is written with `*`"
+            );
             self.errors.push(&call.func, message);
             return Some(None);
         }
@@ -289,8 +291,10 @@ impl Lowering<'_> {
         if self.model.parameters.iter().any(|parameter| parameter.text == name) {
             let listed: Vec<String> =
                 receiver.into_iter().chain(arguments.iter().copied()).map(text).collect();
-            let message =
-                format!("what the struct holds is called by its name: write `{name}({})`", listed.join(", "));
+            let message = format!(
+                "what the struct holds is called by its name: write `{name}({})`",
+                listed.join(", ")
+            );
             self.errors.push_once(&kind, at, message);
             return;
         }
@@ -372,7 +376,8 @@ impl Lowering<'_> {
             return None;
         }
         if call.args.len() != 1 {
-            self.errors.push(&call.func, format!("`{name}` takes one coordinate; {}", here(call.args.len())));
+            self.errors
+                .push(&call.func, format!("`{name}` takes one coordinate; {}", here(call.args.len())));
             return None;
         }
         let coordinate = self.expr(&call.args[0])?;

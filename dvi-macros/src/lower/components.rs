@@ -7,7 +7,8 @@ use crate::errors::{here, listed, nearest};
 use crate::symbolic::{Atom, Contribution, Coordinate, Expr, Fold, Index, Loop, Node, Range};
 use crate::syntax::Force;
 
-/// A component of a covector: its value at the entry `index` of a block, in the loop over that block if it is an array.
+/// A component of a covector: its value at the entry `index` of a block, in the loop over that block if it
+/// is an array.
 struct Component {
     block: usize,
     index: Index,

@@ -77,8 +77,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether Rust may take an expression for an integer: it does, or it is a constant or a field of a field, whose
-    /// type is not known here.
+    /// Whether Rust may take an expression for an integer: it does, or it is a constant or a field of a
+    /// field, whose type is not known here.
     fn may_be_integer(&mut self, syntax: &Syntax) -> bool {
         let unknown = match syntax {
             Syntax::Paren(inner) => return self.may_be_integer(&inner.expr),
@@ -165,7 +165,8 @@ fn block_with_names(syntax: &Syntax) -> Option<&syn::ExprBlock> {
     }
 }
 
-/// Whether this is a field, so that what stands behind it belongs to a struct whose fields are not known here.
+/// Whether this is a field, so that what stands behind it belongs to a struct whose fields are not known
+/// here.
 fn is_part_of_field(base: &Syntax) -> bool {
     match base {
         Syntax::Path(path) => !path.path.is_ident("self"),

@@ -34,7 +34,8 @@ pub(super) fn uses(formula: &Expr, index: &Ident) -> bool {
     names.open.iter().any(|local| local.used)
 }
 
-/// The warnings of a formula, with the index that is bound around it if there is one, as items that the compiler warns of.
+/// The warnings of a formula, with the index that is bound around it if there is one, as items that the
+/// compiler warns of.
 pub(crate) fn warnings((formula, index): (&Expr, Option<&Ident>)) -> TokenStream {
     let mut names = Names::default();
     names.open.extend(index.map(|index| Local { name: index.clone(), index: true, used: true }));

@@ -267,8 +267,8 @@ impl Lowering<'_> {
     }
 }
 
-/// The value of `std::f64::consts::PI` and its like, written out in full: a shorter path may lead to a module
-/// of the user's own.
+/// The value of `std::f64::consts::PI` and its like, written out in full: a shorter path may lead to a
+/// module of the user's own.
 fn standard_constant(path: &Path) -> Option<f64> {
     let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
     match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {

@@ -15,7 +15,8 @@ impl Lowering<'_> {
     /// j ≠ k.
     pub(super) fn sum(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
         let pairs = matches!(name, "sum_pairs" | "sum_ordered_pairs");
-        let form = if pairs { format!("{name}(0..n, |j, k| …)") } else { format!("{name}(0..n, |j| …)") };
+        let form =
+            if pairs { format!("{name}(0..n, |j, k| …)") } else { format!("{name}(0..n, |j| …)") };
         let (Some(range), Some(Syntax::Closure(closure)), 2) =
             (call.args.first(), call.args.get(1), call.args.len())
         else {

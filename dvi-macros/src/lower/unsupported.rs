@@ -65,7 +65,9 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
         Syntax::Tuple(_) => ("a tuple", "; all values are numbers"),
         Syntax::Try(_) => ("`?`", "; all values are numbers"),
         Syntax::Unsafe(_) => ("unsafe code", "; all values are numbers"),
-        Syntax::Field(_) => ("fields of values", "; parameters are written `name`, `name[i]` or `self.name`"),
+        Syntax::Field(_) => {
+            ("fields of values", "; parameters are written `name`, `name[i]` or `self.name`")
+        }
         Syntax::Path(_) => ("a qualified path", "; a constant is written `NAME` or `Type::NAME`"),
         Syntax::Let(_) => ("a pattern", "; a condition compares with `<`, `<=`, `>` or `>=`"),
         Syntax::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
@@ -85,6 +87,8 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
             }
             _ => ("an assignment", "; name a value with `let`"),
         },
-        _ => ("this kind of expression", "; it is made of operators, methods of `f64`, `let`, `if` and sums"),
+        _ => {
+            ("this kind of expression", "; it is made of operators, methods of `f64`, `let`, `if` and sums")
+        }
     }
 }

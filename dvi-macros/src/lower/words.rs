@@ -1,5 +1,5 @@
-//! The words of the language: methods, forms of their own, constants. The functions of one and of two numbers come in from
-//! their tables.
+//! The words of the language: methods, forms of their own, constants. The functions of one and of two
+//! numbers come in from their tables.
 
 use std::f64::consts;
 
@@ -49,8 +49,8 @@ pub(crate) const TIME: &str = "t";
 /// The coordinate that a time transformation adds beside it.
 pub(crate) const ENERGY: &str = "energy";
 
-/// The constant that goes without a path: a single name may be that of another one in the module of the user, which the
-/// macro cannot see; only this is taken for what it says.
+/// The constant that goes without a path: a single name may be that of another one in the module of the
+/// user, which the macro cannot see; only this is taken for what it says.
 pub(super) const PI: &str = "PI";
 
 /// Those of `std::f64::consts`, by their full paths.

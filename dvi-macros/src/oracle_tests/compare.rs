@@ -241,8 +241,8 @@ impl<'a> Comparison<'a> {
         })
     }
 
-    /// What a gauge leaves as it is: Ω and ∇H + ∂α/∂t. The self-check of the macro holds the rest against the gauge that
-    /// it has found.
+    /// What a gauge leaves as it is: Ω and ∇H + ∂α/∂t. The self-check of the macro holds the rest against
+    /// the gauge that it has found.
     fn motion(&mut self, expected: &Expected) -> Result<(), Difference> {
         let n = self.system.dimension();
         let Expected { point: Point { q, t, .. }, lagrangian: jet, .. } = expected;
@@ -293,7 +293,9 @@ impl<'a> Comparison<'a> {
         self.same_matrix("linearize, second derivatives", &slices[4], |i, j| {
             let blocks = [(qq, i, j), (qv, i, n + j), (vq, n + i, j), (vv, n + i, n + j)];
             let start = Sized::new(matrix[i * n + j]);
-            blocks.iter().fold(start, |sum, (weight, i, j)| sum.plus(expected.second(*i, *j).scaled(*weight)))
+            blocks
+                .iter()
+                .fold(start, |sum, (weight, i, j)| sum.plus(expected.second(*i, *j).scaled(*weight)))
         })?;
         let applied = if self.expansion.constants["FORCED"] {
             let call = self.call().slice(q).slice(v).real(*t).slice(&before);

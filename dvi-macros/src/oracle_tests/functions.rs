@@ -68,8 +68,8 @@ pub(super) fn erf(x: f64) -> f64 {
     gauss(x) * (x + terms.sum::<f64>())
 }
 
-/// jₙ(x)/xⁿ = ∫ (1 − s²)ⁿ cos(xs) ds/(2ⁿn!) from 0 to 1, by Gauss's rule of five nodes on 64 pieces; where the cosine turns
-/// several times, by the recursion, which loses no digits there.
+/// jₙ(x)/xⁿ = ∫ (1 − s²)ⁿ cos(xs) ds/(2ⁿn!) from 0 to 1, by Gauss's rule of five nodes on 64 pieces; where
+/// the cosine turns several times, by the recursion, which loses no digits there.
 pub(crate) fn bessel(order: i32, x: f64) -> f64 {
     if x.abs() > 4.0 {
         let next = |(a, b): (f64, f64), n: i32| (b, (f64::from(2 * n + 1) * b - a) / (x * x));
@@ -79,7 +79,8 @@ pub(crate) fn bessel(order: i32, x: f64) -> f64 {
         (5.0 - 2.0 * (10.0_f64 / 7.0).sqrt()).sqrt() / 3.0,
         (5.0 + 2.0 * (10.0_f64 / 7.0).sqrt()).sqrt() / 3.0,
     );
-    let (heavy, light) = ((322.0 + 13.0 * 70.0_f64.sqrt()) / 900.0, (322.0 - 13.0 * 70.0_f64.sqrt()) / 900.0);
+    let (heavy, light) =
+        ((322.0 + 13.0 * 70.0_f64.sqrt()) / 900.0, (322.0 - 13.0 * 70.0_f64.sqrt()) / 900.0);
     let rule = [(-outer, light), (-inner, heavy), (0.0, 128.0 / 225.0), (inner, heavy), (outer, light)];
     let pieces = (0..64).flat_map(|piece| {
         rule.map(|(node, weight)| ((f64::from(piece) + 0.5 + node / 2.0) / 64.0, weight / 128.0))

@@ -130,10 +130,12 @@ impl Generator<'_> {
         (0..count).map(|_| self.constraint()).collect()
     }
 
-    /// A function with a coordinate in it, or affine with a velocity in it, alone or with an index that it depends on.
+    /// A function with a coordinate in it, or affine with a velocity in it, alone or with an index that it
+    /// depends on.
     fn constraint(&mut self) -> Constraint {
         self.budget = self.budget.max(6);
-        let family = if self.random.chance(50) { self.loops(&Scope::outside(), Loops::Single) } else { None };
+        let family =
+            if self.random.chance(50) { self.loops(&Scope::outside(), Loops::Single) } else { None };
         let (range, scope) = match family {
             Some((lower, upper, inside)) => (Some((lower, upper)), inside),
             None => (None, Scope::outside()),

@@ -31,8 +31,8 @@ impl Sized {
         Self { value, size: self.value.abs() * other.size + self.size * other.value.abs() }
     }
 
-    /// The product of two sums that may be added up term by term: where one cancels as a whole, the products of its terms leave their
-    /// rounding errors.
+    /// The product of two sums that may be added up term by term: where one cancels as a whole, the products
+    /// of its terms leave their rounding errors.
     fn times_each(self, other: Self) -> Self {
         let product = self.times(other);
         Self { size: product.size + ROUNDING * self.size * other.size, ..product }
@@ -177,7 +177,8 @@ impl Jet {
         let derivative = |order: i32, factor: f64| {
             if factor == 0.0 { 0.0 } else { factor * x.powi(exponent - order) }
         };
-        let sized = |value: f64, next: f64| Sized { value, size: value.abs() + next.abs() * self.value.size };
+        let sized =
+            |value: f64, next: f64| Sized { value, size: value.abs() + next.abs() * self.value.size };
         let (f, f1) = (x.powi(exponent), derivative(1, n));
         let (f2, f3) = (derivative(2, n * (n - 1.0)), derivative(3, n * (n - 1.0) * (n - 2.0)));
         let zero = Sized::default();

@@ -1,8 +1,8 @@
 //! dF/dt of a gauge F along (v, 1), as a jet.
 //!
-//! The first derivatives of dF/dt are second ones of F, which its jet has. Of the third ones, only those along (v, 1) are
-//! asked for: the second derivatives of F are differenced along that line, to the eighth order, and ten times the difference
-//! from the sixth order is taken for the error.
+//! The first derivatives of dF/dt are second ones of F, which its jet has. Of the third ones, only those
+//! along (v, 1) are asked for: the second derivatives of F are differenced along that line, to the eighth
+//! order, and ten times the difference from the sixth order is taken for the error.
 
 use super::evaluate::{Oracle, Outside, Point};
 use super::formula::Formula;

@@ -166,7 +166,8 @@ impl<'a> Reader<'a> {
                 let name = path.path.require_ident().expect("a name").to_string();
                 let bound = self.indices.iter().position(|known| *known == name);
                 let size = || (0..self.system.sizes.len()).find(|size| self.system.size_name(*size) == name);
-                let atom = bound.map_or_else(|| Atom::Size(size().expect("an index or a size")), Atom::Bound);
+                let atom =
+                    bound.map_or_else(|| Atom::Size(size().expect("an index or a size")), Atom::Bound);
                 Index::atom(atom)
             }
             Expr::Binary(binary) => {

@@ -73,7 +73,8 @@ fn degenerate(n: usize, conjugates: &[usize], points: &[Expected]) -> Vec<(&'sta
     let dalpha = |at: &Expected, i: usize, j: usize| at.lagrangian.hessian(n + i, j);
     let omega = |at: &Expected, i: usize, j: usize| dalpha(at, j, i).plus(dalpha(at, i, j).scaled(-1.0));
     let first = &points[0];
-    let constant = points.iter().all(|at| pairs(n).all(|(i, j)| same(dalpha(at, i, j), dalpha(first, i, j))));
+    let constant =
+        points.iter().all(|at| pairs(n).all(|(i, j)| same(dalpha(at, i, j), dalpha(first, i, j))));
     let free_of_time = points.iter().all(|at| (0..n).all(|i| is_zero(at.lagrangian.hessian(n + i, 2 * n))));
     // Where nothing is declared, every coordinate is its own conjugate.
     let involution =
@@ -83,7 +84,11 @@ fn degenerate(n: usize, conjugates: &[usize], points: &[Expected]) -> Vec<(&'sta
             |i: usize, j: usize| j == conjugates[i] || points.iter().all(|at| is_zero(entry(at, i, j)));
         involution && pairs(n).all(|(i, j)| alone(i, j))
     };
-    vec![("AFFINE", constant && free_of_time), ("MATCHING", couples(&dalpha)), ("CANONICAL", couples(&omega))]
+    vec![
+        ("AFFINE", constant && free_of_time),
+        ("MATCHING", couples(&dalpha)),
+        ("CANONICAL", couples(&omega)),
+    ]
 }
 
 fn regular(n: usize, points: &[Expected]) -> Vec<(&'static str, bool)> {

@@ -27,7 +27,8 @@ pub(super) struct Writer<'a> {
     spelling: Spelling,
 }
 
-/// Where the language has two spellings, sometimes the other one is taken: the same ones for the same system.
+/// Where the language has two spellings, sometimes the other one is taken: the same ones for the same
+/// system.
 struct Spelling(Cell<u32>);
 
 impl Spelling {
@@ -125,7 +126,8 @@ impl System {
             _ => None,
         });
         let generics: Vec<String> = lifetime.into_iter().chain(constants).collect();
-        let generics = if generics.is_empty() { String::new() } else { format!("<{}>", generics.join(", ")) };
+        let generics =
+            if generics.is_empty() { String::new() } else { format!("<{}>", generics.join(", ")) };
         let counts = self.sizes.iter().filter_map(|size| match size.kind {
             SizeKind::Field(name) => Some(format!("{name}: usize")),
             _ => None,

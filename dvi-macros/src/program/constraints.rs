@@ -1,5 +1,5 @@
-//! Constraints of the positions, g(q, t) = 0, or of the velocities, a(q, v, t) = 0, or gaps, g(q, t) ≥ 0: their values, their
-//! derivatives, and how they change along a motion.
+//! Constraints of the positions, g(q, t) = 0, or of the velocities, a(q, v, t) = 0, or gaps, g(q, t) ≥ 0:
+//! their values, their derivatives, and how they change along a motion.
 
 use super::{Place, Statement, Variable, variable};
 use crate::routine::Routine;

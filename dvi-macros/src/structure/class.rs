@@ -1,7 +1,7 @@
 //! The class of one-step schemes: a half of the coordinates along which the one-form has no component.
 //!
-//! With α = ϑ(x, y)·dx the discrete equations of such schemes couple two points and not three (Ellison et al. 2018). It is
-//! a property of the one-form as it is written: α and α + dF have the same motion.
+//! With α = ϑ(x, y)·dx the discrete equations of such schemes couple two points and not three (Ellison et
+//! al. 2018). It is a property of the one-form as it is written: α and α + dF have the same motion.
 
 use syn::ext::IdentExt as _;
 
@@ -71,7 +71,8 @@ impl Class {
         class
     }
 
-    /// The same with advice, where α is out of class and a gauge would help in place of that which there is, if any.
+    /// The same with advice, where α is out of class and a gauge would help in place of that which there is,
+    /// if any.
     pub(crate) fn with_advice(
         mut self,
         graph: &Graph,

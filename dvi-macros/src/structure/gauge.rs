@@ -2,9 +2,9 @@
 //!
 //! Along a half y of the coordinates, F is to have the gradient −α_y. It is put together component by
 //! component: each that is left is integrated in its own coordinate, and what that adds to the other
-//! components is seen when these are taken anew. Halves are made of whole blocks. Of those that succeed the one
-//! with the shortest one-form is taken. The search works on a copy of the graph and ends in text, which goes
-//! the way of a gauge that the user has written.
+//! components is seen when these are taken anew. Halves are made of whole blocks. Of those that succeed the
+//! one with the shortest one-form is taken. The search works on a copy of the graph and ends in text, which
+//! goes the way of a gauge that the user has written.
 
 use syn::Expr as Syntax;
 
@@ -86,7 +86,9 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effor
     let (all, halves) = halves(model, &coupled);
     if halves.is_empty() {
         let reason = match all {
-            0 => "no blocks of coordinates together are half of all, and the search takes a block as a whole",
+            0 => {
+                "no blocks of coordinates together are half of all, and the search takes a block as a whole"
+            }
             _ => "Ω couples coordinates of every half to each other",
         };
         return Search::None(reason.to_string());
@@ -172,8 +174,8 @@ fn coupled(graph: &mut Graph, model: &Model, one_form: Expr) -> Vec<[usize; 2]> 
     coupled
 }
 
-/// How many sets of blocks make half of the coordinates, and those among them that Ω does not couple to themselves, sets of
-/// later blocks first.
+/// How many sets of blocks make half of the coordinates, and those among them that Ω does not couple to
+/// themselves, sets of later blocks first.
 fn halves(model: &Model, coupled: &[[usize; 2]]) -> (usize, Vec<Vec<usize>>) {
     let sizes: Vec<Index> = (0..model.blocks.len()).map(|block| model.block_size(block)).collect();
     let members = |set: u32| (0..sizes.len()).filter(move |block| set & (1 << block) != 0);
@@ -185,7 +187,8 @@ fn halves(model: &Model, coupled: &[[usize; 2]]) -> (usize, Vec<Vec<usize>>) {
         false => size(*set) == size(all & !*set),
     };
     let halves: Vec<u32> = (1..all).rev().filter(is_half).collect();
-    let is_free = |set: &&u32| !coupled.iter().any(|pair| pair.iter().all(|block| **set & (1 << block) != 0));
+    let is_free =
+        |set: &&u32| !coupled.iter().any(|pair| pair.iter().all(|block| **set & (1 << block) != 0));
     // What the time transformation adds along the time stays there: formulas do not know its energy.
     let keeps_time = |set: &&u32| model.extended.is_none_or(|extended| **set & (1 << extended.time) == 0);
     (
@@ -251,12 +254,16 @@ impl Lacking {
                     [] => String::new(),
                     loops => format!(" for {}", print_loops(loops, model)),
                 };
-                format!("the component `{value}`{loops} along `{block}` could not be integrated in `{block}`")
+                format!(
+                    "the component `{value}`{loops} along `{block}` could not be integrated in `{block}`"
+                )
             }
             Self::Gradient => {
                 format!("no function was found with the gradient of the components along {names}")
             }
-            Self::Room => format!("the search for what removes the components along {names} became too long"),
+            Self::Room => {
+                format!("the search for what removes the components along {names} became too long")
+            }
             Self::ThirdDerivative(name) => {
                 format!("what removes the components along {names} needs the third derivative of `{name}`")
             }

@@ -42,8 +42,9 @@ pub(super) fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Fo
             continue;
         }
         let (row, column, value) = if i < j { (i, j, entry.value.negated()) } else { (j, i, entry.value) };
-        let same =
-            |known: &&mut FormEntry| known.row == row && known.column == column && known.loops == entry.loops;
+        let same = |known: &&mut FormEntry| {
+            known.row == row && known.column == column && known.loops == entry.loops
+        };
         match omega.iter_mut().find(same) {
             Some(known) => known.value = graph.add(known.value, value),
             None => omega.push(FormEntry { row, column, loops: entry.loops.clone(), value }),
@@ -55,7 +56,11 @@ pub(super) fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Fo
 
 /// The conjugate of each block, if Ω couples block to block, entry by entry, and Dα holds nothing else but
 /// entries on its diagonal.
-fn conjugates(model: &Model, omega: &[FormEntry], dalpha: &[(Coordinate, Coordinate)]) -> Option<Vec<usize>> {
+fn conjugates(
+    model: &Model,
+    omega: &[FormEntry],
+    dalpha: &[(Coordinate, Coordinate)],
+) -> Option<Vec<usize>> {
     let mut conjugates: Vec<Option<usize>> = vec![None; model.blocks.len()];
     for entry in omega {
         let (row, column) = (entry.row.block as usize, entry.column.block as usize);

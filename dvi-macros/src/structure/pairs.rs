@@ -1,5 +1,5 @@
-//! A sum over all pairs of bodies of a function of their distance, in an energy: H = H_rest + Σ_{j<k} w_j w_k K(r²), or
-//! L = L_rest − Σ_{j<k} w_j w_k K(r²).
+//! A sum over all pairs of bodies of a function of their distance, in an energy: H = H_rest + Σ_{j<k} w_j
+//! w_k K(r²), or L = L_rest − Σ_{j<k} w_j w_k K(r²).
 
 use crate::model::Model;
 use crate::symbolic::{
@@ -182,7 +182,8 @@ fn ungrouped(graph: &Graph, terms: &[Expr]) -> Vec<Expr> {
     inside.collect()
 }
 
-/// The kernel with `square` in the place of the square of the distance, if it depends on nothing else of the bodies.
+/// The kernel with `square` in the place of the square of the distance, if it depends on nothing else of the
+/// bodies.
 fn of_square(graph: &mut Graph, pairs: &Pairs, blocks: &[u32], kernel: Expr, square: Id) -> Option<Expr> {
     let [first, second] = pairs.indices.clone();
     let mut differences = Vec::new();

@@ -18,12 +18,13 @@ pub(super) fn skipped(model: &Model, mass: &[Entry]) -> Vec<(usize, i64)> {
             }
         }
         involved.sort_unstable();
-        let reached = involved.iter().fold(
-            0,
-            |reached, (least, beyond)| {
-                if *least <= reached { reached.max(*beyond) } else { reached }
-            },
-        );
+        let reached =
+            involved.iter().fold(
+                0,
+                |reached, (least, beyond)| {
+                    if *least <= reached { reached.max(*beyond) } else { reached }
+                },
+            );
         (!involved.is_empty() && reached < size).then_some((block, reached))
     };
     (0..model.blocks.len())
@@ -63,7 +64,8 @@ pub(super) fn is_numerically_singular(model: &Model, mass: &[Entry]) -> bool {
     // Each entry with the size of what it was added up from.
     let mut matrix = vec![vec![(0.0_f64, 0.0_f64); dimension]; dimension];
     for entry in mass {
-        let (row, column, value) = (entry.row.block as usize, entry.column.block as usize, entry.value.scale);
+        let (row, column, value) =
+            (entry.row.block as usize, entry.column.block as usize, entry.value.scale);
         matrix[row][column] = (value, value.abs());
         matrix[column][row] = (value, value.abs());
     }

@@ -30,7 +30,8 @@ enum Outer {
 pub(crate) struct Terms<'a> {
     /// What is positive where the formulas have a value, as they take its logarithm or its root.
     pub(crate) positive: &'a [Id],
-    /// Whether parameters may stand in new denominators: where they are zero, the antiderivative is no number.
+    /// Whether parameters may stand in new denominators: where they are zero, the antiderivative is no
+    /// number.
     pub(crate) may_divide: bool,
     /// There is no answer once the graph has come to this node.
     pub(crate) last: Id,
@@ -138,8 +139,8 @@ impl Integral<'_> {
         None
     }
 
-    /// Whether there is something in a denominator of `ratio` that stands in none of the factors: the antiderivative would be
-    /// singular where the integrand is not.
+    /// Whether there is something in a denominator of `ratio` that stands in none of the factors: the
+    /// antiderivative would be singular where the integrand is not.
     fn divides_by_more(&self, ratio: Expr, factors: &[(Id, i32)]) -> bool {
         let may_divide = self.terms.may_divide;
         let varies = |node: &Node| match node {
@@ -173,7 +174,11 @@ impl Integral<'_> {
                         found.push((Outer::Power(power / 2.0), w.node.into(), w.scale.powf(power / 2.0)));
                     }
                     Unary::Cbrt => {
-                        found.push((Outer::Power(power / 3.0), w.node.into(), w.scale.cbrt().powi(exponent)));
+                        found.push((
+                            Outer::Power(power / 3.0),
+                            w.node.into(),
+                            w.scale.cbrt().powi(exponent),
+                        ));
                     }
                     _ => {}
                 }
@@ -203,7 +208,8 @@ impl Integral<'_> {
         }
     }
 
-    /// wᵖ for powers that are written with products, roots of second or third degree, or not at all otherwise.
+    /// wᵖ for powers that are written with products, roots of second or third degree, or not at all
+    /// otherwise.
     fn power(&mut self, w: Expr, p: f64) -> Option<Expr> {
         const MOST: f64 = 64.0;
         let is_whole = |p: f64| (p - p.round()).abs() < 1e-12 && p.abs() < MOST;

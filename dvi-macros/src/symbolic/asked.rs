@@ -1,8 +1,8 @@
 //! How often a formula as written asks for the value of one of its parts.
 //!
-//! A part that stands in a branch that is not taken, or in a sum without terms, has no value to be asked for, and need not
-//! be a number. The derivative of the whole by that part is zero there, and zero times what is no number is none: so the
-//! product is chosen only where the part is asked for.
+//! A part that stands in a branch that is not taken, or in a sum without terms, has no value to be asked
+//! for, and need not be a number. The derivative of the whole by that part is zero there, and zero times
+//! what is no number is none: so the product is chosen only where the part is asked for.
 
 use rustc_hash::FxHashMap as HashMap;
 

@@ -49,7 +49,8 @@ struct Family {
 #[derive(Clone, Copy)]
 struct Outer {
     factor: Expr,
-    /// How often the formula as written asks for that part: where it does not, the part need not be a number.
+    /// How often the formula as written asks for that part: where it does not, the part need not be a
+    /// number.
     asked: Expr,
 }
 
@@ -97,7 +98,8 @@ impl Graph {
             Node::Call(function, order, u) => self.chain(u, by, |graph| graph.call(function, order + 1, u)),
             Node::ScalarField(field, partial, at) => {
                 let terms = (0..at.len()).map(|axis| {
-                    let along = |graph: &mut Self| graph.scalar_field(field, partial.along(axis), at.clone());
+                    let along =
+                        |graph: &mut Self| graph.scalar_field(field, partial.along(axis), at.clone());
                     self.chain(at[axis], by, along)
                 });
                 let terms: Vec<Expr> = terms.collect();
@@ -167,8 +169,8 @@ impl Graph {
         found
     }
 
-    /// Adds the contributions of outer · body, where it is asked for; with `newest` given, only those of variables that
-    /// depend on the loop at that depth, because the others were taken further out.
+    /// Adds the contributions of outer · body, where it is asked for; with `newest` given, only those of
+    /// variables that depend on the loop at that depth, because the others were taken further out.
     fn collect(
         &mut self,
         body: Expr,
@@ -182,7 +184,8 @@ impl Graph {
             let free = graph.free(*id);
             free.bound == 0 && newest.is_none_or(|depth| free.open & (1 << depth) != 0)
         };
-        let local: Vec<Id> = self.reachable([body.node]).into_iter().filter(|id| belongs(self, id)).collect();
+        let local: Vec<Id> =
+            self.reachable([body.node]).into_iter().filter(|id| belongs(self, id)).collect();
         for id in local {
             match self.node(id).clone() {
                 Node::Coordinate(_) | Node::Velocity(_) => {

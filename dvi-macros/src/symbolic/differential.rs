@@ -26,7 +26,8 @@ impl Graph {
             let target = self.velocity_of(part.target);
             parts.push(Contribution { target, ..part });
         }
-        // Their values stay apart until it is known what cancels: of a sum, what rounding has left cannot be told from a term.
+        // Their values stay apart until it is known what cancels: of a sum, what rounding has left cannot be
+        // told from a term.
         let mut components: Vec<(Contribution, Vec<Expr>)> = Vec::new();
         for part in parts {
             let part = self.with_inner_sums(part);
@@ -93,8 +94,8 @@ impl Graph {
         self.multiply(outside, sum).scaled(term.scale)
     }
 
-    /// What is positive where these expressions have a value: they take its logarithm or its root, and not in one branch of a
-    /// choice only.
+    /// What is positive where these expressions have a value: they take its logarithm or its root, and not
+    /// in one branch of a choice only.
     pub(crate) fn positive(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
         let mut seen: Vec<Id> = roots.into_iter().collect();
         let (mut next, mut found) = (0, Vec::new());

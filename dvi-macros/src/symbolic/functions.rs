@@ -1,9 +1,9 @@
 //! The functions of one number: a row makes one.
 //!
-//! A row is the name as it is written and printed, the variant, the value, the properties, and the derivative. The derivative
-//! may use the result `f` itself, so that sharing comes for free: (√u)' = 1/(2f). A new function is a row here and, because
-//! neither may share anything with this table, a function of `dvi_core::Scalar`, a row of the self-check and one of the oracle
-//! of the tests.
+//! A row is the name as it is written and printed, the variant, the value, the properties, and the
+//! derivative. The derivative may use the result `f` itself, so that sharing comes for free: (√u)' = 1/(2f).
+//! A new function is a row here and, because neither may share anything with this table, a function of
+//! `dvi_core::Scalar`, a row of the self-check and one of the oracle of the tests.
 
 use core::f64::consts::{FRAC_2_SQRT_PI, LN_2, LOG2_E, LOG10_E};
 

@@ -1,8 +1,9 @@
 //! Derivatives at the zeros of a root, where the rules give 0/0 and a limit exists.
 //!
-//! R is √u or √(a² + b²). At an inner point of its domain where R = 0, R² is smallest, so that (R²)' is 0 there. A factor
-//! w is *below* R where |w| ≤ C·R for some C: then w/R stays bounded, and (w/R)·(R²)' has the limit 0. The quotient is
-//! taken to be 0 at R = 0 ([`Binary::OverRoot`]), which makes the product what it is in the limit:
+//! R is √u or √(a² + b²). At an inner point of its domain where R = 0, R² is smallest, so that (R²)' is 0
+//! there. A factor w is *below* R where |w| ≤ C·R for some C: then w/R stays bounded, and (w/R)·(R²)' has
+//! the limit 0. The quotient is taken to be 0 at R = 0 ([`Binary::OverRoot`]), which makes the product what
+//! it is in the limit:
 //!
 //! | | derivative |
 //! |---|---|
@@ -59,7 +60,8 @@ impl Graph {
         Some(self.product(&[node.into(), quotients[0], quotients[1]]).scaled(p))
     }
 
-    /// The derivative of a sum with all of `others` taken in, term by term, if one is below a root in a term.
+    /// The derivative of a sum with all of `others` taken in, term by term, if one is below a root in a
+    /// term.
     fn limit_of_sum(&mut self, terms: &[Expr], others: &mut Vec<(Id, u32)>, by: Id) -> Option<Expr> {
         let beside = others.clone();
         let is_beside_root = |factor: &(Id, u32)| {
@@ -117,8 +119,9 @@ impl Graph {
         }
     }
 
-    /// Whether w is R itself, or w² is a term of R²; and R² is smooth and has no term that can be negative, so that its
-    /// zeros are inner points (√x is no such root, nor is √(√x² + y²): their domains end at x = 0).
+    /// Whether w is R itself, or w² is a term of R²; and R² is smooth and has no term that can be negative,
+    /// so that its zeros are inner points (√x is no such root, nor is √(√x² + y²): their domains end at x =
+    /// 0).
     fn is_part_of(&self, w: Id, root: Root) -> bool {
         match root {
             Root::Hypot(a, b) => {
@@ -144,7 +147,8 @@ impl Graph {
         }
     }
 
-    /// Whether the terms of a sum over `range` hold the squares of all entries of an array, of which w is one.
+    /// Whether the terms of a sum over `range` hold the squares of all entries of an array, of which w is
+    /// one.
     fn holds_entry(&self, of: Id, w: Id, height: u32, range: &Range) -> bool {
         if let Node::Sum(terms) = self.node(of) {
             return terms.iter().any(|term| self.holds_entry(term.node, w, height, range));
@@ -189,8 +193,8 @@ impl Graph {
         })
     }
 
-    /// The derivative of uᵖ along `by`, p a number, where it has the limit 0 at a zero of √u, or of u if that is a root
-    /// itself.
+    /// The derivative of uᵖ along `by`, p a number, where it has the limit 0 at a zero of √u, or of u if
+    /// that is a root itself.
     pub(super) fn power_of_square(&mut self, u: Expr, p: f64, by: Id) -> Option<Expr> {
         if let Some(root) = self.root(u.node) {
             // Rᵖ: p·Rᵖ⁻¹·((R²)'/2)/R
@@ -218,8 +222,8 @@ impl Graph {
         Some(self.multiply(rest, quotient).scaled(p))
     }
 
-    /// The derivative of f(u), where u or u' may be a sum of no terms or a branch that is zero: f does not change then, whatever
-    /// its own derivative is.
+    /// The derivative of f(u), where u or u' may be a sum of no terms or a branch that is zero: f does not
+    /// change then, whatever its own derivative is.
     pub(super) fn unless_empty(&mut self, sums: &[Expr], derivative: Expr) -> Expr {
         if derivative.is_zero() {
             return derivative;
@@ -233,8 +237,8 @@ impl Graph {
         self.choose(terms, Relation::HasMore, Expr::ZERO, derivative, Expr::ZERO)
     }
 
-    /// The number of terms in a sum over indices, in the sums inside of it, and in products with such sums; a branch that is
-    /// written as zero has none.
+    /// The number of terms in a sum over indices, in the sums inside of it, and in products with such sums;
+    /// a branch that is written as zero has none.
     fn terms(&mut self, node: Id) -> Expr {
         match self.node(node).clone() {
             Node::Reduce { fold: Fold::Sum, height, range, body } => {

@@ -6,7 +6,8 @@ use super::index::Loop;
 use crate::internal::internal;
 
 impl Graph {
-    /// v·∂f/∂q + ∂f/∂t of a function that stands inside `loops`. Velocities in it do not change: there is no acceleration.
+    /// v·∂f/∂q + ∂f/∂t of a function that stands inside `loops`. Velocities in it do not change: there is no
+    /// acceleration.
     pub(crate) fn rate(&mut self, of: Expr, loops: &[Loop]) -> Expr {
         let time = self.intern(Node::Time);
         let mut terms = vec![self.derivative(of, time)];

@@ -12,7 +12,8 @@ pub(crate) enum Partial {
 }
 
 impl Partial {
-    /// Its derivative along `axis`. There are no third derivatives: gauges, which need them, do not contain such functions.
+    /// Its derivative along `axis`. There are no third derivatives: gauges, which need them, do not contain
+    /// such functions.
     pub(super) fn along(self, axis: usize) -> Self {
         match self {
             Self::Value => Self::First(axis),

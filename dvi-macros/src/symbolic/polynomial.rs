@@ -58,8 +58,8 @@ fn joined(one: &[(Id, i32)], two: &[(Id, i32)]) -> Monomial {
 }
 
 impl Graph {
-    /// Whether the sum of these is zero wherever it is a number, as far as multiplying out shows it, with exponents up to
-    /// rounding.
+    /// Whether the sum of these is zero wherever it is a number, as far as multiplying out shows it, with
+    /// exponents up to rounding.
     pub(crate) fn vanishes(&mut self, values: &[Expr]) -> bool {
         self.polynomial_of_sum(values, true).is_some_and(|polynomial| polynomial.0.is_empty())
     }
@@ -171,8 +171,8 @@ impl Graph {
         (1..exponent).try_fold(base.clone(), |power, _| power.times(&base))
     }
 
-    /// A derivative of `atan2` as the quotient that it is; loosely also tanh as sinh/cosh, and a power with a
-    /// broken exponent as a whole power times one with an exponent below 1, rounded.
+    /// A derivative of `atan2` as the quotient that it is; loosely also tanh as sinh/cosh, and a power with
+    /// a broken exponent as a whole power times one with an exponent below 1, rounded.
     fn in_other_functions(&mut self, factor: Id, exponent: i32, loose: bool) -> Option<Polynomial> {
         /// Of exponents, 40 bits are compared.
         const GRID: f64 = (1_u64 << 40) as f64;

@@ -48,9 +48,14 @@ pub(super) fn take(factors: &mut Vec<(Id, u32)>, of: Id, exponent: u32) {
 }
 
 impl Graph {
-    /// The derivative of a product along `by`, times the factors `beside` it: the sum over its parts of (the derivative
-    /// of the part)·(the others).
-    pub(super) fn product_derivative(&mut self, factors: &[(Id, u32)], beside: &[(Id, u32)], by: Id) -> Expr {
+    /// The derivative of a product along `by`, times the factors `beside` it: the sum over its parts of (the
+    /// derivative of the part)·(the others).
+    pub(super) fn product_derivative(
+        &mut self,
+        factors: &[(Id, u32)],
+        beside: &[(Id, u32)],
+        by: Id,
+    ) -> Expr {
         let parts = self.parts(factors, by);
         let mut terms = Vec::new();
         for (position, part) in parts.iter().enumerate().filter(|(_, part)| !part.derivative.is_zero()) {

@@ -11,7 +11,8 @@ use crate::internal::internal;
 pub(crate) trait Names {
     /// The name, and whether it takes an index.
     fn coordinate(&self, block: u32) -> (String, bool);
-    /// Whether its entries are those of a rotation matrix, row by row, and its velocities an angular velocity.
+    /// Whether its entries are those of a rotation matrix, row by row, and its velocities an angular
+    /// velocity.
     fn is_rotation(&self, block: u32) -> bool;
     /// The function that makes a velocity of a coordinate.
     fn velocity(&self) -> &'static str;
@@ -199,8 +200,8 @@ pub(crate) fn print_expr(graph: &Graph, expr: Expr, depth: usize, names: &dyn Na
     Printer { graph, letters }.expr(expr, Strength::Sum)
 }
 
-/// The text of an expression in the language of the attribute, unless it is too long or something stands in it that has no
-/// word there.
+/// The text of an expression in the language of the attribute, unless it is too long or something stands in
+/// it that has no word there.
 pub(crate) fn write_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> Option<String> {
     let can_be_written = |id: Id| match graph.node(id) {
         Node::Velocity(_) | Node::Weight(_) => false,

@@ -84,7 +84,10 @@ impl Graph {
 
     /// Whether it overflows at moderate arguments.
     pub(super) fn grows_fast(&self, id: Id) -> bool {
-        self.depends(id, |node| matches!(node, Node::Unary(function, _) if function.has(Property::GrowsFast)))
+        self.depends(
+            id,
+            |node| matches!(node, Node::Unary(function, _) if function.has(Property::GrowsFast)),
+        )
     }
 
     /// (∂f/∂a, ∂f/∂b), where `f` is the node f(a, b) itself.
@@ -110,7 +113,8 @@ impl Graph {
                     let squared = self.power(b, 2);
                     slope = self.where_asked(squared, slope);
                 }
-                // Where a and f are 0 the logarithm is infinite, and the product has the limit 0, which f is.
+                // Where a and f are 0 the logarithm is infinite, and the product has the limit 0, which f
+                // is.
                 let [size, of_base] = [f, a].map(|of| self.unary(Unary::Abs, of));
                 let (sizes, product) = (self.add(size, of_base), self.multiply(f, logarithm));
                 [slope, self.choose(sizes, Relation::HasMore, Expr::ZERO, product, f)]

@@ -1,7 +1,7 @@
 //! What stands below a node of that which derivatives are taken by: coordinates, velocities, time, sums.
 //!
-//! Most derivatives of most terms vanish, and a formula with many coordinates has many terms: which of them a
-//! coordinate stands in is known without a walk through all.
+//! Most derivatives of most terms vanish, and a formula with many coordinates has many terms: which of them
+//! a coordinate stands in is known without a walk through all.
 
 use super::graph::{Graph, Id, Node};
 

@@ -44,7 +44,11 @@ impl Argument {
             } else if name == "force" {
                 return Err(input.error("a force is written `force(x) = …`"));
             } else if let Some(of) = Constrained::named(&name.to_string()) {
-                return Err(input.error(format!("a family of {} is written {}", of.nouns()[1], of.family())));
+                return Err(input.error(format!(
+                    "a family of {} is written {}",
+                    of.nouns()[1],
+                    of.family()
+                )));
             } else {
                 return Err(input.error("expected `,`"));
             }
@@ -58,7 +62,8 @@ impl Argument {
         Ok(Self { name, value })
     }
 
-    /// What may be given once: `name`, or `name(of)`. Every `constraint`, `nonholonomic` or `impact` is one more.
+    /// What may be given once: `name`, or `name(of)`. Every `constraint`, `nonholonomic` or `impact` is one
+    /// more.
     pub(super) fn given(&self) -> Option<String> {
         if Constrained::named(&self.name.to_string()).is_some() {
             return None;

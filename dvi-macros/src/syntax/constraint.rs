@@ -1,5 +1,5 @@
-//! Constraints as they are declared: of the positions, g(q, t) = 0, of the velocities, a(q, v, t) = 0, and the gaps of impacts,
-//! g(q, t) ≥ 0.
+//! Constraints as they are declared: of the positions, g(q, t) = 0, of the velocities, a(q, v, t) = 0, and
+//! the gaps of impacts, g(q, t) ≥ 0.
 
 use proc_macro2::Ident;
 use quote::ToTokens;
@@ -67,8 +67,8 @@ const IMPACTS: [&str; 14] = [
     "walls",
 ];
 
-/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`; or the same by `nonholonomic` or
-/// `impact`.
+/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`; or the same by
+/// `nonholonomic` or `impact`.
 #[derive(Debug)]
 pub(crate) struct Constraint {
     pub(crate) family: Option<Family>,

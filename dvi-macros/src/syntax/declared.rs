@@ -24,7 +24,8 @@ pub(crate) enum Factor {
     /// ℝⁿ.
     #[default]
     Line,
-    /// `SO3`: the entries of a rotation matrix, row by row. The velocities are those of its angular velocity in the body.
+    /// `SO3`: the entries of a rotation matrix, row by row. The velocities are those of its angular velocity
+    /// in the body.
     Rotation,
     /// `S2`: a unit vector.
     Sphere,
@@ -169,10 +170,12 @@ impl Parse for Declaration {
         } else {
             None
         };
-        let factor = if input.peek(Token![:]) { factor(input, &name, size.is_some())? } else { Factor::Line };
+        let factor =
+            if input.peek(Token![:]) { factor(input, &name, size.is_some())? } else { Factor::Line };
         if !input.is_empty() {
-            return Err(input
-                .error("a coordinate is declared as `x`, `x[n]`, `R: SO3` or `s: S2`, and followed by `,`"));
+            return Err(input.error(
+                "a coordinate is declared as `x`, `x[n]`, `R: SO3` or `s: S2`, and followed by `,`",
+            ));
         }
         Ok(Self { name, size, factor })
     }

@@ -1,9 +1,9 @@
 //! How deep the parts of a formula may nest, and how long they may be.
 //!
-//! Parsers call themselves: for brackets in brackets, and for what nests without brackets, such as
-//! `- - - x` or `a = b = c`; and a long chain of operators is a deep tree. This bounds the depth of the calls before the first of them, so that no
-//! input exhausts the compiler's stack. The terms of a sum are no chain: [`tidy`](super::tidy) makes a low
-//! tree of them.
+//! Parsers call themselves: for brackets in brackets, and for what nests without brackets, such as `- - - x`
+//! or `a = b = c`; and a long chain of operators is a deep tree. This bounds the depth of the calls before
+//! the first of them, so that no input exhausts the compiler's stack. The terms of a sum are no chain:
+//! [`tidy`](super::tidy) makes a low tree of them.
 
 use proc_macro2::{TokenStream, TokenTree};
 

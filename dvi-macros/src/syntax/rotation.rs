@@ -1,7 +1,8 @@
 //! Rotations and unit vectors as coordinates: where they may stand, and how a rotation is written.
 //!
-//! Of `R: SO3` formulas have the entries `R[i][j]` and the angular velocity in the body `omega(R)[k]`. Nine coordinates `R[3 i + j]`
-//! and three velocities take their places here, once, so that no later stage knows of matrices.
+//! Of `R: SO3` formulas have the entries `R[i][j]` and the angular velocity in the body `omega(R)[k]`. Nine
+//! coordinates `R[3 i + j]` and three velocities take their places here, once, so that no later stage knows
+//! of matrices.
 
 use proc_macro2::{Ident, Literal};
 use syn::spanned::Spanned;
@@ -17,7 +18,8 @@ const ANGULAR_VELOCITY: &str = "omega";
 const VELOCITY: &str = "dot";
 
 impl Attribute {
-    /// Reports rotations and unit vectors where there are none, and replaces the entries of rotations in all formulas.
+    /// Reports rotations and unit vectors where there are none, and replaces the entries of rotations in all
+    /// formulas.
     pub(super) fn admit_factors(&mut self, errors: &mut Errors) {
         let Some(first) = self.coordinates.iter().find(|declaration| declaration.factor != Factor::Line)
         else {
@@ -52,8 +54,8 @@ impl Attribute {
     }
 }
 
-/// Replaces what is written of rotations by coordinates and velocities. What cannot be is reported, and replaced by a number, so that it is
-/// not reported again.
+/// Replaces what is written of rotations by coordinates and velocities. What cannot be is reported, and
+/// replaced by a number, so that it is not reported again.
 struct Entries<'a> {
     rotations: &'a [Ident],
     /// The other coordinates.

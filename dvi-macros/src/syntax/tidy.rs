@@ -1,9 +1,11 @@
 //! Spellings that mean the same, made one before anything is read.
 //!
 //! - `r#x` is `x`, as in Rust.
-//! - What a `macro_rules` has put in a place is a group without brackets in the tokens, and here the expression that it holds.
-//! - A long sum `t0 + t1 - t2 + …` is a tree as deep as it is long, which the compiler's stack does not bear. Its terms are put into such
-//!   groups first, `t0 + ⟨t1 - t2 + …⟩ + …`, and groups of groups, so that the tree is low.
+//! - What a `macro_rules` has put in a place is a group without brackets in the tokens, and here the
+//!   expression that it holds.
+//! - A long sum `t0 + t1 - t2 + …` is a tree as deep as it is long, which the compiler's stack does not
+//!   bear. Its terms are put into such groups first, `t0 + ⟨t1 - t2 + …⟩ + …`, and groups of groups, so that
+//!   the tree is low.
 
 use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;

@@ -102,8 +102,8 @@ pub(super) struct Evaluation<'a> {
     /// Operations that may still be carried out.
     pub(super) budget: u64,
     pub(super) sides: Sides,
-    /// Whether rounding may decide what comes out: some part of the formulas has a huge value, even if the whole has not, or
-    /// two sides of a comparison cannot be told apart.
+    /// Whether rounding may decide what comes out: some part of the formulas has a huge value, even if the
+    /// whole has not, or two sides of a comparison cannot be told apart.
     pub(super) is_delicate: bool,
     scope: Scope,
 }

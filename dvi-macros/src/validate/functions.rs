@@ -190,8 +190,8 @@ pub(super) fn own(number: usize, x: &Jet) -> Jet {
     x.through([0, 1, 2, 3, 4].map(|order| stand_in(number, order, at)))
 }
 
-/// A smooth function of several variables in place of the user's number `number`: 1.5 + sin(a·x + φ) + 0.3 cos(b·x + φ). No
-/// two axes are alike in it.
+/// A smooth function of several variables in place of the user's number `number`: 1.5 + sin(a·x + φ) + 0.3
+/// cos(b·x + φ). No two axes are alike in it.
 struct Waves {
     phase: f64,
 }
@@ -211,8 +211,9 @@ impl Waves {
 /// A partial derivative of the function that stands for number `number`.
 pub(super) fn scalar_field_stand_in(number: usize, axes: &[usize], at: &[f64]) -> f64 {
     let Waves { phase } = Waves::of(number);
-    let angle =
-        |wave: usize| at.iter().enumerate().fold(phase, |sum, (axis, x)| sum + Waves::slopes(axis)[wave] * x);
+    let angle = |wave: usize| {
+        at.iter().enumerate().fold(phase, |sum, (axis, x)| sum + Waves::slopes(axis)[wave] * x)
+    };
     let factor = |wave: usize| axes.iter().map(|axis| Waves::slopes(*axis)[wave]).product::<f64>();
     // Each derivative shifts a wave by a quarter of its period.
     let shift = axes.len() as f64 * PI / 2.0;

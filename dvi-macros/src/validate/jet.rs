@@ -5,8 +5,8 @@
 //! second ones, and the mixed second derivatives that a check needs. The derivatives along a random
 //! direction speak for all entries of a gradient at once, so the cost does not grow with their number.
 //!
-//! A jet may have a *rate*: its derivative along one more direction, which is a jet itself. A gauge enters L as dF/dt,
-//! the rate of F where positions move with their velocities and the time with 1.
+//! A jet may have a *rate*: its derivative along one more direction, which is a jet itself. A gauge enters L
+//! as dF/dt, the rate of F where positions move with their velocities and the time with 1.
 
 /// First directions: q along a, v along a, t, and v along itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,8 +53,8 @@ impl Sized {
         Self { value: self.value * factor, size: self.size * factor.abs() }
     }
 
-    /// Whether another order of operations leaves the two in their order: they differ by more than rounding, or are equal
-    /// without any.
+    /// Whether another order of operations leaves the two in their order: they differ by more than rounding,
+    /// or are equal without any.
     pub(super) fn is_distinct_from(self, other: Self) -> bool {
         let difference = (self.value - other.value).abs();
         let is_plain = |x: Self| x.size <= x.value.abs();
@@ -102,7 +102,8 @@ impl Jet {
         Self(Box::new(parts))
     }
 
-    /// The sum of no terms, which is −0 in Rust: a function of it is a constant, even where that function has no derivative.
+    /// The sum of no terms, which is −0 in Rust: a function of it is a constant, even where that function
+    /// has no derivative.
     pub(super) fn empty_sum() -> Self {
         let mut jet = Self::number(-0.0);
         jet.0.is_empty_sum = true;
@@ -246,7 +247,8 @@ impl Jet {
             for second in 0..SECOND {
                 let (both, e, f) = (mixed(first, second), 1 + first, 1 + FIRST + second);
                 product.0.value[both] += x.value[e] * y.value[f] + x.value[f] * y.value[e];
-                // Derivatives that are zero as a whole have entries that are not, and these are multiplied one by one.
+                // Derivatives that are zero as a whole have entries that are not, and these are multiplied
+                // one by one.
                 product.0.size[both] += x.size[e] * y.size[f] + x.size[f] * y.size[e];
             }
         }
@@ -278,7 +280,8 @@ impl Jet {
         let [s0, s1, s2, s3] = f.map(f64::abs);
         let size = [s0 + known_to * s1, s1 + known_to * s2, s2 + known_to * s3, s3];
         if x.abs() < NOISE * u && size[2] * x.abs() > 0.1 * size[1] {
-            // Near a singularity, and nothing but rounding: another order of operations gives another number.
+            // Near a singularity, and nothing but rounding: another order of operations gives another
+            // number.
             return Self::number(f64::NAN);
         }
         result.0.size[0] = size[0] + size[1] * u;

@@ -246,7 +246,8 @@ impl Run<'_> {
     }
 }
 
-/// What an entry adds along a direction; nothing where the direction does not go, even if the entry is no number.
+/// What an entry adds along a direction; nothing where the direction does not go, even if the entry is no
+/// number.
 fn component(direction: f64, entry: f64) -> f64 {
     if direction == 0.0 { 0.0 } else { direction * entry }
 }

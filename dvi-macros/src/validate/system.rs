@@ -217,9 +217,8 @@ impl Outputs {
             Quantity::Hamiltonian => hamiltonian.value(),
             Quantity::HamiltonianGradient => minus(hamiltonian.first(First::Q), first_work.value()),
             Quantity::OneForm => form.first(First::V),
-            Quantity::FlowSource => {
-                minus(hamiltonian.second(Second::Q), second_work.value()).plus(form.both(First::T, Second::V))
-            }
+            Quantity::FlowSource => minus(hamiltonian.second(Second::Q), second_work.value())
+                .plus(form.both(First::T, Second::V)),
             Quantity::TimeRate => time(0),
             Quantity::Untransformed => time(1),
             Quantity::MomentumRate => lagrangian.both(First::T, Second::V),
@@ -230,7 +229,8 @@ impl Outputs {
             Quantity::Constraint | Quantity::VelocityConstraint => constraints().value(),
             Quantity::ConstraintJacobian => constraints().along_positions(),
             Quantity::VelocityConstraintJacobian => {
-                let [by_positions, by_velocities] = [Weight::Q, Weight::V].map(|weight| point.weight(weight));
+                let [by_positions, by_velocities] =
+                    [Weight::Q, Weight::V].map(|weight| point.weight(weight));
                 let constraints = constraints();
                 let along = constraints.along_positions().times(by_positions);
                 along.plus(constraints.along_velocities().times(by_velocities))

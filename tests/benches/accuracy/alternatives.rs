@@ -1,4 +1,5 @@
-//! What `alternatives/run` has measured with programs in other languages, if it has been run: `alternatives.csv`.
+//! What `alternatives/run` has measured with programs in other languages, if it has been run:
+//! `alternatives.csv`.
 
 use std::path::Path;
 
@@ -6,7 +7,8 @@ use anyhow::{Context as _, Result, ensure};
 
 use crate::measure::Point;
 
-/// Rows of the file: points of a problem, and nanoseconds of a residual with its Jacobian, as the problem `derivatives`.
+/// Rows of the file: points of a problem, and nanoseconds of a residual with its Jacobian, as the problem
+/// `derivatives`.
 pub(crate) struct Alternatives(Vec<(String, Point)>);
 
 impl Alternatives {

@@ -1,4 +1,5 @@
-//! Methods by hand, on right-hand sides by hand: the classical Runge–Kutta method, and compositions of Verlet's steps.
+//! Methods by hand, on right-hand sides by hand: the classical Runge–Kutta method, and compositions of
+//! Verlet's steps.
 
 use std::hint::black_box;
 

@@ -1,5 +1,5 @@
-//! The right-hand sides by hand, with one reciprocal for each pair and constants computed beforehand: what the other programs and
-//! the methods by hand are given.
+//! The right-hand sides by hand, with one reciprocal for each pair and constants computed beforehand: what
+//! the other programs and the methods by hand are given.
 
 use std::f64::consts::PI;
 

@@ -51,7 +51,8 @@ impl Run {
         (self.watched)().filter(|seen| seen.error.is_finite())
     }
 
-    /// Milliseconds of the run in time of the processor, the mean of as many as take `least` milliseconds together.
+    /// Milliseconds of the run in time of the processor, the mean of as many as take `least` milliseconds
+    /// together.
     pub(crate) fn time(&self, least: f64) -> f64 {
         let begin = ThreadTime::now();
         let elapsed = || 1e3 * begin.elapsed().as_secs_f64();

@@ -1,8 +1,8 @@
 //! Other crates: `ode_solvers`, and `differential-equations`, on the right-hand sides by hand.
 //!
-//! Both keep the state after each step, which is an addition to a list, and no other output is asked for. The energies are
-//! computed from these lists where the time is not measured. `differential-equations` prepares its interpolation in each step, with
-//! three evaluations in Dop853, and has no switch for that.
+//! Both keep the state after each step, which is an addition to a list, and no other output is asked for.
+//! The energies are computed from these lists where the time is not measured. `differential-equations`
+//! prepares its interpolation in each step, with three evaluations in Dop853, and has no switch for that.
 
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use ode_solvers::dop_shared::OutputType;
@@ -44,7 +44,8 @@ pub(crate) struct Task<F, const N: usize> {
     pub(crate) absolute: f64,
 }
 
-/// A program that solves a task to a tolerance, shows the state after each step, and returns the number of evaluations.
+/// A program that solves a task to a tolerance, shows the state after each step, and returns the number of
+/// evaluations.
 type Program<F, const N: usize> = fn(&Task<F, N>, f64, &mut dyn FnMut(&[f64; N])) -> Option<u64>;
 
 impl<F: Field<N>, const N: usize> Task<F, N> {

@@ -1,4 +1,5 @@
-//! Kepler's problem as an expert would write it, with the same schemes and stopping rules as the generated ones.
+//! Kepler's problem as an expert would write it, with the same schemes and stopping rules as the generated
+//! ones.
 
 pub(crate) type Point = [f64; 2];
 
@@ -99,7 +100,8 @@ impl Coefficients {
         let (sine, cosine) = (2.0 * half_sine * half_cosine, 1.0 - 2.0 * half_sine * half_sine);
         let ratio = u / sine;
         let middle = 0.5 / half_cosine;
-        // B = −ratio cos u, B̄ = ratio at the left end; mirrored at the right; ∓ratio cos(u/2) in the middle.
+        // B = −ratio cos u, B̄ = ratio at the left end; mirrored at the right; ∓ratio cos(u/2) in the
+        // middle.
         let at_middle = ratio * half_cosine;
         let mixed = ratio * ratio * cosine / 3.0 + 2.0 / 3.0 * at_middle * at_middle;
         let excess =

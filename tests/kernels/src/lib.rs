@@ -127,8 +127,8 @@ pub fn run(name: &str, steps: u64) -> f64 {
     }
 }
 
-/// The residual and the matrix of Newton's method for an increment of zero, of which the entry (x₁, y₂) moves the first
-/// vortex.
+/// The residual and the matrix of Newton's method for an increment of zero, of which the entry (x₁, y₂)
+/// moves the first vortex.
 #[inline(never)]
 fn residual_and_matrix(steps: u64) -> f64 {
     let system = black_box(configurations::quasi_periodic().0);

@@ -1,5 +1,5 @@
-//! The one-step midpoint scheme on Lotka–Volterra, α = ln y/x dx and H = x + y − ln x − 2 ln y, by hand: Newton's method for
-//! Δ and ȳ, and for y at the end of the step.
+//! The one-step midpoint scheme on Lotka–Volterra, α = ln y/x dx and H = x + y − ln x − 2 ln y, by hand:
+//! Newton's method for Δ and ȳ, and for y at the end of the step.
 
 const DEPTH: usize = 7;
 const EXTRAPOLATION: [f64; DEPTH] = [7.0, -21.0, 35.0, -35.0, 21.0, -7.0, 1.0];

@@ -1,4 +1,5 @@
-//! RATTLE on a sphere, L = Σ (m vᵢ² − kᵢ rᵢ²)/2 and |r| = 1, by hand, with the guess and the criterion of the library.
+//! RATTLE on a sphere, L = Σ (m vᵢ² − kᵢ rᵢ²)/2 and |r| = 1, by hand, with the guess and the criterion of
+//! the library.
 
 use super::predators_by_hand::Tolerance;
 

@@ -1,5 +1,6 @@
-//! The trapezoidal rule on SO(3) for a symmetric top, L = (A(ω₁² + ω₂²) + C ω₃²)/2 − weight R₃₃, by hand, with the criterion of the library.
-//! Forces are those of the two ends: the equations for the rotation vector u, J(−u)⁻¹ 𝕀u/h = p0 + (h/2)f0, hold none.
+//! The trapezoidal rule on SO(3) for a symmetric top, L = (A(ω₁² + ω₂²) + C ω₃²)/2 − weight R₃₃, by hand,
+//! with the criterion of the library. Forces are those of the two ends: the equations for the rotation
+//! vector u, J(−u)⁻¹ 𝕀u/h = p0 + (h/2)f0, hold none.
 
 use super::predators_by_hand::Tolerance;
 

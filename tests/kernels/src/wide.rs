@@ -1,4 +1,5 @@
-//! What release builds compute by the widest instructions of the processor, and others by those of every processor.
+//! What release builds compute by the widest instructions of the processor, and others by those of every
+//! processor.
 
 mod gradients;
 mod steps;

@@ -1,7 +1,8 @@
 //! Steps on holonomic constraints.
 //!
-//! The equations of a step have several solutions, and one of them is that of the motion: the one that is reached from a step of no
-//! length without a jump. Random chains of rods, whose joints fly freely, against that continuation.
+//! The equations of a step have several solutions, and one of them is that of the motion: the one that is
+//! reached from a step of no length without a jump. Random chains of rods, whose joints fly freely, against
+//! that continuation.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -118,8 +119,8 @@ fn compare<const N: usize, M: Method<Chain<N>, f64> + Clone>(
     Ok([agree, differ])
 }
 
-/// Rods that turn by up to a radian in a step, and masses that differ by factors of up to e¹⁰: a step fails, or ends where the
-/// motion leads.
+/// Rods that turn by up to a radian in a step, and masses that differ by factors of up to e¹⁰: a step fails,
+/// or ends where the motion leads.
 #[test]
 fn steps_end_on_the_branch_of_the_motion() -> Outcome {
     let (rattle, midpoint) = (Rattle::default(), Constrained::new(Variational::midpoint()));
@@ -139,7 +140,8 @@ fn steps_end_on_the_branch_of_the_motion() -> Outcome {
     Ok(())
 }
 
-/// Light elbows whip around, and a guess from the step before leads to the other branch: the run ends, or is what it was.
+/// Light elbows whip around, and a guess from the step before leads to the other branch: the run ends, or is
+/// what it was.
 #[test]
 fn no_elbow_flips_within_a_run() -> Outcome {
     let (mut ended, mut compared) = (0, 0);
@@ -210,7 +212,8 @@ fn a_bead_does_not_jump_across_a_torus() -> Outcome {
     Ok(())
 }
 
-/// Over ten million steps positions stay on the constraint and velocities along it, and the energy does not drift.
+/// Over ten million steps positions stay on the constraint and velocities along it, and the energy does not
+/// drift.
 #[test]
 fn constraints_are_kept_for_ten_million_steps() -> Outcome {
     let system = Pendulum { m: 1.0, g: 1.0, length: 1.0 };

@@ -29,16 +29,17 @@ fn the_angular_momentum_in_a_circle_is_kept() -> Outcome {
     angular_momentum(Impacts::reflecting(Galerkin::<3>::new()))
 }
 
-/// The energy at the point of impact is kept by one, the discrete energies by the other, whose steps change the energy by an amount
-/// of order h² at each impact.
+/// The energy at the point of impact is kept by one, the discrete energies by the other, whose steps change
+/// the energy by an amount of order h² at each impact.
 #[test]
 fn reflections_keep_the_energy_for_many_bounces() -> Outcome {
     let start: WavyState = WavyState { x: 0.3, y: 1.5, dot_x: 0.4, dot_y: 0.0 };
     let [mut early, mut late] = [[0.0_f64; 2]; 2];
     let system = Wavy { a: 0.6 };
-    for (k, method) in [Impacts::reflecting(Variational::trapezoid()), Impacts::new(Variational::trapezoid())]
-        .into_iter()
-        .enumerate()
+    for (k, method) in
+        [Impacts::reflecting(Variational::trapezoid()), Impacts::new(Variational::trapezoid())]
+            .into_iter()
+            .enumerate()
     {
         let mut run = Integrator::new(&system, method, 0.02, start)?;
         let begin = run.energy();

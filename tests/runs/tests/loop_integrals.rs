@@ -1,5 +1,5 @@
-//! Poincaré's integral invariant of one-step schemes: ∮ p dx around a loop of points that are all stepped, with the derivative
-//! along the loop from its Fourier series.
+//! Poincaré's integral invariant of one-step schemes: ∮ p dx around a loop of points that are all stepped,
+//! with the derivative along the loop from its Fourier series.
 
 use core::f64::consts::PI;
 
@@ -114,7 +114,8 @@ fn loop_integrals_are_kept_over_three_thousand_steps() -> Outcome {
     check(&prey, &around_prey, 0.1, 1e-11)?;
     // Further away from the equilibrium at (1, 2) the scheme A has no solution with such a step.
     check(&prey, &ellipse(64, [1.0, 2.0], [0.005, 0.005]), 0.5, 1e-11)?;
-    // A passing orbit; no component of α is affine. The angle φ grows to some hundreds, and with it what rounding is seen.
+    // A passing orbit; no component of α is affine. The angle φ grows to some hundreds, and with it what
+    // rounding is seen.
     let tokamak = TokamakInClass { q: 2.0, mu: 6e-5 };
     let around_orbit = ellipse(256, [0.2, 0.1, 0.0, 0.012], [0.005, 0.05, 0.02, 2e-4]);
     check(&tokamak, &around_orbit, 10.0, 1e-9)?;

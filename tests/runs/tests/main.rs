@@ -1,6 +1,7 @@
 //! Runs of many steps.
 //!
-//! They are one program, so that what several of them run is compiled once, and the long ones run beside the others.
+//! They are one program, so that what several of them run is compiled once, and the long ones run beside the
+//! others.
 
 mod angular_momentum;
 mod constrained;

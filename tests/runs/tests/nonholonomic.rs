@@ -1,5 +1,6 @@
-//! The equations of a long step have several solutions, and that of the motion is the one that is reached from a step of no length
-//! without a jump. Random systems and discs with light wheels, against that continuation.
+//! The equations of a long step have several solutions, and that of the motion is the one that is reached
+//! from a step of no length without a jump. Random systems and discs with light wheels, against that
+//! continuation.
 
 use core::f64::consts::PI;
 
@@ -98,7 +99,8 @@ fn continued<S: NonholonomicLagrangian>(
     Some(unknowns.iter().copied().take(4).collect())
 }
 
-/// Of steps: how many end where the continuation does, how many at another place, and how many fail although there is such an end.
+/// Of steps: how many end where the continuation does, how many at another place, and how many fail although
+/// there is such an end.
 #[derive(Debug, Default)]
 struct Tally {
     agree: usize,
@@ -133,7 +135,8 @@ impl Tally {
     }
 }
 
-/// Steps with h up to `longest` of systems whose coefficients are of order one, with masses from e⁻ˢ to eˢ for a `spread` s.
+/// Steps with h up to `longest` of systems whose coefficients are of order one, with masses from e⁻ˢ to eˢ
+/// for a `spread` s.
 fn of_bundles(spread: f64, affine: f64, longest: f64) -> Result<Tally, Box<dyn core::error::Error>> {
     let (mut tally, mut numbers) = (Tally::default(), Numbers(3));
     for _ in 0..2000 {
@@ -160,7 +163,8 @@ fn of_discs(inertia: f64) -> Result<Tally, Box<dyn core::error::Error>> {
     Ok(tally)
 }
 
-/// Steps end where the motion leads, but for a few of those in which coefficients change by as much as they are.
+/// Steps end where the motion leads, but for a few of those in which coefficients change by as much as they
+/// are.
 #[test]
 fn steps_end_on_the_branch_of_the_motion() -> Outcome {
     for affine in [0.0, 1.0] {

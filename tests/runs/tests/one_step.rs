@@ -1,5 +1,5 @@
-//! One-step schemes in many steps: Lotka–Volterra, where the two-step midpoint fails (reference numbers of an independent
-//! program); one-forms with several branches; momenta that are rounded more than coordinates.
+//! One-step schemes in many steps: Lotka–Volterra, where the two-step midpoint fails (reference numbers of
+//! an independent program); one-forms with several branches; momenta that are rounded more than coordinates.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -45,8 +45,8 @@ fn energy_is_flat_for_a_million_steps() -> Outcome {
     Ok(())
 }
 
-/// In the symmetric gauge the same motion has no one-step scheme, and the two-step one loses it. Its parasitic mode is seen
-/// before.
+/// In the symmetric gauge the same motion has no one-step scheme, and the two-step one loses it. Its
+/// parasitic mode is seen before.
 #[test]
 fn the_two_step_midpoint_fails_and_says_so() -> Outcome {
     let system = LotkaVolterra { a: PREY.a, b: PREY.b };

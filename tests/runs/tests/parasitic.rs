@@ -132,7 +132,8 @@ fn healthy_runs_go_on() -> Outcome {
     healthy(&curved(), Sigma::midpoint(), &[0.1, 0.05, 0.02], 200.0)?;
     let cubic = (Cubic, CubicState { x: 0.8, y: 0.3 });
     healthy(&cubic, Sigma::midpoint(), &[0.5, 0.2, 0.1], 2e3)?;
-    // Long steps: the energy error is larger, and bounded; the mode is large from the start and stays as it is.
+    // Long steps: the energy error is larger, and bounded; the mode is large from the start and stays as it
+    // is.
     bounded(&cubic, Sigma::midpoint(), &[1.0], 2e4, 0.08)?;
     let oscillator = (Oscillator { omega: 1.0 }, OscillatorState { x: 1.0, y: 0.2 });
     // Paths that are straight at times, all coordinates together.
@@ -162,8 +163,8 @@ fn spoilt<S: DegenerateLagrangian>(
         // The implicit midpoint rule has one step, and no parasitic mode.
         let clean = course(Integrator::new(system, Gauss::<1>::new(), h, start.clone())?, end)?;
         assert_eq!(clean.error, None, "{name}");
-        // What an energy error has to be compared with: that of a clean run, or of the first four steps, in which an
-        // alternation cannot be seen yet.
+        // What an energy error has to be compared with: that of a clean run, or of the first four steps, in
+        // which an alternation cannot be seen yet.
         let unseen = course(begin(Sigma::new(sigma))?, 4.0 * h)?.energy_error;
         let usual = clean.energy_error.max(unseen);
         let free = course(begin(Sigma { parasitic_limit: None, ..Sigma::new(sigma) })?, end)?;
@@ -198,8 +199,8 @@ fn spoilt_runs_end_before_their_energy_tells() -> Outcome {
     spoilt(&beside_a_fast_pair(), 0.0, &[0.02, 0.01, 0.005], 300.0)
 }
 
-/// On this system the energy error of the spoilt runs grows before the second differences alternate: the limit ends
-/// them all the same, long before the numbers do.
+/// On this system the energy error of the spoilt runs grows before the second differences alternate: the
+/// limit ends them all the same, long before the numbers do.
 #[test]
 fn runs_that_are_not_zero_stable_end_before_they_overflow() -> Outcome {
     let (system, start) = curved();
@@ -219,7 +220,8 @@ fn runs_that_are_not_zero_stable_end_before_they_overflow() -> Outcome {
     Ok(())
 }
 
-/// Beyond the bound of linear stability the mode grows with the motion, and its relative size stays what it is.
+/// Beyond the bound of linear stability the mode grows with the motion, and its relative size stays what it
+/// is.
 #[test]
 fn a_step_that_is_not_stable_ends_the_run() -> Outcome {
     for h in [1.01, 1.05, 1.1, 1.2] {

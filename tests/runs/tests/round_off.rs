@@ -106,7 +106,8 @@ fn a_far_body_does_not_spoil_the_others() -> Outcome {
     Ok(())
 }
 
-/// max |L − L(0)| over many short steps on a Kepler orbit: the angular momentum is conserved but for rounding.
+/// max |L − L(0)| over many short steps on a Kepler orbit: the angular momentum is conserved but for
+/// rounding.
 fn angular_error<M: Method<Kepler, f64>>(
     method: M,
     h: f64,

@@ -1,5 +1,5 @@
-//! Gauss collocation on q'' = f(q, t), where the velocities of the stages are eliminated: it is the method on (q, p), it keeps bilinear
-//! invariants to rounding errors, and its energy does not drift.
+//! Gauss collocation on q'' = f(q, t), where the velocities of the stages are eliminated: it is the method
+//! on (q, p), it keeps bilinear invariants to rounding errors, and its energy does not drift.
 
 use core::f64::consts::TAU;
 use dvi_core::prelude::*;

@@ -1,4 +1,5 @@
-//! The orders with which splines and their derivatives come near to the functions that they were sampled from.
+//! The orders with which splines and their derivatives come near to the functions that they were sampled
+//! from.
 
 use dvi_core::Scalar;
 use dvi_core::field::{Axis, Expansion, ScalarField, Spline};
@@ -22,7 +23,8 @@ enum Grid {
     GradedPeriodic,
 }
 
-/// From `s` in [0, 1] to a place on an axis from 1 to 3, with smoothly varying distances if the grid is graded.
+/// From `s` in [0, 1] to a place on an axis from 1 to 3, with smoothly varying distances if the grid is
+/// graded.
 fn graded(s: f64) -> f64 {
     1.0 + 2.0 * s + 0.1 * (std::f64::consts::TAU * s).sin()
 }
@@ -74,8 +76,8 @@ fn difference<const D: usize>(a: &Expansion<D>, b: &Expansion<D>) -> [f64; 3] {
     ]
 }
 
-/// The largest differences from the function at scattered points of the domain, many of them within a cell of its ends,
-/// where the differences are largest.
+/// The largest differences from the function at scattered points of the domain, many of them within a cell
+/// of its ends, where the differences are largest.
 fn errors<const D: usize>(spline: &impl ScalarField<D>, cells: usize) -> [f64; 3] {
     (0..3000).fold([0.0; 3], |errors, k| {
         let at = core::array::from_fn(|i| {

@@ -1,5 +1,5 @@
-//! Steps of variable length: what the reversible control reaches on Kepler's problem, that it runs backwards, what
-//! the control of Kosmas & Vlachos measures, and how both fail.
+//! Steps of variable length: what the reversible control reaches on Kepler's problem, that it runs
+//! backwards, what the control of Kosmas & Vlachos measures, and how both fail.
 
 use core::f64::consts::{PI, TAU};
 use dvi_core::methods::{Method, VariableStep};
@@ -37,8 +37,8 @@ fn hundred_periods<M: VariableStep<Kepler, f64>>(method: M) -> Result<[f64; 2], 
 
 #[test]
 fn a_highly_eccentric_orbit_has_the_reference_errors() -> Outcome {
-    // The values of independent programs. With the variational reading, 9.527e-8 is for the mean of ω at both
-    // ends; 9.498e-8 belongs to ω at the mean position.
+    // The values of independent programs. With the variational reading, 9.527e-8 is for the mean of ω at
+    // both ends; 9.498e-8 belongs to ω at the mean position.
     let averaged = Variational::simpson().phase_fitted(Radial(Reading::Averaged));
     let found = [
         (hundred_periods(Variational::trapezoid())?, 1.542e-3),
@@ -100,8 +100,8 @@ fn angular_momentum_is_kept_to_rounding_by_fixed_steps() -> Outcome {
     Ok(())
 }
 
-/// Runs `steps` steps, turns round, and runs as many; returns how far from the start that ends, in any coordinate
-/// or velocity, and by how much the lengths of corresponding steps differ, as a ratio.
+/// Runs `steps` steps, turns round, and runs as many; returns how far from the start that ends, in any
+/// coordinate or velocity, and by how much the lengths of corresponding steps differ, as a ratio.
 fn there_and_back<S, M, D>(
     system: &S,
     method: M,

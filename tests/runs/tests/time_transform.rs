@@ -1,4 +1,5 @@
-//! Long runs of systems whose time is transformed: what is gained on an orbit with a near passage, and that it stays.
+//! Long runs of systems whose time is transformed: what is gained on an orbit with a near passage, and that
+//! it stays.
 
 use core::f64::consts::TAU;
 
@@ -52,8 +53,8 @@ fn errors<S: dvi_core::Lagrangian, M: dvi_core::methods::Method<S, f64>>(
     Ok(largest)
 }
 
-/// 210 steps a period at an eccentricity of 0.9. The energy error is the same after 1000 periods, to a thousandth; steps of equal
-/// length, as many of them, are of no use.
+/// 210 steps a period at an eccentricity of 0.9. The energy error is the same after 1000 periods, to a
+/// thousandth; steps of equal length, as many of them, are of no use.
 #[test]
 fn the_energy_of_a_comet_stays() -> Outcome {
     let start = Comet.with_energy(pericentre(0.9))?;

@@ -22,7 +22,8 @@ pub struct Wavy {
     pub a: f64,
 }
 
-/// Coupled coordinates with a mass matrix that depends on the position and a term linear in the velocities, in a bowl.
+/// Coupled coordinates with a mass matrix that depends on the position and a term linear in the velocities,
+/// in a bowl.
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (1.0 + 0.2 * y * y) * dot(x).powi(2) / 2.0 + dot(y).powi(2) / 2.0 + 0.3 * dot(x) * dot(y)

@@ -6,7 +6,8 @@
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 
-/// A rigid body with principal moments of inertia, in a field along the third axis of space that pulls at a point of the body.
+/// A rigid body with principal moments of inertia, in a field along the third axis of space that pulls at a
+/// point of the body.
 #[lagrangian(
     coordinates(R: SO3),
     lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2) + inertia[2] * omega(R)[2].powi(2)) / 2.0
@@ -35,8 +36,8 @@ pub const TOP: Body = Body { inertia: [1.0, 1.0, 0.6], tip: [0.0, 0.0, 1.0], wei
 /// A body without symmetry in a field.
 pub const UNEVEN: Body = Body { inertia: [1.0, 2.0, 2.4], tip: [0.3, -0.2, 0.5], weight: 1.5 };
 
-/// A body with a mass at its point a, on a spring at its centre x, from which a rod leads to another mass at x + ℓ s. A spring
-/// between the rod and the first axis of the body turns both.
+/// A body with a mass at its point a, on a spring at its centre x, from which a rod leads to another mass at
+/// x + ℓ s. A spring between the rod and the first axis of the body turns both.
 #[lagrangian(
     coordinates(R: SO3, s: S2, x[3]),
     lagrangian = {
@@ -95,7 +96,8 @@ pub struct ByConstraints {
     pub gravity: f64,
 }
 
-/// A body and a mass on a sphere beside a number, as L = ½ v·M v − V(q, t) if `mixed` stands in front of nothing else.
+/// A body and a mass on a sphere beside a number, as L = ½ v·M v − V(q, t) if `mixed` stands in front of
+/// nothing else.
 macro_rules! beside {
     ($name:ident, $mixed:expr) => {
         #[lagrangian(

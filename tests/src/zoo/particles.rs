@@ -62,8 +62,9 @@ pub struct GuidingCentre {
     pub shear: f64,
 }
 
-/// The guiding centre of a particle in a magnetic mirror, B = curl A with A = ½(1 + 0.3 z²)(−y, x, 0), and an electric
-/// potential. Ω couples all pairs but (x, u) and (y, u) on the axis, so that no gauge brings it into class.
+/// The guiding centre of a particle in a magnetic mirror, B = curl A with A = ½(1 + 0.3 z²)(−y, x, 0), and
+/// an electric potential. Ω couples all pairs but (x, u) and (y, u) on the axis, so that no gauge brings it
+/// into class.
 #[degenerate_lagrangian(
     coordinates(x, y, z, u),
     one_form = {

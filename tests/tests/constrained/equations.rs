@@ -1,4 +1,5 @@
-//! The equations of constrained steps as they were written by hand, and the fast step against the general one.
+//! The equations of constrained steps as they were written by hand, and the fast step against the general
+//! one.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -92,7 +93,8 @@ where
 fn rattle_is_the_general_step_of_the_trapezoidal_rule() -> Outcome {
     let angles = DoubleAngles { m: [1.0, 2.5], rod: 0.7 };
     let begin = DoubleAnglesState { a: 1.0, b: -0.4, dot_a: 0.3, dot_b: 1.1 };
-    // With the longer step the inner rod whips around, and the equations of a step have a second solution not far away.
+    // With the longer step the inner rod whips around, and the equations of a step have a second solution
+    // not far away.
     for h in [0.05, 0.1] {
         check_rattle(&Double { m: angles.m, rod: angles.rod }, &angles.masses(&begin), h)?;
     }

@@ -66,7 +66,8 @@ fn a_light_joint_stays_on_its_rods() -> Outcome {
     Ok(())
 }
 
-/// What is projected is a start of every method with every step, wherever the joint is and however slow it is.
+/// What is projected is a start of every method with every step, wherever the joint is and however slow it
+/// is.
 #[test]
 fn what_is_projected_is_a_start() -> Outcome {
     let (mut numbers, mut missed) = (Numbers(11), 0);

@@ -122,8 +122,9 @@ fn multipliers_of_a_step_are_those_of_the_motion() -> Outcome {
         let mut exact = Integrator::new(&angles, Gauss::<4>::new(), h / 16.0, begin)?;
         exact.take_steps(8 * steps - 8)?;
         let expected = system.multipliers_at(0.0, &angles.masses(&exact.state()))?;
-        let off =
-            |found: Vec<f64>| found.iter().zip(expected.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let off = |found: Vec<f64>| {
+            found.iter().zip(expected.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
+        };
         errors[0].push((h, off(rattle.memory().multipliers().collect())));
         errors[1].push((h, off(general.memory().multipliers().collect())));
     }

@@ -79,7 +79,8 @@ fn combinations_are_found() {
     assert!(missed.iter().all(|&missed| missed <= 3), "{missed:?}");
 }
 
-/// In elimination a part ε of a row that no other has is squared: what is left of it has to be more than rounding.
+/// In elimination a part ε of a row that no other has is squared: what is left of it has to be more than
+/// rounding.
 #[test]
 fn what_is_independent_is_no_combination() {
     let mut numbers = Numbers(2);

@@ -83,8 +83,8 @@ fn units_do_not_matter() -> Outcome {
 
 const RELEASED: PendulumState = PendulumState { x: 0.8, y: -0.6, dot_x: 0.0, dot_y: 0.0 };
 
-/// What is projected is a start, in double and in single precision, whatever was thrown away; and starts that are off by more than
-/// rounding are none.
+/// What is projected is a start, in double and in single precision, whatever was thrown away; and starts
+/// that are off by more than rounding are none.
 #[test]
 fn starts_are_judged_by_rounding_errors() -> Outcome {
     for number in 0..500 {

@@ -1,4 +1,5 @@
-//! What constrained steps preserve: the symplectic form on the constraints, momenta, the way back, the constraints themselves.
+//! What constrained steps preserve: the symplectic form on the constraints, momenta, the way back, the
+//! constraints themselves.
 
 use dvi_core::methods::{InnerScheme, Method};
 use dvi_core::prelude::*;

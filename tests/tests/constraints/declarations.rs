@@ -40,7 +40,10 @@ fn generated<S: HolonomicLagrangian>(system: &S, q: &[f64], v: &[f64], t: f64) -
 fn close(found: &[f64], expected: &[f64], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
-        assert!((found - expected).abs() <= 1e-12 * (1.0 + expected.abs()), "{what} {k}: {found} {expected}");
+        assert!(
+            (found - expected).abs() <= 1e-12 * (1.0 + expected.abs()),
+            "{what} {k}: {found} {expected}"
+        );
     }
 }
 

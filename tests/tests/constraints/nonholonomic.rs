@@ -3,7 +3,8 @@
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{
-    ConstrainedSystem, Fixed, NondegenerateLagrangian, NonholonomicLagrangian, RunTime, Space, System, Varied,
+    ConstrainedSystem, Fixed, NondegenerateLagrangian, NonholonomicLagrangian, RunTime, Space, System,
+    Varied,
 };
 use num_dual::Dual64;
 
@@ -51,8 +52,8 @@ impl ByHand for Disc<f64> {
     }
 }
 
-/// A train of sledges on ice that turns under them: families before and behind single constraints, whose sums stand in both, and the
-/// time.
+/// A train of sledges on ice that turns under them: families before and behind single constraints, whose
+/// sums stand in both, and the time.
 #[lagrangian(
     coordinates(x[headings.len()], y[headings.len()], w),
     lagrangian = sum(0..headings.len(), |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 + (1.0 + w * w) * dot(w).powi(2),
@@ -74,7 +75,8 @@ impl ByHand for Train {
         let mut a: Vec<D> = (0..n).map(|i| v[i] * heading(i).sin() - v[n + i] * heading(i).cos()).collect();
         a.push(dot_w - (0..n).map(|j| q[j] * v[n + j] - t * t * j as f64).sum::<D>());
         a.extend(
-            (1..n.max(1) - 1).map(|k| (q[k] - q[k - 1]) * (v[k] - v[k - 1]) + t * dot_w * q[n + k + 1].exp()),
+            (1..n.max(1) - 1)
+                .map(|k| (q[k] - q[k - 1]) * (v[k] - v[k - 1]) + t * dot_w * q[n + k + 1].exp()),
         );
         a
     }
@@ -104,7 +106,10 @@ fn point(n: usize, seed: f64) -> Vec<f64> {
 fn close(found: &[f64], expected: &[f64], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
-        assert!((found - expected).abs() <= 1e-12 * (1.0 + expected.abs()), "{what} {k}: {found} {expected}");
+        assert!(
+            (found - expected).abs() <= 1e-12 * (1.0 + expected.abs()),
+            "{what} {k}: {found} {expected}"
+        );
     }
 }
 

@@ -97,7 +97,8 @@ impl<const N: usize> ByHand for Chain<N> {
     }
 }
 
-/// A chain of run-time length between two walls, its constraints before, between and behind those of the walls.
+/// A chain of run-time length between two walls, its constraints before, between and behind those of the
+/// walls.
 #[lagrangian(
     coordinates(x[rods.len() + 1], y[rods.len() + 1]),
     lagrangian = sum(0..=rods.len(), |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i]),

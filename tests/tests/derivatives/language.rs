@@ -33,7 +33,8 @@ impl<const N: usize> ByHand for Neighbours<N> {
         for k in 0..N {
             for j in 0..=k {
                 if j < k {
-                    sum += x[j + 1] * x[k] * self.g[j + 1] + x[j] * y[k] * y[j + 1].cos() * self.g[k - j - 1];
+                    sum +=
+                        x[j + 1] * x[k] * self.g[j + 1] + x[j] * y[k] * y[j + 1].cos() * self.g[k - j - 1];
                 }
                 sum += x[k - j] * y[k];
             }

@@ -64,7 +64,8 @@ limits! {
     PowerThatVaries: y * y - x.powf(2 + y) => [-2.0, 0.0, 0.0, 2.0];
 }
 
-/// The first derivative alone has a limit that the compiler finds; the second is not a number, never another number.
+/// The first derivative alone has a limit that the compiler finds; the second is not a number, never another
+/// number.
 macro_rules! first_limits {
     ($($name:ident: $hamiltonian:expr;)*) => {
         $(

@@ -43,7 +43,8 @@ impl<const N: usize> ByHand for SphereVortices<N> {
         let mut sum = D::zero();
         for j in 0..N {
             for k in 0..j {
-                let chord: D = position(j).into_iter().zip(position(k)).map(|(a, b)| (a - b) * (a - b)).sum();
+                let chord: D =
+                    position(j).into_iter().zip(position(k)).map(|(a, b)| (a - b) * (a - b)).sum();
                 sum += chord.ln() * (self.gamma[j] * self.gamma[k]);
             }
         }

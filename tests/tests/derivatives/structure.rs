@@ -39,9 +39,9 @@ impl Seen {
     fn conjugate(&self, i: usize) -> Option<usize> {
         let others = || (0..self.n).filter(|j| *j != i);
         let column = others().find(|j| self.omega[self.n * i + j])?;
-        let alone = others()
-            .filter(|j| *j != column)
-            .all(|j| !self.omega[self.n * i + j] && !self.form[self.n * i + j] && !self.form[self.n * j + i]);
+        let alone = others().filter(|j| *j != column).all(|j| {
+            !self.omega[self.n * i + j] && !self.form[self.n * i + j] && !self.form[self.n * j + i]
+        });
         alone.then_some(column)
     }
 }

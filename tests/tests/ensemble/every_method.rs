@@ -34,7 +34,12 @@ where
 fn of_regular_systems() -> Checked {
     let mut states = wells(2);
     // They fall without end, until numbers end.
-    states.extend((0..5).map(|k| HenonHeilesState { x: -10.0_f64.powi(k), y: -2.0, dot_x: 0.0, dot_y: 0.1 }));
+    states.extend((0..5).map(|k| HenonHeilesState {
+        x: -10.0_f64.powi(k),
+        y: -2.0,
+        dot_x: 0.0,
+        dot_y: 0.1,
+    }));
     let (system, h, states) = (&HenonHeiles, 0.3, &states[..]);
     check("trapezoid", system, Variational::trapezoid(), h, states)?;
     check("midpoint", system, Variational::midpoint(), h, states)?;

@@ -1,4 +1,5 @@
-//! Checkpoints that are damaged, or those of another ensemble: errors that say what is wrong, and the file is left as it is.
+//! Checkpoints that are damaged, or those of another ensemble: errors that say what is wrong, and the file
+//! is left as it is.
 
 use std::time::Duration;
 

@@ -1,4 +1,5 @@
-//! A method from whose runs one can go on at some steps only: they are interrupted there, and the results are the same.
+//! A method from whose runs one can go on at some steps only: they are interrupted there, and the results
+//! are the same.
 
 use std::time::Duration;
 
@@ -100,6 +101,10 @@ fn members_are_left_where_they_can_go_on() -> Checked {
     assert!(bytes(&interrupted)? == bytes(&plain)?);
     // Two members at least are interrupted on the way, and at these steps only; the last ends at 48.
     assert!(told.iter().any(|&steps| steps > 0 && steps % 48 != 0), "{told:?}");
-    assert!(told.iter().all(|steps| (0..=3).any(|ended| steps.checked_sub(48 * ended).is_some_and(|rest| rest % 5 == 0))));
+    assert!(
+        told.iter().all(
+            |steps| (0..=3).any(|ended| steps.checked_sub(48 * ended).is_some_and(|rest| rest % 5 == 0))
+        )
+    );
     Ok(())
 }

@@ -61,7 +61,8 @@ fn a_member_leaves_at_the_first_look_outside() -> Checked {
     Ok(())
 }
 
-/// A fall into the sun ends with the error and the time that it has alone; a start in the sun is a failure at time 0.
+/// A fall into the sun ends with the error and the time that it has alone; a start in the sun is a failure
+/// at time 0.
 #[test]
 fn failures_are_recorded() -> Checked {
     let (systems, states) = planets(6);

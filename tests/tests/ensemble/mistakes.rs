@@ -1,4 +1,5 @@
-//! Input that makes no sense: errors with the numbers in them, or results without members, and never a panic.
+//! Input that makes no sense: errors with the numbers in them, or results without members, and never a
+//! panic.
 
 use dvi_core::ensemble::{Ensemble, EnsembleError, Outcome, Shard};
 use dvi_core::prelude::*;
@@ -78,7 +79,10 @@ fn texts_that_are_no_shards() -> Checked {
     assert_eq!(said("3/3"), "there is no shard 3 of 3: they count from 0 to n − 1");
     assert_eq!(said("0/0"), "there is no shard 0 of 0: they count from 0 to n − 1");
     for text in ["", "/", "1", "1/", "/2", "-1/2", "1/2/3", "a/b", "1.0/2", "99999999999999999999/3"] {
-        assert_eq!(said(text), format!("`{text}` is no shard: write i/n, such as 0/4 for the first of four"));
+        assert_eq!(
+            said(text),
+            format!("`{text}` is no shard: write i/n, such as 0/4 for the first of four")
+        );
     }
     let whole = Shard::WHOLE.path("run.ckpt");
     assert_eq!(

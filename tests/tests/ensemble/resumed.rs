@@ -31,7 +31,8 @@ fn child() -> Checked {
     Ok(())
 }
 
-/// Runs the child until it has said `lines` times how far it is, and kills it. Returns how far it was at the first and at the last.
+/// Runs the child until it has said `lines` times how far it is, and kills it. Returns how far it was at the
+/// first and at the last.
 fn killed_after(lines: usize, path: &Path) -> Result<Option<[u128; 2]>, Box<dyn std::error::Error>> {
     let mut child = Command::new(std::env::current_exe()?)
         .args(["--exact", "ensemble::resumed::child", "--nocapture"])
@@ -61,7 +62,9 @@ fn a_killed_process_goes_on_where_it_was() -> Checked {
     let path = file("killed.ckpt");
     let mut before = 0;
     for lines in [2, 11, 40, 63] {
-        let Some([first, last]) = killed_after(lines, &path)? else { return Err("it was not killed".into()) };
+        let Some([first, last]) = killed_after(lines, &path)? else {
+            return Err("it was not killed".into());
+        };
         assert!(first >= before && last > first, "{first} to {last}, after {before}");
         before = last;
         assert!(matches!(Results::read(&path), Err(EnsembleError::UnderWay { .. })));

@@ -74,7 +74,8 @@ fn beside_members_that_fail() -> Checked {
         for (member, state) in all.members().iter().zip(&states).filter(|(_, state)| state.dot_y > 0.0) {
             let system = &systems[member.number as usize..][..1];
             let alone = Ensemble::with_systems(system, method, 0.01, [*state]).take_steps(400)?;
-            let [a, b] = [member, &alone.members()[0]].map(|member| member.state.iter().map(|x| x.to_bits()));
+            let [a, b] =
+                [member, &alone.members()[0]].map(|member| member.state.iter().map(|x| x.to_bits()));
             assert!(a.eq(b) && member.outcome == alone.members()[0].outcome);
         }
     }

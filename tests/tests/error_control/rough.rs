@@ -202,7 +202,13 @@ fn errors_fall_with_the_tolerance_around_corners() -> Outcome {
         [x, y]
     };
     let start = CornersState { x: 1.0, y: 0.3 };
-    check_rough(&Corners { roof: 1.0, twist: 0.0 }, &start, [9.3, ANY], &exact(1.0, 0.3, 9.3), [100.0, 100.0])
+    check_rough(
+        &Corners { roof: 1.0, twist: 0.0 },
+        &start,
+        [9.3, ANY],
+        &exact(1.0, 0.3, 9.3),
+        [100.0, 100.0],
+    )
 }
 
 /// Against DOP853 of SciPy 1.17 at a relative tolerance of 1e-13 and steps of 0.1 at most; at 1e-12 its last

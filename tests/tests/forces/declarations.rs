@@ -121,7 +121,8 @@ fn a_force_outside_of_its_table_is_an_error_that_says_so() -> Outcome {
         matches!(error.failure, StepFailure::Outside(OutsideError { bound, .. }) if bound == 1.0),
         "{error}"
     );
-    let start = Integrator::new(&system, Variational::midpoint(), 0.1, TabulatedState { x: 1.1, dot_x: 0.0 });
+    let start =
+        Integrator::new(&system, Variational::midpoint(), 0.1, TabulatedState { x: 1.1, dot_x: 0.0 });
     assert!(matches!(start.err(), Some(StartError::Outside(_))));
     Ok(())
 }

@@ -73,8 +73,8 @@ fn steps_solve_the_equations_of_lagrange_and_dalembert() -> Outcome {
     Ok(())
 }
 
-/// By the forced discrete Noether theorem the angular momentum changes by F⁻·ξ(q0) + F⁺·ξ(q1) with ξ = (−y, x), because L is
-/// invariant under rotations (Marsden & West 2001, section 3.2.4).
+/// By the forced discrete Noether theorem the angular momentum changes by F⁻·ξ(q0) + F⁺·ξ(q1) with ξ = (−y,
+/// x), because L is invariant under rotations (Marsden & West 2001, section 3.2.4).
 #[test]
 fn the_angular_momentum_changes_by_the_moment_of_the_discrete_forces() -> Outcome {
     for (rule, c) in [(Quadrature::gauss(1)?, 0.5), (Quadrature::sigma(0.3), 0.3)] {
@@ -92,8 +92,8 @@ fn the_angular_momentum_changes_by_the_moment_of_the_discrete_forces() -> Outcom
     Ok(())
 }
 
-/// The tangent map of a step in (q, p) by the second derivatives of the discrete Lagrangian and the derivatives of the forces,
-/// against the step in dual numbers.
+/// The tangent map of a step in (q, p) by the second derivatives of the discrete Lagrangian and the
+/// derivatives of the forces, against the step in dual numbers.
 fn tangent_maps_agree<M>(method: M) -> Outcome
 where
     M: Method<Damped, f64> + Method<Damped, Dual64> + Clone,
@@ -225,7 +225,10 @@ fn without_forces_runs_are_the_same_to_the_bit() -> Outcome {
         bits(&Free, Variational::trapezoid(), free)?,
         bits(&swirl, Variational::trapezoid(), swirling)?
     );
-    assert_eq!(bits(&Free, Variational::midpoint(), free)?, bits(&swirl, Variational::midpoint(), swirling)?);
+    assert_eq!(
+        bits(&Free, Variational::midpoint(), free)?,
+        bits(&swirl, Variational::midpoint(), swirling)?
+    );
     assert_eq!(bits(&Free, Galerkin::<3>::new(), free)?, bits(&swirl, Galerkin::<3>::new(), swirling)?);
     assert_eq!(bits(&Free, Newmark::new(0.25), free)?, bits(&swirl, Newmark::new(0.25), swirling)?);
     const { assert!(!Free::FORCED && Swirl::FORCED) };

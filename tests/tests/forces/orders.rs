@@ -11,7 +11,11 @@ use super::systems::{ByHand, Damped, Driven, Harvested, Pendulum, Swirl, motion}
 
 const TIME: f64 = 2.0;
 
-fn order<const N: usize, S, M>(system: &S, method: &M, steps: u64) -> Result<f64, Box<dyn core::error::Error>>
+fn order<const N: usize, S, M>(
+    system: &S,
+    method: &M,
+    steps: u64,
+) -> Result<f64, Box<dyn core::error::Error>>
 where
     S: ByHand<N> + Lagrangian + System<Kind: Rates<S, f64>>,
     M: Method<S, f64> + Clone,

@@ -1,9 +1,10 @@
-//! Systems with forces, and their motion by a program of its own: the classical Runge-Kutta method in steps far below those
-//! under test, on equations of motion that were derived by hand.
+//! Systems with forces, and their motion by a program of its own: the classical Runge-Kutta method in steps
+//! far below those under test, on equations of motion that were derived by hand.
 
 use dvi_core::prelude::*;
 
-/// A particle in a potential V(r) = r²(r² − 1)² with linear friction: the test case of the lectures of Marsden and West's method.
+/// A particle in a potential V(r) = r²(r² − 1)² with linear friction: the test case of the lectures of
+/// Marsden and West's method.
 #[lagrangian(
     coordinates(x, y),
     lagrangian = {

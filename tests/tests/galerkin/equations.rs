@@ -1,5 +1,5 @@
-//! A step solves the equations that define it, whose derivatives are taken here by dual numbers from the value
-//! of L alone, however it solves them.
+//! A step solves the equations that define it, whose derivatives are taken here by dual numbers from the
+//! value of L alone, however it solves them.
 
 use dvi_core::discrete::{FrequencyIn, Unfitted};
 use dvi_core::prelude::*;

@@ -127,7 +127,8 @@ fn lanes_give_the_same_numbers() -> Outcome {
     Ok(())
 }
 
-/// Both find the positions of a step where L_d is stationary, one by its derivatives, and the other by the matrices of the pair.
+/// Both find the positions of a step where L_d is stationary, one by its derivatives, and the other by the
+/// matrices of the pair.
 #[test]
 fn newton_and_the_fixed_point_find_the_same_steps() -> Outcome {
     fn check<const S: usize>() -> Outcome {

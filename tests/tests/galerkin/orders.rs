@@ -16,8 +16,10 @@ fn observed<S: Lagrangian, M: Method<S, f64> + Copy>(
 ) -> Result<f64, Box<dyn core::error::Error>> {
     let mut errors = Vec::new();
     for steps in steps {
-        errors
-            .push((time / steps as f64, apart(&run(system, method, start.clone(), time, steps)?, reference)));
+        errors.push((
+            time / steps as f64,
+            apart(&run(system, method, start.clone(), time, steps)?, reference),
+        ));
     }
     convergence_order(&errors).ok_or_else(|| "no slope".into())
 }

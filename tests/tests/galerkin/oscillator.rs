@@ -8,9 +8,9 @@ use crate::galerkin::systems::Outcome;
 
 #[test]
 fn on_the_fitted_oscillator_three_nodes_have_their_closed_form() -> Outcome {
-    // With q0 = E − O, q1 = E + O, L_d is (h/2)(λ E² + μ O²), and cos θ = (μ + λ)/(μ − λ). Without displacement
-    // λ = −u²S/cos²(u/2), μ = u²S/sin²(u/2), S = (2 + cos u)/3, which would be exact; the displacement of the
-    // middle node sees E only, and takes g²/H from λ.
+    // With q0 = E − O, q1 = E + O, L_d is (h/2)(λ E² + μ O²), and cos θ = (μ + λ)/(μ − λ). Without
+    // displacement λ = −u²S/cos²(u/2), μ = u²S/sin²(u/2), S = (2 + cos u)/3, which would be exact; the
+    // displacement of the middle node sees E only, and takes g²/H from λ.
     let start = SpringState { x: 0.6, dot_x: 0.9 };
     for u in [0.1, 0.5, 1.0, 1.5] {
         let half: f64 = u / 2.0;

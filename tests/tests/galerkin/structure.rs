@@ -12,8 +12,8 @@ use crate::galerkin::systems::{
     KEPLER, Outcome, chain, double_pendulum, driven, dual, growing, magnetic, pericentre, spherical,
 };
 
-/// Entry by entry, (q, p) and its derivative in the direction of entry `direction` of (q, v), at the start and
-/// after some steps.
+/// Entry by entry, (q, p) and its derivative in the direction of entry `direction` of (q, v), at the start
+/// and after some steps.
 fn tangents<S: RegularLagrangian<Dual64>, M: Method<S, Dual64> + Copy>(
     system: &S,
     start: &S::State<f64>,

@@ -5,7 +5,8 @@ use dvi_tests::zoo::impacts::*;
 
 use super::Outcome;
 
-/// The last bounces of a ball take 2v e^k/g each, so that they end after √2 (1 + 2e/(1 − e)) when it falls from a height of one.
+/// The last bounces of a ball take 2v e^k/g each, so that they end after √2 (1 + 2e/(1 − e)) when it falls
+/// from a height of one.
 #[test]
 fn impacts_that_accumulate_end_the_run_where_the_ball_comes_to_rest() -> Outcome {
     for e in [0.3, 0.8, 0.95] {

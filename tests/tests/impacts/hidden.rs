@@ -1,4 +1,5 @@
-//! Impacts that are hard to see: within a step, at its end, behind other surfaces, near the end of the domain of L.
+//! Impacts that are hard to see: within a step, at its end, behind other surfaces, near the end of the
+//! domain of L.
 
 use dvi_core::prelude::*;
 use dvi_tests::zoo::impacts::{Ball, BallState};

@@ -27,8 +27,8 @@ fn error<S: Lagrangian, M: Method<S, f64>>(
 
 /// The order over five runs, the coarsest of which has `steps` steps.
 ///
-/// The error of a run with impacts is no smooth function of the step, because it depends on where in a step the impacts are; so there
-/// are many runs.
+/// The error of a run with impacts is no smooth function of the step, because it depends on where in a step
+/// the impacts are; so there are many runs.
 fn order<S: Lagrangian + ByHand<N>, M: Method<S, f64> + Clone, const N: usize>(
     system: &S,
     method: &M,

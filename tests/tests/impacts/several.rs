@@ -50,7 +50,8 @@ fn a_corner_turns_a_particle_around() -> Outcome {
     Ok(())
 }
 
-/// Of equal masses the velocities change places, so that those of the balls in their order are sorted in the end.
+/// Of equal masses the velocities change places, so that those of the balls in their order are sorted in the
+/// end.
 #[test]
 fn balls_of_equal_mass_exchange_their_velocities() -> Outcome {
     let n = 6;
@@ -78,7 +79,8 @@ fn balls_of_equal_mass_exchange_their_velocities() -> Outcome {
 
 #[test]
 fn balls_of_unequal_mass_keep_momentum_and_energy() -> Outcome {
-    let start: BallsState = BallsState { x: vec![0.0_f64, 1.5, 3.0, 4.5], dot_x: vec![2.0, 0.1, -0.3, -1.7] };
+    let start: BallsState =
+        BallsState { x: vec![0.0_f64, 1.5, 3.0, 4.5], dot_x: vec![2.0, 0.1, -0.3, -1.7] };
     let balls = Balls { m: vec![1.0, 0.02, 30.0, 2.0] };
     let mut run = Integrator::new(&balls, Impacts::reflecting(Variational::trapezoid()), 0.1, start)?;
     let [energy, momentum] = [run.energy(), run.momentum(0).ok_or("declared")?];

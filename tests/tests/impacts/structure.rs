@@ -11,7 +11,8 @@ use super::Outcome;
 /// The derivatives of (q, p) by each entry of a state.
 type Columns = [[f64; 4]; 4];
 
-/// The derivative of (q, p) after one step of length `h`, by the positions and velocities at its beginning, and the impacts in the step.
+/// The derivative of (q, p) after one step of length `h`, by the positions and velocities at its beginning,
+/// and the impacts in the step.
 fn jacobian<S: UnilateralLagrangian<Dual64>>(
     system: &S,
     collision: Collision,

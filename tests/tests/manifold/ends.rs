@@ -184,7 +184,8 @@ mod sizes {
     }
 }
 
-/// The same Lagrangian with the nine entries and the velocities as numbers; the six velocities more have an energy of their own, and rest.
+/// The same Lagrangian with the nine entries and the velocities as numbers; the six velocities more have an
+/// energy of their own, and rest.
 #[lagrangian(
     coordinates(r[9]),
     lagrangian = (inertia[0] * dot(r[0]).powi(2) + inertia[1] * dot(r[1]).powi(2) + inertia[2] * dot(r[2]).powi(2)) / 2.0

@@ -85,8 +85,8 @@ fn limit([long, short]: [Vec<f64>; 2]) -> Vec<f64> {
     long.iter().zip(&short).map(|(long, short)| (4.0 * short - long) / 3.0).collect()
 }
 
-/// A mass matrix that depends on all coordinates, and blocks of each kind: against the same system as numbers on constraints, with
-/// which this has neither step nor solver in common.
+/// A mass matrix that depends on all coordinates, and blocks of each kind: against the same system as
+/// numbers on constraints, with which this has neither step nor solver in common.
 #[test]
 fn a_system_of_all_kinds_moves_as_one_with_constraints() {
     let Coupled { a, length, gravity } = COUPLED;

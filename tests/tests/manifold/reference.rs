@@ -1,4 +1,5 @@
-//! Motion by hand: the equations of motion as they stand in textbooks, by the classical method of Runge and Kutta with short steps.
+//! Motion by hand: the equations of motion as they stand in textbooks, by the classical method of Runge and
+//! Kutta with short steps.
 
 use dvi_tests::zoo::manifold::cross;
 

@@ -14,8 +14,8 @@ use num_dual::Dual64;
 fn symmetric_steps_can_be_taken_back() {
     for rule in [Quadrature::trapezoid(), Quadrature::midpoint(), Quadrature::simpson()] {
         let start = coupled();
-        let mut run =
-            Integrator::new(&COUPLED, Geodesic::new(rule), 0.05, start).expect("a step that is short enough");
+        let mut run = Integrator::new(&COUPLED, Geodesic::new(rule), 0.05, start)
+            .expect("a step that is short enough");
         run.take_steps(500).expect("a step that is short enough");
         let back = run.checkpoint().with_step_size(-0.05);
         let mut run =
@@ -127,7 +127,8 @@ fn steps_on_the_sphere_preserve_the_canonical_form() {
     }
 }
 
-/// Newton's method converges as it does with the derivative of the equations: two or three iterations a step.
+/// Newton's method converges as it does with the derivative of the equations: two or three iterations a
+/// step.
 #[test]
 fn steps_take_few_iterations() {
     for rule in [Quadrature::trapezoid(), Quadrature::midpoint()] {

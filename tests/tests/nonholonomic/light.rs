@@ -1,4 +1,5 @@
-//! Coordinates that are light against the others, states far from the origin, and velocities of which little is left.
+//! Coordinates that are light against the others, states far from the origin, and velocities of which little
+//! is left.
 
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
@@ -18,7 +19,8 @@ struct Light {
     mass: f64,
 }
 
-/// With ẋ = ẏ and ż = 2ẋ there is one velocity u along (1, 1, 2) left, that nearest to the given one: (m + 5)u = m ẋ + ẏ + 2ż.
+/// With ẋ = ẏ and ż = 2ẋ there is one velocity u along (1, 1, 2) left, that nearest to the given one: (m +
+/// 5)u = m ẋ + ẏ + 2ż.
 #[test]
 fn a_light_coordinate_is_projected() -> Outcome {
     for mass in [1e6, 1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-16, 1e-18, 1e-30] {
@@ -98,7 +100,8 @@ fn states_off_the_constraints_have_no_multipliers() -> Outcome {
     Ok(())
 }
 
-/// What is projected is a start with every step, wherever the system is and however fast, in double and in single precision.
+/// What is projected is a start with every step, wherever the system is and however fast, in double and in
+/// single precision.
 #[test]
 fn what_is_projected_is_a_start() -> Outcome {
     let mut numbers = Numbers(5);

@@ -38,8 +38,9 @@ fn a_given_speed_is_kept() -> Outcome {
     Ok(())
 }
 
-/// A homogeneous sphere of mass one that rolls on a turntable: the place of its centre, and the angles by which it has turned about
-/// the two axes in the plane, of which only the rates have a meaning. The point of contact moves with the table.
+/// A homogeneous sphere of mass one that rolls on a turntable: the place of its centre, and the angles by
+/// which it has turned about the two axes in the plane, of which only the rates have a meaning. The point of
+/// contact moves with the table.
 #[lagrangian(
     coordinates(x, y, a, b),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0
@@ -52,7 +53,8 @@ struct Turntable {
     omega: f64,
 }
 
-/// The velocity of the centre turns with 2Ω/7, whatever the radius: it goes around in a circle (Routh 1905, art. 209).
+/// The velocity of the centre turns with 2Ω/7, whatever the radius: it goes around in a circle (Routh 1905,
+/// art. 209).
 fn on_turntable(system: Turntable, t: f64) -> TurntableState {
     let Turntable { radius, omega } = system;
     let rate = 2.0 * omega / 7.0;

@@ -36,7 +36,8 @@ fn blade(t: f64) -> KnifeEdgeState {
     }
 }
 
-/// A disc that rolls upright: its place, the direction in which it rolls, and the angle by which it has rolled.
+/// A disc that rolls upright: its place, the direction in which it rolls, and the angle by which it has
+/// rolled.
 #[lagrangian(
     coordinates(x, y, heading, roll),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 0.25 * dot(heading).powi(2) / 2.0 + 0.5 * dot(roll).powi(2) / 2.0,
@@ -140,7 +141,8 @@ fn classical(q: [f64; 3], v: [f64; 3], h: f64) -> ([f64; 3], [f64; 3]) {
     (moved(q, mean([k1.0, k2.0, k3.0, k4.0]), h), moved(v, mean([k1.1, k2.1, k3.1, k4.1]), h))
 }
 
-const PARTICLE: ParticleState = ParticleState { x: 1.0, y: 0.5, z: 0.2, dot_x: 0.4, dot_y: -0.8, dot_z: 0.2 };
+const PARTICLE: ParticleState =
+    ParticleState { x: 1.0, y: 0.5, z: 0.2, dot_x: 0.4, dot_y: -0.8, dot_z: 0.2 };
 
 #[test]
 fn a_particle_against_equations_by_hand() -> Outcome {
@@ -159,7 +161,8 @@ fn a_particle_against_equations_by_hand() -> Outcome {
     Ok(())
 }
 
-/// p0 = −D₁L_d − Aᵀ(q0)ι0 and p1 = D₂L_d + Aᵀ(q1)ι1, the constraint at the middle of the step and that of v1.
+/// p0 = −D₁L_d − Aᵀ(q0)ι0 and p1 = D₂L_d + Aᵀ(q1)ι1, the constraint at the middle of the step and that of
+/// v1.
 #[test]
 fn the_equations_of_a_step_by_hand() -> Outcome {
     let h = 0.1;
@@ -249,7 +252,8 @@ fn a_disc_rolls_in_a_circle() -> Outcome {
         let DiscState { heading, roll: angle, dot_x, dot_y, dot_heading, dot_roll, .. } = run.state();
         assert!((dot_heading - turn).abs() < 1e-13 && (dot_roll - roll).abs() < 1e-12);
         assert!((heading - turn * h * f64::from(step)).abs() < 1e-11);
-        // By how much it rolls in a step differs from h times that by a factor of order h², the same in all steps.
+        // By how much it rolls in a step differs from h times that by a factor of order h², the same in all
+        // steps.
         first = if step == 1 { angle } else { first };
         assert!((angle - first * f64::from(step)).abs() < 1e-11 && (first / (roll * h) - 1.0).abs() < h * h);
         let off = [dot_x - 0.4 * heading.cos() * dot_roll, dot_y - 0.4 * heading.sin() * dot_roll];

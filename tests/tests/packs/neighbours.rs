@@ -1,4 +1,5 @@
-//! Terms that add to several entries of one array: beside one another, farther apart, and around the end of a ring.
+//! Terms that add to several entries of one array: beside one another, farther apart, and around the end of
+//! a ring.
 
 use dvi_core::DegenerateLagrangian;
 use dvi_core::prelude::*;

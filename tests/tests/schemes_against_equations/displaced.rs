@@ -10,7 +10,8 @@ use super::equations::{Formula, defect, dual, interpolation, size};
 use super::systems::{Coupled, Fast, Magnetic, Shaken};
 use super::{Outcome, START, STEPS};
 
-/// P_n and its first two derivatives at x inside, by the recurrence of the polynomials and their differential equation.
+/// P_n and its first two derivatives at x inside, by the recurrence of the polynomials and their
+/// differential equation.
 fn legendre(n: usize, x: f64) -> [f64; 3] {
     let (mut last, mut value) = (1.0, x);
     for k in 2..=n {
@@ -22,8 +23,8 @@ fn legendre(n: usize, x: f64) -> [f64; 3] {
     [value, first, (2.0 * x * first - n * (n + 1.0) * value) / (1.0 - x * x)]
 }
 
-/// The Lobatto rules on [0, 1]: both ends, and the zeros of P'ₛ₋₁ by Newton's method from the extrema of a Chebyshev polynomial; weights
-/// 2/(s(s−1)P²ₛ₋₁) on [−1, 1] (Abramowitz & Stegun 1964, 25.4.32).
+/// The Lobatto rules on [0, 1]: both ends, and the zeros of P'ₛ₋₁ by Newton's method from the extrema of a
+/// Chebyshev polynomial; weights 2/(s(s−1)P²ₛ₋₁) on [−1, 1] (Abramowitz & Stegun 1964, 25.4.32).
 fn lobatto(nodes: usize) -> (Vec<f64>, Vec<f64>) {
     let n = nodes - 1;
     let rule = (0..nodes).map(|j| {
@@ -48,7 +49,8 @@ fn lagrange_derivative(nodes: &[f64], k: usize, at: f64) -> f64 {
     others().map(|m| others().filter(|&l| l != m).map(factor).product::<f64>() / (nodes[k] - nodes[m])).sum()
 }
 
-/// Lobatto nodes and weights, the derivatives of the Lagrange polynomials at the nodes, and the frequency of the interpolation.
+/// Lobatto nodes and weights, the derivatives of the Lagrange polynomials at the nodes, and the frequency of
+/// the interpolation.
 struct Nodes {
     c: Vec<f64>,
     w: Vec<f64>,

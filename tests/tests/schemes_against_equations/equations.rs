@@ -41,7 +41,8 @@ impl Rule {
     }
 }
 
-/// The coefficients of q0 and q1 in q and in h q̇ at node c: linear, or sines of u (Kosmas & Vlachos, eq. 15).
+/// The coefficients of q0 and q1 in q and in h q̇ at node c: linear, or sines of u (Kosmas & Vlachos, eq.
+/// 15).
 pub(crate) fn interpolation(c: f64, u: f64) -> [f64; 4] {
     if u == 0.0 {
         return [1.0 - c, c, -1.0, 1.0];

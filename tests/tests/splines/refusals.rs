@@ -152,7 +152,8 @@ fn any_table() -> Outcome {
                 at += step;
                 step *= if numbers.next() < 0.5 { 1.0 } else { ratio };
             }
-            let period = if numbers.next() < 0.1 { 1.0 } else { (at - points.first().unwrap_or(&0.0)).abs() };
+            let period =
+                if numbers.next() < 0.1 { 1.0 } else { (at - points.first().unwrap_or(&0.0)).abs() };
             if numbers.next() < 0.5 { Axis::new(&points) } else { Axis::periodic(&points, period) }
         };
         let (Ok(first), Ok(second)) = (any_axis(), any_axis()) else {
@@ -191,7 +192,8 @@ fn ask<F: ScalarField<2>>(spline: &F, axes: &[Axis; 2]) {
     for (i, &x) in first.iter().enumerate() {
         let y = second[(7 * i + 3) % second.len()];
         let there = spline.expansion([x, y]);
-        let inside = [x, y].iter().zip(domain).all(|(x, (from, to))| x.is_finite() && from <= *x && *x <= to);
+        let inside =
+            [x, y].iter().zip(domain).all(|(x, (from, to))| x.is_finite() && from <= *x && *x <= to);
         assert_eq!(there.value.is_nan(), !inside, "{x} {y} {domain:?} {there:?}");
     }
 }

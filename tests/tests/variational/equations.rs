@@ -68,7 +68,11 @@ fn check<S: RegularLagrangian + RegularLagrangian<Dual64>, F: FrequencyIn<f64> +
             };
             let left = p0[i] + value(Some(i), None);
             let right = p1[i] - value(None, Some(i));
-            assert!(larger(left.abs(), right.abs()) < 1e-12, "{name}, {:?}: {left:e} {right:e}", method.rule);
+            assert!(
+                larger(left.abs(), right.abs()) < 1e-12,
+                "{name}, {:?}: {left:e} {right:e}",
+                method.rule
+            );
         }
     }
     Ok(())

@@ -109,8 +109,8 @@ fn a_fitted_phase_has_the_momentum_of_the_paper_and_fitted_weights_the_right_one
     Ok(())
 }
 
-/// On an ellipse, with steps of a length that follows the distance: with the phase alone fitted, momenta are off by a
-/// factor that differs from step to step.
+/// On an ellipse, with steps of a length that follows the distance: with the phase alone fitted, momenta are
+/// off by a factor that differs from step to step.
 #[test]
 fn steps_of_different_lengths_are_exact_where_momenta_are_fitted_too() -> Outcome {
     let system = Pair { omega: [1.0, 1.0] };

@@ -105,7 +105,12 @@ fn compositions_preserve_what_their_method_does() -> Outcome {
     ] {
         check(&kepler, composition, 0.1, &start)?;
     }
-    check(&pendulums, Composition::suzuki(Variational::midpoint()), 0.1, &(vec![1.2, -0.4], vec![0.3, 0.9]))?;
+    check(
+        &pendulums,
+        Composition::suzuki(Variational::midpoint()),
+        0.1,
+        &(vec![1.2, -0.4], vec![0.3, 0.9]),
+    )?;
     let fitted = Variational::simpson().phase_fitted(Radial(Reading::Variational));
     check(&kepler, Composition::suzuki(fitted), 0.1, &start)?;
     check(&kepler, Composition::suzuki(fitted.phase_fitted(Radial(Reading::Averaged))), 0.1, &start)
@@ -119,8 +124,8 @@ struct Pendulum;
 #[derive(Clone, Debug)]
 struct Free;
 
-/// At an equilibrium too, where the values have converged before the first iteration and nothing tells how far the
-/// derivatives are.
+/// At an equilibrium too, where the values have converged before the first iteration and nothing tells how
+/// far the derivatives are.
 #[test]
 fn a_run_on_dual_numbers_is_a_tangent_map() -> Outcome {
     let equilibrium = (vec![0.0], vec![0.0]);

@@ -1,5 +1,5 @@
-//! Second derivatives of discrete Lagrangians against hyper-dual numbers, and what is made of them: tangent maps and
-//! exponents of runs on regular systems.
+//! Second derivatives of discrete Lagrangians against hyper-dual numbers, and what is made of them: tangent
+//! maps and exponents of runs on regular systems.
 
 use super::Outcome;
 use super::equations::{Omega, discrete_lagrangian};

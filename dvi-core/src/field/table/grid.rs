@@ -48,12 +48,14 @@ impl<'a, const D: usize> Grid<'a, D> {
         &self.points
     }
 
-    /// The numbers of a column at the points of the grid, the last axis that of neighbours: what [`Spline::new`] takes.
+    /// The numbers of a column at the points of the grid, the last axis that of neighbours: what
+    /// [`Spline::new`] takes.
     ///
     /// [`Spline::new`]: crate::field::Spline::new
     ///
     /// # Errors
-    /// [`TableError::NoName`], [`TableError::NoColumn`], [`TableError::SameName`], and [`TableError::NotFinite`].
+    /// [`TableError::NoName`], [`TableError::NoColumn`], [`TableError::SameName`], and
+    /// [`TableError::NotFinite`].
     pub fn values<'b>(&self, column: impl Into<Column<'b>>) -> Result<Vec<f64>, TableError> {
         let column = self.table.find(column.into())?;
         self.rows.iter().map(|&row| self.table.number(row, column)).collect()

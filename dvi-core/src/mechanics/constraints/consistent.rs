@@ -79,8 +79,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfPosition<'_,
     }
 }
 
-/// The constraint of positions that is farthest from being kept, of those that are off by more than the errors of the coordinates,
-/// `error`, times the derivatives by them explain, and its value.
+/// The constraint of positions that is farthest from being kept, of those that are off by more than the
+/// errors of the coordinates, `error`, times the derivatives by them explain, and its value.
 fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     mut of: impl LinearEquations<T>,
@@ -102,18 +102,20 @@ fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     Ok(worst.map(|(constraint, value, _)| (constraint, value)))
 }
 
-/// Where a state stands, which says how exact it is: what velocities are rounded relative to besides themselves, and the tolerance of
-/// positions if that is looser than rounding.
+/// Where a state stands, which says how exact it is: what velocities are rounded relative to besides
+/// themselves, and the tolerance of positions if that is looser than rounding.
 #[derive(Clone, Copy)]
 pub(crate) enum Among<T> {
-    /// The velocities that forces give in a step of length h, what a run at rest leaves; and what its iterations leave.
+    /// The velocities that forces give in a step of length h, what a run at rest leaves; and what its
+    /// iterations leave.
     Steps { h: T, tolerance: f64 },
     /// The velocities that forces give on a way of the size of the coordinates.
     States,
 }
 
 impl<T: Real> Among<T> {
-    /// What the tolerance of a run leaves in positions. Where it asks for rounding errors they are all that there is.
+    /// What the tolerance of a run leaves in positions. Where it asks for rounding errors they are all that
+    /// there is.
     fn left_over(self, [q, v]: [&[T]; 2]) -> T {
         match self {
             Self::Steps { h, tolerance } if tolerance > reported(T::default_epsilon()) => {
@@ -127,9 +129,10 @@ impl<T: Real> Among<T> {
 /// Whether a motion along the constraints leads through (`q`, `v`, `t`).
 ///
 /// # Errors
-/// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] with the constraint that is farthest from being kept, relative
-/// to its rounding errors; [`StartError::UndefinedConstraint`], and [`StartError::Outside`] where that is because a function that holds
-/// data is not known; [`StartError::Starter`] or [`StartError::Undetermined`] where a constraint is redundant.
+/// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] with the constraint that is farthest
+/// from being kept, relative to its rounding errors; [`StartError::UndefinedConstraint`], and
+/// [`StartError::Outside`] where that is because a function that holds data is not known;
+/// [`StartError::Starter`] or [`StartError::Undetermined`] where a constraint is redundant.
 pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
@@ -197,9 +200,9 @@ pub(crate) fn projected<S: ConstrainedLagrangian<T>, T: Real>(
     Ok(S::State::read(|block| system.block_len(block), &q, &v))
 }
 
-/// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has taken away. Where little or
-/// nothing is left of a velocity they are large beside it, and each iteration leaves 10⁻¹⁶ of them, down to
-/// the smallest numbers.
+/// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has
+/// taken away. Where little or nothing is left of a velocity they are large beside it, and each iteration
+/// leaves 10⁻¹⁶ of them, down to the smallest numbers.
 const ITERATIONS: usize = 40;
 
 /// Makes `v` a velocity that the constraints admit at `q`.

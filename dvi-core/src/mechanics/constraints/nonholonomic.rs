@@ -1,4 +1,5 @@
-//! a(q, v, t) = A(q, t) v + b(q, t) = 0: of a step h a = 0 at its middle, with the velocity Δ/h (Cortés & Martínez 2001).
+//! a(q, v, t) = A(q, t) v + b(q, t) = 0: of a step h a = 0 at its middle, with the velocity Δ/h (Cortés &
+//! Martínez 2001).
 
 use super::Constraints;
 use crate::discrete::{Ends, Span};

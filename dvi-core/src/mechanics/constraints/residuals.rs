@@ -1,10 +1,11 @@
 //! What a velocity leaves of its constraints, A v + b or G v + ∂g/∂t, and how much of that may be rounding.
 //!
-//! Velocities are rounded relative to the largest of those that a constraint couples, in the [units](super::scales) in which they have
-//! about the same weight in it. Coordinates are rounded too: those of a system far from the origin of its coordinates have few digits
-//! for its shape. What changes if coordinates and the time change by a few rounding errors is rounding too. All coordinates are
-//! changed at once, with the signs that the digits of their numbers have in base two, so that the changes of no two of them cancel in
-//! all cases.
+//! Velocities are rounded relative to the largest of those that a constraint couples, in the
+//! [units](super::scales) in which they have about the same weight in it. Coordinates are rounded too: those
+//! of a system far from the origin of its coordinates have few digits for its shape. What changes if
+//! coordinates and the time change by a few rounding errors is rounding too. All coordinates are changed at
+//! once, with the signs that the digits of their numbers have in base two, so that the changes of no two of
+//! them cancel in all cases.
 
 use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
 use crate::error::StepFailure;
@@ -65,10 +66,14 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
     /// Whether all are at most so many rounding errors of the terms.
     fn are_within(&self, roundings: f64) -> bool {
         let rounding = T::lift(roundings) * T::default_epsilon();
-        self.values.iter().zip(self.sizes.iter()).all(|(&value, &size)| Scalar::abs(value) <= rounding * size)
+        self.values
+            .iter()
+            .zip(self.sizes.iter())
+            .all(|(&value, &size)| Scalar::abs(value) <= rounding * size)
     }
 
-    /// Whether there is nothing left to correct: the constraints are kept, or a correction has not even halved what is left.
+    /// Whether there is nothing left to correct: the constraints are kept, or a correction has not even
+    /// halved what is left.
     pub(crate) fn are_settled(&mut self) -> bool {
         let size = largest(&self.values);
         let shrinks = self.before.is_none_or(|before| size < T::lift(0.5) * before);
@@ -86,7 +91,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         }
     }
 
-    /// The constraint that is farthest from being kept, of those that are off by more than rounding errors, and its value.
+    /// The constraint that is farthest from being kept, of those that are off by more than rounding errors,
+    /// and its value.
     pub(crate) fn worst(&mut self, system: &S, at: At<'_, T>, v: &[T]) -> Option<(usize, f64)> {
         if self.are_within(ROUNDINGS) {
             return None;

@@ -1,8 +1,8 @@
 //! Units in which the equations with multipliers have rows of about the same size.
 //!
-//! D = 1/√|Mⱼⱼ| for each coordinate and S = 1/|GD| for each constraint take away the units of coordinates and of constraints. But a
-//! coordinate that is light against the others dominates all rows of G then, and what these say of the others is lost in rounding.
-//! So D and S are balanced (Sinkhorn 1964):
+//! D = 1/√|Mⱼⱼ| for each coordinate and S = 1/|GD| for each constraint take away the units of coordinates
+//! and of constraints. But a coordinate that is light against the others dominates all rows of G then, and
+//! what these say of the others is lost in rounding. So D and S are balanced (Sinkhorn 1964):
 //!
 //! ```text
 //! |Mⱼⱼ| Dⱼ² + Σₖ |Sₖ Gₖⱼ Dⱼ| = 1,   Σⱼ |Sₖ Gₖⱼ Dⱼ| = 1
@@ -18,8 +18,8 @@ use crate::{Real, Scalar, Space, Vector, Weights};
 /// A scale that changes by no more than this factor is balanced.
 const BALANCED: f64 = 1.25;
 
-/// How often the scales are improved at most: in each round they change by a factor of two or so, and masses differ by less than
-/// 10⁶⁰.
+/// How often the scales are improved at most: in each round they change by a factor of two or so, and masses
+/// differ by less than 10⁶⁰.
 const ROUNDS: usize = 200;
 
 /// Sets D and S, near (`q`, `v`, `t`).
@@ -67,7 +67,8 @@ pub(crate) fn balance<S: ConstrainedLagrangian<T>, T: Real>(
     }
 }
 
-/// Sets a scale to another one, if that is a positive number, without derivatives; whether it was about the same.
+/// Sets a scale to another one, if that is a positive number, without derivatives; whether it was about the
+/// same.
 fn change<T: Real>(scale: &mut T, other: T) -> bool {
     let other = T::lift(reported(other));
     if !(other > T::lift(0.0) && other.is_finite()) {
@@ -95,7 +96,8 @@ pub(crate) fn scale_coordinates<S: ConstrainedLagrangian<T>, T: Real>(
     scales.iter_mut().for_each(|mass| *mass = scale(Scalar::abs(*mass)));
 }
 
-/// 1/√`square`; one where that is no positive number, which says nothing of units. It carries no derivatives.
+/// 1/√`square`; one where that is no positive number, which says nothing of units. It carries no
+/// derivatives.
 fn scale<T: Real>(square: T) -> T {
     let scale = T::lift(1.0) / Scalar::sqrt(T::lift(reported(square)));
     let is_usable = scale > T::lift(0.0) && scale.is_finite();

@@ -80,8 +80,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         scales::balance(system, at, v, self.scales.split_at_mut(at.q.len()));
     }
 
-    /// Solves the equations, whose A is of the size of M/`alpha` with a positive `alpha`; the solution is here, x in its first n
-    /// entries.
+    /// Solves the equations, whose A is of the size of M/`alpha` with a positive `alpha`; the solution is
+    /// here, x in its first n entries.
     ///
     /// # Errors
     /// [`StepFailure::RedundantConstraint`] names the first constraint that depends on those before it;

@@ -1,12 +1,13 @@
 //! Whether a step on constraints of positions has come out where the motion leads.
 //!
-//! The equations of a step on constraints have several solutions: a rod that is to have its length again may point to one side or to
-//! the other, and a bead on a narrow loop may sit on its far side. Along the motion gradients turn little in a step, and the
-//! displacement Δ leads along the constraints.
+//! The equations of a step on constraints have several solutions: a rod that is to have its length again may
+//! point to one side or to the other, and a bead on a narrow loop may sit on its far side. Along the motion
+//! gradients turn little in a step, and the displacement Δ leads along the constraints.
 //!
-//! Of constraints of the velocities none of this holds. How much a row of A turns depends on how the constraints are written: those of a
-//! disc that rolls are the same in the directions of the room and of the disc, and one row is turned around in the first and none in
-//! the second. A displacement with A Δ = −h b leads off the rows of A wherever b is not zero.
+//! Of constraints of the velocities none of this holds. How much a row of A turns depends on how the
+//! constraints are written: those of a disc that rolls are the same in the directions of the room and of the
+//! disc, and one row is turned around in the first and none in the second. A displacement with A Δ = −h b
+//! leads off the rows of A wherever b is not zero.
 
 use crate::error::StepFailure;
 use crate::mechanics::constraints::scales::scale_coordinates;
@@ -92,9 +93,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
 /// Of the size of q: what may be rounding of a displacement.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether a displacement makes an angle of at most 45° with a constraint that does not move: |G Δ|² ≤ ½ |G|²|Δ|², from its product G Δ
-/// with the gradient, |G|², |Δ|² and, where that is needed, |q|², in the metric of the mass matrix. A rod that turns by an angle makes
-/// half that angle.
+/// Whether a displacement makes an angle of at most 45° with a constraint that does not move: |G Δ|² ≤ ½
+/// |G|²|Δ|², from its product G Δ with the gradient, |G|², |Δ|² and, where that is needed, |q|², in the
+/// metric of the mass matrix. A rod that turns by an angle makes half that angle.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_along<T: Real>(product: T, square: T, length: T, size: impl FnOnce() -> T) -> bool {
     // Twice the square of the part of Δ that is across the constraint.

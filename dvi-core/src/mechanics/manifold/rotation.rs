@@ -41,7 +41,8 @@ pub(crate) fn increment<T: Real>(quaternion: &Quaternion<T>, u: Vector3<T>) -> Q
     quaternion * Quaternion::from_parts(-square * versine, half * sine)
 }
 
-/// f with f·η = A : R η̂, from M = RᵀA: what a derivative A with respect to the entries of R is as a torque in the body.
+/// f with f·η = A : R η̂, from M = RᵀA: what a derivative A with respect to the entries of R is as a torque
+/// in the body.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn torque<T: Real>(m: &Matrix3<T>) -> Vector3<T> {
     Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)])

@@ -1,5 +1,5 @@
-//! f + a(θ²) u × f + b(θ²) u × (u × f), θ = |u|: the exponential map of SO(3) and its derivatives are of this form
-//! (Iserles, Munthe-Kaas, Nørsett & Zanna 2000, appendix B).
+//! f + a(θ²) u × f + b(θ²) u × (u × f), θ = |u|: the exponential map of SO(3) and its derivatives are of
+//! this form (Iserles, Munthe-Kaas, Nørsett & Zanna 2000, appendix B).
 //!
 //! | map | a | b |
 //! |---|---|---|
@@ -56,7 +56,8 @@ const fn factorials(n: u32) -> [f64; TERMS] {
     terms
 }
 
-const LAMBDA: [[f64; TERMS]; 5] = [factorials(1), factorials(2), factorials(3), factorials(4), factorials(5)];
+const LAMBDA: [[f64; TERMS]; 5] =
+    [factorials(1), factorials(2), factorials(3), factorials(4), factorials(5)];
 
 /// |B₂ₖ|/(2k)!, k = 1, 2, …: the power series of (1 − (θ/2) cot(θ/2))/θ² in θ².
 const COTANGENT: [f64; TERMS] = [

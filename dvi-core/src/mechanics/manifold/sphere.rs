@@ -27,8 +27,8 @@ pub(crate) struct Passing<T> {
 const NEAR: f64 = 1e-8;
 
 impl<T: Real> GreatCircle<T> {
-    /// The circle from a unit vector along the rotation vector `w`, of which the part along the unit vector is left out. Where nothing is
-    /// left, its direction is any.
+    /// The circle from a unit vector along the rotation vector `w`, of which the part along the unit vector
+    /// is left out. Where nothing is left, its direction is any.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(start: Vector3<T>, w: Vector3<T>) -> Self {
         let along = w - start * start.dot(&w);
@@ -45,8 +45,8 @@ impl<T: Real> GreatCircle<T> {
         Passing { point, direction: direction * cosine - start * sine, sine, cosine }
     }
 
-    /// How D₁L_d at the part `c`, along the circle and across, changes with the end of the circle, where ∂L/∂q and ∂L/∂v/h there are the same:
-    /// the directions along and across turn with it.
+    /// How D₁L_d at the part `c`, along the circle and across, changes with the end of the circle, where
+    /// ∂L/∂q and ∂L/∂v/h there are the same: the directions along and across turn with it.
     pub(crate) fn bend(&self, c: T, [l_q, l_v]: [Vector3<T>; 2]) -> [[T; 2]; 2] {
         let (one, zero, theta) = (T::lift(1.0), T::lift(0.0), self.angle);
         let (rest, here, end) = (one - c, self.at(c), self.at(one));

@@ -1,5 +1,5 @@
-//! ∂²L/∂v∂v a = ∂L/∂q + F − ∂²L/∂v∂q v − ∂²L/∂t∂v + Gᵀλ, with the G a that keeps the constraints: for those of positions
-//! G a + v·∂²g/∂q∂q v + 2 ∂²g/∂t∂q v + ∂²g/∂t∂t = 0.
+//! ∂²L/∂v∂v a = ∂L/∂q + F − ∂²L/∂v∂q v − ∂²L/∂t∂v + Gᵀλ, with the G a that keeps the constraints: for those
+//! of positions G a + v·∂²g/∂q∂q v + 2 ∂²g/∂t∂q v + ∂²g/∂t∂t = 0.
 
 use super::Rates;
 use super::hamilton::SecondOrder;

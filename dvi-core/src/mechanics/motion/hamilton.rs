@@ -246,7 +246,8 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             && let Velocities::Varying(Transform { legendre, orientation, velocity, latest, between }) =
                 &mut equations.inverse
         {
-            // The velocity of the last stage leads to the one that belongs to the new momentum, if there is one.
+            // The velocity of the last stage leads to the one that belongs to the new momentum, if there is
+            // one.
             legendre.solve(system, arrival, momentum, t, latest, S::QUADRATIC)?;
             // Between two branches of ∂L/∂v(v) = p the mass matrix changes its sign.
             norm::mean(velocity, latest, between);

@@ -1,4 +1,5 @@
-//! The equations of motion at all stages of a step, of which each has a lane: evaluated one by one, or in the lanes.
+//! The equations of motion at all stages of a step, of which each has a lane: evaluated one by one, or in
+//! the lanes.
 
 use core::fmt;
 
@@ -101,8 +102,8 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T>
     }
 }
 
-/// Sets `terms`ₖ to `weights`(k) times `packs`ₖ. The loop is one over blocks, because over single packs the compiler would take lanes of
-/// several packs together, and load and store them one by one.
+/// Sets `terms`ₖ to `weights`(k) times `packs`ₖ. The loop is one over blocks, because over single packs the
+/// compiler would take lanes of several packs together, and load and store them one by one.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn weigh<const W: usize, T: Real>(
     weights: impl Fn(usize) -> Lanes<W, T>,
@@ -140,7 +141,8 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for AtSt
 
 /// How the equations of motion are evaluated at the `W` stages of a step.
 pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
-    /// Renews an entry of the slopes by that of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
+    /// Renews an entry of the slopes by that of X at all stages, as [`FirstOrder::evaluate_part`] does at
+    /// one.
     ///
     /// # Errors
     /// As there, of the first stage that fails.

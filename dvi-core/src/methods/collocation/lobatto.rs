@@ -1,13 +1,15 @@
 //! Lobatto collocation with S nodes, both ends among them: nodes, weights and matrices.
 //!
-//! c are 0, 1 and the zeros of the derivative of the shifted Legendre polynomial P_{S−1}, and the rule is exact to degree 2S − 3
-//! (Davis & Rabinowitz 1984, section 2.7.1). The pair IIIA–IIIB has the matrices aᵢⱼ = ∫₀^cᵢ lⱼ and âᵢⱼ = bⱼ(1 − aⱼᵢ/bᵢ), so that
-//! bᵢâᵢⱼ + bⱼaⱼᵢ = bᵢbⱼ (Hairer, Lubich & Wanner 2006, section II.2.2). With the momenta of the nodes eliminated, only
+//! c are 0, 1 and the zeros of the derivative of the shifted Legendre polynomial P_{S−1}, and the rule is
+//! exact to degree 2S − 3 (Davis & Rabinowitz 1984, section 2.7.1). The pair IIIA–IIIB has the matrices
+//! aᵢⱼ = ∫₀^cᵢ lⱼ and âᵢⱼ = bⱼ(1 − aⱼᵢ/bᵢ), so that bᵢâᵢⱼ + bⱼaⱼᵢ = bᵢbⱼ (Hairer, Lubich & Wanner 2006, section
+//! II.2.2). With the momenta of the nodes eliminated, only
 //!
 //! νᵢⱼ = Σₖ aᵢₖ âₖⱼ/bⱼ = cᵢ − gᵢⱼ,   gᵢⱼ = Σₖ aᵢₖ aⱼₖ/bₖ = cᵢcⱼ + ¼ Σₖ dₖ(cᵢ) dₖ(cⱼ)/(2k+1),   k = 1 … S−2
 //!
-//! is left of both, where dₖ = Pₖ₊₁ − Pₖ₋₁ is (2k+1) times twice the integral of Pₖ. Since g is symmetric, νᵢⱼ − νⱼᵢ = cᵢ − cⱼ, by which steps are
-//! symplectic (Suris 1989). They are symmetric since a node and its mirror image i', cᵢ' = 1 − cᵢ, have gᵢ'ⱼ' = gᵢⱼ + 1 − cᵢ − cⱼ.
+//! is left of both, where dₖ = Pₖ₊₁ − Pₖ₋₁ is (2k+1) times twice the integral of Pₖ. Since g is symmetric,
+//! νᵢⱼ − νⱼᵢ = cᵢ − cⱼ, by which steps are symplectic (Suris 1989). They are symmetric since a node and its
+//! mirror image i', cᵢ' = 1 − cᵢ, have gᵢ'ⱼ' = gᵢⱼ + 1 − cᵢ − cⱼ.
 
 use super::legendre;
 use crate::discrete::Rule;
@@ -85,8 +87,8 @@ impl<const S: usize> Lobatto<S> {
         new
     }
 
-    /// ν of the nodes. All entries, as the nodes, are multiples of 2⁻⁵³ and at most 1 in size, whose differences are not rounded: νᵢⱼ − νⱼᵢ =
-    /// cᵢ − cⱼ and νᵢ'ⱼ' = νⱼᵢ hold exactly in the arithmetic.
+    /// ν of the nodes. All entries, as the nodes, are multiples of 2⁻⁵³ and at most 1 in size, whose
+    /// differences are not rounded: νᵢⱼ − νⱼᵢ = cᵢ − cⱼ and νᵢ'ⱼ' = νⱼᵢ hold exactly in the arithmetic.
     pub(in crate::methods) fn nystrom(&self) -> [[f64; S]; S] {
         let (c, p) = (self.c, self.c.map(legendre));
         let slope = |i: usize, k: usize| p[i][k + 1] - p[i][k - 1];
@@ -108,8 +110,8 @@ impl<const S: usize> Lobatto<S> {
         core::array::from_fn(|i| core::array::from_fn(|j| c[i] - g[i][j]))
     }
 
-    /// Entry (k, j): the coefficient of Pₖ in the j-th Lagrange polynomial. The rule is one degree short of P_{S−1}², of which it gives
-    /// 1/(S−1).
+    /// Entry (k, j): the coefficient of Pₖ in the j-th Lagrange polynomial. The rule is one degree short of
+    /// P_{S−1}², of which it gives 1/(S−1).
     pub(in crate::methods) fn lagrange(&self) -> [[f64; S]; S] {
         let p = self.c.map(legendre);
         core::array::from_fn(|k| {
@@ -140,7 +142,8 @@ mod tests {
     use super::Lobatto;
     use crate::discrete::{Quadrature, Rule};
 
-    /// A number as a sum of two, so that its rounding errors are those of the second: what the tables are held against.
+    /// A number as a sum of two, so that its rounding errors are those of the second: what the tables are
+    /// held against.
     #[derive(Clone, Copy, Debug)]
     struct Double(f64, f64);
 
@@ -171,7 +174,8 @@ mod tests {
         }
     }
 
-    /// A zero of P'_{S−1} close to `c`, by Newton's method on the polynomial with integer coefficients, and the weight there.
+    /// A zero of P'_{S−1} close to `c`, by Newton's method on the polynomial with integer coefficients, and
+    /// the weight there.
     fn refined<const S: usize>(c: f64) -> [Double; 2] {
         // P_n(x) = Σₖ (−1)ⁿ⁺ᵏ (n over k)(n+k over k) xᵏ
         let n = S - 1;
@@ -224,7 +228,8 @@ mod tests {
         }
         let nu = rule.nystrom();
         for i in 0..S {
-            // C(S) of IIIA, twice: Σⱼ νᵢⱼ bⱼ cⱼᵏ is the integral of the integral, in which that of IIIB is exact to degree S − 3.
+            // C(S) of IIIA, twice: Σⱼ νᵢⱼ bⱼ cⱼᵏ is the integral of the integral, in which that of IIIB is
+            // exact to degree S − 3.
             for k in 0..S - 2 {
                 let sum = (0..S).fold(Double::of(0.0), |sum, j| {
                     sum.plus(Double::of(nu[i][j]).times(b_exact[j]).times(c_exact[j].power(k)))
@@ -257,7 +262,8 @@ mod tests {
         check::<9>();
     }
 
-    /// ν and the weights are those of IIIA and IIIB, whose matrices are found here by Gauss quadrature of Lagrange polynomials.
+    /// ν and the weights are those of IIIA and IIIB, whose matrices are found here by Gauss quadrature of
+    /// Lagrange polynomials.
     #[test]
     fn nystrom_is_the_product_of_both_matrices() {
         fn check<const S: usize>() -> Result<(), crate::error::StartError> {
@@ -278,7 +284,9 @@ mod tests {
             }
             Ok(())
         }
-        assert!(check::<3>().is_ok() && check::<4>().is_ok() && check::<5>().is_ok() && check::<6>().is_ok());
+        assert!(
+            check::<3>().is_ok() && check::<4>().is_ok() && check::<5>().is_ok() && check::<6>().is_ok()
+        );
         assert!(check::<7>().is_ok() && check::<8>().is_ok() && check::<9>().is_ok());
     }
 

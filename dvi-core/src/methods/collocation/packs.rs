@@ -1,7 +1,7 @@
 //! Numbers of the stages of a step in the lanes of packs, and what is combined of them.
 //!
-//! Σⱼ aⱼ xⱼ, where a number x of each stage has a lane, is a sum of columns aⱼ. It is taken of several numbers at once, so that each
-//! column is read once for all of them while their sums stay in registers.
+//! Σⱼ aⱼ xⱼ, where a number x of each stage has a lane, is a sum of columns aⱼ. It is taken of several
+//! numbers at once, so that each column is read once for all of them while their sums stay in registers.
 
 use crate::scalar::{Lanes, norm};
 use crate::{Real, Scalar};
@@ -9,8 +9,8 @@ use crate::{Real, Scalar};
 /// How many numbers of a point are combined at once.
 const BLOCK: usize = 4;
 
-/// Sets pack k of `out` to y + (e + Σⱼ `columns`ⱼ xⱼ), for the numbers x in the first lanes of that pack of `packs` and `from`(k) = (y, e), where
-/// y is the same for all stages.
+/// Sets pack k of `out` to y + (e + Σⱼ `columns`ⱼ xⱼ), for the numbers x in the first lanes of that pack of
+/// `packs` and `from`(k) = (y, e), where y is the same for all stages.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn combine<const STAGES: usize, T: Real>(
     columns: &[Lanes<STAGES, T>],
@@ -67,8 +67,9 @@ pub(in crate::methods) struct Nystrom<const STAGES: usize, T> {
 }
 
 impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
-    /// Sets the positions of the stages by the displacements x of the first `count`, and returns the largest change of one. For coordinate k,
-    /// `from`(k) is q and what is added to the sum; changes are in units of `weights`. `renewed` is storage.
+    /// Sets the positions of the stages by the displacements x of the first `count`, and returns the largest
+    /// change of one. For coordinate k, `from`(k) is q and what is added to the sum; changes are in units of
+    /// `weights`. `renewed` is storage.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in crate::methods) fn place(
         &self,
@@ -111,12 +112,13 @@ pub(in crate::methods) fn largest_of<const N: usize, T: Real>(mut numbers: [T; N
     numbers[0]
 }
 
-/// So far the polynomial of a step is continued, in units of that step: to the end of one that is twice as long, and back over it and
-/// as far beyond.
+/// So far the polynomial of a step is continued, in units of that step: to the end of one that is twice as
+/// long, and back over it and as far beyond.
 const REACH: [f64; 2] = [-3.0, 2.0];
 
-/// The Lagrange polynomials through `N` stages, in columns: where the stages of the next step are whose nodes are `c` and whose length is `ratio`
-/// times that of the step before. Row k of `lagrange` is in terms of the Legendre polynomial of degree k.
+/// The Lagrange polynomials through `N` stages, in columns: where the stages of the next step are whose
+/// nodes are `c` and whose length is `ratio` times that of the step before. Row k of `lagrange` is in terms
+/// of the Legendre polynomial of degree k.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn continuation<const STAGES: usize, const N: usize, T: Real>(
     lagrange: &[[T; N]; N],

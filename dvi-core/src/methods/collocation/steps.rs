@@ -1,11 +1,13 @@
-//! Steps one after the other, as one task: so they can be compiled for the widest SIMD instructions as a whole.
+//! Steps one after the other, as one task: so they can be compiled for the widest SIMD instructions as a
+//! whole.
 
 use crate::Real;
 use crate::error::StepFailure;
 use crate::methods::Clock;
 use crate::scalar::simd::Task;
 
-/// Up to `count` steps from the present time of a clock, by a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is written.
+/// Up to `count` steps from the present time of a clock, by a closure that is
+/// `#[cfg_attr(not(debug_assertions), inline(always))]` where it is written.
 #[derive(Debug)]
 pub(crate) struct Steps<T, F> {
     clock: Clock<T>,

@@ -4,8 +4,9 @@
 //!
 //! qʲ = Σₖ φⱼₖ xₖ      h q̇ʲ = Σₖ ψⱼₖ xₖ      φⱼ₀ = b + b̄   φⱼₖ = δⱼₖ   φⱼ,ₛ₋₁ = b̄      (ψ likewise)
 //!
-//! The equations of a step are the derivatives of L_d in the directions (φ̂ⱼᵣ, ψ̂ⱼᵣ): that of δʳ for each interior
-//! node, and that of q0, (b, B), for p0 + D₁L_d. Direction 0 moves both ends and gives (D₁ + D₂)L_d.
+//! The equations of a step are the derivatives of L_d in the directions (φ̂ⱼᵣ, ψ̂ⱼᵣ): that of δʳ for each
+//! interior node, and that of q0, (b, B), for p0 + D₁L_d. Direction 0 moves both ends and gives (D₁ +
+//! D₂)L_d.
 
 use crate::discrete::Rule;
 use crate::discrete::basis::Bases;
@@ -115,8 +116,8 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         })
     }
 
-    /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the displacements
-    /// are eliminated: without them S/(sin u/u)²; `None` if there is no inverse.
+    /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the
+    /// displacements are eliminated: without them S/(sin u/u)²; `None` if there is no inverse.
     fn invert(&mut self) -> Option<T> {
         let (zero, n) = (T::lift(0.0), NODES - 1);
         let (mut matrix, mut permutation) = ([zero; UNKNOWNS * UNKNOWNS], [0; UNKNOWNS]);

@@ -1,4 +1,5 @@
-//! L = ½ v·M v − V(q, t) without a frequency: the fixed point over the positions of the [interior nodes](super::interior).
+//! L = ½ v·M v − V(q, t) without a frequency: the fixed point over the positions of the [interior
+//! nodes](super::interior).
 
 use super::interior::{Departure, InteriorNodes};
 use super::memory::{Path, Work};
@@ -29,7 +30,8 @@ where
     let (Some(interior), Some(mass)) = (interior, inertial.constant()) else { return Err(NOTHING_SOLVED) };
     let departure = Departure { q, phase, mass, h: step.h };
     interior.depart(&departure);
-    // The momentum is that of the forces before the last correction, whose size counts, and not that of the next one alone.
+    // The momentum is that of the forces before the last correction, whose size counts, and not that of the
+    // next one alone.
     let stopping = step.method.stopping.exhaustive();
     let convergence = Convergence::fixed_point(stopping, budget);
     iterate(

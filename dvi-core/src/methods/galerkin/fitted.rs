@@ -3,8 +3,8 @@
 //! rᵣ = h Gᵣ + M Σₖ Kᵣₖ xₖ/h      Gᵣ = wᵣ F(qʳ) for displacements,   G_{s−1} = p0/h + Σⱼ wⱼ bⱼ F(qʲ) for Δ
 //! x ← x − A⁻¹(h M⁻¹ r),   A = Σⱼ wⱼ (ψ̂ⱼ ψⱼᵀ − z φ̂ⱼ φⱼᵀ)
 //!
-//! A contains the oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0 at
-//! the end and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
+//! A contains the oscillator of the fitted frequency, so that only what differs from it is iterated. As b =
+//! 0 at the end and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
 
 use super::interior::InteriorNodes;
 use super::memory::{Path, Work};

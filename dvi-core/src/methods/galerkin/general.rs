@@ -163,8 +163,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E
         self.step.system.linearize(point, velocity, self.t, w, gradient, momentum, vq);
     }
 
-    // Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what is read, and
-    // evaluates once what the three have in common.
+    // Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what
+    // is read, and evaluates once what the three have in common.
     #[inline(never)]
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>) {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));

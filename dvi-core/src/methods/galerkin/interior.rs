@@ -1,15 +1,17 @@
 //! L = ½ v·M v − V(q, t) without a frequency: the positions of the interior nodes, from their forces alone.
 //!
-//! With the displacements and velocities of the nodes eliminated, the step is the Nyström method of the pair IIIA–IIIB. Node 0 is where it
-//! begins and node 1 where it ends, and the force there moves no position of the step:
+//! With the displacements and velocities of the nodes eliminated, the step is the Nyström method of the pair
+//! IIIA–IIIB. Node 0 is where it begins and node 1 where it ends, and the force there moves no position of
+//! the step:
 //!
 //! Qᵢ = q0 + h cᵢ M⁻¹(p0 + L₁) + h M⁻¹Σⱼ νᵢⱼ Lⱼ,   Lᵢ = hwᵢ f(Qᵢ, t + cᵢh),   i and j inside
 //! q1 = q0 + h M⁻¹(p0 + L₁) + h M⁻¹Σⱼ (1 − cⱼ) Lⱼ,   p1 = p0 + L₁ + Σⱼ Lⱼ + Lₛ
 //!
-//! So it is a method like Gauss collocation between two kicks, as the step of Störmer and Verlet is a free motion between two. With
-//! νᵢⱼ − νⱼᵢ = cᵢ − cⱼ exactly it is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025). A step begins with the polynomial through the
-//! forces at all nodes of the step before, continued. Each interior node has a lane in packs of `W` ≥ S − 2; what stands in the others
-//! does not count.
+//! So it is a method like Gauss collocation between two kicks, as the step of Störmer and Verlet is a free
+//! motion between two. With νᵢⱼ − νⱼᵢ = cᵢ − cⱼ exactly it is symplectic in the arithmetic (Antoñana,
+//! Makazaga & Murua 2025). A step begins with the polynomial through the forces at all nodes of the step
+//! before, continued. Each interior node has a lane in packs of `W` ≥ S − 2; what stands in the others does
+//! not count.
 
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
@@ -100,7 +102,8 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Deb
         due: &mut Due,
         statistics: &mut Statistics,
     ) -> T;
-    /// Puts the nodes where the `unknowns` say, q0, the displacements and Δ, and evaluates the forces there, in a step of length h from t.
+    /// Puts the nodes where the `unknowns` say, q0, the displacements and Δ, and evaluates the forces there,
+    /// in a step of length h from t.
     fn visit(
         &mut self,
         system: &S,
@@ -110,7 +113,8 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Deb
     );
     /// The change of coordinate `k`, and that of its momentum but for the kicks.
     fn increments(&self, k: usize) -> [T; 2];
-    /// Coordinate `k` of a node that is inside, from 1, less that of the straight path from `q` by `increment`.
+    /// Coordinate `k` of a node that is inside, from 1, less that of the straight path from `q` by
+    /// `increment`.
     fn displacement(&self, node: usize, k: usize, q: T, increment: T) -> T;
     /// Runs steps.
     fn run<K: Task>(steps: K) -> K::Output;
@@ -255,8 +259,8 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         weigh(|_| by, forces, terms);
     }
 
-    /// Continues the polynomial through the forces of the step before into a step of length `h`, where the force is `force` at its start;
-    /// before the first step, that force.
+    /// Continues the polynomial through the forces of the step before into a step of length `h`, where the
+    /// force is `force` at its start; before the first step, that force.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn continue_forces(&mut self, force: &[T], h: T) {
         let Self {

@@ -1,11 +1,13 @@
-//! The discrete Lagrangian, stationary in the displacements: its derivatives, and the second ones by eliminating these.
+//! The discrete Lagrangian, stationary in the displacements: its derivatives, and the second ones by
+//! eliminating these.
 //!
 //! With the directions q0 (b, B), q1 (b̄, B̄) and δ of each interior node, and H the second derivatives of
 //! h Σⱼ wⱼ L(qʲ, q̇ʲ) along them, ∂L_d/∂δ = 0 gives
 //!
 //! DᵢL_d = ∂ᵢ(h Σ w L)      DᵢDₖL_d = Hᵢₖ − Hᵢδ Hδδ⁻¹ Hδₖ
 //!
-//! which are the blocks of q0 and q1 that are left once those of the displacements have been [eliminated](crate::space::linear::blocks).
+//! which are the blocks of q0 and q1 that are left once those of the displacements have been
+//! [eliminated](crate::space::linear::blocks).
 
 use super::Galerkin;
 use super::coefficients::Coefficients;
@@ -33,8 +35,8 @@ pub struct GalerkinLagrangian<const NODES: usize, S: System, F, T: Real = f64> {
     storage: Storage<NODES, S, T>,
 }
 
-/// The interior displacements, then two entries that are not used; derivatives along these, q0 and q1; and the blocks of
-/// second derivatives, transposed.
+/// The interior displacements, then two entries that are not used; derivatives along these, q0 and q1; and
+/// the blocks of second derivatives, transposed.
 #[derive(Debug)]
 struct Storage<const NODES: usize, S: System, T: Real> {
     displacements: [Vector<S, T>; NODES],
@@ -103,7 +105,8 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             self.system.gradient(point, velocity, self.time(j), gradient, momentum);
             statistics.gradients += 1;
             for (direction, residual) in residuals.iter_mut().enumerate() {
-                let [phi, psi] = self.along(j, direction).map(|factor| self.coefficients.weights[j] * factor);
+                let [phi, psi] =
+                    self.along(j, direction).map(|factor| self.coefficients.weights[j] * factor);
                 for i in 0..residual.len() {
                     residual[i] += self.interval.h * phi * gradient[i] + psi * momentum[i];
                 }

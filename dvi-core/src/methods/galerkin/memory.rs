@@ -123,7 +123,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     }
 }
 
-/// Storage for the equations of Newton's method, apart from the rest: with nine nodes it is some 80 n² numbers for n coordinates.
+/// Storage for the equations of Newton's method, apart from the rest: with nine nodes it is some 80 n²
+/// numbers for n coordinates.
 #[inline(never)]
 fn newton_matrix<const NODES: usize, S: Lagrangian<T>, T: Real>(
     system: &S,
@@ -153,9 +154,9 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
         self.inertial.velocity(system, &self.phase, q, t, v)
     }
 
-    /// Sets the unknowns to their guess. Where there are interior nodes, the step before is continued. Else they are extrapolated from the
-    /// steps before if these had about this length; if not, the path is straight, and its velocity is taken from the momentum if L is
-    /// separable.
+    /// Sets the unknowns to their guess. Where there are interior nodes, the step before is continued. Else
+    /// they are extrapolated from the steps before if these had about this length; if not, the path is
+    /// straight, and its velocity is taken from the momentum if L is separable.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess<F, E>(&mut self, step: &Step<'_, NODES, S, F, T, E>, q: &[T]) {
         let Self { phase, inertial, interior, displacements, work, .. } = self;
@@ -233,8 +234,9 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
         Ok(())
     }
 
-    /// Moves to `work.next`, `work.momentum` and `work.next_force` at the time `end`, if they are numbers and the mass
-    /// matrix has kept its orientation. The increments are the last of the unknowns, and the first of the residuals.
+    /// Moves to `work.next`, `work.momentum` and `work.next_force` at the time `end`, if they are numbers
+    /// and the mass matrix has kept its orientation. The increments are the last of the unknowns, and the
+    /// first of the residuals.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn complete(
         &mut self,

@@ -49,7 +49,8 @@ impl<const STAGES: usize, T: Real> Extrema<STAGES, T> {
         let share = STAGES as f64 / (2 * STAGES + 1) as f64;
         let contributions = extrema.map(|[c, b]| legendre(c).map(|p| share * b * p));
         // The start is the mirror image of the end, where all Legendre polynomials are 1.
-        let of_start = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 } * contributions[STAGES - 1][k];
+        let of_start =
+            |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 } * contributions[STAGES - 1][k];
         let lanes = |number: &dyn Fn(usize) -> f64| Lanes(core::array::from_fn(|k| T::lift(number(k))));
         Self {
             c: lanes(&|i| c[i]),

@@ -1,7 +1,8 @@
 //! An estimate of the error of a step of Gauss collocation, from its defect all over the step.
 //!
-//! The collocation polynomial u, of degree S, leaves the defect d = X(u, t) − u', which vanishes at the nodes. By the formula of
-//! Alekseev & Gröbner (Hairer, Nørsett & Wanner 1993, theorem I.14.5) the error at the end of the step is, to first order,
+//! The collocation polynomial u, of degree S, leaves the defect d = X(u, t) − u', which vanishes at the
+//! nodes. By the formula of Alekseev & Gröbner (Hairer, Nørsett & Wanner 1993, theorem I.14.5) the error at
+//! the end of the step is, to first order,
 //!
 //! h ∫₀¹ R(s) d(s) ds = h Σₖ Rₖ mₖ,    mₖ = ∫₀¹ Pₖ(s) d(s) ds
 //!
@@ -13,8 +14,8 @@
 //!
 //! with the weights b of Lobatto's rule: m₀ is S/(2S+1) times what this rule and that of Gauss differ by, an
 //! embedded formula. Where X is smooth d is nearly a multiple of P_S, mₖ is of order h²ˢ⁻ᵏ and Rₖ of order
-//! hᵏ, so that all terms are of the order h²ˢ⁺¹ that the error has. Where X has a jump or a kink in the step,
-//! m₀ is as large as d, and the error is about h m₀.
+//! hᵏ, so that all terms are of the order h²ˢ⁺¹ that the error has. Where X has a jump or a kink in the
+//! step, m₀ is as large as d, and the error is about h m₀.
 //!
 //! Rₖ is not computed. R follows the derivative of X, and where X is as 1/r and its S-th coefficient,
 //! relative to X, as (ṙh/r)ˢ, that of its derivative is S + 1 times that. So with the largest defect over
@@ -172,7 +173,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
                 };
                 let error = h * norm::larger(zero, moments - rounding);
                 let allowed = match part {
-                    0 => tolerance.of_coordinate(norm::larger(Scalar::abs(y[0][j]), Scalar::abs(next[0][j]))),
+                    0 => {
+                        tolerance.of_coordinate(norm::larger(Scalar::abs(y[0][j]), Scalar::abs(next[0][j])))
+                    }
                     _ => tolerance.of_momentum(momentum),
                 };
                 largest = norm::larger(largest, in_units_of(&[error], |_| allowed));

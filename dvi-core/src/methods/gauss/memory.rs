@@ -19,7 +19,8 @@ use crate::{Real, Space, System, Vector};
 /// The slopes of all stages before the first iteration of the fixed point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Guess {
-    /// On the polynomial through those of the last step. Where they have a kink it leads far away, out of the domain of L too.
+    /// On the polynomial through those of the last step. Where they have a kink it leads far away, out of
+    /// the domain of L too.
     Continued,
     /// That at the start of the step.
     Constant,
@@ -154,7 +155,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         combine(&coefficients.mu, &terms[part], from, &mut stages[part]);
     }
 
-    /// Evaluates one part of the slopes at the points of all stages, and returns the largest change of a velocity.
+    /// Evaluates one part of the slopes at the points of all stages, and returns the largest change of a
+    /// velocity.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
         &mut self,
@@ -235,9 +237,11 @@ fn set_all<const W: usize, T: Real>(packs: &mut [Lanes<W, T>], numbers: &[T]) {
     }
 }
 
-/// The first part whose slopes are carried from step to step. Of equations of second order, of which only forces are evaluated, that is the
-/// second.
+/// The first part whose slopes are carried from step to step. Of equations of second order, of which only
+/// forces are evaluated, that is the second.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn first_part<S: System<Kind: FirstOrder<S, T>>, T: Real>(equations: &EquationsOf<S, T>) -> usize {
+pub(super) fn first_part<S: System<Kind: FirstOrder<S, T>>, T: Real>(
+    equations: &EquationsOf<S, T>,
+) -> usize {
     usize::from(S::Kind::reciprocal_masses(equations).is_some())
 }

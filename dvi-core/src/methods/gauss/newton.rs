@@ -43,7 +43,8 @@ pub(super) struct NewtonStages<const STAGES: usize, S: System<Kind: Motion<S, T>
 /// How a run is solved.
 ///
 /// # Errors
-/// [`StartError::Unsupported`] where Newton's method is asked for, and its matrix is too large for the stack.
+/// [`StartError::Unsupported`] where Newton's method is asked for, and its matrix is too large for the
+/// stack.
 pub(super) fn solver<const STAGES: usize, S: System, T: Real>(solver: Solver) -> Result<Solver, StartError> {
     match solver {
         Solver::FixedPoint => {}

@@ -1,10 +1,12 @@
-//! Gauss collocation on q'' = M⁻¹f(q, t) with a constant diagonal M, with the velocities of the stages eliminated.
+//! Gauss collocation on q'' = M⁻¹f(q, t) with a constant diagonal M, with the velocities of the stages
+//! eliminated.
 //!
 //! Qᵢ = q + h cᵢ M⁻¹p + h M⁻¹Σⱼ νᵢⱼ Lⱼ,   Lᵢ = hbᵢ f(Qᵢ, t + cᵢh)
 //! q⁺ = q + h M⁻¹p + h M⁻¹Σⱼ βⱼ Lⱼ,   p⁺ = p + Σᵢ Lᵢ
 //!
-//! It is the same method, a Nyström method (Hairer, Nørsett & Wanner 1993, section II.14), and one combination of stages in each sweep
-//! where that on (q, p) has two. With νᵢⱼ − νⱼᵢ = βⱼ − βᵢ exactly it is symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025).
+//! It is the same method, a Nyström method (Hairer, Nørsett & Wanner 1993, section II.14), and one
+//! combination of stages in each sweep where that on (q, p) has two. With νᵢⱼ − νⱼᵢ = βⱼ − βᵢ exactly it is
+//! symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025).
 
 use super::memory::Path;
 use crate::error::StepFailure;
@@ -15,8 +17,8 @@ use crate::state::Statistics;
 use crate::{Real, System};
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
-    /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the equations are not of second
-    /// order.
+    /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the
+    /// equations are not of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place(&mut self, h: T) -> Option<T> {
         if !S::Kind::OF_SECOND_ORDER {
@@ -38,7 +40,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         Some(nystrom.place(STAGES, displacements, from, weights, [places, renewed]))
     }
 
-    /// For equations of second order: evaluates the forces at all stages once and moves them, and returns the largest change of a position.
+    /// For equations of second order: evaluates the forces at all stages once and moves them, and returns
+    /// the largest change of a position.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn improve_places<E: StageEvaluation<STAGES, S, T>>(
         &mut self,

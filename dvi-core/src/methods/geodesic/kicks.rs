@@ -1,10 +1,12 @@
-//! The step of a rule with nodes at the two ends only, where L = ½ v·M v − V(q, t): a kick, a drift along a geodesic, a kick.
+//! The step of a rule with nodes at the two ends only, where L = ½ v·M v − V(q, t): a kick, a drift along a
+//! geodesic, a kick.
 //!
 //! p½ = p0 + h w0 f0      p½ = −D₁K_d for the displacement      p1 = D₂K_d + h w1 f1
 //!
-//! with the forces f as p is, the torque in the body of a rotation and s × ∂L/∂s of a unit vector, and K_d the discrete Lagrangian of
-//! ½ v·M v. It is the general step, because there the forces of the first end do not depend on the displacement, and those of the last
-//! do no work where the last point is held. It evaluates one force.
+//! with the forces f as p is, the torque in the body of a rotation and s × ∂L/∂s of a unit vector, and K_d
+//! the discrete Lagrangian of ½ v·M v. It is the general step, because there the forces of the first end do
+//! not depend on the displacement, and those of the last do no work where the last point is held. It
+//! evaluates one force.
 
 use super::memory::Work;
 use super::node::{Between, By, Forces, Node, Path};
@@ -16,7 +18,8 @@ use crate::space::{Sink, SquareMatrix};
 use crate::system::{CoordinateBlock, Factor};
 use crate::{ManifoldLagrangian, Matrix, Real, Space, Weights};
 
-/// Whether a coordinate of `S` is a unit vector. Without these what a drift needs is the same at all its nodes.
+/// Whether a coordinate of `S` is a unit vector. Without these what a drift needs is the same at all its
+/// nodes.
 pub(super) fn has_spheres<S: ManifoldLagrangian<T>, T: Real>() -> bool {
     S::REPORT.coordinates.iter().any(|&CoordinateBlock { factor, .. }| factor == Factor::Sphere)
 }

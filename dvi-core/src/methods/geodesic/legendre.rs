@@ -16,7 +16,8 @@ use crate::state::Statistics;
 use crate::system::{Factor, ManifoldSystem};
 use crate::{ManifoldLagrangian, Real, Weights};
 
-/// Sets `p` to ∂L/∂v as a covector of the manifold at `q`, from the derivative by the velocities; of a unit vector to s × ∂L/∂ṡ.
+/// Sets `p` to ∂L/∂v as a covector of the manifold at `q`, from the derivative by the velocities; of a unit
+/// vector to s × ∂L/∂ṡ.
 pub(super) fn momentum<S: ManifoldSystem, T: Real>(system: &S, q: &[T], l_v: &[T], p: &mut [T]) {
     for block in blocks(system) {
         match block.factor {

@@ -13,7 +13,8 @@ pub(super) type Square<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Square
 /// A number for each tangent vector.
 type Tangent<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Vector<T>;
 
-/// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work space.
+/// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work
+/// space.
 #[derive(Debug)]
 pub struct GeodesicMemory<S: ManifoldSystem, T: Real> {
     /// ∂L/∂v, as a covector of the manifold: of a unit vector s × ∂L/∂ṡ, whose sums round without a bias.
@@ -105,8 +106,9 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         }
     }
 
-    /// The discrete momentum at the current point, with a place for each coordinate: of a rotation the first three hold the angular
-    /// momentum in the body, ∂L/∂ω, and the others are zero; of a unit vector it is the angular momentum about the centre, s × ∂L/∂ṡ.
+    /// The discrete momentum at the current point, with a place for each coordinate: of a rotation the first
+    /// three hold the angular momentum in the body, ∂L/∂ω, and the others are zero; of a unit vector it is
+    /// the angular momentum about the centre, s × ∂L/∂ṡ.
     pub fn p(&self) -> &[T] {
         &self.p
     }

@@ -1,4 +1,5 @@
-//! A node of a step: where L is evaluated on the geodesic of a displacement, and how that varies with its ends.
+//! A node of a step: where L is evaluated on the geodesic of a displacement, and how that varies with its
+//! ends.
 
 use core::fmt::Debug;
 
@@ -26,7 +27,8 @@ pub(super) struct Variation<S: System, T: Real> {
 #[derive(Debug)]
 pub(super) struct Node<S: System, T: Real> {
     pub(super) work: NodeWork<S, T>,
-    /// With the first point of the step, where the last one is held, and the sign changed: what D₁L_d is made with.
+    /// With the first point of the step, where the last one is held, and the sign changed: what D₁L_d is
+    /// made with.
     pub(super) first: Variation<S, T>,
     /// With the displacement.
     pub(super) displacement: Variation<S, T>,
@@ -155,7 +157,8 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         Variation::<S, T>::set(&mut self.displacement.velocity, block, &(Matrix3::identity() * per_h));
     }
 
-    /// R(c) = R0 exp(cû). With u varies R(c)ᵀδR = c J(−cu) δu; with R0 by η, where R1 is held, R(c)ᵀδR = exp(−cu) η + c J(−cu) δu.
+    /// R(c) = R0 exp(cû). With u varies R(c)ᵀδR = c J(−cu) δu; with R0 by η, where R1 is held, R(c)ᵀδR =
+    /// exp(−cu) η + c J(−cu) δu.
     fn stand_on_rotations(&mut self, block: Block, Path { q, displacement, .. }: Path<'_, T>, c: T) {
         let (start, u) = (rotation::matrix(&q[block.places()]), vector(displacement, block));
         let turn = Series::exp(u * c).matrix();
@@ -202,8 +205,9 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         set(&mut self.displacement.point, block, &columns(here.direction * c, across));
     }
 
-    /// Adds `weight` times what the derivatives of L are multiplied with in D₁L_d, varied with the displacement, to the rows and columns
-    /// of `sink`, after L was evaluated at [`place`](Self::place); of ∂L/∂v alone where `forces` are none.
+    /// Adds `weight` times what the derivatives of L are multiplied with in D₁L_d, varied with the
+    /// displacement, to the rows and columns of `sink`, after L was evaluated at [`place`](Self::place); of
+    /// ∂L/∂v alone where `forces` are none.
     #[inline]
     pub(super) fn bend<K: Sink<T>>(
         &self,
@@ -253,7 +257,8 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         let turned = Series::mean(u * -c).matrix() * c;
         let carried = inverse.matrix() * mean.matrix() * c - exp.matrix();
         let sum = momentum / h + mean.of(&torque) * c;
-        carried * rotation::torque_change(&m) * turned + inverse.matrix() * mean.derivative(&torque) * (c * c)
+        carried * rotation::torque_change(&m) * turned
+            + inverse.matrix() * mean.derivative(&torque) * (c * c)
             - exp.derivative(&torque) * c
             - inverse.derivative(&sum)
     }
@@ -275,7 +280,11 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
                 Factor::Sphere => {
                     let circle = GreatCircle::new(vector(q, block), Vector3::zeros());
                     let columns = [circle.direction, circle.axis, Vector3::zeros()];
-                    Variation::<S, T>::set(&mut self.first.velocity, block, &Matrix3::from_columns(&columns));
+                    Variation::<S, T>::set(
+                        &mut self.first.velocity,
+                        block,
+                        &Matrix3::from_columns(&columns),
+                    );
                 }
             }
         }
@@ -310,7 +319,8 @@ pub(super) enum By {
     Velocity,
 }
 
-/// Passes the entries of a matrix over the coordinates on as those of Aᵀ M B, where the rows of A and B are variations.
+/// Passes the entries of a matrix over the coordinates on as those of Aᵀ M B, where the rows of A and B are
+/// variations.
 pub(super) struct Between<'a, S: System, T: Real, K> {
     left: &'a [[T; 3]],
     right: &'a [[T; 3]],

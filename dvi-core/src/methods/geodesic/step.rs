@@ -222,7 +222,8 @@ impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
-    /// Evaluates L with its derivatives, and adds `weight` times the second ones, by the first point and the displacement.
+    /// Evaluates L with its derivatives, and adds `weight` times the second ones, by the first point and the
+    /// displacement.
     fn second_derivatives<K: Sink<T>>(&mut self, system: &S, t: T, weight: T, sink: &mut K) {
         let Self { work: NodeWork { point, velocity, gradient, momentum }, first, displacement, tangents } =
             self;

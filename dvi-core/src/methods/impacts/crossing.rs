@@ -1,4 +1,5 @@
-//! Where a gap may close: the cubic through the gaps and their rates at both ends of a flight, and the tangents there.
+//! Where a gap may close: the cubic through the gaps and their rates at both ends of a flight, and the
+//! tangents there.
 
 use crate::{Real, Scalar};
 
@@ -25,7 +26,8 @@ impl<T: Real> Cubic<T> {
     fn minimum(&self) -> Option<T> {
         let [_, b, c, d] = self.coefficients;
         let (zero, three) = (T::lift(0.0), T::lift(3.0));
-        // b + 2cτ + 3dτ² = 0, where the second derivative, 2c + 6dτ, is positive: its root with a plus before the square root.
+        // b + 2cτ + 3dτ² = 0, where the second derivative, 2c + 6dτ, is positive: its root with a plus
+        // before the square root.
         let discriminant = c * c - three * b * d;
         if discriminant <= zero {
             return None;
@@ -35,14 +37,15 @@ impl<T: Real> Cubic<T> {
         (x > zero && x < T::lift(1.0)).then_some(x)
     }
 
-    /// A place in the interior at which a function with these values and slopes may be negative, if there is reason to look.
+    /// A place in the interior at which a function with these values and slopes may be negative, if there is
+    /// reason to look.
     pub(super) fn may_close(&self) -> Option<T> {
         let below = self.minimum().filter(|&low| self.value(low) < T::lift(0.0));
         below.or_else(|| self.tangents_meet())
     }
 
-    /// Where the tangents at both ends meet, if the polynomial falls at the beginning, rises at the end, and they meet below zero. A convex
-    /// function with these values and slopes is nowhere lower.
+    /// Where the tangents at both ends meet, if the polynomial falls at the beginning, rises at the end, and
+    /// they meet below zero. A convex function with these values and slopes is nowhere lower.
     fn tangents_meet(&self) -> Option<T> {
         let [a, b, c, d] = self.coefficients;
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
@@ -55,7 +58,8 @@ impl<T: Real> Cubic<T> {
         (a + b * x < zero && x > zero && x < one).then_some(x)
     }
 
-    /// About where the polynomial becomes negative for the first time behind 0, if its value at 1, or at the interior point `low`, is.
+    /// About where the polynomial becomes negative for the first time behind 0, if its value at 1, or at the
+    /// interior point `low`, is.
     pub(super) fn closes_before(&self, low: T) -> T {
         let zero = T::lift(0.0);
         let [a, b, c, _] = self.coefficients;

@@ -11,8 +11,8 @@ use crate::space::sink::Places;
 use crate::state::memory::Memory;
 use crate::{Real, Scalar, UnilateralLagrangian, Vector, Weights};
 
-/// Flights that are shorter, as a part of the step, have no discrete energy of their own: Δ/s has the rounding of the coordinates over s,
-/// and the energy at their end differs from it by less.
+/// Flights that are shorter, as a part of the step, have no discrete energy of their own: Δ/s has the
+/// rounding of the coordinates over s, and the energy at their end differs from it by less.
 const SHORT: f64 = 1e-6;
 /// Iterations for the impulse.
 const ITERATIONS: usize = 40;
@@ -20,7 +20,8 @@ const ITERATIONS: usize = 40;
 const POLISHED: usize = 3;
 /// A relative change of the impulse from which the slope of the energy is taken.
 const CLOSE: f64 = 1e-5;
-/// The energy of an impulse may be off by so much of that of the motion towards the surface, or by so many rounding errors.
+/// The energy of an impulse may be off by so much of that of the motion towards the surface, or by so many
+/// rounding errors.
 const NEAR: f64 = 1e-6;
 const ROUNDINGS: f64 = 16.0;
 
@@ -191,9 +192,9 @@ where
 
     /// Finds the impulse of a reflection. The rate of change of the gap before it is `rate`.
     ///
-    /// W(λ) = E(q, p⁻ + λ∂g/∂q) + λ∂g/∂t has the derivative ġ. An impact goes from W(0) through its minimum, where the motion towards
-    /// the surface has been used up, to where W is as much higher as e² times what it has come down; for an L that is quadratic in v that is
-    /// where ġ⁺ = −e ġ⁻.
+    /// W(λ) = E(q, p⁻ + λ∂g/∂q) + λ∂g/∂t has the derivative ġ. An impact goes from W(0) through its minimum,
+    /// where the motion towards the surface has been used up, to where W is as much higher as e² times what
+    /// it has come down; for an L that is quadratic in v that is where ġ⁺ = −e ġ⁻.
     fn reflect(&mut self, surface: usize, rate: T) -> Result<(), StepFailure> {
         let (restitution, zero) = (self.restitution(), T::lift(0.0));
         let lambda = if S::QUADRATIC {
@@ -256,7 +257,8 @@ where
         Ok(lambda)
     }
 
-    /// W(λ), and the rate of change of the gap behind a jump by λ; the velocity there is left in `v`, the rates of all gaps in `there`.
+    /// W(λ), and the rate of change of the gap behind a jump by λ; the velocity there is left in `v`, the
+    /// rates of all gaps in `there`.
     fn behind(&mut self, surface: usize, lambda: T) -> Result<[T; 2], StepFailure> {
         self.depart(lambda);
         let Self { method, system, memory, q, t, .. } = self;
@@ -275,9 +277,10 @@ where
         Ok(energy + lambda * wall.speed - wall.energy)
     }
 
-    /// Finds the impulse with which the flight of length `s` has the energy of the one before. If there is none, because the motion
-    /// towards the surface has less energy than E_d differs by between the two, the impact is a reflection, whatever the length of
-    /// the flight: its end is to be a continuous function of the length.
+    /// Finds the impulse with which the flight of length `s` has the energy of the one before. If there is
+    /// none, because the motion towards the surface has less energy than E_d differs by between the two, the
+    /// impact is a reflection, whatever the length of the flight: its end is to be a continuous function of
+    /// the length.
     fn balance(&mut self, s: T) -> Result<(), StepFailure> {
         if self.method.collision == Collision::Reflection || self.memory.wall.is_grazing {
             return Ok(());

@@ -239,8 +239,9 @@ impl<S: ConstrainedSystem, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T,
         self.total
     }
 
-    /// How many impacts were so grazing that no impulse keeps the discrete energy, and the energy at the point of impact was kept
-    /// instead. Always zero with [`Collision::Reflection`](super::Collision::Reflection).
+    /// How many impacts were so grazing that no impulse keeps the discrete energy, and the energy at the
+    /// point of impact was kept instead. Always zero with
+    /// [`Collision::Reflection`](super::Collision::Reflection).
     pub fn grazing(&self) -> u64 {
         self.grazing
     }
@@ -252,8 +253,9 @@ impl<S: ConstrainedSystem, I: Memory<T>, T: Real, const MOST: usize> Memory<T>
     lasting!(T; part inner, count total, count grazing);
 }
 
-/// Sets `gap` to the gaps at (`q`, `t`), and hands over the terms of |∂g/∂q|(|q| + |h v|), each with the number of its surface. Rounding
-/// errors of the coordinates, and of their changes in a step of length `h`, are errors of the gap of that size.
+/// Sets `gap` to the gaps at (`q`, `t`), and hands over the terms of |∂g/∂q|(|q| + |h v|), each with the
+/// number of its surface. Rounding errors of the coordinates, and of their changes in a step of length `h`,
+/// are errors of the gap of that size.
 pub(super) fn terms<S: UnilateralLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
@@ -273,7 +275,8 @@ const ROUNDINGS: f64 = 1e4;
 /// Whether a run with steps of length `h` can begin at (`q`, `v`, `t`).
 ///
 /// # Errors
-/// [`StartError::Beyond`] with the first surface that it is beyond; [`StartError::Starter`] where a gap is no number.
+/// [`StartError::Beyond`] with the first surface that it is beyond; [`StartError::Starter`] where a gap is
+/// no number.
 pub(super) fn admit<S: UnilateralLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],

@@ -1,7 +1,8 @@
 //! A step as a sequence of flights from impact to impact.
 //!
-//! A flight of length s begins at a point of the run, after an impact with another momentum, and ends at q(s). The first impact on it is
-//! looked for by the gaps and rates at its two ends, and found on the flight itself, g(q(s), t + s) = 0, within a bracket.
+//! A flight of length s begins at a point of the run, after an impact with another momentum, and ends at
+//! q(s). The first impact on it is looked for by the gaps and rates at its two ends, and found on the flight
+//! itself, g(q(s), t + s) = 0, within a bracket.
 
 use super::crossing::Cubic;
 use super::memory::{ImpactsMemory, terms};
@@ -26,7 +27,8 @@ const APART: f64 = 1e-5;
 const SMALL: f64 = 1e-30;
 /// A gap that was closed is closed but for so many rounding errors.
 const ROUNDINGS: f64 = 64.0;
-/// An impact is on its surface but for so many rounding errors: more, as the equations of a flight are solved to some.
+/// An impact is on its surface but for so many rounding errors: more, as the equations of a flight are
+/// solved to some.
 const OFF: f64 = 1e4;
 
 /// What happens where a flight comes to a surface.
@@ -106,8 +108,9 @@ where
         memory.there.look(system, q, &memory.v, *t + s)
     }
 
-    /// Flies to a surface, and says what happens there. Where the end of a flight has jumped across the surface with its length, as the
-    /// impulse that keeps the discrete energy may, the flight begins with a reflection from now on.
+    /// Flies to a surface, and says what happens there. Where the end of a flight has jumped across the
+    /// surface with its length, as the impulse that keeps the discrete energy may, the flight begins with a
+    /// reflection from now on.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`] if a flight without such a jump does not end at the surface.
@@ -140,7 +143,8 @@ where
         }
     }
 
-    /// The surface and the length of the flight at which the next impact happens; `None` if there is none in what is left of the step.
+    /// The surface and the length of the flight at which the next impact happens; `None` if there is none in
+    /// what is left of the step.
     fn next_impact(&mut self) -> Result<Option<(usize, T)>, StepFailure> {
         if let Some(surface) = self.immediate() {
             return Ok(Some((surface, T::lift(0.0))));
@@ -175,8 +179,8 @@ where
         Err(failure)
     }
 
-    /// The first impact in a flight of length `end`, at whose end the run is. Where there is none the run is there again, else where the
-    /// impact is.
+    /// The first impact in a flight of length `end`, at whose end the run is. Where there is none the run is
+    /// there again, else where the impact is.
     fn first_before(&mut self, mut end: T) -> Result<Option<(usize, T)>, StepFailure> {
         let mut found: Option<(usize, T)> = None;
         for _ in 0..SOUGHT {
@@ -195,8 +199,9 @@ where
         Ok(found)
     }
 
-    /// When the gap of a surface closes for the first time in a flight of length `end`, at whose end the run is; `is_end` says
-    /// whether that is an impact with this surface or with another one. Where the gap does not close, the run is at the end again.
+    /// When the gap of a surface closes for the first time in a flight of length `end`, at whose end the run
+    /// is; `is_end` says whether that is an impact with this surface or with another one. Where the gap does
+    /// not close, the run is at the end again.
     fn closes(&mut self, surface: usize, end: T, is_end: Option<bool>) -> Result<Option<T>, StepFailure> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let [here, there] = [self.memory.here.gap[surface], self.memory.there.gap[surface]];
@@ -206,7 +211,8 @@ where
         }
         let rounding = T::lift(ROUNDINGS) * self.rounding(surface, end);
         let is_closed = here <= rounding && self.along(self.memory.here.rate[surface]) >= zero;
-        // Rounding may be all that is seen of a gap that was closed at the beginning, or closes where the flight ends at another surface.
+        // Rounding may be all that is seen of a gap that was closed at the beginning, or closes where the
+        // flight ends at another surface.
         let may_be_rounding = is_closed || (is_behind && is_end == Some(false));
         if may_be_rounding && Scalar::abs(there) <= rounding {
             return Ok(None);
@@ -226,8 +232,8 @@ where
         self.locate(surface, end, [open, low]).map(Some)
     }
 
-    /// What rounding errors of the coordinates, and of their changes in a step, make of the gap of a surface at the end of a flight of
-    /// length `s`, where the run is.
+    /// What rounding errors of the coordinates, and of their changes in a step, make of the gap of a surface
+    /// at the end of a flight of length `s`, where the run is.
     fn rounding(&mut self, surface: usize, s: T) -> T {
         let Self { system, memory, q, t, h, .. } = self;
         let ImpactsMemory { row, v, .. } = &mut **memory;
@@ -240,14 +246,15 @@ where
         T::default_epsilon() * size
     }
 
-    /// The cubic through the gap of a surface in a flight of length `end`, whose end has been looked at, from the gap `first`.
+    /// The cubic through the gap of a surface in a flight of length `end`, whose end has been looked at,
+    /// from the gap `first`.
     fn cubic(&self, surface: usize, end: T, first: T) -> Cubic<T> {
         let ImpactsMemory { here, there, .. } = &*self.memory;
         Cubic::through([first, there.gap[surface]], [here.rate[surface] * end, there.rate[surface] * end])
     }
 
-    /// A part of a flight of length `end`, from the gap `first`, at which the gap of a surface is negative, near its least value in
-    /// between; if there is none, the run is at the end of the flight again.
+    /// A part of a flight of length `end`, from the gap `first`, at which the gap of a surface is negative,
+    /// near its least value in between; if there is none, the run is at the end of the flight again.
     fn least(&mut self, surface: usize, end: T, first: T) -> Result<Option<T>, StepFailure> {
         let zero = T::lift(0.0);
         let [mut from, mut to] = [zero, T::lift(1.0)];
@@ -277,7 +284,8 @@ where
         Ok(None)
     }
 
-    /// A part of a flight of length `end`, shorter than `guess`, at which the gap of a surface is open by more than rounding errors.
+    /// A part of a flight of length `end`, shorter than `guess`, at which the gap of a surface is open by
+    /// more than rounding errors.
     ///
     /// # Errors
     /// [`StepFailure::Contact`] if there is none.
@@ -299,8 +307,9 @@ where
         Err(StepFailure::Contact { surface, gap, rate })
     }
 
-    /// The length of the flight at which the gap of a surface closes, between parts of `end` at which it is open and closed: by the method
-    /// of false position in the Illinois form (Dowell & Jarratt 1971), and by bisection where that is slow.
+    /// The length of the flight at which the gap of a surface closes, between parts of `end` at which it is
+    /// open and closed: by the method of false position in the Illinois form (Dowell & Jarratt 1971), and by
+    /// bisection where that is slow.
     fn locate(&mut self, surface: usize, end: T, [open, closed]: [T; 2]) -> Result<T, StepFailure> {
         let (zero, half) = (T::lift(0.0), T::lift(0.5));
         let at = |of: &mut Self, x: T| -> Result<T, StepFailure> {

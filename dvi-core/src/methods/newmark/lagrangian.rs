@@ -6,7 +6,8 @@
 //! v0 = (η1 − η0)/h − (h/2)M⁻¹F0      v1 = v0 + (h/2)M⁻¹(F0 + F1)
 //! D₁D₂L_d = −[M − βh²(F0′ + F1′) + β²h⁴ F0′M⁻¹F1′]/h
 //!
-//! (Kane, Marsden, Ortiz & West 2000, section 3.2.) M v is the p of the method; the momentum that belongs to x is η′ᵀp.
+//! (Kane, Marsden, Ortiz & West 2000, section 3.2.) M v is the p of the method; the momentum that belongs to
+//! x is η′ᵀp.
 
 use super::Newmark;
 use crate::discrete::{DiscreteLagrangian, Ends, Span};
@@ -19,10 +20,12 @@ use crate::space::sink::Sink;
 use crate::state::Statistics;
 use crate::{Linear, Matrix, Real, RegularLagrangian, Separable, Space, Square, System, Vector, Weights};
 
-/// The discrete Lagrangian of [`Newmark`], with the storage that it needs: matrices with room for all entries.
+/// The discrete Lagrangian of [`Newmark`], with the storage that it needs: matrices with room for all
+/// entries.
 ///
-/// Its momentum at a point x is p − βh² F′(x)M⁻¹p, with the p of the method. Steps of [`General`](crate::methods::General)
-/// are Newmark's from that momentum. Its second derivatives in one point hold third derivatives of V and are not computed.
+/// Its momentum at a point x is p − βh² F′(x)M⁻¹p, with the p of the method. Steps of
+/// [`General`](crate::methods::General) are Newmark's from that momentum. Its second derivatives in one
+/// point hold third derivatives of V and are not computed.
 #[derive(Debug)]
 pub struct NewmarkLagrangian<S: System, T: Real = f64> {
     beta: T,
@@ -163,8 +166,12 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> VariationalMethod<S, T> fo
 
     fn discrete_lagrangian(&self, system: &S) -> NewmarkLagrangian<S, T> {
         let space = system.space();
-        let end =
-            || End { x: space.vector(), v: space.vector(), force: space.vector(), stiffness: space.matrix() };
+        let end = || End {
+            x: space.vector(),
+            v: space.vector(),
+            force: space.vector(),
+            stiffness: space.matrix(),
+        };
         NewmarkLagrangian {
             beta: self.beta,
             mass: full(system),

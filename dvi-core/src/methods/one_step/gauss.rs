@@ -1,5 +1,5 @@
-//! Gauss collocation of a degenerate Lagrangian in class, for the increments Wₖ = h Vₖ of all stages at once, by Newton's
-//! method:
+//! Gauss collocation of a degenerate Lagrangian in class, for the increments Wₖ = h Vₖ of all stages at
+//! once, by Newton's method:
 //!
 //! rᵢ = α(Qᵢ) − p − h Σⱼ aᵢⱼ Fⱼ = 0,   Qᵢ = q + Σₖ aᵢₖ Wₖ,   F = ∂L/∂q(Q, V)
 //! ∂rᵢ/∂Wₖ = aᵢₖ Dα(Qᵢ) − aᵢₖ L_qv(Qₖ) − h Σⱼ aᵢⱼ aⱼₖ L_qq(Qⱼ)
@@ -22,16 +22,17 @@ use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
 use crate::{Coupled, ProperlyDegenerate, Real, Scalar, Space, System, Vector, Weights};
 
-/// Gauss collocation of a degenerate Lagrangian in class ([`ProperlyDegenerate`]) with `S` stages, 1 ≤ `S` ≤ 4.
+/// Gauss collocation of a degenerate Lagrangian in class ([`ProperlyDegenerate`]) with `S` stages, 1 ≤ `S` ≤
+/// 4.
 ///
 /// ```math
 /// \alpha(Q_i) = p_0 + h \sum_j a_{ij} F_j, \quad Q_i = q_0 + h \sum_j a_{ij} V_j, \quad
 /// F_j = \partial_q L(Q_j, V_j), \qquad \vartheta(q_1) = p_0 + h \sum_i b_i F_i
 /// ```
 ///
-/// The order is 2`S`, the method is symmetric, and it preserves Ω whether α is affine or not. With `S` = 1 it is
-/// [`OneStep::midpoint`](super::OneStep::midpoint). A step is solved by Newton's method for all stages at once, with all second
-/// derivatives of L.
+/// The order is 2`S`, the method is symmetric, and it preserves Ω whether α is affine or not. With `S` = 1
+/// it is [`OneStep::midpoint`](super::OneStep::midpoint). A step is solved by Newton's method for all stages
+/// at once, with all second derivatives of L.
 ///
 /// Out of class the same equations have order `S` only and preserve nothing; they are no method then.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -142,7 +143,8 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
         })
     }
 
-    /// The increments of the last polynomial continued, those of its last slope where the step has another length, or zero.
+    /// The increments of the last polynomial continued, those of its last slope where the step has another
+    /// length, or zero.
     fn guess(&mut self, h: T, guess: Guess) {
         let continues = is_similar(h, self.last_step);
         for (i, increment) in self.increments.iter_mut().enumerate() {
@@ -181,7 +183,8 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<
         Ok(())
     }
 
-    /// Sets `work.next` to q1 and `work.momentum` to p1, if q1 and the stages are on the branch of ϑ(x, y) = p that q0 is on.
+    /// Sets `work.next` to q1 and `work.momentum` to p1, if q1 and the stages are on the branch of ϑ(x, y) =
+    /// p that q0 is on.
     fn attempt(
         &mut self,
         system: &S,
@@ -326,7 +329,14 @@ impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for OneStepGauss<STA
 }
 
 impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStepGauss<STAGES> {
-    fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
+    fn begin(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        _v: &[T],
+        t: T,
+        _h: T,
+    ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         OneStepGaussMemory::new(system, q, t)
     }

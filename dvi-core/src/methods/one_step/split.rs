@@ -90,7 +90,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
             self.change[system.place(column) - half] = self.form[i] * (T::lift(1.0) / entries[i]);
         }
         let finite = norm::finite(&self.change[..half]);
-        // A quotient by a number without a reciprocal is not finite, unless its numerator is as small as that.
+        // A quotient by a number without a reciprocal is not finite, unless its numerator is as small as
+        // that.
         if finite.is_err() {
             for (i, column) in rows() {
                 norm::reciprocal(entries[i], column)?;

@@ -2,9 +2,9 @@
 //!
 //! r_x = Σⱼ wⱼ(ϑⱼ − h(1 − cⱼ) f_xⱼ) − p      r_y = −½h Σⱼ wⱼ f_yⱼ
 //!
-//! at the points (x0 + cⱼΔ, ȳ) with the velocity Δ/h along x. With R = 1 − cⱼ in rows of x and ½ in rows of y, and C = cⱼ in
-//! columns of Δ and 1 in those of ȳ, the matrix is Σⱼ wⱼ(C L_vq − R L_qv − h R C L_qq). Of the midpoint scheme, solved for
-//! (½Δ, ȳ), it is Dα − (Dα)ᵀ − ½h L_qq.
+//! at the points (x0 + cⱼΔ, ȳ) with the velocity Δ/h along x. With R = 1 − cⱼ in rows of x and ½ in rows of
+//! y, and C = cⱼ in columns of Δ and 1 in those of ȳ, the matrix is Σⱼ wⱼ(C L_vq − R L_qv − h R C L_qq). Of
+//! the midpoint scheme, solved for (½Δ, ȳ), it is Dα − (Dα)ᵀ − ½h L_qq.
 
 use super::split::is_x;
 use crate::error::StepFailure;
@@ -173,8 +173,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         time
     }
 
-    /// The same at the centre, from Newton's last iterate and its correction d, up to terms of the order d², as of the unknowns
-    /// themselves: along x his equations are (Dα − ½h Df)d = r = ϑ − ½h f − p, and so the half of the kick is ½h f + r − Dα d.
+    /// The same at the centre, from Newton's last iterate and its correction d, up to terms of the order d²,
+    /// as of the unknowns themselves: along x his equations are (Dα − ½h Df)d = r = ϑ − ½h f − p, and so the
+    /// half of the kick is ½h f + r − Dα d.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick_at_centre(&mut self, step: &Step<'_, S, T>) -> T {
         let Self { momentum, gradient, one_form, point, velocity, correction, .. } = self;

@@ -1,8 +1,9 @@
 //! Velocities of coordinates that are light against the others.
 //!
-//! What a run carries is p = M v. A light coordinate gets and loses large momenta within a step, as the constraints ask of it, and
-//! keeps a small one: rounding errors of the large ones make its velocity one across the constraints. What is left of the constraints is
-//! taken away once more then, from a momentum that is small already.
+//! What a run carries is p = M v. A light coordinate gets and loses large momenta within a step, as the
+//! constraints ask of it, and keeps a small one: rounding errors of the large ones make its velocity one
+//! across the constraints. What is left of the constraints is taken away once more then, from a momentum
+//! that is small already.
 
 use super::work::{Look, Work};
 use crate::error::StepFailure;
@@ -20,8 +21,8 @@ pub(super) struct Refinement<S: ConstrainedSystem, T: Real> {
     impulse: Multipliers<S, T>,
 }
 
-/// The unit that the constraints give a coordinate is smaller by this factor than that of its mass, if it is light. Rounding errors
-/// grow by the square of it.
+/// The unit that the constraints give a coordinate is smaller by this factor than that of its mass, if it is
+/// light. Rounding errors grow by the square of it.
 const LIGHT: f64 = 1.0 / 32.0;
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Refinement<S, T> {

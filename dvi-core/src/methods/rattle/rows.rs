@@ -9,7 +9,8 @@ use crate::space::elimination::LEAST;
 use crate::space::{Sink, SquareMatrix};
 use crate::{Real, Scalar};
 
-/// Sums begin here: added to any number it leaves that number, so that the compiler may drop the first addition.
+/// Sums begin here: added to any number it leaves that number, so that the compiler may drop the first
+/// addition.
 pub(super) const NEUTRAL: f64 = -0.0;
 
 /// Adds Σ `factors`ₖ `rows`ₖ to `sum`.
@@ -32,21 +33,22 @@ pub(super) fn reduce<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T],
     }
 }
 
-/// a·b, from the last entry to the first: of three entries the compiler then packs the first two, as it does elsewhere.
+/// a·b, from the last entry to the first: of three entries the compiler then packs the first two, as it does
+/// elsewhere.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).rev().fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
 }
 
-/// One over the length of a gradient with this square: constraints have units of their own, and may be compared
-/// where their gradients are as long as one.
+/// One over the length of a gradient with this square: constraints have units of their own, and may be
+/// compared where their gradients are as long as one.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn scale<T: Real>(square: T) -> T {
     weight_of(Scalar::sqrt(Scalar::abs(square)))
 }
 
-/// Sets a matrix to A Bᵀ, where A and B have these rows, times the scales of constraints whose gradients have
-/// these `squares`.
+/// Sets a matrix to A Bᵀ, where A and B have these rows, times the scales of constraints whose gradients
+/// have these `squares`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
@@ -61,8 +63,8 @@ pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     }
 }
 
-/// Overwrites `x` with the solution of A Bᵀ y = x, where A and B have these rows, for constraints whose gradients
-/// have these `squares`.
+/// Overwrites `x` with the solution of A Bᵀ y = x, where A and B have these rows, for constraints whose
+/// gradients have these `squares`.
 ///
 /// # Errors
 /// [`StepFailure::RedundantConstraint`] and [`StepFailure::UndefinedConstraint`].

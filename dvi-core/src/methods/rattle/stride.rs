@@ -1,4 +1,5 @@
-//! Where a run is, and how it takes a step: many with a quick look at each, in registers, or one with a close look.
+//! Where a run is, and how it takes a step: many with a quick look at each, in registers, or one with a
+//! close look.
 
 use super::work::{Look, Place, Step, Work};
 use super::{Rattle, RattleMemory};
@@ -44,7 +45,8 @@ impl<S: ConstrainedSystem, T: Real> Point<S, T> {
     }
 }
 
-/// With more entries of G a step has its work space in the run, and else on the stack, where it can stay in registers.
+/// With more entries of G a step has its work space in the run, and else on the stack, where it can stay in
+/// registers.
 const SHORT: usize = 64;
 
 impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
@@ -62,8 +64,9 @@ impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
 }
 
 impl Rattle {
-    /// Takes steps with a quick look at each as long as they succeed from the guess that the last one gives, at most `count`, and
-    /// returns how many; none at all, if they lead to what is no number. What no other function sees may stay in registers.
+    /// Takes steps with a quick look at each as long as they succeed from the guess that the last one gives,
+    /// at most `count`, and returns how many; none at all, if they lead to what is no number. What no other
+    /// function sees may stay in registers.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn stride<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
         &self,

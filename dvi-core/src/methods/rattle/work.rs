@@ -47,8 +47,8 @@ pub(super) struct Work<S: ConstrainedSystem, T: Real> {
     pub(super) vector: Vector<S, T>,
     /// In which the iteration judges coordinates.
     pub(super) weights: Vector<S, T>,
-    /// The size in these of the displacement by a unit of the impulse, if there is one constraint: it saves the
-    /// size of each correction, 18 instructions in a step on a sphere.
+    /// The size in these of the displacement by a unit of the impulse, if there is one constraint: it saves
+    /// the size of each correction, 18 instructions in a step on a sphere.
     of_impulse: T,
     pub(super) values: Multipliers<S, T>,
     pub(super) gram: Gram<S, T>,
@@ -102,8 +102,8 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
 pub(super) enum Look {
     /// All that may fail is looked at where it arises, and has a name.
     Close,
-    /// What passes would pass a close look too, except that numbers may not be finite: no later step makes finite ones of these. What
-    /// does not pass may, and has no name.
+    /// What passes would pass a close look too, except that numbers may not be finite: no later step makes
+    /// finite ones of these. What does not pass may, and has no name.
     Quick,
 }
 
@@ -122,9 +122,9 @@ pub(super) struct Step<'a, S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Step<'_, S, T> {
-    /// Whether the pivots of Newton's method say enough of how far the gradient has turned. Such a pivot is the product of the gradients
-    /// before and after the step, in the metric of M. It is held against half the square of the first, so that what the last
-    /// correction changes of it does not matter.
+    /// Whether the pivots of Newton's method say enough of how far the gradient has turned. Such a pivot is
+    /// the product of the gradients before and after the step, in the metric of M. It is held against half
+    /// the square of the first, so that what the last correction changes of it does not matter.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn trusts_pivot(&self) -> bool {
         self.look == Look::Quick && self.is_metric && self.system.multipliers().dimension() == 1
@@ -143,9 +143,10 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Place<S, T> {
     }
 }
 
-/// Whether the solution of a step, with G(q1) = `rows`, lies on the branch of the motion: where no gradient has turned by a right
-/// angle in the metric of M, the determinant of G(q1) M⁻¹ G(q0)ᵀ has the sign of that of G(q0) M⁻¹ G(q0)ᵀ, and the displacement, h times
-/// the velocity v = M⁻¹p, makes no larger angle than 45° with the constraints, if M is a metric and the constraints do not move.
+/// Whether the solution of a step, with G(q1) = `rows`, lies on the branch of the motion: where no gradient
+/// has turned by a right angle in the metric of M, the determinant of G(q1) M⁻¹ G(q0)ᵀ has the sign of that
+/// of G(q0) M⁻¹ G(q0)ᵀ, and the displacement, h times the velocity v = M⁻¹p, makes no larger angle than 45°
+/// with the constraints, if M is a metric and the constraints do not move.
 ///
 /// # Errors
 /// [`StepFailure::Turned`] and [`StepFailure::Branch`].
@@ -162,8 +163,8 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
         let square = here.squares[constraint];
         // What is no number is no turn by less than a right angle either.
         let is_small = step.trusts_pivot() || dot(row, solved) * square > T::lift(0.0);
-        // Where a displacement may be rounding, both ends of it have one size; that of the first would be evaluated in every step, as
-        // nothing in the loop around this changes it.
+        // Where a displacement may be rounding, both ends of it have one size; that of the first would be
+        // evaluated in every step, as nothing in the loop around this changes it.
         let along = |length| is_along(dot(solved, p), square, length, || mass.squared(q1) / (h * h));
         if !(is_small && length.is_none_or(along)) {
             return Err(StepFailure::Turned { constraint });
@@ -247,7 +248,8 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
             mass.solve(p, v);
             system.constraint_rate(q, v, t, values);
         }
-        // Of one constraint the matrix is its square. A quotient by what is no pivot goes no further than to the end of this.
+        // Of one constraint the matrix is its square. A quotient by what is no pivot goes no further than to
+        // the end of this.
         if let ([value], [square]) = (&mut values[..], &squares[..]) {
             *value /= *square;
         } else {

@@ -184,7 +184,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn repeat(&mut self, convergence: impl Judge<T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
+    fn repeat(
+        &mut self,
+        convergence: impl Judge<T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
         let Self { step, q, defect, history, inverse, l_d, work, .. } = self;
         let sigma = step.method.sigma;
         let node = &mut l_d.work;

@@ -3,9 +3,9 @@
 //! q1 = (q0 + K⁻¹c0) + s   with K = −(Dα)ᵀ, s = −hK⁻¹∇H(q0),   and c1 = −DαΔ,  Δ = q1 − q0.
 //!
 //! Only s has to wait for the gradient: the point ahead, q0 + K⁻¹c0, was left by the step before. In a
-//! symmetric gauge, ½(x dy − y dx), it is the point before: q2 = q0 + 2s, the leapfrog scheme as it is usually
-//! written (Rowley & Marsden 2002, eq. 13). Over many steps the points are local arrays, which the compiler can
-//! keep in registers, and c, which no step needs, is computed at the end.
+//! symmetric gauge, ½(x dy − y dx), it is the point before: q2 = q0 + 2s, the leapfrog scheme as it is
+//! usually written (Rowley & Marsden 2002, eq. 13). Over many steps the points are local arrays, which the
+//! compiler can keep in registers, and c, which no step needs, is computed at the end.
 
 use super::memory::{Ahead, SigmaMemory, Work};
 use super::monitor::Monitor;

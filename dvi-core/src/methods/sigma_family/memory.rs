@@ -19,7 +19,8 @@ use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Carried;
 use crate::{DegenerateLagrangian, Lagrangian, Linear, Real, Space, System, Vector};
 
-/// What a run of the σ-family carries from step to step: its defect, its guesses, the measured parasitic mode.
+/// What a run of the σ-family carries from step to step: its defect, its guesses, the measured parasitic
+/// mode.
 #[derive(Debug)]
 pub struct SigmaMemory<S: System, T: Real> {
     /// c = p − α(q) at the current point.
@@ -308,7 +309,9 @@ fn pace<S: DegenerateLagrangian<T>, T: Real>(
         _ if S::AFFINE && method.is_midpoint() => (None, Pace::Seldom),
         None => (None, Pace::Seldom),
         // Where Dα is antisymmetric, K' = −K: c is reversed, and a gradient added to it.
-        limit if S::AFFINE && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) => {
+        limit
+            if S::AFFINE && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) =>
+        {
             (limit, Pace::WithTheFlow)
         }
         limit => (limit, Pace::EachStep),

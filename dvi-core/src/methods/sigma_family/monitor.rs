@@ -1,10 +1,10 @@
 //! The parasitic mode, measured: what of the second differences of a run alternates from step to step.
 //!
 //! D_k = q_{k−1} − 2q_k + q_{k+1}. On an alternating part (−1)ᵏa, D_{k−1} − 2D_k + D_{k+1} is 16a, and
-//! D_{k−1} + 2D_k + D_{k+1} is nothing; on a smooth motion the second is 4h²q̈. The mode is compared with a quarter of
-//! h²q̈, the size of what a step of second order neglects. Of a motion that turns by the angle θ in a step the ratio is
-//! tan²(θ/2). The solution of a stable step with σ ≠ ½ has θ < π/2, and the parasitic mode is its mirror image, π − θ
-//! (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
+//! D_{k−1} + 2D_k + D_{k+1} is nothing; on a smooth motion the second is 4h²q̈. The mode is compared with a
+//! quarter of h²q̈, the size of what a step of second order neglects. Of a motion that turns by the angle θ
+//! in a step the ratio is tan²(θ/2). The solution of a stable step with σ ≠ ½ has θ < π/2, and the parasitic
+//! mode is its mirror image, π − θ (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
 
 use crate::error::StepFailure;
 use crate::methods::walk::BLOCK;
@@ -24,7 +24,8 @@ const HARMLESS: f64 = 1e-5;
 /// How much of the size of a coordinate's second differences is forgotten from one look to the next.
 const FORGOTTEN: f64 = 1.0 / 64.0;
 
-/// The same of all coordinates together: what is remembered is a bridge over points at which the path is straight.
+/// The same of all coordinates together: what is remembered is a bridge over points at which the path is
+/// straight.
 const FORGOTTEN_TOGETHER: f64 = 1.0 / 8.0;
 
 /// A mode that has changed by no more than this part from one look to the next stays as it is.
@@ -33,11 +34,12 @@ const STEADY: f64 = 0.01;
 /// The second differences of a coordinate count as no smaller than this fraction of the largest of all.
 const FLOOR: f64 = 0.1;
 
-/// A mode that is large from the first steps on, as it is where steps are long, may become this many times as large.
+/// A mode that is large from the first steps on, as it is where steps are long, may become this many times
+/// as large.
 const GROWTH: f64 = 3.0;
 
-/// What it takes to end a run: this many looks in a row above the limit, or two of which the last is above it this many
-/// times.
+/// What it takes to end a run: this many looks in a row above the limit, or two of which the last is above
+/// it this many times.
 #[derive(Clone, Copy, Debug)]
 struct Evidence {
     looks: u32,
@@ -47,8 +49,8 @@ struct Evidence {
 /// Where a path is straight, a smooth motion may look as if it alternated, to one look.
 const GROWING: Evidence = Evidence { looks: 2, sudden: 4.0 };
 
-/// A path whose curvature changes within a step or two seems to alternate, all at once, to all looks that see the place, which
-/// are five to seven, and up to three times as large as it is curved.
+/// A path whose curvature changes within a step or two seems to alternate, all at once, to all looks that
+/// see the place, which are five to seven, and up to three times as large as it is curved.
 const AT_ONCE: Evidence = Evidence { looks: 8, sudden: 16.0 };
 
 /// A mode that is this many times as large as a step before has not grown.
@@ -57,22 +59,24 @@ const JUMP: f64 = 5.0;
 /// How many looks show the mode as it is from the start.
 const FIRST_LOOKS: u32 = 2;
 
-/// By how many radians the motion turns while the mode may grow e-fold; from this follows when to look again.
+/// By how many radians the motion turns while the mode may grow e-fold; from this follows when to look
+/// again.
 const RADIANS: f64 = 4.0;
 
 /// The parasitic mode at five consecutive points of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParasiticMode<T = f64> {
-    /// The largest entry of a = (q_{k−2} − 4q_{k−1} + 6q_k − 4q_{k+1} + q_{k+2})/16: of an alternating part (−1)ᵏa,
-    /// the largest entry of a; of a smooth motion, of (h⁴/16) q⁗. In units of the coordinates.
+    /// The largest entry of a = (q_{k−2} − 4q_{k−1} + 6q_k − 4q_{k+1} + q_{k+2})/16: of an alternating part
+    /// (−1)ᵏa, the largest entry of a; of a smooth motion, of (h⁴/16) q⁗. In units of the coordinates.
     pub amplitude: T,
-    /// 4|a|/|s| in the Euclidean norm, where s is h²q̈ from second differences that do not see what alternates; or the
-    /// largest 4|aᵢ|/sᵢ, if that is larger, where sᵢ is at least a tenth of the largest of all coordinates. Both sizes are
-    /// the largest of the points that were looked at, of which each look forgets 1/8, and of a coordinate 1/64. Of a
-    /// smooth motion of frequency ω it is about (ωh/2)². On a straight path it says nothing, and may be infinite or no
-    /// number.
+    /// 4|a|/|s| in the Euclidean norm, where s is h²q̈ from second differences that do not see what
+    /// alternates; or the largest 4|aᵢ|/sᵢ, if that is larger, where sᵢ is at least a tenth of the largest
+    /// of all coordinates. Both sizes are the largest of the points that were looked at, of which each look
+    /// forgets 1/8, and of a coordinate 1/64. Of a smooth motion of frequency ω it is about (ωh/2)². On a
+    /// straight path it says nothing, and may be infinite or no number.
     pub relative: T,
-    /// Whether the amplitude is more than rounding errors, 1024 ε max|q|, and more than 10⁻⁵ of the increment.
+    /// Whether the amplitude is more than rounding errors, 1024 ε max|q|, and more than 10⁻⁵ of the
+    /// increment.
     pub is_significant: bool,
 }
 
@@ -111,7 +115,8 @@ pub(super) struct Monitor<S: System, T: Real> {
     first: First,
 }
 
-/// The mode in the first looks of a run whose mode grows with the flow: the largest relative size and amplitude.
+/// The mode in the first looks of a run whose mode grows with the flow: the largest relative size and
+/// amplitude.
 #[derive(Clone, Copy, Debug, Default)]
 struct First {
     looks: u32,
@@ -182,7 +187,8 @@ impl<S: System, T: Real> Monitor<S, T> {
         if position > KEPT as u64 { self.period - position } else { 0 }
     }
 
-    /// [`look`](Self::look) as the blocks of the explicit scheme have it. Returns the number of steps to the next look.
+    /// [`look`](Self::look) as the blocks of the explicit scheme have it. Returns the number of steps to the
+    /// next look.
     ///
     /// # Errors
     /// As there.
@@ -295,9 +301,10 @@ impl<S: System, T: Real> Monitor<S, T> {
         mode
     }
 
-    /// Notes the mode of the first looks, and sets when to look again: before the mode can have reached the limit if it
-    /// grows with the turning of the path, `turned`/`moved` being the square of the angle of a step, or as it has grown
-    /// since the last look; and not much later than half as far again as the run has come.
+    /// Notes the mode of the first looks, and sets when to look again: before the mode can have reached the
+    /// limit if it grows with the turning of the path, `turned`/`moved` being the square of the angle of a
+    /// step, or as it has grown since the last look; and not much later than half as far again as the run
+    /// has come.
     fn keep_pace(&mut self, step: u64, mode: &ParasiticMode<T>, turned: f64, moved: f64) {
         let size = |mode: &ParasiticMode<T>| if mode.is_significant { reported(mode.relative) } else { 0.0 };
         let relative = size(mode);

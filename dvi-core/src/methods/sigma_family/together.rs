@@ -1,5 +1,5 @@
-//! Steps of several runs in lanes, for affine α that couples the coordinates in pairs: σ = 0 as in [`leapfrog`](super::leapfrog), and
-//! the fixed point of σ = ½ as in [`affine`](super::affine).
+//! Steps of several runs in lanes, for affine α that couples the coordinates in pairs: σ = 0 as in
+//! [`leapfrog`](super::leapfrog), and the fixed point of σ = ½ as in [`affine`](super::affine).
 
 mod leaps;
 mod midpoints;
@@ -96,8 +96,8 @@ where
     }
 }
 
-/// Looks at the points `q` of the runs, and returns the number of steps that may follow, at most `most`, before that is to be done
-/// again; none if a run is to go on alone. `of_run` says as much of one run.
+/// Looks at the points `q` of the runs, and returns the number of steps that may follow, at most `most`,
+/// before that is to be done again; none if a run is to go on alone. `of_run` says as much of one run.
 fn look<const W: usize, S: DegenerateLagrangian>(
     runs: &mut [Companion<'_, S, Sigma>],
     q: &[Lanes<W>],

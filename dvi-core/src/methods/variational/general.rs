@@ -1,5 +1,5 @@
-//! Any L: Newton's method, or where L is separable and only the frequency asks for derivatives, a fixed point with the
-//! matrix of the fitted oscillator, −(h/κ)M⁻¹ in place of (D₁D₂L_d)⁻¹.
+//! Any L: Newton's method, or where L is separable and only the frequency asks for derivatives, a fixed
+//! point with the matrix of the fitted oscillator, −(h/κ)M⁻¹ in place of (D₁D₂L_d)⁻¹.
 
 use super::Step;
 use super::coefficients::Coefficients;

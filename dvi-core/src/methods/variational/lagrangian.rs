@@ -1,10 +1,11 @@
 //! The discrete Lagrangian of a rule and an interpolation, for any L and any frequency.
 //!
 //! D₁L_d = Σ w (h b ∂L/∂q + B ∂L/∂v)      D₂L_d = Σ w (h b̄ ∂L/∂q + B̄ ∂L/∂v)
-//! D₁D₂L_d = Σ w (h b b̄ L_qq + b B̄ L_qv + B b̄ L_vq + B B̄ L_vv/h), and D₁D₁L_d, D₂D₂L_d with b, B or b̄, B̄ twice
+//! D₁D₂L_d = Σ w (h b b̄ L_qq + b B̄ L_qv + B b̄ L_vq + B B̄ L_vv/h),
+//! and D₁D₁L_d, D₂D₂L_d with b, B or b̄, B̄ twice
 //!
-//! With a variational frequency, L_d = ℓ(q0, q1, ω(q0, q1)) and D₁L_d = ∂ℓ/∂q0 + ∂ℓ/∂ω ∂ω/∂q0: the first derivatives are
-//! exact, and D₁D₂L_d is that of ω held constant.
+//! With a variational frequency, L_d = ℓ(q0, q1, ω(q0, q1)) and D₁L_d = ∂ℓ/∂q0 + ∂ℓ/∂ω ∂ω/∂q0: the first
+//! derivatives are exact, and D₁D₂L_d is that of ω held constant.
 
 use super::coefficients::{Coefficients, End};
 use super::{Step, Variational};
@@ -126,8 +127,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Discret
     }
 }
 
-/// The discrete Lagrangian of a rule and of an interpolation that is linear or fitted to a frequency that is given, with
-/// the storage that it needs.
+/// The discrete Lagrangian of a rule and of an interpolation that is linear or fitted to a frequency that is
+/// given, with the storage that it needs.
 #[derive(Debug)]
 pub struct QuadratureLagrangian<S: System, F, R, T: Real = f64> {
     method: Variational<F, R>,

@@ -3,9 +3,10 @@
 //! r(q1) = p0 + D₁L_d = p0 + M(A q0 − K q1)/h + h Σ w b F(qʲ),     q1 ← q1 + (h/κ) M⁻¹r,   κ = S/(sin u/u)²
 //! p1 = p0 + (D₁ + D₂)L_d = p0 + M((A − K) q0 + (C − K) q1)/h + h Σ w (b + b̄) F(qʲ)
 //!
-//! κ contains the oscillator of the fitted frequency, so that only what differs from it is iterated. Where no
-//! node lies between the ends and the frequency does not depend on q1, r is linear in q1 and the step explicit:
-//! p½ = p0 + h Σ w F(q0) + M(A − K)q0/h,   q1 = q0 + (h/K) M⁻¹p½,   p1 = p½ + h Σ w F(q1) + M(C − K)q1/h.
+//! κ contains the oscillator of the fitted frequency, so that only what differs from it is iterated. Where
+//! no node lies between the ends and the frequency does not depend on q1, r is linear in q1 and the step
+//! explicit: p½ = p0 + h Σ w F(q0) + M(A − K)q0/h, q1 = q0 + (h/K) M⁻¹p½, p1 = p½ + h Σ w F(q1) + M(C −
+//! K)q1/h.
 
 use super::Step;
 use super::coefficients::{Coefficients, Sums};
@@ -77,7 +78,8 @@ fn complete<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     phase.arrive(q, [next, momentum, gradient], increment, step.h)
 }
 
-/// How much of the impulse of a node is meant. A value and no function: the loop of a node is compiled once for all.
+/// How much of the impulse of a node is meant. A value and no function: the loop of a node is compiled once
+/// for all.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Share {
     /// What belongs to the left end: b.
@@ -107,8 +109,8 @@ impl<T: Real> Sums<T> {
     }
 }
 
-/// A step as it is being solved. In `work`: `increment` is Δ, `next` is q1 and `node.gradient` is F(q1) once they have
-/// been asked for, `node.momentum` is p1 in the end.
+/// A step as it is being solved. In `work`: `increment` is Δ, `next` is q1 and `node.gradient` is F(q1) once
+/// they have been asked for, `node.momentum` is p1 in the end.
 struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, T: Real> {
     step: &'a Step<'a, S, F, R, T>,
     coefficients: &'a mut Coefficients<T>,
@@ -230,7 +232,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt
         }
     }
 
-    /// Corrects Δ by the velocity that belongs to the impulses of the left end, and returns the size of the correction.
+    /// Corrects Δ by the velocity that belongs to the impulses of the left end, and returns the size of the
+    /// correction.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn correct(&mut self, weights: &[T]) -> T {
         let Work { increment, node: NodeWork { velocity, .. }, .. } = &mut *self.work;
@@ -243,8 +246,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt
         sizes::largest(weights, velocity)
     }
 
-    /// The same, with the impulse of the last node that has one at the left end, which is not in `momentum` yet; if it is the
-    /// only one, nothing is in `momentum`.
+    /// The same, with the impulse of the last node that has one at the left end, which is not in `momentum`
+    /// yet; if it is the only one, nothing is in `momentum`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn correct_by_last(
         &mut self,
@@ -256,7 +259,8 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt
         self.evaluate(node, c);
         let (h, basis, sums) = (self.step.h, self.coefficients.bases[node], self.coefficients.sums);
         let weight = h * self.coefficients.weights[node];
-        let Work { increment, trial, node: NodeWork { momentum, velocity, point, .. }, .. } = &mut *self.work;
+        let Work { increment, trial, node: NodeWork { momentum, velocity, point, .. }, .. } =
+            &mut *self.work;
         let p = if is_only { &self.phase.p } else { &*momentum };
         let force = if c == 0.0 { &self.phase.force } else { &*trial };
         // Where nothing but Δ moves it, the node is followed.

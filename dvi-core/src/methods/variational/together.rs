@@ -1,4 +1,5 @@
-//! Störmer and Verlet's steps of several runs in lanes: kick, drift, kick, as [`verlet`](super::verlet) takes them one run at a time.
+//! Störmer and Verlet's steps of several runs in lanes: kick, drift, kick, as [`verlet`](super::verlet)
+//! takes them one run at a time.
 
 use super::Variational;
 use crate::discrete::frequency::FrequencyIn;

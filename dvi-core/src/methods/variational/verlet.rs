@@ -82,7 +82,8 @@ struct Kicks<'a, S: NondegenerateLagrangian<T>, T: Real> {
     p1: &'a mut [T],
     f1: &'a mut [T],
     v: &'a mut [T],
-    /// Whether the half kick that ends a step is still to come: with that of the next step it takes one pass over memory.
+    /// Whether the half kick that ends a step is still to come: with that of the next step it takes one pass
+    /// over memory.
     owed: bool,
 }
 

@@ -11,8 +11,8 @@ use crate::scalar::norm::reported;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real, System, Vector};
 
-/// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the control
-/// [rejects](super::StepControl::REJECTS) steps, back.
+/// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the
+/// control [rejects](super::StepControl::REJECTS) steps, back.
 pub struct ControlledRun<'a, S: System, M: Carries<S, T>, T: Real> {
     pub(super) stepper: Stepper<'a, S, M, T>,
     /// What can be gone back to.
@@ -85,8 +85,8 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
         Ok(())
     }
 
-    /// An estimate of the error of the last step, from time `t` of length `h` where steps usually have another, in units of `tolerance`, without
-    /// allocation; `None` if the method has none.
+    /// An estimate of the error of the last step, from time `t` of length `h` where steps usually have
+    /// another, in units of `tolerance`, without allocation; `None` if the method has none.
     ///
     /// # Errors
     /// As [`VariableStep::local_error`].

@@ -2,9 +2,10 @@
 //!
 //! p0 = −D₁L_d(q0, q1; h)      E_d(q0, q1; h) = −∂L_d/∂h = e
 //!
-//! for q1 and h (Kane, Marsden & Ortiz 1999). The first equation is the step of the method; what is left is one equation for h. It is
-//! solved by the secant method from the last two lengths and, where that leads nowhere, by the method of false position in the Illinois form
-//! between lengths at which the defect has different signs, sought from a quarter of the last length to four times that.
+//! for q1 and h (Kane, Marsden & Ortiz 1999). The first equation is the step of the method; what is left is
+//! one equation for h. It is solved by the secant method from the last two lengths and, where that leads
+//! nowhere, by the method of false position in the Illinois form between lengths at which the defect has
+//! different signs, sought from a quarter of the last length to four times that.
 
 use super::{ControlledRun, StepControl};
 use crate::discrete::{Ends, Interval, Span};
@@ -20,35 +21,40 @@ const ITERATIONS: usize = 60;
 const SOUGHT: i32 = 24;
 /// So many rounding errors of the terms of E_d count as none.
 const ROUNDINGS: f64 = 4.0;
-/// Lengths that differ by less, relatively, count as the same; a secant then begins at one that differs by the second.
+/// Lengths that differ by less, relatively, count as the same; a secant then begins at one that differs by
+/// the second.
 const NEAR: [f64; 2] = [1e-6, 1e-3];
 /// By this factor a length may differ from the last.
 const REACH: f64 = 4.0;
 
-/// Steps that conserve the discrete energy of a variational method to rounding errors: the symplectic–energy–momentum scheme of Kane, Marsden &
-/// Ortiz (1999).
+/// Steps that conserve the discrete energy of a variational method to rounding errors: the
+/// symplectic–energy–momentum scheme of Kane, Marsden & Ortiz (1999).
 ///
 /// ```math
 /// p_0 = -D_1 L_d(q_0, q_1;\ h), \qquad E_d(q_0, q_1;\ h) = -\frac{\partial L_d}{\partial h} = e
 /// ```
 ///
-/// The length h of each step is an unknown of the step, beside q1; e is the discrete energy of the first step, whose length is
-/// given. It is that of `Variational` with linear interpolation, for which E_d = Σ wⱼ E(qʲ, Δ/h), on systems without forces whose
-/// L does not depend on time. Momenta of symmetries are conserved as by steps of one length. Energies E at the points of the run differ
-/// from E_d by terms of the order h².
+/// The length h of each step is an unknown of the step, beside q1; e is the discrete energy of the first
+/// step, whose length is given. It is that of `Variational` with linear interpolation, for which E_d = Σ wⱼ
+/// E(qʲ, Δ/h), on systems without forces whose L does not depend on time. Momenta of symmetries are
+/// conserved as by steps of one length. Energies E at the points of the run differ from E_d by terms of the
+/// order h².
 ///
-/// The equation for h may have no solution: E_d differs from E by a(q, p)h² and terms of higher order, and where a is zero
-/// or has an extremum nearby, no length between a quarter of the last and four times that gives e. The run then ends with [`StepFailure::EnergyStep`], at the last good
-/// state. Kane, Marsden & Ortiz take the length of the smallest defect there; this control does not, because energy would no longer be
-/// conserved. Take `Variational::midpoint()`: on an oscillator its E_d does not depend on the point, so that steps have one length,
-/// and on the spring below it finds lengths for thousands of steps, where `Variational::trapezoid()` ends after a few.
+/// The equation for h may have no solution: E_d differs from E by a(q, p)h² and terms of higher order, and
+/// where a is zero or has an extremum nearby, no length between a quarter of the last and four times that
+/// gives e. The run then ends with [`StepFailure::EnergyStep`], at the last good state. Kane, Marsden &
+/// Ortiz take the length of the smallest defect there; this control does not, because energy would no longer
+/// be conserved. Take `Variational::midpoint()`: on an oscillator its E_d does not depend on the point, so
+/// that steps have one length, and on the spring below it finds lengths for thousands of steps, where
+/// `Variational::trapezoid()` ends after a few.
 ///
-/// Where another solution is nearer than the one that belongs to the steps before, or that one has ended, lengths jump: on a Kepler
-/// orbit of eccentricity 0.9 by a factor of two. In dual numbers the derivative of h is that of an iteration before the last, and as
-/// close as the tolerance.
+/// Where another solution is nearer than the one that belongs to the steps before, or that one has ended,
+/// lengths jump: on a Kepler orbit of eccentricity 0.9 by a factor of two. In dual numbers the derivative of
+/// h is that of an iteration before the last, and as close as the tolerance.
 ///
-/// A step takes several of the method: about seven evaluations of derivatives in the experiment `energy-momentum`, where steps of one
-/// length are nearer to the motion for the same work. The scheme is for those who need E_d as it is.
+/// A step takes several of the method: about seven evaluations of derivatives in the experiment
+/// `energy-momentum`, where steps of one length are nearer to the motion for the same work. The scheme is
+/// for those who need E_d as it is.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -70,8 +76,8 @@ const REACH: f64 = 4.0;
 pub struct EnergyMomentum {
     /// The length of the first step, which sets the discrete energy; negative to run back in time.
     pub first_step: f64,
-    /// The largest defect of the discrete energy to accept, relative to the larger of |E| and v·∂L/∂v at the start. Where
-    /// rounding leaves more, that is accepted. Default: 1e-14.
+    /// The largest defect of the discrete energy to accept, relative to the larger of |E| and v·∂L/∂v at the
+    /// start. Where rounding leaves more, that is accepted. Default: 1e-14.
     pub tolerance: f64,
 }
 
@@ -121,7 +127,8 @@ impl<S: RegularLagrangian<T>, T: Real> EnergyMomentumMemory<S, T> {
         self.defect
     }
 
-    /// Sets what rounding leaves of E_d in a step from `start`, where `velocity` is: Δ/h has the rounding of the coordinates over h.
+    /// Sets what rounding leaves of E_d in a step from `start`, where `velocity` is: Δ/h has the rounding of
+    /// the coordinates over h.
     fn set_rounding(&mut self, system: &S, t: T) {
         let Self { h, rounding, start, velocity, momentum, force, .. } = self;
         system.gradient(start, velocity, t, force, momentum);

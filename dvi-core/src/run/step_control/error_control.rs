@@ -2,9 +2,10 @@
 //!
 //! h' = h e^(−0.7) e₋^(0.4),    e = ε^(1/k)/f
 //!
-//! after a step with estimated error ε, in units of the tolerance, where ε is of order k in h: so e is how many times too long the step was,
-//! with the safety factor f, and e₋ is that of the step before. This is the proportional–integral controller of Gustafsson 1991, with the
-//! constants of Hairer & Wanner 1996, section IV.2. Steps settle at e = 1. After a step that is taken back h' = h/e.
+//! after a step with estimated error ε, in units of the tolerance, where ε is of order k in h: so e is how
+//! many times too long the step was, with the safety factor f, and e₋ is that of the step before. This is
+//! the proportional–integral controller of Gustafsson 1991, with the constants of Hairer & Wanner 1996,
+//! section IV.2. Steps settle at e = 1. After a step that is taken back h' = h/e.
 
 use super::rejection::{Accepted, Verdict, step_of_at_most};
 use super::{ControlledRun, StepControl};
@@ -30,20 +31,23 @@ const FORGETTING: f64 = 0.9;
 /// Steps that are no more than this longer than what is left to a given time lead there.
 const STRETCH: f64 = 1.01;
 
-/// Steps whose estimated error is within a tolerance, for those who want a motion up to some time to so many digits, and no form to be
-/// preserved.
+/// Steps whose estimated error is within a tolerance, for those who want a motion up to some time to so many
+/// digits, and no form to be preserved.
 ///
-/// **It destroys the long-time behaviour of symplectic and symmetric methods.** A step that is chosen by its error depends on where it
-/// begins and not on where it leads, so that the map of a step is neither symplectic nor symmetric, and errors of energy and momenta
-/// grow as those of any other method do (Hairer, Lubich & Wanner 2006, section VIII.1). They are within what the tolerance lets through.
-/// For long runs take steps of one length, or [`Reversible`](super::Reversible).
+/// **It destroys the long-time behaviour of symplectic and symmetric methods.** A step that is chosen by its
+/// error depends on where it begins and not on where it leads, so that the map of a step is neither
+/// symplectic nor symmetric, and errors of energy and momenta grow as those of any other method do (Hairer,
+/// Lubich & Wanner 2006, section VIII.1). They are within what the tolerance lets through. For long runs
+/// take steps of one length, or [`Reversible`](super::Reversible).
 ///
 /// The control is for methods that estimate the error of a step: [`Gauss`](crate::methods::Gauss), with
-/// [`EnergyLimit`](crate::methods::EnergyLimit) around it or not. A step that does not meet the tolerance, or fails, is taken back, and
-/// tried again with a shorter one; [`Statistics::rejected`](crate::state::Statistics::rejected) counts them. Where no step meets it the
-/// run ends with [`StepFailure::Tolerance`]. The tolerance is that of a step. The error of a run is the sum of what its steps contribute, and
-/// goes like the power p/(p + 1) of the tolerance for a method of order p: with few stages it is hundreds or thousands of times as large,
-/// with eight some ten times on regular motion. Below a tolerance of some 10⁻¹⁴ it is rounding.
+/// [`EnergyLimit`](crate::methods::EnergyLimit) around it or not. A step that does not meet the tolerance,
+/// or fails, is taken back, and tried again with a shorter one;
+/// [`Statistics::rejected`](crate::state::Statistics::rejected) counts them. Where no step meets it the run
+/// ends with [`StepFailure::Tolerance`]. The tolerance is that of a step. The error of a run is the sum of
+/// what its steps contribute, and goes like the power p/(p + 1) of the tolerance for a method of order p:
+/// with few stages it is hundreds or thousands of times as large, with eight some ten times on regular
+/// motion. Below a tolerance of some 10⁻¹⁴ it is rounding.
 ///
 /// The estimate looks at the whole step: at the `S` stages, at both ends, and between each two stages. A
 /// jump or a kink of a force, or the knot of a spline, makes steps short where the motion meets it, and the

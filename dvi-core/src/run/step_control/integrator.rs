@@ -17,10 +17,12 @@ use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
 
 /// A run of a method on a system with steps chosen by a [`StepControl`].
 ///
-/// Like [`Integrator`](crate::run::Integrator) it is a [`Run`], and an iterator that yields the state after each step, up
-/// to the first failure; [`state`](Run::state) is always the last good one. The velocity is taken along, so that
-/// a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-pub struct ControlledIntegrator<'a, S: Lagrangian<T>, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64> {
+/// Like [`Integrator`](crate::run::Integrator) it is a [`Run`], and an iterator that yields the state after
+/// each step, up to the first failure; [`state`](Run::state) is always the last good one. The velocity is
+/// taken along, so that a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a
+/// step.
+pub struct ControlledIntegrator<'a, S: Lagrangian<T>, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64>
+{
     controlled: ControlledRun<'a, S, M, T>,
     control: C,
     control_memory: C::Memory,
@@ -37,8 +39,8 @@ where
     /// A run from `start` at time 0.
     ///
     /// # Errors
-    /// [`StartError`] if an array has the wrong length, a coordinate is not finite, an option of the method or
-    /// of the control is out of range, or their starting values cannot be computed.
+    /// [`StartError`] if an array has the wrong length, a coordinate is not finite, an option of the method
+    /// or of the control is out of range, or their starting values cannot be computed.
     pub fn new(system: &'a S, method: M, control: C, start: S::State<T>) -> Result<Self, StartError> {
         Self::new_at(system, method, control, T::lift(0.0), start)
     }
@@ -73,12 +75,13 @@ where
         Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
     }
 
-    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control carries from step to step, the
-    /// length and the direction of the next step among it, is that of the checkpoint.
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control
+    /// carries from step to step, the length and the direction of the next step among it, is that of the
+    /// checkpoint.
     ///
     /// # Errors
-    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and control carry on
-    /// this system, or numbers that no run has.
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and
+    /// control carry on this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
     pub fn resume(
         system: &'a S,
@@ -196,8 +199,8 @@ impl<S: Lagrangian<T>, M, T: Real> ControlledIntegrator<'_, S, M, ErrorControl, 
 where
     M: VariableStep<S, T>,
 {
-    /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the rounding of the time. Nothing is
-    /// allocated. The present time takes no step.
+    /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the
+    /// rounding of the time. Nothing is allocated. The present time takes no step.
     ///
     /// # Errors
     /// [`StepFailure::Unreachable`] if `t` is past, in the direction of [the next
@@ -252,7 +255,8 @@ where
             return None;
         }
         Some(
-            self.take_steps(n as u64 + 1).and_then(|()| self.controlled.stepper.try_state(self.clock.time())),
+            self.take_steps(n as u64 + 1)
+                .and_then(|()| self.controlled.stepper.try_state(self.clock.time())),
         )
     }
 }
@@ -301,8 +305,11 @@ impl<T: Real> VariableClock<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance(&mut self, h: T) {
         let sum = self.sum + h;
-        self.rest +=
-            if Scalar::abs(self.sum) >= Scalar::abs(h) { (self.sum - sum) + h } else { (h - sum) + self.sum };
+        self.rest += if Scalar::abs(self.sum) >= Scalar::abs(h) {
+            (self.sum - sum) + h
+        } else {
+            (h - sum) + self.sum
+        };
         self.sum = sum;
     }
 

@@ -1,13 +1,13 @@
 //! The step control of Kosmas & Vlachos, by the osculating circles at both ends of a step.
 //!
-//! e = | |R(q1) − R(q0)| − v_o d |,    R = 1/k = |v|³/c,    c² = |v × a|² = v²a² − (v·a)²        (their eq. 23)
+//! e = | |R(q1) − R(q0)| − v_o d |, R = 1/k = |v|³/c, c² = |v × a|² = v²a² − (v·a)² (their eq. 23)
 //!
-//! with the speed v_o = |dR/ds| of the centre of the circle per unit of arc length (their eq. 22), at q0, exactly:
-//! Ṙ = |v|(3 v·a/c − v²ċ/c²),    c ċ = v²(a·j) − (v·a)(v·j),    a = M⁻¹∂L/∂q,    j = ȧ,    v_o = |Ṙ|/|v|.
+//! with the speed v_o = |dR/ds| of the centre of the circle per unit of arc length (their eq. 22), at q0,
+//! exactly: Ṙ = |v|(3 v·a/c − v²ċ/c²), c ċ = v²(a·j) − (v·a)(v·j), a = M⁻¹∂L/∂q, j = ȧ, v_o = |Ṙ|/|v|.
 //!
-//! As printed, d = h: lengths and times are mixed, and e is of first order in h. The distance that the centre
-//! moves is v_o |v| h; with d = |v| h, e is the remainder of a Taylor series, of second order. Neither bounds the
-//! error of a step: on a circle e = 0 whatever the method does.
+//! As printed, d = h: lengths and times are mixed, and e is of first order in h. The distance that the
+//! centre moves is v_o |v| h; with d = |v| h, e is the remainder of a Taylor series, of second order.
+//! Neither bounds the error of a step: on a circle e = 0 whatever the method does.
 
 use super::rejection::{Accepted, Verdict, step_of_at_most};
 use super::{ControlledRun, StepControl};
@@ -39,17 +39,18 @@ impl CentreSpeed {
     }
 }
 
-/// Steps for which $`\left| |1/k_1 - 1/k_2| - v_o d \right|`$ is at most a tolerance (Kosmas & Vlachos, eq. 23): the osculating
-/// circle of the path changes little in a step.
+/// Steps for which $`\left| |1/k_1 - 1/k_2| - v_o d \right|`$ is at most a tolerance (Kosmas & Vlachos, eq.
+/// 23): the osculating circle of the path changes little in a step.
 ///
-/// A step that is too long, or fails, is undone and tried again. The next length is h·0.9 (tolerance/e)^(1/p), between h/5 and
-/// 5h, with the order p of the error e in h. The control is for L = ½ v·M v − V(q) with a constant matrix M and forces without velocities, and for the
-/// curvature of the path in the Euclidean metric of the coordinates; a V that depends on time explicitly does so in the
-/// acceleration, but not in its rate of change. It is not available on straight paths, which have no osculating circle.
+/// A step that is too long, or fails, is undone and tried again. The next length is h·0.9
+/// (tolerance/e)^(1/p), between h/5 and 5h, with the order p of the error e in h. The control is for L = ½
+/// v·M v − V(q) with a constant matrix M and forces without velocities, and for the curvature of the path in
+/// the Euclidean metric of the coordinates; a V that depends on time explicitly does so in the acceleration,
+/// but not in its rate of change. It is not available on straight paths, which have no osculating circle.
 ///
-/// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method. With the distance along
-/// the path it may also lock in to a periodic motion, and then they do not: the gallery shows both.
-/// [`Reversible`](super::Reversible) is better and cheaper.
+/// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method.
+/// With the distance along the path it may also lock in to a periodic motion, and then they do not: the
+/// gallery shows both. [`Reversible`](super::Reversible) is better and cheaper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Osculating {
     /// The largest e to accept, a length.

@@ -8,8 +8,8 @@ use crate::{Lagrangian, Real};
 /// What a control says of a step that it has taken.
 pub(super) enum Verdict<A, T> {
     Accepted(A),
-    /// A step of the length times `factor` is tried next. Where that ends with steps that are too short, `failure` tells why,
-    /// or the failure before it.
+    /// A step of the length times `factor` is tried next. Where that ends with steps that are too short,
+    /// `failure` tells why, or the failure before it.
     TooLong {
         factor: T,
         failure: Option<StepFailure>,
@@ -25,8 +25,8 @@ pub(super) struct Accepted<A, T> {
     pub(super) is_first: bool,
 }
 
-/// Takes a step from time `t`: of length `h`, or of the first shorter one that `judge` accepts. What follows a step that fails is
-/// shorter by the factor `after_failure`.
+/// Takes a step from time `t`: of length `h`, or of the first shorter one that `judge` accepts. What follows
+/// a step that fails is shorter by the factor `after_failure`.
 ///
 /// # Errors
 /// The last failure, when the steps have become too short; `run` is then as it was before.

@@ -1,8 +1,8 @@
 //! The explicit reversible step control of Hairer & Söderlind.
 //!
 //! Steps of density ρ(q) in time, dt = ε/ρ, make (ln ρ)' = G(q, v) = ∇ρ(q)·v/ρ(q). ρ is carried along by
-//! ρ_{k+1/2} = ρ_{k−1/2} + ε G(q_k, v_k),    h_{k+1/2} = ε/ρ_{k+1/2},    ρ_{1/2} = ρ(q_0) + ½ ε G(q_0, v_0)
-//! rather than evaluated: each step is known before it is taken, and the map of (q, v, ρ) remains reversible if
+//! ρ_{k+1/2} = ρ_{k−1/2} + ε G(q_k, v_k), h_{k+1/2} = ε/ρ_{k+1/2}, ρ_{1/2} = ρ(q_0) + ½ ε G(q_0, v_0) rather
+//! than evaluated: each step is known before it is taken, and the map of (q, v, ρ) remains reversible if
 //! that of the method with constant steps is.
 //!
 //! Source: Hairer & Söderlind 2005, "Explicit, time reversible, adaptive step size control", SIAM J. Sci.
@@ -17,8 +17,8 @@ use crate::scalar::norm::reported;
 use crate::state::memory::{Memory, lasting};
 use crate::{Real, RegularLagrangian, Space, Vector};
 
-/// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position alone:
-/// then G is odd in v, and the control reversible.
+/// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position
+/// alone: then G is odd in v, and the control reversible.
 pub trait Density<T>: Debug {
     /// ρ(q).
     fn value(&self, q: &[T]) -> T;
@@ -28,8 +28,8 @@ pub trait Density<T>: Debug {
 
 /// ρ = |q|^(−κ), for motions around the origin: G = −κ q·v/|q|².
 ///
-/// κ = 3/2 takes steps in proportion to the time of free fall: on Kepler's problem all orbits of the same shape
-/// then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time.
+/// κ = 3/2 takes steps in proportion to the time of free fall: on Kepler's problem all orbits of the same
+/// shape then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power {
     /// κ.
@@ -55,9 +55,9 @@ impl<T: Real> Density<T> for Power {
 
 /// Steps h = ε/ρ with a density ρ that is carried along symmetrically (Hairer & Söderlind 2005).
 ///
-/// With a symmetric method a run can be retraced backwards, so that energy errors do not drift on reversible orbits. The whole
-/// is not symplectic. The control is for regular systems. Beside the position it needs the velocity at the start of a step, and
-/// for L = ½ v·M v − V(q, t) no evaluation of L.
+/// With a symmetric method a run can be retraced backwards, so that energy errors do not drift on reversible
+/// orbits. The whole is not symplectic. The control is for regular systems. Beside the position it needs the
+/// velocity at the start of a step, and for L = ½ v·M v − V(q, t) no evaluation of L.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversible<D = Power> {
     /// ε ≠ 0, in units of ρ times time; negative to run back in time.
@@ -65,7 +65,8 @@ pub struct Reversible<D = Power> {
     /// ρ.
     pub density: D,
     /// ρ at the start of the run, to go on from another run
-    /// ([`ControlledIntegrator::density`](super::ControlledIntegrator::density)). Default: that of the start.
+    /// ([`ControlledIntegrator::density`](super::ControlledIntegrator::density)). Default: that of the
+    /// start.
     pub start: Option<f64>,
 }
 

@@ -87,8 +87,13 @@ impl<const W: usize> Convergences<W> {
                 Lanes::choose(self.growths + self.stalling, Comparison::Greater, no, are_noise, no);
             is_last += self.are_small_later(shrunk) + are_fine + once_more;
             self.growths += Lanes::choose(shrunk, Comparison::LessOrEqual, no, stands, no);
-            is_alone +=
-                Lanes::choose(self.growths, Comparison::Greater, Lanes::all(MOST_IN_VAIN as f64), stands, no);
+            is_alone += Lanes::choose(
+                self.growths,
+                Comparison::Greater,
+                Lanes::all(MOST_IN_VAIN as f64),
+                stands,
+                no,
+            );
         }
         self.active = Lanes::choose(is_last, Comparison::Greater, no, no, self.active);
         if self.active == no {
@@ -114,7 +119,8 @@ mod tests {
 
     const LANES: usize = 8;
 
-    /// Corrections that shrink to rounding errors of some size, at different rates, and with every fourth seed some that do not.
+    /// Corrections that shrink to rounding errors of some size, at different rates, and with every fourth
+    /// seed some that do not.
     fn correction(lane: usize, iteration: i32, seed: usize) -> f64 {
         let kind = (lane + seed) % LANES;
         let rate = [0.3, 0.1, 0.01, 0.05, 1e-3, 0.15, 1e-5, 0.2][kind];

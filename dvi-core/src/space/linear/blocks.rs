@@ -1,10 +1,11 @@
 //! Elimination of a matrix of blocks, one block row for each unknown vector of a step.
 //!
-//! The pivots are a part of the rows; what is left of the other rows and columns is their Schur complement. Each block is stored transposed, so that the columns
-//! that a solve works on lie together. Pivots are sought within the diagonal blocks, and blocks are never
-//! exchanged: up to terms of order h² the matrix is (K ⊗ M)/h, and the part of K that belongs to the displacements
-//! is the Gram matrix Σ w a a of derivatives of polynomials that vanish at both ends, positive definite; so the
-//! pivot blocks are positive multiples of M. The last one is ∂²L_d/∂q0∂q1, without which there is no step.
+//! The pivots are a part of the rows; what is left of the other rows and columns is their Schur complement.
+//! Each block is stored transposed, so that the columns that a solve works on lie together. Pivots are
+//! sought within the diagonal blocks, and blocks are never exchanged: up to terms of order h² the matrix is
+//! (K ⊗ M)/h, and the part of K that belongs to the displacements is the Gram matrix Σ w a a of derivatives
+//! of polynomials that vanish at both ends, positive definite; so the pivot blocks are positive multiples of
+//! M. The last one is ∂²L_d/∂q0∂q1, without which there is no step.
 
 use crate::Real;
 use crate::error::StepFailure;
@@ -12,8 +13,9 @@ use crate::space::linear::set_scales;
 use crate::space::{elimination, lines, lines_mut};
 use core::ops::{DerefMut, Range};
 
-/// Of unknowns with these `weights`, and with room for their scales, overwrites the entries `pivots` of `x` with the solution of A y = x in these rows and columns, and A with nothing of use
-/// but the Schur complement of the later rows and columns.
+/// Of unknowns with these `weights`, and with room for their scales, overwrites the entries `pivots` of `x`
+/// with the solution of A y = x in these rows and columns, and A with nothing of use but the Schur
+/// complement of the later rows and columns.
 ///
 /// # Errors
 /// [`StepFailure::Singular`] with the column of the block that has no pivot.
@@ -92,7 +94,8 @@ mod tests {
         for n in 1..=4 {
             let mut state = n as u64;
             let mut entry = || {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                state =
+                    state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
             };
             let dense = DMatrix::from_fn(3 * n, 3 * n, |i, j| entry() + if i == j { 3.0 } else { 0.0 });
@@ -109,7 +112,9 @@ mod tests {
                 (0..n).map(|i| if r == 0 { 0.0 } else { rhs[(r - 1) * n + i] }).collect()
             });
             assert_eq!(eliminate(&mut rows, &mut alloc::vec![0; n], (&[], &mut []), &mut x, 1..4), Ok(()));
-            let Some(expected) = dense.clone().lu().solve(&rhs) else { panic!("nalgebra found no solution") };
+            let Some(expected) = dense.clone().lu().solve(&rhs) else {
+                panic!("nalgebra found no solution")
+            };
             let found = DVector::from_vec(x[1..].concat());
             assert!((found - &expected).amax() < 1e-13 * expected.amax(), "n = {n}");
         }

@@ -36,7 +36,8 @@ pub trait NodeSum<const NODES: usize, T> {
 
     /// Whether L_vq is (L_qv)ᵀ: not where forces that depend on velocities stand beside ∂L/∂q.
     const MIXED_ARE_TRANSPOSED: bool = true;
-    /// Where [`MIXED_ARE_TRANSPOSED`](Self::MIXED_ARE_TRANSPOSED) does not hold: adds L_vq at the node to a sink.
+    /// Where [`MIXED_ARE_TRANSPOSED`](Self::MIXED_ARE_TRANSPOSED) does not hold: adds L_vq at the node to a
+    /// sink.
     fn momentum_by_position(&mut self, _vq: &mut impl Sink<T>) {}
 }
 

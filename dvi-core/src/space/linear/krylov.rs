@@ -1,8 +1,9 @@
-//! Linear equations from products with vectors alone: the generalised minimal residual method, restarted, with the
-//! preconditioner on the right (Saad & Schultz 1986, SIAM J. Sci. Stat. Comput. 7, 856; Saad 2003, section 9.3.2).
+//! Linear equations from products with vectors alone: the generalised minimal residual method, restarted,
+//! with the preconditioner on the right (Saad & Schultz 1986, SIAM J. Sci. Stat. Comput. 7, 856; Saad 2003,
+//! section 9.3.2).
 //!
-//! The preconditioner keeps the largest entry of each row, if these stand in columns of their own: the diagonal of a mass
-//! matrix, or the entries by which Ω couples coordinates in pairs.
+//! The preconditioner keeps the largest entry of each row, if these stand in columns of their own: the
+//! diagonal of a mass matrix, or the entries by which Ω couples coordinates in pairs.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -19,7 +20,8 @@ const BASIS: usize = 40;
 /// How often the method begins again from what it has.
 const RESTARTS: usize = 5;
 
-/// By this factor the residual is to become smaller. Newton's method, which asks for a correction, does the rest.
+/// By this factor the residual is to become smaller. Newton's method, which asks for a correction, does the
+/// rest.
 const REDUCTION: f64 = 1e-10;
 
 /// A residual that is larger than this part of what it was is no progress.
@@ -132,8 +134,8 @@ impl<T: Real> Krylov<T> {
         Ok(())
     }
 
-    /// Adds to `solution` what makes the `residual` of length `left` smallest, down to the target, and takes it off
-    /// there; returns the number of products.
+    /// Adds to `solution` what makes the `residual` of length `left` smallest, down to the target, and takes
+    /// it off there; returns the number of products.
     fn minimise(
         &mut self,
         equations: &mut impl LinearEquations<T>,

@@ -1,10 +1,10 @@
 //! Gaussian elimination with partial pivoting within a band, in place.
 //!
-//! With entries at most b from the diagonal, U has them at most 2b to its right, and a row of storage is the 3b + 1 entries
-//! from b left of the diagonal to 2b right of it. The multipliers of a column are those of its stage, and the rows that
-//! were exchanged later are not exchanged in them. A pivot counts as zero when it is no larger than the
-//! rounding errors of what was subtracted to form it, in any units of rows and columns. Source: Golub & Van
-//! Loan, *Matrix Computations* (2013), section 4.3.3.
+//! With entries at most b from the diagonal, U has them at most 2b to its right, and a row of storage is the
+//! 3b + 1 entries from b left of the diagonal to 2b right of it. The multipliers of a column are those of
+//! its stage, and the rows that were exchanged later are not exchanged in them. A pivot counts as zero when
+//! it is no larger than the rounding errors of what was subtracted to form it, in any units of rows and
+//! columns. Source: Golub & Van Loan, *Matrix Computations* (2013), section 4.3.3.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -147,7 +147,8 @@ impl<T: Real> Banded<T> {
         Ok(())
     }
 
-    /// Whether the determinant is positive: the order of the coordinates is that of rows and of columns and does not count.
+    /// Whether the determinant is positive: the order of the coordinates is that of rows and of columns and
+    /// does not count.
     pub(super) fn is_positive(&self) -> bool {
         let is_negative = |k: usize| self.entries[k * self.width() + self.bandwidth] < T::lift(0.0);
         let pivots = self.pivots.iter().enumerate();

@@ -3,7 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// With which entry each is exchanged, one after the other, so that entry k becomes the one that was at `order[k]`.
+/// With which entry each is exchanged, one after the other, so that entry k becomes the one that was at
+/// `order[k]`.
 #[derive(Clone, Debug)]
 pub(super) struct Exchanges {
     with: Vec<u32>,

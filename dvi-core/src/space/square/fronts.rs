@@ -1,11 +1,11 @@
 //! Which columns of a sparse matrix are eliminated together, and with which rows.
 //!
-//! A column is eliminated from all rows that have an entry there. Whichever of them becomes the pivot, the others then have
-//! entries in the columns of all: the rows of one *front*. A front ends with as many rows fewer as it has eliminated columns,
-//! and the rows that are left go together to the front that eliminates the next of their columns. As a front holds every row
-//! with an entry in its columns, pivots may be chosen freely while the numbers are computed, and room for all of them is
-//! there from the beginning (George & Ng 1985). The order is that of minimum degree: next comes a column whose rows reach the
-//! fewest columns.
+//! A column is eliminated from all rows that have an entry there. Whichever of them becomes the pivot, the
+//! others then have entries in the columns of all: the rows of one *front*. A front ends with as many rows
+//! fewer as it has eliminated columns, and the rows that are left go together to the front that eliminates
+//! the next of their columns. As a front holds every row with an entry in its columns, pivots may be chosen
+//! freely while the numbers are computed, and room for all of them is there from the beginning (George & Ng
+//! 1985). The order is that of minimum degree: next comes a column whose rows reach the fewest columns.
 
 use alloc::collections::BTreeSet;
 use alloc::vec;
@@ -64,9 +64,9 @@ impl Front {
 }
 
 impl Fronts {
-    /// The fronts of the matrix whose rows have entries in these columns, if their factors have no more numbers than `most`, and if
-    /// they are found soon: patterns that fill as they are eliminated take the cube of their size. Each row needs an entry on the
-    /// diagonal.
+    /// The fronts of the matrix whose rows have entries in these columns, if their factors have no more
+    /// numbers than `most`, and if they are found soon: patterns that fill as they are eliminated take the
+    /// cube of their size. Each row needs an entry on the diagonal.
     pub(super) fn new(rows: Vec<Vec<u32>>, most: usize) -> Option<Self> {
         let mut elimination = Elimination::new(rows);
         let mut numbers = 0;
@@ -149,8 +149,8 @@ impl Fronts {
     }
 }
 
-/// How many columns are looked at for each row, on average, in the search for fronts. A square lattice of 90 000 rows takes some
-/// thousand.
+/// How many columns are looked at for each row, on average, in the search for fronts. A square lattice of 90
+/// 000 rows takes some thousand.
 const LOOKS: u64 = 4096;
 
 /// A matrix whose columns are being eliminated.
@@ -244,8 +244,8 @@ impl Elimination {
         self.next.insert((degree, column));
     }
 
-    /// Eliminates a column that has been taken from the next, and with it those that no other rows have entries in. Returns how
-    /// many numbers it takes to solve with them.
+    /// Eliminates a column that has been taken from the next, and with it those that no other rows have
+    /// entries in. Returns how many numbers it takes to solve with them.
     fn eliminate(&mut self, column: u32) -> usize {
         let mut columns = self.reach(column);
         columns.sort_unstable();

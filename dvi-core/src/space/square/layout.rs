@@ -16,7 +16,8 @@ pub(crate) enum Layout {
     Sparse(Vec<Vec<u32>>, Fronts),
 }
 
-/// A multiplication costs that many times more in fronts, which are put together from others, than in a band.
+/// A multiplication costs that many times more in fronts, which are put together from others, than in a
+/// band.
 const ASSEMBLY: f64 = 1.5;
 
 /// Bands of no more diagonals than this on either side are taken without a look at fronts.
@@ -80,8 +81,8 @@ mod tests {
         };
         assert!(matches!(lattice(20), Layout::Banded(_)));
         assert!(matches!(lattice(side), Layout::Sparse(..)));
-        // Each with the first, whose row may become the pivot of any column; and each with two far away. Their fronts would take
-        // minutes to find.
+        // Each with the first, whose row may become the pivot of any column; and each with two far away.
+        // Their fronts would take minutes to find.
         let n = 20_000;
         assert!(matches!(of(n, (1..n).map(|i| (i, 0))), Layout::Full));
         let far = (0..n).flat_map(|i| [(i, (3 * i + 7) % n), (i, (7 * i + 11) % n)]);

@@ -1,5 +1,5 @@
-//! The order of the coordinates in which the entries of a matrix lie near its diagonal: that of Cuthill & McKee (1969),
-//! reversed (George 1971), unless the order of declaration is as good.
+//! The order of the coordinates in which the entries of a matrix lie near its diagonal: that of Cuthill &
+//! McKee (1969), reversed (George 1971), unless the order of declaration is as good.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -59,7 +59,8 @@ impl Pattern {
         self.dimension
     }
 
-    /// The columns in which each row has entries, ascending, the diagonal among them, unless the matrix counts as full.
+    /// The columns in which each row has entries, ascending, the diagonal among them, unless the matrix
+    /// counts as full.
     pub(super) fn rows(&mut self) -> Option<Vec<Vec<u32>>> {
         self.tidy();
         let mut rows: Vec<Vec<u32>> = (0..self.dimension as u32).map(|i| vec![i]).collect();
@@ -84,8 +85,8 @@ impl Pattern {
         (2 * best.width() <= self.dimension).then_some(best)
     }
 
-    /// The reversed order of Cuthill & McKee: breadth first from an end of each connected part, neighbours of few
-    /// neighbours first.
+    /// The reversed order of Cuthill & McKee: breadth first from an end of each connected part, neighbours
+    /// of few neighbours first.
     fn cuthill_mckee(&self) -> Vec<u32> {
         let n = self.dimension;
         let mut begins = vec![0_usize; n + 1];

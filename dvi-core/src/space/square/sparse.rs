@@ -1,11 +1,12 @@
 //! Gaussian elimination of a sparse matrix with partial pivoting, front by front.
 //!
-//! The rows of a front stand in a dense rectangle: those of A that begin here, and those that earlier fronts have handed on.
-//! As every row with an entry in the columns that it eliminates is among them, the largest entry of a column is the pivot, as in
-//! a dense elimination. Rows that wait for their front stand on a stack. Which columns make a front is found once, when the
-//! matrix is made ([`fronts`](super::fronts)). A pivot counts as zero when it is no larger than the rounding
-//! errors of the entries above it, |pivot| ≤ n ε maxᵢ |uᵢₖ|, i < k, and of what was subtracted in its front
-//! to form it. Sources: Duff & Reid 1983 (fronts), George & Ng 1985 (room for all pivots).
+//! The rows of a front stand in a dense rectangle: those of A that begin here, and those that earlier fronts
+//! have handed on. As every row with an entry in the columns that it eliminates is among them, the largest
+//! entry of a column is the pivot, as in a dense elimination. Rows that wait for their front stand on a
+//! stack. Which columns make a front is found once, when the matrix is made ([`fronts`](super::fronts)). A
+//! pivot counts as zero when it is no larger than the rounding errors of the entries above it, |pivot| ≤ n ε
+//! maxᵢ |uᵢₖ|, i < k, and of what was subtracted in its front to form it. Sources: Duff & Reid 1983
+//! (fronts), George & Ng 1985 (room for all pivots).
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -41,7 +42,8 @@ struct Entries<T> {
 /// What is left of A when it is factored.
 #[derive(Clone, Debug)]
 struct Factors<T> {
-    /// Front by front: the rows of its pivots, row by row, and then the multipliers of the rows that it hands on, row by row.
+    /// Front by front: the rows of its pivots, row by row, and then the multipliers of the rows that it
+    /// hands on, row by row.
     numbers: Vec<T>,
     /// Front by front: which rows of A it has, first the pivots.
     rows: Vec<u32>,
@@ -194,7 +196,8 @@ fn take_off<T: Real>(factors: &[T], of: &[u32], row: u32, x: &mut [T]) {
 }
 
 impl<T: Real> Work<T> {
-    /// Puts a front together, of the rows that wait for it and those of A that begin there, and lists which these are.
+    /// Puts a front together, of the rows that wait for it and those of A that begin there, and lists which
+    /// these are.
     fn assemble(&mut self, entries: &Entries<T>, order: &Fronts, front: &Front, rows: &mut [u32]) {
         let width = front.width();
         let table = &mut self.front[..front.rows.len() * width];
@@ -221,8 +224,8 @@ impl<T: Real> Work<T> {
         }
     }
 
-    /// Eliminates the first `pivots` of the columns of a front from its rows, which it brings into the order of the pivots.
-    /// Returns whether the product of these is negative.
+    /// Eliminates the first `pivots` of the columns of a front from its rows, which it brings into the order
+    /// of the pivots. Returns whether the product of these is negative.
     fn eliminate(&mut self, columns: &[u32], pivots: usize, rows: &mut [u32]) -> Result<bool, StepFailure> {
         let (width, n) = (columns.len(), self.place.len());
         let rounding = T::default_epsilon() * T::lift(n as f64);

@@ -24,7 +24,11 @@ pub(super) fn claims(job: &Job<'_>, all: &[Measured]) -> Vec<Claim> {
         Claim::new(BEYOND, "for 1e-13 it needs fewer evaluations than Kahan–Li 8")
             .check("vortices: Kahan–Li 8 / Gauss 16", fewer("vortices", 1e-13), Bound::AtLeast(5.0))
             .check("Kepler: Kahan–Li 8 / Gauss 16", fewer("kepler", 1e-13), Bound::AtLeast(2.0))
-            .check("outer solar system: Kahan–Li 8 / Gauss 16", fewer("planets", 1e-13), Bound::AtLeast(1.5)),
+            .check(
+                "outer solar system: Kahan–Li 8 / Gauss 16",
+                fewer("planets", 1e-13),
+                Bound::AtLeast(1.5),
+            ),
         Claim::new(BEYOND, "with its stages at once it makes many fewer one after another")
             .check("vortices, stages at once", at_once("vortices", 1e-13), Bound::AtLeast(40.0))
             .check("Kepler, stages at once", at_once("kepler", 1e-13), Bound::AtLeast(16.0))

@@ -1,4 +1,5 @@
-//! The figure: a column for each problem, with evaluations counted all, and those counted once that can be made together.
+//! The figure: a column for each problem, with evaluations counted all, and those counted once that can be
+//! made together.
 
 use super::problems::{GAUSS_4, GAUSS_8, GAUSS_16, KAHAN_LI, RK4, SECOND};
 use super::{Course, Measured, Series};

@@ -11,8 +11,9 @@ const PHASE: f64 = 0.5;
 
 /// The angular frequency near `guess` of the mode that `start` is near to, without the error of the steps.
 ///
-/// The velocities of a mode obey v₊ + v₋ = 2 cos(ω̃h) v. The cosine that fits best, v·M(v₊ + v₋)/(2 v·Mv), has an error that is of second
-/// order in what other modes take part. `method` is Newmark's with β = ¼, which has (2/h) tan(ω̃h/2) = ω.
+/// The velocities of a mode obey v₊ + v₋ = 2 cos(ω̃h) v. The cosine that fits best, v·M(v₊ + v₋)/(2 v·Mv),
+/// has an error that is of second order in what other modes take part. `method` is Newmark's with β = ¼,
+/// which has (2/h) tan(ω̃h/2) = ω.
 pub(super) fn frequency<S>(system: &S, method: Newmark, start: S::State<f64>, guess: f64) -> Result<f64>
 where
     S: Separable + RegularLagrangian + System,

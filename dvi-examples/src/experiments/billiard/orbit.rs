@@ -12,7 +12,8 @@ use crate::models::{EllipseBilliardState, RoundedSquareBilliardState};
 const SHOWN: usize = 3000;
 
 pub(super) struct Orbit {
-    /// The polar angle of the first impacts, over π, and the component of the velocity along the curve after it.
+    /// The polar angle of the first impacts, over π, and the component of the velocity along the curve after
+    /// it.
     pub(super) section: Vec<[f64; 2]>,
     /// The largest |gap| at an impact.
     pub(super) gap: f64,

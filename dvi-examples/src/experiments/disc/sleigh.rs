@@ -32,7 +32,8 @@ pub(super) struct Sleigh {
     pub energies: [f64; 4],
     /// The largest relative difference of two energies after [`TURNED`], with the longest step.
     pub late: f64,
-    /// The rate at which ω decays between the two times with the longest step, over av/(I + a²) for the speed v at the end.
+    /// The rate at which ω decays between the two times with the longest step, over av/(I + a²) for the
+    /// speed v at the end.
     pub decay: f64,
     /// The largest difference of a coordinate or velocity from the start, after steps there and back.
     pub there_and_back: f64,

@@ -146,7 +146,8 @@ impl Series {
         }
     }
 
-    /// The end of that step: the time, and the changes of the energy and of the angular momentum since the start.
+    /// The end of that step: the time, and the changes of the energy and of the angular momentum since the
+    /// start.
     fn note(&mut self, t: f64, energy: f64, momentum: f64) {
         if t < BEGINNING {
             self.beginning.push(Step { t, length: t - self.end, energy });

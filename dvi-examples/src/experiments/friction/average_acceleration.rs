@@ -1,4 +1,5 @@
-//! Newmark's method with β = ¼ and γ = ½, the average acceleration method, written by hand for linear friction.
+//! Newmark's method with β = ¼ and γ = ½, the average acceleration method, written by hand for linear
+//! friction.
 
 use crate::models::RadialFriction;
 
@@ -22,7 +23,8 @@ impl Newmark {
         Self { system, h, q, v, a }
     }
 
-    /// Solves a1 + γ v1 + ∇V(q1) = 0 for q1 by Newton's method, with the acceleration ½(a0 + a1) over the whole step.
+    /// Solves a1 + γ v1 + ∇V(q1) = 0 for q1 by Newton's method, with the acceleration ½(a0 + a1) over the
+    /// whole step.
     pub fn step(&mut self) {
         let Self { system, h, q, v, a } = self;
         let (h, gamma) = (*h, system.gamma);

@@ -16,16 +16,17 @@ pub(super) struct Factors {
     trapezoid: Defect,
 }
 
-/// The largest relative deviation of l from l of the step before times the factor of the step, and from l(0) times the product
-/// of the factors of all steps.
+/// The largest relative deviation of l from l of the step before times the factor of the step, and from l(0)
+/// times the product of the factors of all steps.
 #[derive(Clone, Copy, Debug)]
 struct Defect {
     of_a_step: f64,
     of_all: f64,
 }
 
-/// D₁L_d and D₂L_d are parallel to the points but for Δ/h and the forces ∓½γΔ, and so l0 = (1/h + c + ½γ) q0×q1 and
-/// l1 = (1/h + c − ½γ) q0×q1. The rule of the trapezoid has c = 0, that of the midpoint ¼h V'(r)/r at the middle of the step.
+/// D₁L_d and D₂L_d are parallel to the points but for Δ/h and the forces ∓½γΔ, and so l0 = (1/h + c + ½γ)
+/// q0×q1 and l1 = (1/h + c − ½γ) q0×q1. The rule of the trapezoid has c = 0, that of the midpoint ¼h V'(r)/r
+/// at the middle of the step.
 pub(super) fn factors(job: &Job<'_>, case: Case) -> Result<Factors> {
     let factor = |c: f64| {
         let inner = 1.0 / case.h + c;
@@ -61,8 +62,9 @@ fn defect<M: Method<RadialFriction, f64>>(
     Ok(defect)
 }
 
-/// With z' = F(z) Newmark's method is z1 − ½hF(z1) = z0 + ½hF(z0). So the points z − ½hF(z) are those of the implicit midpoint
-/// rule, which is what the variational midpoint rule is for this Lagrangian and these forces.
+/// With z' = F(z) Newmark's method is z1 − ½hF(z1) = z0 + ½hF(z0). So the points z − ½hF(z) are those of the
+/// implicit midpoint rule, which is what the variational midpoint rule is for this Lagrangian and these
+/// forces.
 pub(super) fn conjugate(job: &Job<'_>, case: Case) -> Result<f64> {
     let system = RadialFriction { gamma: case.gamma };
     let mut newmark = by_hand(case);
@@ -135,7 +137,11 @@ fn noether(measured: &Measured) -> Claim {
             by_trapezoid.momentum.largest,
             Bound::AtMost(1.1e-8),
         )
-        .check("midpoint: largest |l/(l(0) exp(−γt)) − 1|", by_midpoint.momentum.largest, Bound::AtMost(1e-3))
+        .check(
+            "midpoint: largest |l/(l(0) exp(−γt)) − 1|",
+            by_midpoint.momentum.largest,
+            Bound::AtMost(1e-3),
+        )
         .check("trapezoid: order of that at the end in h", order(1), Bound::Near(2.0, 0.05))
         .check("midpoint: order of that at the end in h", order(0), Bound::Near(2.0, 0.05))
 }

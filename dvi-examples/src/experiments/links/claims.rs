@@ -122,9 +122,7 @@ fn work(job: &Job<'_>, measured: &Measured) -> Claim {
             })
         });
     let [few, _, many] = of(2);
-    claim.check("RATTLE: iterations of a step with 100 links", job.only_full(many), Bound::AtMost(4.0)).check(
-        "RATTLE: the same less those with 25",
-        job.only_full(many - few),
-        Bound::AtMost(1.1),
-    )
+    claim
+        .check("RATTLE: iterations of a step with 100 links", job.only_full(many), Bound::AtMost(4.0))
+        .check("RATTLE: the same less those with 25", job.only_full(many - few), Bound::AtMost(1.1))
 }

@@ -4,7 +4,9 @@ use anyhow::Result;
 
 use super::{ANGLE, H, LINKS, Measured, Series};
 use crate::deviation::Deviation;
-use crate::figure::{Axis, BLUE, Colour, Corner, Figure, GREEN, PURPLE, Panel, SEQUENCE, Stroke, VERMILLION};
+use crate::figure::{
+    Axis, BLUE, Colour, Corner, Figure, GREEN, PURPLE, Panel, SEQUENCE, Stroke, VERMILLION,
+};
 use crate::output::{Table, number};
 
 impl Measured {

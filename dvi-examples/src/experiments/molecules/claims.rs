@@ -57,7 +57,11 @@ fn steps(measured: &Measured) -> Claim {
     let limit = |h: f64, k: f64| h * (3.0 * k).sqrt() / 2.0;
     Claim::new(BEYOND, text)
         .check("rods: longest step", h, Bound::Within(0.035, 0.07))
-        .check(format!("k = {SOFT}: longest step with rods / with springs"), h / by_soft, Bound::AtLeast(3.0))
+        .check(
+            format!("k = {SOFT}: longest step with rods / with springs"),
+            h / by_soft,
+            Bound::AtLeast(3.0),
+        )
         .check(
             format!("k = {STIFF}: longest step with rods / with springs"),
             h / by_stiff,

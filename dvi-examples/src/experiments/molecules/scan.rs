@@ -10,7 +10,8 @@ use crate::job::Job;
 /// How many lengths are tried between one and twice that one.
 const FINENESS: f64 = 8.0;
 
-/// Lengths of steps, the shortest first, each with the largest |E − E(0)| over E(0); infinite where the run is lost.
+/// Lengths of steps, the shortest first, each with the largest |E − E(0)| over E(0); infinite where the run
+/// is lost.
 pub(super) struct Scan(pub Vec<[f64; 2]>);
 
 impl Scan {

@@ -102,7 +102,11 @@ fn rk4(job: &Job<'_>, measured: &Measured) -> Claim {
             Bound::Near(10.0, 1.0),
         )
         .check("RK4: max|ΔE|", job.only_full(series.energy.largest), Bound::AtMost(geodesic.energy.largest))
-        .check(format!("RK4: max|ΔE|, {trend}"), job.only_full(series.energy.trend()), Bound::Near(10.0, 1.0))
+        .check(
+            format!("RK4: max|ΔE|, {trend}"),
+            job.only_full(series.energy.trend()),
+            Bound::Near(10.0, 1.0),
+        )
 }
 
 fn order(measured: &Measured) -> Claim {

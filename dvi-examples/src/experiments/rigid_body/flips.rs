@@ -21,11 +21,13 @@ pub(super) struct Wave {
 }
 
 impl Wave {
-    /// Of a body with growing moments that begins with ω₁ = 0, so close to the second axis that I₃ω₃ takes it around the third.
+    /// Of a body with growing moments that begins with ω₁ = 0, so close to the second axis that I₃ω₃ takes
+    /// it around the third.
     pub(super) fn new(body: &RigidBody, omega: [f64; 3]) -> Self {
         let [a, b, c] = body.inertia;
         let [_, y, z] = omega.map(|x| x * x);
-        // With M² = I₂²ω₂² + I₃²ω₃² and 2E = I₂ω₂² + I₃ω₃²: M² − 2E I₁, 2E I₃ − M² and M² − 2E I₂, without differences of large numbers.
+        // With M² = I₂²ω₂² + I₃²ω₃² and 2E = I₂ω₂² + I₃ω₃²: M² − 2E I₁, 2E I₃ − M² and M² − 2E I₂, without
+        // differences of large numbers.
         let above = b * (b - a) * y + c * (c - a) * z;
         let below = b * (c - b) * y;
         let apart = c * (c - b) * z;

@@ -78,7 +78,8 @@ fn sphere(measured: &Measured) -> Panel {
 }
 
 fn middle(measured: &Measured) -> Panel {
-    let exact = (0..=1600).map(|k| DRAWN * f64::from(k) / 1600.0).map(|t| [t, measured.wave.at(t)]).collect();
+    let exact =
+        (0..=1600).map(|k| DRAWN * f64::from(k) / 1600.0).map(|t| [t, measured.wave.at(t)]).collect();
     let all = measured.flipping.iter().enumerate().step_by(20);
     let steps = all.map(|(k, state)| [k as f64 * H, state.omega_R[1]]).collect();
     Panel::new(

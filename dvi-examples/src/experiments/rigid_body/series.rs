@@ -1,4 +1,5 @@
-//! Long runs: the angular momentum in space and in the body, the energy, and how far the matrix is from a rotation.
+//! Long runs: the angular momentum in space and in the body, the energy, and how far the matrix is from a
+//! rotation.
 
 use anyhow::Result;
 use dvi_core::error::StepError;

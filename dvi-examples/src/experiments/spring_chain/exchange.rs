@@ -12,7 +12,12 @@ use crate::models::SpringChain;
 pub(super) struct Exchange(pub Vec<[f64; 3]>);
 
 impl Exchange {
-    pub(super) fn new<M: Method<SpringChain, f64>>(method: M, centre: f64, h: f64, end: f64) -> Result<Self> {
+    pub(super) fn new<M: Method<SpringChain, f64>>(
+        method: M,
+        centre: f64,
+        h: f64,
+        end: f64,
+    ) -> Result<Self> {
         let mut run = Integrator::new(&CHAIN, method, h, CHAIN.first_pair(centre))?;
         let of_unit = (1.0 / h).round() as u64;
         let mut means = Vec::new();
@@ -53,7 +58,8 @@ impl Exchange {
     }
 }
 
-/// How many times as fast as in `motion` the energies are exchanged: the factor of time with the least mean square of differences.
+/// How many times as fast as in `motion` the energies are exchanged: the factor of time with the least mean
+/// square of differences.
 pub(super) fn speed(exchange: &Exchange, motion: &Exchange) -> f64 {
     let factors = (0..=1000).map(|i| 0.4 + 0.001 * f64::from(i));
     let apart = factors.map(|factor| (factor, exchange.apart(motion, factor)));

@@ -50,8 +50,13 @@ impl Series {
     ) -> Result<Self> {
         let end = steps as f64 * H;
         let deviation = || Deviation::new(end, 300, end);
-        let mut series =
-            Self { name, energy: deviation(), defect: deviation(), spin: deviation(), vertical: deviation() };
+        let mut series = Self {
+            name,
+            energy: deviation(),
+            defect: deviation(),
+            spin: deviation(),
+            vertical: deviation(),
+        };
         let before = TOP.heights(&begin());
         let watch = Watch { steps, every: EVERY, h: H };
         watch.run(job, later, |t, state| series.note(t, &before, state))?;

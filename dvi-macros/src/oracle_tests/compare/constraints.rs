@@ -6,7 +6,11 @@ use super::{Comparison, Difference, Expected, Point};
 use crate::syntax::Constrained;
 
 impl Comparison<'_> {
-    pub(super) fn constraints(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {
+    pub(super) fn constraints(
+        &mut self,
+        expected: &Expected,
+        random: &mut Random,
+    ) -> Result<(), Difference> {
         let Expected { point: Point { q, v, t }, constraints, .. } = expected;
         let (n, m) = (self.system.dimension(), constraints.len());
         if m == 0 {

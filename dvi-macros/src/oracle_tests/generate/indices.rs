@@ -70,9 +70,10 @@ impl Scope {
         let sizes = system.size_values();
         let admits = |index: &Index, size: usize| self.admits(index, sizes[size], &sizes);
         let here = match formula {
-            Formula::Coordinate(block, index) | Formula::Velocity(block, index) => {
-                system.blocks[*block].size.zip(index.as_ref()).is_none_or(|(size, index)| admits(index, size))
-            }
+            Formula::Coordinate(block, index) | Formula::Velocity(block, index) => system.blocks[*block]
+                .size
+                .zip(index.as_ref())
+                .is_none_or(|(size, index)| admits(index, size)),
             Formula::Parameter(field, indices) => {
                 indices.iter().zip(&system.fields[*field].shape).all(|(index, size)| admits(index, *size))
             }
@@ -161,7 +162,8 @@ impl Generator<'_> {
         if scope.level == 0 {
             return if self.random.chance(15) { length.plus(-1) } else { entry };
         }
-        let bound = |random: &mut crate::oracle_tests::random::Random| Atom::Bound(random.below(scope.level));
+        let bound =
+            |random: &mut crate::oracle_tests::random::Random| Atom::Bound(random.below(scope.level));
         let (i, j) = (bound(self.random), bound(self.random));
         let j_alone = Index::atom(j.clone());
         let shift = self.random.below(5) as i64 - 2;

@@ -179,7 +179,8 @@ impl Generator<'_> {
         }
     }
 
-    /// Something that is no number as a rule, in every term if it is a sum: for a branch, which need not be taken.
+    /// Something that is no number as a rule, in every term if it is a sum: for a branch, which need not be
+    /// taken.
     fn undefined(&mut self, of: Formula) -> Formula {
         let name = *self.random.pick(&["sqrt", "ln"]);
         let nowhere =

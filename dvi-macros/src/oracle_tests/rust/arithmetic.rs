@@ -68,7 +68,12 @@ fn related<V: PartialOrd>(relation: Operator, a: &V, b: &V) -> bool {
     }
 }
 
-pub(super) fn integer_method(name: &str, kind: Kind, value: i128, other: Option<i128>) -> Result<i128, Jump> {
+pub(super) fn integer_method(
+    name: &str,
+    kind: Kind,
+    value: i128,
+    other: Option<i128>,
+) -> Result<i128, Jump> {
     let other = other.unwrap_or_else(|| panic!("`{name}` of an integer takes an argument"));
     let (least, turn) = match kind {
         Kind::Usize => (0, 1_i128 << 64),

@@ -98,7 +98,9 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,
         [.., owner, name] if TRAITS.contains(owner) => Callee::Generated((*name).into()),
-        ["dvi_core" | "core", ..] => panic!("the interpreter does not know the function {}", path.join("::")),
+        ["dvi_core" | "core", ..] => {
+            panic!("the interpreter does not know the function {}", path.join("::"))
+        }
         _ => Callee::Own(path.join("::")),
     }
 }

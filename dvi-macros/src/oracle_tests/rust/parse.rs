@@ -46,7 +46,8 @@ impl Expansion {
         expansion
     }
 
-    /// Reads the items of one level. Where they end is seen before they are parsed, because most of them are not read.
+    /// Reads the items of one level. Where they end is seen before they are parsed, because most of them are
+    /// not read.
     fn items(&mut self, tokens: TokenStream) {
         let mut item = Vec::new();
         for token in tokens {
@@ -116,8 +117,9 @@ impl Expansion {
                     self.constants.insert(constant.ident.to_string(), value.value);
                 }
             }
-            // The shape of the configuration space is a type; dimensions are compared by `block_len`.
-            // What is said of a point outside of a table is text, and ρ with H are compared in the self-check and by values.
+            // The shape of the configuration space is a type; dimensions are compared by `block_len`. What
+            // is said of a point outside of a table is text, and ρ with H are compared in the self-check and
+            // by values.
             ImplItem::Fn(function) if !UNREAD.contains(&function.sig.ident.to_string().as_str()) => {
                 self.functions.insert(function.sig.ident.to_string(), Parser::function(function));
             }
@@ -233,8 +235,12 @@ impl Parser {
             Expr::Closure(closure) if closure.inputs.is_empty() => self.expr(&closure.body),
             Expr::Cast(cast) => Code::Cast(self.boxed(&cast.expr), kind(&cast.ty)),
             Expr::Tuple(tuple) if tuple.elems.is_empty() => Code::Value(Value::Unit),
-            Expr::Array(array) => Code::Tuple(array.elems.iter().map(|element| self.expr(element)).collect()),
-            Expr::Tuple(tuple) => Code::Tuple(tuple.elems.iter().map(|element| self.expr(element)).collect()),
+            Expr::Array(array) => {
+                Code::Tuple(array.elems.iter().map(|element| self.expr(element)).collect())
+            }
+            Expr::Tuple(tuple) => {
+                Code::Tuple(tuple.elems.iter().map(|element| self.expr(element)).collect())
+            }
             Expr::If(choice) => {
                 let (condition, then) = (self.boxed(&choice.cond), self.block(&choice.then_branch));
                 let otherwise = choice.else_branch.as_ref().map(|(_, expr)| self.boxed(expr));

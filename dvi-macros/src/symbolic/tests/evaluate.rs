@@ -174,7 +174,8 @@ impl<'a> Evaluation<'a> {
             }
             Node::Reduce { fold, height, range, body } => {
                 let values = self.point.range(&range, at).into_iter().map(|value| {
-                    let inside: Bindings = at.iter().cloned().chain([(Atom::Bound(height), value)]).collect();
+                    let inside: Bindings =
+                        at.iter().cloned().chain([(Atom::Bound(height), value)]).collect();
                     self.expr(body, &inside)
                 });
                 match fold {

@@ -106,7 +106,9 @@ impl Machine<'_> {
             Instruction::Call(_, order, of) => own_function(*order, self.signed(*of)),
             Instruction::Expansion(..) => f64::NAN,
             Instruction::Part(expansion, partial) => {
-                let Instruction::Expansion(_, at) = self.code.get(*expansion) else { unreachable!("a part") };
+                let Instruction::Expansion(_, at) = self.code.get(*expansion) else {
+                    unreachable!("a part")
+                };
                 let at: Vec<f64> = at.iter().map(|argument| self.signed(*argument)).collect();
                 scalar_field(*partial, &at)
             }

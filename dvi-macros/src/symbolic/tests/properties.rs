@@ -118,7 +118,8 @@ fn is_normal(graph: &Graph, node: &Node) -> bool {
         }
         Node::Product(factors) => {
             let ordered = factors.windows(2).all(|pair| pair[0].0 < pair[1].0);
-            let flat = factors.iter().all(|(id, _)| !matches!(graph.node(*id), Node::Product(_) | Node::One));
+            let flat =
+                factors.iter().all(|(id, _)| !matches!(graph.node(*id), Node::Product(_) | Node::One));
             let several = factors.len() > 1 || factors[0].1 > 1;
             ordered && flat && several && factors.iter().all(|(_, exponent)| *exponent > 0)
         }

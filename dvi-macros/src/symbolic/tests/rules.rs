@@ -95,7 +95,11 @@ impl Variables {
     }
 
     fn difference(&self, of: Expr, by: Id, (a, b): (f64, f64)) -> f64 {
-        if by == self.a { difference(|a| self.at(of, a, b), a) } else { difference(|b| self.at(of, a, b), b) }
+        if by == self.a {
+            difference(|a| self.at(of, a, b), a)
+        } else {
+            difference(|b| self.at(of, a, b), b)
+        }
     }
 
     /// ∂f and all ∂∂f against differences of f and of ∂f.
@@ -172,8 +176,11 @@ fn every_kind_of_power() {
     }
     for exponent in [-2.5, -2.0, -0.5, 0.0, 0.3, 0.5, 1.0, 1.5, 3.0, 3.7] {
         let mut variables = Variables::new();
-        let f =
-            variables.graph.binary(crate::symbolic::Binary::Powf, variables.a.into(), Expr::number(exponent));
+        let f = variables.graph.binary(
+            crate::symbolic::Binary::Powf,
+            variables.a.into(),
+            Expr::number(exponent),
+        );
         for a in [0.4, 0.9, 1.2, 2.3] {
             let power = f64::powf(a, exponent);
             close(&format!("{a}.powf({exponent})"), variables.at(f, a, 0.0), power);

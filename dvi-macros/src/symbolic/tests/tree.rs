@@ -241,7 +241,9 @@ impl Tree {
     /// f of an argument in its domain that u decides.
     fn within_domain(function: Unary, u: Self) -> Self {
         let argument = match function {
-            Unary::Sqrt | Unary::Cbrt | Unary::Ln | Unary::Ln1p | Unary::Log2 | Unary::Log10 => u.above_one(),
+            Unary::Sqrt | Unary::Cbrt | Unary::Ln | Unary::Ln1p | Unary::Log2 | Unary::Log10 => {
+                u.above_one()
+            }
             Unary::Acosh => u.above_one().above_one(),
             Unary::Sin | Unary::Cos | Unary::Atan | Unary::Abs | Unary::Signum | Unary::Erf => u,
             _ => u.small(),

@@ -96,7 +96,9 @@ impl Evaluation<'_> {
                     continue;
                 }
                 "sum_pairs" => self.point.visited(first + 1, upper),
-                _ => self.point.visited(lower, upper).into_iter().filter(|second| *second != first).collect(),
+                _ => {
+                    self.point.visited(lower, upper).into_iter().filter(|second| *second != first).collect()
+                }
             };
             for second in seconds {
                 total = total.plus(&self.closure(closure, &[first, second])?);

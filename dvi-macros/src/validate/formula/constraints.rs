@@ -41,7 +41,8 @@ impl Combination {
         self.rate.value()
     }
 
-    /// The rate of the rate along a motion without acceleration: the first direction of positions is the velocity.
+    /// The rate of the rate along a motion without acceleration: the first direction of positions is the
+    /// velocity.
     pub(in super::super) fn curvature(&self) -> Sized {
         self.rate.first(First::Q).plus(self.rate.first(First::T))
     }

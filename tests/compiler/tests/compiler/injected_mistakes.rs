@@ -207,6 +207,9 @@ fn every_injected_mistake_is_caught() {
             Err(errors) => failures.push((mistake.file, mistake.place, errors)),
         }
     }
-    assert!(survivors.is_empty() && failures.is_empty(), "not caught: {survivors:#?}, failed: {failures:#?}");
+    assert!(
+        survivors.is_empty() && failures.is_empty(),
+        "not caught: {survivors:#?}, failed: {failures:#?}"
+    );
     assert!(MISTAKES.len() >= 20);
 }

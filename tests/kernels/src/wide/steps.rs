@@ -8,7 +8,8 @@ use dvi_tests::systems::ManyVorticesState;
 
 use super::gradients::{Chain, ChainState, numbers, vortices};
 
-/// Four vortices. Systems that are measured have types of their own: what else steps them changes what is inlined.
+/// Four vortices. Systems that are measured have types of their own: what else steps them changes what is
+/// inlined.
 #[degenerate_lagrangian(
     coordinates(x[4], y[4]),
     one_form = sum(0..4, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
@@ -33,7 +34,8 @@ struct Planet {
 const RUNS: usize = 8;
 const STEPS: u64 = 20;
 
-/// The last states of eight runs together, of runs in lanes of stages and of nodes, and of a chain and a cloud by the fixed point.
+/// The last states of eight runs together, of runs in lanes of stages and of nodes, and of a chain and a
+/// cloud by the fixed point.
 pub(super) fn add_to(all: &mut Vec<f64>) {
     let four = Four { gamma: [1.0, 1.5, 1.25, 2.0] };
     let near = |j: usize| FourState { x: [1.0 + 0.01 * j as f64, -1.0, 0.2, 0.1], y: [0.1, 0.0, 1.2, -0.9] };

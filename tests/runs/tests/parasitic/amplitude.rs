@@ -87,11 +87,15 @@ fn the_amplitude_is_that_of_the_alternating_part() -> Outcome {
         let Some(ParasiticMode { amplitude, relative, is_significant }) = run.parasitic_mode() else {
             return Err("measured after 256 steps".into());
         };
-        // The mode turns too, at (1 − 2σ)² times the rate of the motion; its norm is that of the second point.
+        // The mode turns too, at (1 − 2σ)² times the rate of the motion; its norm is that of the second
+        // point.
         assert!(amplitude > 0.7 * a && amplitude < 1.01 * a, "σ = {sigma}: {amplitude:e}");
         // 16a alternates in the differences of D, and 2h² of a circle does not.
         let expected = 8.0 * a / (2.0 * h * h);
-        assert!(relative > 0.5 * expected && relative < 8.0 * expected, "σ = {sigma}: {relative} {expected}");
+        assert!(
+            relative > 0.5 * expected && relative < 8.0 * expected,
+            "σ = {sigma}: {relative} {expected}"
+        );
         assert!(is_significant);
     }
     Ok(())

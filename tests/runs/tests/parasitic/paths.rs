@@ -53,8 +53,8 @@ struct Bend {
     w: f64,
 }
 
-/// What the bend leaves of the mode stays as it was, and the position is as good as that of the midpoint rule, which has no
-/// mode.
+/// What the bend leaves of the mode stays as it was, and the position is as good as that of the midpoint
+/// rule, which has no mode.
 #[test]
 fn a_mode_that_stays_as_it_was_on_a_straight_path_goes_on() -> Outcome {
     let start = BendState { x: 0.0, y: 0.3 };

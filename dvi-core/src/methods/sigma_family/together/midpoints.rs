@@ -198,7 +198,8 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn iterate(&mut self, time: Lanes<W>, active: Lanes<W>) -> Lanes<W> {
         let half = Lanes::all(0.5);
-        for ((point, &origin), &s) in self.point.iter_mut().zip(self.origin.iter()).zip(self.increment.iter())
+        for ((point, &origin), &s) in
+            self.point.iter_mut().zip(self.origin.iter()).zip(self.increment.iter())
         {
             *point = origin + half * s;
         }

@@ -20,7 +20,8 @@ fn numbers(seed: u64) -> impl FnMut() -> f64 {
 
 type Places = Vec<(usize, usize)>;
 
-/// A square lattice of `side`² sites with `blocks` coordinates each, declared block by block, whose neighbours couple.
+/// A square lattice of `side`² sites with `blocks` coordinates each, declared block by block, whose
+/// neighbours couple.
 fn lattice(side: usize, blocks: usize) -> (usize, Places) {
     let sites = side * side;
     let mut places = Vec::new();

@@ -64,7 +64,11 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("symbolic/derivative.rs", "let mut factor = «self.multiply(outer.factor, partial)»;", "partial"),
     mistake("symbolic/derivative.rs", "range.without(Index::open(depth))", "range.clone()"),
     mistake("symbolic/derivative.rs", "let range = «outer.range.as_written()»;", "outer.range.clone()"),
-    mistake("symbolic/functions.rs", "«graph.unary(Unary::Sin, u).negated()»;", "graph.unary(Unary::Sin, u)"),
+    mistake(
+        "symbolic/functions.rs",
+        "«graph.unary(Unary::Sin, u).negated()»;",
+        "graph.unary(Unary::Sin, u)",
+    ),
     // An index takes the name of that of a sum inside.
     mistake(
         "symbolic/graph.rs",
