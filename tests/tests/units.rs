@@ -13,7 +13,7 @@ use dvi_core::{Lagrangian, State};
 
 use systems::{
     Amplitudes, Bead, Blade, Centre, Chain, Charge, CoupledMasses, DoublePendulum, Kepler, Oscillator,
-    Pendulum, Predators, Vortices,
+    Pendulum, Predators, Tangled, Vortices,
 };
 
 /// Exponents of the units of coordinates, and of time.
@@ -92,7 +92,11 @@ fn of_degenerate_systems() {
         check::<2, Predators, _>("predators, midpoint", sigma(0.5));
         check::<4, Centre, _>("centre, midpoint", sigma(0.5));
         check::<2, Amplitudes, _>("amplitudes, midpoint", sigma(0.5));
+        check::<4, Tangled, _>("tangled, midpoint", sigma(0.5));
     }
+    check::<4, Tangled, _>("tangled, Gauss", Gauss::<2>::new());
+    check::<4, Tangled, _>("tangled, projected", Projected::symmetric());
+    check::<4, Tangled, _>("tangled, Runge-Kutta", RungeKutta::classical());
     check::<2, Vortices, _>("vortices, leapfrog", Sigma::leapfrog());
     check::<2, Oscillator, _>("oscillator, one step", OneStep::midpoint());
     check::<2, Predators, _>("predators, one step", OneStep::midpoint());

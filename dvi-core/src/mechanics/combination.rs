@@ -10,6 +10,8 @@ use core::ops::Range;
 use crate::error::StepFailure;
 use crate::scalar::blocks::blocks;
 use crate::scalar::{Lanes, norm};
+use crate::solve::sizes;
+use crate::space::linear::{power_below, set_scales};
 use crate::space::sink::{Places, Product as ProductSink};
 use crate::space::square::SquareMatrix;
 use crate::state::Statistics;
@@ -33,15 +35,15 @@ impl<T: Real> Combination<T> {
 pub(crate) enum Inverse<S: System, T: Real> {
     /// Entry j is one over the only entry of column j.
     Reciprocals(Vector<S, T>),
-    /// The factors of the matrix, and work space.
-    Factors(Square<S, T>, Vector<S, T>),
+    /// The factors of the matrix with its rows times scales, these scales, and work space.
+    Factors(Square<S, T>, [Vector<S, T>; 2]),
 }
 
 impl<S: System, T: Real> Clone for Inverse<S, T> {
     fn clone(&self) -> Self {
         match self {
             Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
-            Self::Factors(matrix, work) => Self::Factors(matrix.clone(), work.clone()),
+            Self::Factors(matrix, vectors) => Self::Factors(matrix.clone(), vectors.clone()),
         }
     }
 }
@@ -59,7 +61,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 let mut places = Places(|row: usize, column: usize, _| visit(row, column));
                 system.one_form_jacobian(q, t, a, b, &mut places);
             });
-            Self::Factors(matrix, space.vector())
+            Self::Factors(matrix, space.vectors())
         }
     }
 
@@ -83,11 +85,21 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
                 }
                 Ok(())
             }
-            Self::Factors(matrix, work) => {
+            Self::Factors(matrix, [scales, work]) => {
                 statistics.factorisations += 1;
-                system.one_form_jacobian(q, t, a, b, matrix.cleared());
-                matrix.factor().or_else(|_| {
+                // A row has the unit of the action over that of its coordinate, and is compared in its size.
+                for block in sizes::blocks(system) {
+                    entries[block.clone()].fill(sizes::weight_of(norm::largest(&q[block])));
+                }
+                set_scales(scales, entries);
+                scales.iter_mut().for_each(|scale| *scale = power_below(*scale));
+                let evaluate = |matrix: &mut Square<S, T>| {
                     system.one_form_jacobian(q, t, a, b, matrix.cleared());
+                    matrix.scale_rows(scales);
+                };
+                evaluate(matrix);
+                matrix.factor().or_else(|_| {
+                    evaluate(matrix);
                     matrix.factor_with_care([entries, work])
                 })
             }
@@ -101,8 +113,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
             // Never built for such a system; saying so keeps elimination out of its steps.
             Self::Factors(..) if S::MATCHING => {}
-            Self::Factors(matrix, _) => {
-                x.copy_from_slice(rhs);
+            Self::Factors(matrix, [scales, _]) => {
+                for ((x, &rhs), &scale) in x.iter_mut().zip(rhs).zip(scales.iter()) {
+                    *x = rhs * scale;
+                }
                 matrix.solve(x);
             }
         }

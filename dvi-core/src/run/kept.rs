@@ -44,14 +44,6 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
     }
 }
 
-/// Why steps have ended.
-struct Stop<'k, S: System, M: Carries<S, T>, T: Real> {
-    failure: StepFailure,
-    /// Of a step that is to be taken back: the point that was kept, and how many good steps lead on from
-    /// there.
-    back: Option<(&'k Kept<S, M, T>, u64)>,
-}
-
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
     /// Takes `count` steps from the present time of `clock`, or as many as succeed and lead where they may.
     pub(super) fn steps_looked_at(
@@ -62,44 +54,31 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
     ) -> Result<(), StepFailure> {
         // The physical time is compared with that at the start of each step.
         let block = if S::TIME_TRANSFORMED { 1 } else { BLOCK };
-        let mut taken = 0;
-        while taken < count {
-            if let Some(kept) = &mut kept {
+        let (mut taken, mut end, mut lost) = (0, count, None);
+        let (mut begun, mut before) = (0, self.statistics);
+        while taken < end {
+            if taken % block == 0
+                && let Some(kept) = &mut kept
+            {
+                (begun, before) = (taken, self.statistics);
                 self.keep(kept);
             }
-            let (clock, steps, before) = (clock.after(taken), block.min(count - taken), self.statistics);
-            if let Err(Stop { failure, back }) = self.steps_until(clock, steps, kept.as_deref()) {
-                if let Some((kept, good)) = back {
-                    self.return_to(kept);
-                    self.statistics = before;
-                    self.steps_until(clock, good, None).map_err(|stop| stop.failure)?;
-                }
-                return Err(failure);
-            }
-            taken += steps;
-        }
-        Ok(())
-    }
-
-    /// Takes steps until one fails or, if there is a point to return to, leads where it must not.
-    fn steps_until<'k>(
-        &mut self,
-        clock: Clock<T>,
-        count: u64,
-        kept: Option<&'k Kept<S, M, T>>,
-    ) -> Result<(), Stop<'k, S, M, T>> {
-        for taken in 0..count {
+            // At one place, where it is put in line.
             let Self { system, method, memory, q, statistics, .. } = self;
-            let step =
-                method.step(system, memory, q, clock.after(taken).time(), clock.step_size(), statistics);
-            step.map_err(|failure| Stop { failure, back: None })?;
+            let time = clock.after(taken).time();
+            method.step(system, memory, q, time, clock.step_size(), statistics)?;
             statistics.steps += 1;
-            if let Some(kept) = kept {
-                let look = self.look(clock.after(taken + 1), kept);
-                look.map_err(|failure| Stop { failure, back: Some((kept, taken)) })?;
+            taken += 1;
+            if let Some(kept) = &kept
+                && let Err(failure) = self.look(clock.after(taken), kept)
+            {
+                // Up to there steps have succeeded, and are taken once more.
+                self.return_to(kept);
+                self.statistics = before;
+                (lost, end, taken) = (Some(failure), taken - 1, begun);
             }
         }
-        Ok(())
+        lost.map_or(Ok(()), Err)
     }
 
     pub(super) fn keep(&self, kept: &mut Kept<S, M, T>) {

@@ -146,13 +146,19 @@ const EXPONENT: u64 = 0x7ff << 52;
 #[inline]
 pub(crate) fn set_scales<T: Real>(scales: &mut [T], weights: &[T]) {
     let least = weights.iter().fold(T::lift(f64::INFINITY), |least, &weight| norm::smaller(least, weight));
-    let unit = T::lift(f64::from_bits(norm::reported(least).to_bits() & EXPONENT));
+    let unit = power_below(least);
     for scales in scales.chunks_mut(weights.len().max(1)) {
         for (scale, &weight) in scales.iter_mut().zip(weights) {
             let size = T::lift(norm::reported(unit / weight));
             *scale = if size > T::lift(1e-140) { size } else { T::lift(1.0) };
         }
     }
+}
+
+/// The largest power of two up to `scale`: times that, nothing is rounded.
+#[inline]
+pub(crate) fn power_below<T: Real>(scale: T) -> T {
+    T::lift(f64::from_bits(norm::reported(scale).to_bits() & EXPONENT))
 }
 
 /// Multiplies the entries of `x` by their scales.

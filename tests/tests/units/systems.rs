@@ -74,6 +74,22 @@ impl InUnits<2> for Vortices {
     }
 }
 
+/// Four coordinates whose Ω has all entries, and no pair of them.
+#[degenerate_lagrangian(
+    coordinates(a, b, c, d),
+    one_form = (15.0 * u[0] * a * u[1] * d(b)
+        + (3.0 * u[0] * a + 10.0 * u[1] * b) * u[2] * d(c)
+        + (13.0 * u[0] * a + u[1] * b + 14.0 * u[2] * c) * u[3] * d(d)) / tau,
+    hamiltonian = ((u[0] * a).powi(2) + (u[1] * b).powi(2) + (u[2] * c).powi(2) + (u[3] * d).powi(2)) / 2.0
+        + (u[0] * a * u[3] * d).powi(2) / 4.0,
+)]
+pub(super) struct Tangled {
+    u: [f64; 4],
+    tau: f64,
+}
+
+in_units!(Tangled, [f64; 4], 0.5, [1.0, 0.75, -0.5, 1.25]);
+
 /// Predators y and their prey x.
 #[degenerate_lagrangian(
     coordinates(x, y),
