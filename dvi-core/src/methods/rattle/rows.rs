@@ -57,8 +57,9 @@ pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
 ) {
     let entries = gram.cleared();
     for (k, (a, &square)) in a.iter().zip(squares).enumerate() {
+        let scale = scale(square);
         for (l, b) in b.iter().enumerate() {
-            entries.add(k, l, scale(square) * dot(a, b));
+            entries.add(k, l, scale * dot(a, b));
         }
     }
 }
