@@ -68,7 +68,7 @@ pub(crate) struct Programs {
     pub(crate) constraints: Option<Constraints>,
     /// L, all components of F and all constraints, added up: no number where one of them is none.
     pub(crate) probe: Routine,
-    /// No number outside of the domain of L, if that does not know all positions.
+    /// No number outside of the domain of L and of all forces, if these do not know all positions.
     pub(crate) domain: Option<Routine>,
     pub(crate) gradient: Routine,
     pub(crate) linearize: Routine,
@@ -99,7 +99,7 @@ impl Programs {
         let gradient = gradient(graph, lagrangian, force);
         entries.extend(force_derivatives(graph, force));
         let linearize = linearize(graph, &gradient, &entries);
-        let domain = graph.domain(lagrangian.node);
+        let domain = domain(graph, lagrangian, force);
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
             forces: (!force.is_empty()).then(|| applied(graph, force)),
@@ -135,12 +135,23 @@ fn applied(graph: &mut Graph, force: &Force) -> Routine {
 fn probe(graph: &mut Graph, lagrangian: Expr, force: &Force, constraints: &[Constraint]) -> Routine {
     let forces = force.iter().map(|part| (part.loops.clone(), part.value));
     let constraints = constraints.iter().map(|constraint| (constraint.loops(), constraint.value));
-    let mut sum = lagrangian;
-    for (loops, value) in forces.chain(constraints) {
-        let added = loops.into_iter().rev().fold(value, |value, over| graph.summed(value, over));
-        sum = graph.add(sum, added);
-    }
+    let sum = with_all(graph, lagrangian, forces.chain(constraints));
     Routine::new(graph, result(sum))
+}
+
+fn domain(graph: &mut Graph, lagrangian: Expr, force: &Force) -> Expr {
+    let of_lagrangian = graph.domain(lagrangian.node);
+    let of_forces: Vec<_> =
+        force.iter().map(|part| (part.loops.clone(), graph.domain(part.value.node))).collect();
+    with_all(graph, of_lagrangian, of_forces)
+}
+
+/// The sum of one number and of all values of others in their loops.
+fn with_all(graph: &mut Graph, one: Expr, others: impl IntoIterator<Item = (Vec<Loop>, Expr)>) -> Expr {
+    others.into_iter().fold(one, |sum, (loops, value)| {
+        let added = loops.into_iter().rev().fold(value, |value, over| graph.summed(value, over));
+        graph.add(sum, added)
+    })
 }
 
 /// ∂F/∂q and ∂F/∂v, in the rows of ∂L/∂q.

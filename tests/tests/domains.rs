@@ -29,6 +29,18 @@ struct Flow;
 #[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0 + x.sqrt())]
 struct Root;
 
+/// Here L is known everywhere, and friction is not.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x, force(x) = -0.1 * x.sqrt() * dot(x))]
+struct Rubbing;
+
+/// The same in a loop.
+#[lagrangian(
+    coordinates(x[N]),
+    lagrangian = sum(0..N, |j| dot(x[j]).powi(2) / 2.0 - x[j]),
+    force(x) = |j| 0.1 * x[j].ln(),
+)]
+struct Pushed<const N: usize>;
+
 /// A start for each number.
 type StartOf<S> = fn(f64) -> <S as System>::State<f64>;
 
@@ -70,6 +82,8 @@ fn keeps_to_the_domain<S: Lagrangian, M: Method<S, f64>>(
 fn no_run_stands_where_its_energy_is_no_number() -> Outcome {
     let falling = (&Falling, (|x| FallingState { x, dot_x: -0.3 }) as fn(f64) -> _);
     let heavy = (&Heavy, (|x| HeavyState { x, dot_x: -0.3 }) as fn(f64) -> _);
+    let rubbing = (&Rubbing, (|x| RubbingState { x, dot_x: -0.3 }) as fn(f64) -> _);
+    let pushed = (&Pushed::<2>, (|x| PushedState { x: [x, 3.0], dot_x: [-0.3, 0.0] }) as fn(f64) -> _);
     let flow = (&Flow, (|x| FlowState { x, p: -0.3 }) as fn(f64) -> _);
     let root = (&Root, (|x| RootState { x: x / 2.0, p: -1.0 }) as fn(f64) -> _);
     let left = [
@@ -79,6 +93,8 @@ fn no_run_stands_where_its_energy_is_no_number() -> Outcome {
         keeps_to_the_domain("Gauss 4", falling, Gauss::<2>::new)?,
         keeps_to_the_domain("Runge-Kutta", falling, RungeKutta::classical)?,
         keeps_to_the_domain("midpoint, heavy", heavy, Variational::midpoint)?,
+        keeps_to_the_domain("midpoint, force", rubbing, Variational::midpoint)?,
+        keeps_to_the_domain("Gauss 4, forces", pushed, Gauss::<2>::new)?,
         keeps_to_the_domain("sigma = 0", flow, Sigma::leapfrog)?,
         keeps_to_the_domain("sigma = 1/2", flow, Sigma::midpoint)?,
         keeps_to_the_domain("Gauss 2", flow, Gauss::<1>::new)?,
@@ -156,5 +172,6 @@ fn what_has_no_end_of_its_domain_is_not_looked_at() {
     #[lagrangian(coordinates(x), lagrangian = -(1.0 - dot(x).powi(2)).sqrt())]
     struct Fast;
     const { assert!(!Everywhere::HAS_DOMAIN && !Kepler::HAS_DOMAIN && !PointVortices::<4>::HAS_DOMAIN) };
+    const { assert!(Rubbing::HAS_DOMAIN && Pushed::<2>::HAS_DOMAIN) };
     const { assert!(Somewhere::HAS_DOMAIN && LotkaVolterra::HAS_DOMAIN && Root::HAS_DOMAIN && !Fast::HAS_DOMAIN) };
 }

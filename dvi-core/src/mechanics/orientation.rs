@@ -318,6 +318,7 @@ fn compare<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
 
 /// The same where the product may have underflowed, or is none.
 #[cold]
+#[inline(never)]
 fn compare_signs<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
     // What is not a number has no sign. A matrix that was singular has none to lose.
     let zero = T::lift(0.0);

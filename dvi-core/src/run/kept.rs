@@ -55,27 +55,27 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
         // The physical time is compared with that at the start of each step.
         let block = if S::TIME_TRANSFORMED { 1 } else { BLOCK };
         let (mut taken, mut end, mut lost) = (0, count, None);
-        let (mut begun, mut before) = (0, self.statistics);
         while taken < end {
-            if taken % block == 0
-                && let Some(kept) = &mut kept
-            {
-                (begun, before) = (taken, self.statistics);
+            let (begun, before) = (taken, self.statistics);
+            if let Some(kept) = &mut kept {
                 self.keep(kept);
             }
-            // At one place, where it is put in line.
-            let Self { system, method, memory, q, statistics, .. } = self;
-            let time = clock.after(taken).time();
-            method.step(system, memory, q, time, clock.step_size(), statistics)?;
-            statistics.steps += 1;
-            taken += 1;
-            if let Some(kept) = &kept
-                && let Err(failure) = self.look(clock.after(taken), kept)
-            {
-                // Up to there steps have succeeded, and are taken once more.
-                self.return_to(kept);
-                self.statistics = before;
-                (lost, end, taken) = (Some(failure), taken - 1, begun);
+            let last = end.min(begun + block);
+            while taken < last {
+                // At one place, where it is put in line.
+                let Self { system, method, memory, q, statistics, .. } = self;
+                let time = clock.after(taken).time();
+                method.step(system, memory, q, time, clock.step_size(), statistics)?;
+                statistics.steps += 1;
+                taken += 1;
+                if let Err(failure) = self.look(clock.after(taken), kept.as_deref()) {
+                    let Some(kept) = &kept else { return Err(failure) };
+                    // Up to there steps have succeeded, and are taken once more.
+                    self.return_to(kept);
+                    self.statistics = before;
+                    (lost, end, taken) = (Some(failure), taken - 1, begun);
+                    break;
+                }
             }
         }
         lost.map_or(Ok(()), Err)
@@ -91,13 +91,15 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
         self.memory.restore(&kept.memory);
     }
 
-    /// Whether a step may end at the present state, at the time of `clock`.
+    /// Whether a step may end at the present state, at the time of `clock`, where it has begun at `kept`.
     ///
     /// # Errors
     /// [`StepFailure::TimeRate`] and [`StepFailure::LeftDomain`].
     #[inline]
-    pub(super) fn look(&self, clock: Clock<T>, kept: &Kept<S, M, T>) -> Result<(), StepFailure> {
-        if S::TIME_TRANSFORMED {
+    pub(super) fn look(&self, clock: Clock<T>, kept: Option<&Kept<S, M, T>>) -> Result<(), StepFailure> {
+        if S::TIME_TRANSFORMED
+            && let Some(kept) = kept
+        {
             let [time, _] = extended(self.system);
             let mean = (self.q[time] - kept.q[time]) / clock.step_size();
             let rate = self.system.time_transform(&self.q).map_or(mean, |transform| transform.rate);

@@ -51,8 +51,11 @@ fn set_weights<S: System, T: Real>(
     size: impl Fn(usize, T) -> T,
 ) {
     for block in blocks(system) {
-        let largest = |largest: T, k: usize| larger(largest, size(k, weights[k]));
-        let largest = block.clone().fold(T::lift(0.0), largest);
+        // Of what is no number the end of a step takes care. A zero to begin with would be compared too.
+        let Some(last) = block.clone().next_back() else { continue };
+        let others = block.start..last;
+        let largest =
+            others.fold(size(last, weights[last]), |largest, k| larger(largest, size(k, weights[k])));
         weights[block].fill(unit * weight_of(largest));
     }
 }
@@ -248,16 +251,24 @@ pub(crate) fn reduce<S: System, T: Real>(system: &S, weights: &[T], x: &mut [T],
     for (x, &change) in x.iter_mut().zip(change) {
         *x -= change;
     }
-    size_of(system, weights, change)
+    larger(T::lift(0.0), size_of(system, weights, change))
 }
 
-/// The size of a change of all coordinates, of which those of a block have one weight.
+/// The size of a change of all coordinates, of which those of a block have one weight. No zero is among what
+/// is compared, which saves RATTLE 2 of 279 instructions; so a first change that is not a number counts.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn size_of<S: System, T: Real>(system: &S, weights: &[T], change: &[T]) -> T {
-    blocks(system).fold(T::lift(0.0), |largest, block| match weights.get(block.start) {
-        Some(&weight) => larger(largest, weight * largest_number(&change[block])),
-        None => largest,
-    })
+    let mut largest = None;
+    for block in blocks(system) {
+        if let Some(&weight) = weights.get(block.start) {
+            let size = weight * largest_number(&change[block]);
+            largest = Some(match largest {
+                None => size,
+                Some(largest) => larger(largest, size),
+            });
+        }
+    }
+    largest.unwrap_or(T::lift(0.0))
 }
 
 /// Sets the unknown `x` to `new`, and returns the size of the largest change; one that is not a number does

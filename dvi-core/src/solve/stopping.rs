@@ -142,6 +142,9 @@ pub(crate) struct Course<T> {
 
 /// What judges the corrections of an iteration.
 pub(crate) trait Judge<T> {
+    /// Whether what fails is to be called by its name: what is not a number may be found at the end of the
+    /// step else.
+    const NAMES: bool;
     /// Of an iteration that begins.
     fn of(course: Course<T>) -> Self;
     /// Takes note of the size of the latest correction and decides.
@@ -167,6 +170,8 @@ pub(crate) struct Convergence<T> {
 pub(crate) struct Quick<T>(Course<T>);
 
 impl<T: Real> Judge<T> for Quick<T> {
+    const NAMES: bool = false;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(course: Course<T>) -> Self {
         Self(course)
@@ -372,6 +377,8 @@ impl<T: Real> Convergence<T> {
 }
 
 impl<T: Real> Judge<T> for Convergence<T> {
+    const NAMES: bool = true;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(course: Course<T>) -> Self {
         let kept = course.tolerance;

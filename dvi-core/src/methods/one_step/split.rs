@@ -58,7 +58,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         repeat(
             J::of(Course::new(stopping, stopping.max_iterations)),
             statistics,
-            Newton { split: self, system, q, t, p },
+            Newton { split: self, system, q, t, p, names: J::NAMES },
         )
     }
 
@@ -69,11 +69,12 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         system: &S,
         q: &[T],
         t: T,
+        names: bool,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let half = q.len() / 2;
         if S::CANONICAL {
-            return self.divide(system, q, t);
+            return self.divide(system, q, t, names);
         }
         self.eliminate(system, q, t, half, statistics)?;
         norm::finite(&self.change[..half])
@@ -81,13 +82,16 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
 
     /// The same where each row has one entry.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn divide(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
+    fn divide(&mut self, system: &S, q: &[T], t: T, names: bool) -> Result<(), StepFailure> {
         let half = q.len() / 2;
         scratch!(entries = system, self.block[..q.len()]);
         system.conjugate_entries(q, t, T::lift(1.0), T::lift(0.0), entries);
         let rows = || (0..q.len()).filter(|&i| is_x(system, i)).map(|i| (i, system.conjugate(i)));
         for (i, column) in rows() {
             self.change[system.place(column) - half] = self.form[i] * (T::lift(1.0) / entries[i]);
+        }
+        if !names {
+            return Ok(());
         }
         let finite = norm::finite(&self.change[..half]);
         // A quotient by a number without a reciprocal is not finite, unless its numerator is as small as
@@ -162,6 +166,8 @@ struct Newton<'a, S: System, T: Real> {
     q: &'a mut Vector<S, T>,
     t: T,
     p: &'a Vector<S, T>,
+    /// [`Judge::NAMES`].
+    names: bool,
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
@@ -172,7 +178,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { split, system, q, t, p } = self;
+        let Self { split, system, q, t, p, names } = self;
         system.one_form(q, *t, &mut split.form);
         for (form, &p) in split.form.iter_mut().zip(p.iter()) {
             *form -= p;
@@ -180,7 +186,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
         if *due == Due::Residual {
             return split.residual(system, q, *t, p);
         }
-        split.solve_once(system, q, *t, statistics)?;
+        split.solve_once(system, q, *t, *names, statistics)?;
         let (half, mut size) = (q.len() / 2, T::lift(0.0));
         for (i, q) in q.iter_mut().enumerate() {
             if let Some(y) = system.place(i).checked_sub(half) {

@@ -77,7 +77,7 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
         method.step(system, memory, q, t, h, statistics)?;
         if S::HAS_DOMAIN
             && let Some(kept) = &self.kept
-            && let Err(failure) = self.stepper.look(Clock::new(t, h).after(1), kept)
+            && let Err(failure) = self.stepper.look(Clock::new(t, h).after(1), Some(kept))
         {
             self.stepper.return_to(kept);
             return Err(failure);
