@@ -26,6 +26,7 @@ mod projected;
 mod rattle;
 mod runge_kutta;
 mod sigma_family;
+mod step;
 mod together;
 mod tolerance;
 mod variational;
@@ -50,7 +51,7 @@ pub use geodesic::{Geodesic, GeodesicMemory};
 pub use impacts::{Collision, Impact, Impacts, ImpactsMemory};
 #[cfg(feature = "random")]
 pub use langevin::{Langevin, LangevinMemory};
-pub use newmark::{Newmark, NewmarkLagrangian, NewmarkMemory};
+pub use newmark::{Newmark, NewmarkMemory};
 pub use one_step::{OneStep, OneStepGauss, OneStepGaussMemory, OneStepMemory};
 pub use projected::{Projected, ProjectedMemory};
 pub use rattle::{Rattle, RattleMemory};
@@ -312,7 +313,7 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
     note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, \
-            `Newmark`, `General` around these, and `EnergyLimit` around any of them"
+            `General` around these, and `EnergyLimit` around any of them"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
@@ -337,7 +338,7 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian that `General` and `Constrained` could take steps of",
     label = "its steps are not variational, it reads a frequency from the motion, or it watches steps",
-    note = "such methods are `Variational` and, without constraints, `Sigma`, `Galerkin` and `Newmark`; \
+    note = "such methods are `Variational` and, without constraints, `Sigma` and `Galerkin`; \
             `EnergyLimit` goes around `General` and `Constrained`"
 )]
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {

@@ -218,7 +218,6 @@ fn steps_from_rest_at_the_origin_succeed() -> Outcome {
                 succeeds(&system, Sigma { solver, ..Sigma::midpoint() }, start, h)?;
             }
             succeeds(&system, General::new(Variational::simpson()), start, h)?;
-            succeeds(&system, General::new(Newmark::new(0.25)), start, h)?;
         }
     }
     Ok(())

@@ -1,15 +1,11 @@
 //! Newmark's method: order, closed form, the potential of its own coordinates, and failures.
 
-use dvi_core::discrete::{DiscreteLagrangian, Ends, Interval, Span};
-use dvi_core::methods::{Carries, General, Method, PreservedForm, VariationalMethod};
+use dvi_core::methods::PreservedForm;
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
-use dvi_core::state::Statistics;
-use dvi_core::{Scalar, Separable, Space, Weights};
+use dvi_core::{Scalar, Separable};
 use dvi_tests::zoo::regular::*;
 use dvi_tests::{apart, larger, run};
-use nalgebra::{DMatrix, DVector};
-use num_dual::{Dual64, HyperDual64};
+use num_dual::Dual64;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
 
@@ -251,109 +247,4 @@ fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
         );
     }
     Ok(())
-}
-
-/// L_d(x0, x1) from the values of L and its force: ½(η1 − η0)·M(η1 − η0)/h − (h/2)(Ṽ0 + Ṽ1).
-fn discrete_lagrangian<S: RegularLagrangian<HyperDual64>>(
-    system: &S,
-    beta: f64,
-    [t, h]: [f64; 2],
-    ends: [&[HyperDual64]; 2],
-    mass: &DMatrix<f64>,
-) -> HyperDual64 {
-    let (n, real) = (mass.nrows(), HyperDual64::from_re);
-    let inverse = mass.clone().try_inverse().unwrap_or_default();
-    let zero = vec![real(0.0); n];
-    let sides: [_; 2] = core::array::from_fn(|k| {
-        let (x, t) = (ends[k], real(t + k as f64 * h));
-        let mut force = zero.clone();
-        system.force(x, &zero, t, &mut force);
-        let acceleration: Vec<_> =
-            (0..n).map(|i| (0..n).map(|j| force[j] * inverse[(i, j)]).sum::<HyperDual64>()).collect();
-        let work: HyperDual64 = force.iter().zip(&acceleration).map(|(&f, &a)| f * a).sum();
-        let potential = work * (0.5 * beta * h * h) - system.lagrangian(x, &zero, t);
-        let eta: Vec<_> = x.iter().zip(&acceleration).map(|(&x, &a)| x - a * (beta * h * h)).collect();
-        (eta, potential)
-    });
-    let by: Vec<_> = sides[1].0.iter().zip(&sides[0].0).map(|(&b, &a)| b - a).collect();
-    let pairs = (0..n * n).map(|k| (k / n, k % n));
-    let kinetic: HyperDual64 = pairs.map(|(i, j)| by[i] * by[j] * mass[(i, j)]).sum();
-    kinetic * (0.5 / h) - (sides[0].1 + sides[1].1) * (0.5 * h)
-}
-
-/// Its derivatives against hyper-dual numbers, and its general step against the method's own.
-fn check_discrete_lagrangian<S: Separable + RegularLagrangian + RegularLagrangian<HyperDual64>>(
-    system: &S,
-    start: &S::State<f64>,
-) -> Outcome {
-    let (h, n) = (0.1, system.space().dimension());
-    let zero = vec![0.0; n];
-    let (mut l_q, mut l_v) = (zero.clone(), zero.clone());
-    let mut second = |x: &[f64], t: f64, qq: f64, vv: f64| {
-        let mut entries = vec![0.0; n * n];
-        let weights = Weights { qq, qv: 0.0, vq: 0.0, vv };
-        let mut sink = Dense::new(&mut entries, n);
-        system.linearize(x, &zero, t, weights, &mut l_q, &mut l_v, &mut sink);
-        DMatrix::from_row_slice(n, n, &entries)
-    };
-    for beta in BETAS {
-        let method = Newmark::new(beta);
-        let mut run = Integrator::new_at(system, method, 0.3, h, start.clone())?;
-        let x0 = run.q().to_vec();
-        let mass = second(&x0, 0.3, 0.0, 1.0);
-        let p = DVector::from_column_slice(run.memory().p());
-        let velocity = mass.clone().lu().solve(&p).ok_or("M is regular")?;
-        let momentum = &p - second(&x0, 0.3, beta * h * h, 0.0) * velocity;
-        let general = General::new(method);
-        let mut q = Space::vector(system.space());
-        q.copy_from_slice(&x0);
-        let mut memory: <General<Newmark> as Carries<S, f64>>::Memory =
-            general.begin(system, &q, &zero, 0.3, h)?;
-        memory.set_p(momentum.as_slice());
-        for step in 0..20 {
-            let t = 0.3 + f64::from(step) * h;
-            run.advance()?;
-            general.step(system, &mut memory, &mut q, t, h, &mut Statistics::default())?;
-            let error = apart(run.q(), &q);
-            assert!(error < 1e-13, "{}, beta = {beta}, step {step}: {error:e}", S::REPORT.system);
-        }
-
-        let x1: Vec<f64> = run.q().to_vec();
-        let delta: Vec<f64> = x1.iter().zip(&x0).map(|(b, a)| b - a).collect();
-        let interval = Interval { t: 0.3, h };
-        let span = || Span { system, interval, ends: Ends { q0: &x0, delta: &delta } };
-        let mut l_d = VariationalMethod::<S, f64>::discrete_lagrangian(&method, system);
-        let [mut d1, mut again, mut sum, mut d12] =
-            [zero.clone(), zero.clone(), zero.clone(), vec![0.0; n * n]];
-        let statistics = &mut Statistics::default();
-        l_d.derivatives(span(), &mut d1, &mut sum, statistics)?;
-        l_d.linearize(span(), &mut again, &mut Dense::new(&mut d12, n), statistics)?;
-        assert_eq!(d1, again);
-        let unit = |on: bool| if on { 1.0 } else { 0.0 };
-        for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
-            let a: Vec<_> =
-                x0.iter().enumerate().map(|(k, &x)| HyperDual64::new(x, unit(k == i), 0.0, 0.0)).collect();
-            let b: Vec<_> =
-                x1.iter().enumerate().map(|(k, &x)| HyperDual64::new(x, 0.0, unit(k == j), 0.0)).collect();
-            let value = discrete_lagrangian(system, beta, [0.3, h], [&a, &b], &mass);
-            let scale = larger(1.0 / h, value.eps1eps2.abs());
-            assert!((d1[i] - value.eps1).abs() < 1e-13 * scale, "{} {}", d1[i], value.eps1);
-            assert!((sum[j] - d1[j] - value.eps2).abs() < 1e-13 * scale);
-            assert!((d12[i * n + j] - value.eps1eps2).abs() < 1e-13 * scale);
-        }
-    }
-    Ok(())
-}
-
-#[test]
-fn newmark_is_the_general_step_of_its_discrete_lagrangian() -> Outcome {
-    check_discrete_lagrangian(&KEPLER, &planet())?;
-    let (system, start) = driven();
-    check_discrete_lagrangian(&system, &start)?;
-    let mixed = MixedVelocitiesState { x: 0.4, y: -0.3, dot_x: 0.2, dot_y: 0.5 };
-    check_discrete_lagrangian(&MixedVelocities {}, &mixed)?;
-    let chain = RunTimeChain { mass: vec![1.0, 1.5, 0.7], coupling: 0.2 };
-    let start =
-        RunTimeChainState { q: vec![0.1, -0.2, 0.4], wall: 0.3, dot_q: vec![0.5, 0.0, -0.1], dot_wall: 0.2 };
-    check_discrete_lagrangian(&chain, &start)
 }

@@ -28,18 +28,10 @@ pub(crate) fn visit_second_derivatives<S: Lagrangian<T>, T: Real>(
     visit_entries(system, points, t, weights, |_| true, visit);
 }
 
-/// A matrix with room for all entries.
-pub(crate) fn full<S: Lagrangian<T>, T: Real>(system: &S) -> Square<S, T> {
-    system.space().square(|visit| visit_all(system.space().dimension(), visit))
-}
-
 /// A solver for a matrix with all entries.
 pub(crate) fn linear_of_all<S: Lagrangian<T>, T: Real>(system: &S) -> Linear<S, T> {
-    system.space().linear(Storing::Always, |visit| visit_all(system.space().dimension(), visit))
-}
-
-fn visit_all(n: usize, visit: &mut dyn FnMut(usize, usize)) {
-    (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j)));
+    let n = system.space().dimension();
+    system.space().linear(Storing::Always, |visit| (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j))))
 }
 
 /// A matrix with room for those second derivatives at (q, v, t) that count.

@@ -7,28 +7,24 @@
 //! symplectic, for dq ∧ dp (Kane, Marsden, Ortiz & West 2000, section 3.2; Newmark 1959). Here it is written
 //! with momenta, as p½ = p0 + (h/2)F0, x1 = x0 + h M⁻¹[p½ + βh(F1 − F0)], p1 = p½ + (h/2)F1,
 //!
-//! which is the general step of the discrete Lagrangian in x with both of its equations divided by η′ᵀ, so
-//! that no second derivatives are left in them.
+//! which are the equations of the discrete Lagrangian in x divided by η′ᵀ, so that no second derivatives are
+//! left in them. Of the increment Δ = x1 − x0 they are
+//!
+//! 0 = p0 + (h/2)F0 + βh(F1 − F0) − MΔ/h      p1 = p0 + (h/2)(F0 + F1)
 
-mod lagrangian;
-
-use crate::discrete::Interval;
+use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::mass::Mass;
-use crate::mechanics::pattern::of_second_derivatives;
-use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
+use crate::mechanics::phase::Inertial;
+use crate::methods::step::{Attempt, Begin, Carried, Equations, ladder};
+use crate::methods::variational::verlet;
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
-use crate::scalar::norm::{self, reported};
-use crate::solve::{Convergence, Due, Guess, Ladder, Solver, Stopping, iterate, sizes};
-use crate::space::{LinearEquations, LinearSolver, Sink, linear};
+use crate::scalar::norm::reported;
+use crate::solve::{Ladder, Solver, Stopping};
+use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
-use crate::{
-    Lagrangian, Linear, Real, RegularLagrangian, Scalar, Separable, Space, System, Vector, Weights,
-};
-
-pub use lagrangian::NewmarkLagrangian;
+use crate::{Linear, Real, RegularLagrangian, Separable, System, Vector, Weights};
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
 ///
@@ -73,165 +69,78 @@ impl<T> Newmark<T> {
 /// The phase point of a run of Newmark's method, and its work space.
 #[derive(Debug)]
 pub struct NewmarkMemory<S: System, T: Real> {
-    phase: PhasePoint<S, T>,
-    mass: Mass<S, T>,
-    /// With the matrix of Newton's method; explicit steps do not use it.
+    carried: Carried<S, T>,
     ladder: Ladder<Linear<S, T>>,
-    work: Work<S, T>,
-}
-
-/// Vectors that are written before they are read in each step.
-#[derive(Debug)]
-struct Work<S: System, T: Real> {
-    /// p½
-    half: Vector<S, T>,
-    /// d of Newton's method.
-    correction: Vector<S, T>,
-    increment: Vector<S, T>,
-    /// In which iterations judge coordinates.
-    weights: Vector<S, T>,
-    next: Vector<S, T>,
-    next_force: Vector<S, T>,
-    /// The momentum that takes q0 to q1, or the residual, or what is added to the momentum.
-    transfer: Vector<S, T>,
-    velocity: Vector<S, T>,
-    /// p1
-    momentum: Vector<S, T>,
 }
 
 impl<S: RegularLagrangian<T>, T: Real> NewmarkMemory<S, T> {
     /// p = ∂L/∂v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        &self.phase.p
+        &self.carried.phase.p
     }
 }
 
 impl<S: System, T: Real> Memory<T> for NewmarkMemory<S, T> {
-    lasting!(T; part phase, part ladder);
+    lasting!(T; part carried, part ladder);
 }
 
-/// A step as it is being solved: `work.increment` becomes Δ.
-struct Attempt<'a, S: Separable<T>, T: Real> {
-    system: &'a S,
-    beta: T,
-    interval: Interval<T>,
-    stopping: Stopping,
-    budget: usize,
-    q: &'a [T],
-    phase: &'a PhasePoint<S, T>,
-    mass: &'a Mass<S, T>,
-    work: &'a mut Work<S, T>,
-}
-
-impl<S: Separable<T>, T: Real> Attempt<'_, S, T> {
-    /// Δ ← h M⁻¹[p½ + βh(F1 − F0)].
-    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        self.guess();
-        let convergence = Convergence::fixed_point(self.stopping, self.budget);
-        iterate(convergence, statistics, |due, statistics| {
-            self.prepare(due);
-            self.place(statistics);
-            self.carry();
-            let Work { weights, increment, velocity, .. } = &mut *self.work;
-            Ok(sizes::renew(weights, increment, velocity))
-        })?;
-        norm::finite(&self.work.increment)
+impl<T: Real> Newmark<T> {
+    /// Sets `node.point` to q1 and `node.gradient` to F(q1), and adds r to `r`.
+    fn add_residual<S: Separable<T>>(
+        &self,
+        &Begin { system, interval, q, phase, mass }: &Begin<'_, S, T>,
+        delta: &[T],
+        NodeWork { point, gradient, .. }: &mut NodeWork<S, T>,
+        r: &mut [T],
+    ) -> Result<(), StepFailure> {
+        let Some(mass) = mass else { return Err(StepFailure::NO_MATRIX) };
+        let (h, half) = (interval.h, T::lift(0.5));
+        phase.reach(q, delta, point);
+        system.force(point, &[], interval.time(T::lift(1.0)), gradient);
+        for ((r, &f0), &f1) in r.iter_mut().zip(phase.force.iter()).zip(gradient.iter()) {
+            *r += h * (half * f0 + self.beta * (f1 - f0));
+        }
+        mass.multiply_add(-T::lift(1.0) / h, delta, r);
+        Ok(())
     }
+}
 
-    /// The same by Newton: (M − βh² ∂²L/∂q∂q)d = MΔ − h[p½ + βh(F1 − F0)], Δ ← Δ − d.
-    fn newton(
+impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
+    const LEAVES_FORCE: bool = true;
+
+    fn evaluate(
         &mut self,
-        solver: &mut Linear<S, T>,
-        guess: Guess,
+        begin: &Begin<'_, S, T>,
+        delta: &[T],
+        node: &mut NodeWork<S, T>,
+        [r, sum]: [&mut [T]; 2],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Work { half, increment, .. } = &mut *self.work;
-        guess.begin(increment, |increment| {
-            self.phase.guess(Some(self.mass), half, self.interval.h, increment);
-        });
-        let max = self.stopping.max_iterations;
-        let convergence = Convergence::new(self.stopping, max);
-        iterate(convergence, statistics, |due, statistics| {
-            self.prepare(due);
-            self.place(statistics);
-            self.improve(solver, *due, statistics)
-        })?;
-        norm::finite(&self.work.increment)
-    }
-
-    fn prepare(&mut self, due: &mut Due) {
-        let Work { weights, increment, .. } = &mut *self.work;
-        due.prepare(self.system, weights, self.q, increment);
-    }
-
-    fn guess(&mut self) {
-        let Work { half, increment, .. } = &mut *self.work;
-        self.phase.guess(Some(self.mass), half, self.interval.h, increment);
-    }
-
-    /// Sets `next` to q1, `next_force` to F(q1), and `transfer` to p½ + βh(F1 − F0).
-    fn place(&mut self, statistics: &mut Statistics) {
-        let Work { half, increment, next, next_force, transfer, .. } = &mut *self.work;
-        self.phase.reach(self.q, increment, next);
-        self.system.force(next, &[], self.interval.time(T::lift(1.0)), next_force);
+        self.add_residual(begin, delta, node, r)?;
         statistics.gradients += 1;
-        for i in 0..self.q.len() {
-            transfer[i] = half[i] + self.beta * self.interval.h * (next_force[i] - self.phase.force[i]);
+        let half = T::lift(0.5) * begin.interval.h;
+        for ((sum, &f0), &f1) in sum.iter_mut().zip(begin.phase.force.iter()).zip(node.gradient.iter()) {
+            *sum += half * (f0 + f1);
         }
+        Ok(())
     }
 
-    /// Sets `velocity` to h M⁻¹`transfer`, the new increment.
-    fn carry(&mut self) {
-        let Work { transfer, velocity, .. } = &mut *self.work;
-        self.mass.solve(transfer, velocity);
-        velocity.iter_mut().for_each(|velocity| *velocity *= self.interval.h);
-    }
-
-    /// One iteration of Newton's method; returns the size of d.
-    fn improve(
+    /// ∂r/∂Δ = −M/h + βh F1′
+    fn linearize<K: Sink<T>>(
         &mut self,
-        solver: &mut Linear<S, T>,
-        due: Due,
+        begin: &Begin<'_, S, T>,
+        delta: &[T],
+        node: &mut NodeWork<S, T>,
+        r: &mut [T],
+        sink: &mut K,
         statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
-        let Work { increment, weights, next, transfer, velocity, momentum, next_force, correction, .. } =
-            &mut *self.work;
-        for transfer in transfer.iter_mut() {
-            *transfer *= -self.interval.h;
-        }
-        self.mass.multiply_add(T::lift(1.0), increment, transfer);
-        let (system, interval, beta) = (self.system, self.interval, self.beta);
-        let unused: [&mut [T]; 3] = [velocity, next_force, momentum];
-        statistics.linearizations += 1;
-        statistics.factorisations += 1;
-        let size = |j: usize| Scalar::abs(self.q[j]) + Scalar::abs(increment[j]);
-        let mut equations = Equations { system, interval, beta, x1: next, b: transfer, unused };
-        if due == Due::Residual {
-            return linear::residual(&mut equations, size, |_| T::lift(0.0), [correction, weights]);
-        }
-        solver.solve(&mut equations, weights, correction)?;
-        Ok(sizes::reduce(system, weights, increment, correction))
-    }
-}
-
-/// (M − βh² ∂²L/∂q∂q)d = b, at q1.
-struct Equations<'a, S, T> {
-    system: &'a S,
-    interval: Interval<T>,
-    beta: T,
-    x1: &'a [T],
-    b: &'a [T],
-    /// A velocity, and the first derivatives of L.
-    unused: [&'a mut [T]; 3],
-}
-
-impl<S: Separable<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
-    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let (zero, one, h) = (T::lift(0.0), T::lift(1.0), self.interval.h);
-        b.copy_from_slice(self.b);
-        let weights = Weights { qq: -(self.beta * h * h), qv: zero, vq: zero, vv: one };
-        let [velocity, l_q, l_v] = &mut self.unused;
-        self.system.linearize(self.x1, velocity, self.interval.time(one), weights, l_q, l_v, sink);
+    ) -> Result<(), StepFailure> {
+        self.add_residual(begin, delta, node, r)?;
+        statistics.gradients += 1;
+        let (h, zero, end) = (begin.interval.h, T::lift(0.0), begin.interval.time(T::lift(1.0)));
+        let weights = Weights { qq: self.beta * h, qv: zero, vq: zero, vv: -T::lift(1.0) / h };
+        let NodeWork { point, velocity, gradient, momentum } = node;
+        begin.system.linearize(point, velocity, end, weights, gradient, momentum, sink);
         Ok(())
     }
 }
@@ -271,10 +180,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
         self.validate()?;
         let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
         Ok(NewmarkMemory {
-            phase: PhasePoint::new(system, q, v, t, self.summation)?,
-            mass: Mass::new(system, q, t).map_err(StartError::Starter)?,
-            ladder: Ladder::new(solver, || of_second_derivatives(system, q, v, t, solver.storing())),
-            work: Work::new(system),
+            carried: Carried::new(system, q, v, t, self.summation)?,
+            ladder: ladder(system, q, v, t, solver),
         })
     }
 
@@ -288,58 +195,33 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let NewmarkMemory { phase, mass, ladder, work } = memory;
-        let kick = T::lift(0.5) * h;
-        for (impulse, &f) in work.transfer.iter_mut().zip(phase.force.iter()) {
-            *impulse = kick * f;
+        let NewmarkMemory { carried, ladder } = memory;
+        let (Self { stopping, summation, .. }, interval) = (*self, Interval { t, h });
+        if let (true, Carried { phase, inertial: Inertial::Constant(mass), work, .. }) =
+            (self.is_explicit(), &mut *carried)
+        {
+            return verlet::step(system, mass, phase, work, q, (interval, summation), statistics);
         }
-        phase.kick(&work.transfer, &mut work.half);
-        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        let (beta, interval, stopping) = (self.beta, Interval { t, h }, self.stopping);
-        let mut attempt = Attempt { system, beta, interval, stopping, budget, q, phase, mass, work };
-        if self.is_explicit() {
-            attempt.work.transfer.copy_from_slice(&attempt.work.half);
-            attempt.carry();
-            attempt.work.increment.copy_from_slice(&attempt.work.velocity);
-        } else {
-            ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)?;
-        }
-        attempt.place(statistics);
-        let Work { momentum, next, next_force, increment, transfer: sum, .. } = work;
-        for i in 0..q.len() {
-            sum[i] = kick * (phase.force[i] + next_force[i]);
-        }
-        phase.kick(sum, momentum);
-        let by = Increments { q: increment, p: sum };
-        phase.advance(q, &Arrival { q: next, p: momentum, force: next_force }, by, h)
+        let budget = ladder.budget(stopping.max_iterations, 24 + q.len());
+        let changed = Attempt { system, interval, stopping, summation, budget, q, carried };
+        ladder.solve(
+            &mut (changed, *self),
+            statistics,
+            |(step, equations), statistics| step.by_fixed_point(equations, statistics),
+            |(step, equations), solver, guess, statistics| {
+                step.by_newton(equations, solver, guess, statistics)
+            },
+        )
     }
 
     fn velocity(
         &self,
-        _system: &S,
+        system: &S,
         memory: &Self::Memory,
-        _q: &Vector<S, T>,
-        _t: T,
+        q: &Vector<S, T>,
+        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.mass.solve(&memory.phase.p, v);
-        Ok(())
-    }
-}
-
-impl<S: Lagrangian<T>, T: Real> Work<S, T> {
-    fn new(system: &S) -> Self {
-        let vector = || system.space().vector();
-        Self {
-            half: vector(),
-            correction: vector(),
-            increment: vector(),
-            weights: vector(),
-            next: vector(),
-            next_force: vector(),
-            transfer: vector(),
-            velocity: vector(),
-            momentum: vector(),
-        }
+        memory.carried.velocity(system, q, t, v)
     }
 }

@@ -8,27 +8,27 @@
 
 mod coefficients;
 mod flight;
-mod general;
 mod lagrangian;
 mod memory;
 mod separable;
 mod together;
-mod verlet;
+pub(super) mod verlet;
 
-use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
+use crate::discrete::frequency::{self, Frequency, FrequencyIn, Local, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
-use crate::discrete::{Ends, Interval, Span};
+use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
+use crate::methods::step::{self, Carried, set_force};
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
-use crate::scalar::simd::apart_if;
 use crate::solve::{Guess, Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, Space, System, Vector};
+use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
+use coefficients::Coefficients;
+use lagrangian::Interpolated;
 pub use lagrangian::QuadratureLagrangian;
-use memory::Parts;
 pub use memory::VariationalMemory;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
@@ -159,28 +159,17 @@ impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> Step<'_, S, 
     /// Sets `force` to F at a point of the node `c`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, point: &[T], c: f64, force: &mut [T]) {
-        apart_if(
-            !<S::Space as Space>::ON_STACK,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || self.system.force(point, &[], self.node_time(c), force),
-        );
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn interval(&self) -> Interval<T> {
-        Interval { t: self.t, h: self.h }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn span<'b>(&'b self, ends: Ends<'b, T>) -> Span<'b, S, T> {
-        Span { system: self.system, interval: self.interval(), ends }
+        set_force(self.system, point, self.node_time(c), force);
     }
 }
 
 /// A step, and what it changes.
-struct Attempt<'a, S: System, F, R, T: Real> {
+struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, T: Real> {
     step: Step<'a, S, F, R, T>,
-    parts: Parts<'a, S, T>,
+    coefficients: &'a mut Coefficients<T>,
+    ends: &'a mut [Local<S, T>; 2],
+    carried: &'a mut Carried<S, T>,
+    q: &'a mut Vector<S, T>,
     /// Of the fixed point.
     budget: usize,
 }
@@ -188,12 +177,13 @@ struct Attempt<'a, S: System, F, R, T: Real> {
 impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { step, coefficients, carried, q, budget, .. } = self;
         // What the class of the system excludes is not compiled for it.
-        let is_plain = self.step.method.summation == Summation::Plain;
-        if S::SEPARABLE && is_plain && self.step.method.needs_forces_only::<S, T>() {
-            separable::step(&self.step, &mut self.parts, self.budget, statistics)
+        let is_plain = step.method.summation == Summation::Plain;
+        if S::SEPARABLE && is_plain && step.method.needs_forces_only::<S, T>() {
+            separable::step(step, coefficients, carried, q, *budget, statistics)
         } else if S::CONSTANT_MASS {
-            general::by_fixed_point(&self.step, &mut self.parts, statistics)
+            self.in_general(|step, equations| step.by_fixed_point(equations, statistics))
         } else {
             Err(StepFailure::NO_MATRIX)
         }
@@ -206,7 +196,31 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        general::by_newton(&self.step, &mut self.parts, solver, guess, statistics)
+        self.in_general(|step, equations| step.by_newton(equations, solver, guess, statistics))
+    }
+
+    /// The step of any L and any frequency.
+    #[inline(never)]
+    fn in_general(
+        &mut self,
+        take: impl FnOnce(
+            &mut step::Attempt<'_, S, T>,
+            &mut Interpolated<'_, S, F, R, T>,
+        ) -> Result<(), StepFailure>,
+    ) -> Result<(), StepFailure> {
+        let Self { step, coefficients, ends, carried, q, budget } = self;
+        let Step { system, method, t, h } = *step;
+        let (stopping, summation, interval) = (method.stopping, method.summation, Interval { t, h });
+        let mut step = step::Attempt {
+            system,
+            interval,
+            stopping,
+            summation,
+            budget: *budget,
+            q: &mut **q,
+            carried: &mut **carried,
+        };
+        take(&mut step, &mut Interpolated { method, coefficients, ends })
     }
 }
 
@@ -258,23 +272,18 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     where
         F: FrequencyIn<T>,
     {
-        let step = Step { system, method: self, t, h };
-        let VariationalMemory { coefficients, ends, phase, inertial, ladder, work, weights } = memory;
+        let VariationalMemory { coefficients, ends, carried, ladder } = memory;
         if S::SEPARABLE
             && F::UNFITTED
-            && let (true, Inertial::Constant(mass)) = (self.is_verlet(), &*inertial)
+            && let (true, Carried { phase, inertial: Inertial::Constant(mass), work, .. }) =
+                (self.is_verlet(), &mut *carried)
         {
-            if self.summation == Summation::Compensated {
-                statistics.gradients += 1;
-                return verlet::compensated(&step, mass, phase, work, q);
-            }
-            let (taken, result) = verlet::steps(system, mass, phase, work, q, Clock::new(t, h), 1);
-            statistics.gradients += taken;
-            return result;
+            let interval = Interval { t, h };
+            return verlet::step(system, mass, phase, work, q, (interval, self.summation), statistics);
         }
+        let step = Step { system, method: self, t, h };
         let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        let parts = Parts { coefficients, ends, phase, inertial, work, weights, q };
-        let mut attempt = Attempt { step, parts, budget };
+        let mut attempt = Attempt { step, coefficients, ends, carried, q, budget };
         ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
     }
 
@@ -345,7 +354,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.velocity(system, q, t, v)
+        memory.carried.velocity(system, q, t, v)
     }
 
     #[inline]
@@ -358,7 +367,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let VariationalMemory { phase, inertial, work, .. } = &mut *memory;
+        let Carried { phase, inertial, work, .. } = &mut memory.carried;
         let is_plain = self.summation == Summation::Plain;
         if S::SEPARABLE
             && F::UNFITTED

@@ -1,7 +1,6 @@
 //! How forces are declared, what is said of them, and what is refused.
 
 use dvi_core::field::{Axis, Spline};
-use dvi_core::methods::General;
 use dvi_core::prelude::*;
 use dvi_core::{IndexError, OutsideError, ScalarField};
 
@@ -148,14 +147,6 @@ fn states_are_known_where_the_force_on_them_is_not() -> Outcome {
         assert!(run.state().dot_x.is_finite() && run.energy().is_finite(), "{:?}", run.state());
     }
     Ok(())
-}
-
-#[test]
-fn the_discrete_lagrangian_of_newmark_has_no_forces() {
-    let system = Swirl { swirl: 0.4 };
-    let error =
-        Integrator::new(&system, General::new(Newmark::new(0.25)), 0.1, Swirl::state(Swirl::start())).err();
-    assert!(matches!(error, Some(StartError::Unsupported { option, .. }) if option.contains("Newmark")));
 }
 
 /// A coordinate and a field may have the names that the language and the library use.

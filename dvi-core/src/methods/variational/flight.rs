@@ -56,10 +56,10 @@ impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Varia
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.velocity(system, q, t, v)
+        memory.carried.velocity(system, q, t, v)
     }
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
-        memory.phase.jump(impulse, velocity);
+        memory.carried.phase.jump(impulse, velocity);
     }
     fn has_energy_of_flight(&self) -> bool {
         true

@@ -14,56 +14,56 @@ use crate::discrete::frequency::{Frequency, FrequencyIn, GivenFrequency, Local, 
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::mass::Mass;
+use crate::methods::step::{Begin, Equations};
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::space::sink::Sink;
 use crate::state::Statistics;
-use crate::{NondegenerateLagrangian, Real, System, Vector};
+use crate::{NondegenerateLagrangian, Real, System};
 
-/// Rule and interpolation, where the step begins, and storage.
-pub(super) struct Interpolated<'a, S: NondegenerateLagrangian<T>, F, R, T: Real> {
+/// Rule and interpolation, for a frequency that may be read where a step begins and ends.
+pub(super) struct Interpolated<'a, S: System, F, R, T: Real> {
     pub(super) method: &'a Variational<F, R>,
     pub(super) coefficients: &'a mut Coefficients<T>,
     /// The frequencies at both ends.
     pub(super) ends: &'a mut [Local<S, T>; 2],
-    /// If L is separable, as it is wherever a frequency is read.
-    pub(super) mass: Option<&'a Mass<S, T>>,
-    pub(super) p: &'a [T],
-    pub(super) force: &'a [T],
-    pub(super) node: &'a mut NodeWork<S, T>,
-    pub(super) next: &'a mut Vector<S, T>,
 }
 
 impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Interpolated<'_, S, F, R, T> {
     /// The coefficients for the frequency at these ends.
-    fn read_frequency(&mut self, step: &Step<'_, S, F, R, T>, at: Ends<'_, T>) -> Result<(), StepFailure> {
+    fn read_frequency(
+        &mut self,
+        step: &Step<'_, S, F, R, T>,
+        begin: &Begin<'_, S, T>,
+        delta: &[T],
+        node: &mut NodeWork<S, T>,
+    ) -> Result<(), StepFailure> {
         if F::UNFITTED {
             return self.coefficients.fix(step);
         }
         let Some(reading) = self.method.frequency.reading() else { return self.coefficients.fix(step) };
         // Where L is not separable, a frequency that is read has been refused.
-        let Some(mass) = self.mass else { return Err(StepFailure::Frequency { omega: f64::NAN }) };
+        let Some(mass) = begin.mass else { return Err(StepFailure::Frequency { omega: f64::NAN }) };
         let (frequency, per_h) = (&self.method.frequency, T::lift(1.0) / step.h);
-        let NodeWork { velocity, gradient, .. } = &mut *self.node;
-        let ([start, end], next) = (&mut *self.ends, &mut *self.next);
-        for i in 0..at.q0.len() {
-            next[i] = at.q0[i] + at.delta[i];
-            velocity[i] = at.delta[i] * per_h;
+        let NodeWork { point: next, velocity, gradient, .. } = node;
+        let ([start, end], q0, force) = (&mut *self.ends, begin.q, &begin.phase.force);
+        for i in 0..q0.len() {
+            next[i] = q0[i] + delta[i];
+            velocity[i] = delta[i] * per_h;
         }
         let (t0, t1) = (step.t, step.node_time(1.0));
         match reading {
             Reading::LeftFrozen => {
-                mass.solve(self.p, velocity);
-                start.evaluate(frequency, mass, at.q0, velocity, self.force)?;
+                mass.solve(&begin.phase.p, velocity);
+                start.evaluate(frequency, mass, q0, velocity, force)?;
                 return self.coefficients.set(step, start.omega);
             }
             Reading::Averaged => {
-                start.evaluate(frequency, mass, at.q0, velocity, self.force)?;
+                start.evaluate(frequency, mass, q0, velocity, force)?;
                 step.system.force(next, &[], t1, gradient);
                 end.evaluate(frequency, mass, next, velocity, gradient)?;
             }
             Reading::Variational => {
-                start.differentiate(frequency, mass, step.system, at.q0, velocity, t0)?;
+                start.differentiate(frequency, mass, step.system, q0, velocity, t0)?;
                 end.differentiate(frequency, mass, step.system, next, velocity, t1)?;
             }
         }
@@ -75,6 +75,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Interpo
         &mut self,
         step: &Step<'_, S, F, R, T>,
         at: Ends<'_, T>,
+        node: &mut NodeWork<S, T>,
         d1: &mut [T],
         sum: Option<&mut [T]>,
     ) {
@@ -82,7 +83,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Interpo
             return;
         }
         let [start, end] = &*self.ends;
-        let half = T::lift(0.5) * self.coefficients.slope(step, self.node, at, start.omega + end.omega);
+        let half = T::lift(0.5) * self.coefficients.slope(step, node, at, start.omega + end.omega);
         for (i, d1) in d1.iter_mut().enumerate() {
             let by_velocity = (start.dv[i] + end.dv[i]) / step.h;
             *d1 += half * (start.dq[i] - by_velocity);
@@ -95,35 +96,47 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Interpo
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Equations<S, T>
     for Interpolated<'_, S, F, R, T>
 {
-    fn derivatives(
+    fn evaluate(
         &mut self,
-        Span { system, interval: Interval { t, h }, ends }: Span<'_, S, T>,
-        d1: &mut [T],
-        sum: &mut [T],
+        begin: &Begin<'_, S, T>,
+        delta: &[T],
+        node: &mut NodeWork<S, T>,
+        [d1, sum]: [&mut [T]; 2],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, method: self.method, t, h };
-        self.read_frequency(&step, ends)?;
-        add_derivatives(&step, self.coefficients, ends, self.node, [d1, sum], statistics);
-        self.vary_frequency(&step, ends, d1, Some(sum));
+        let Interval { t, h } = begin.interval;
+        let (step, ends) =
+            (Step { system: begin.system, method: self.method, t, h }, Ends { q0: begin.q, delta });
+        self.read_frequency(&step, begin, delta, node)?;
+        add_derivatives(&step, self.coefficients, ends, node, [d1, sum], statistics);
+        self.vary_frequency(&step, ends, node, d1, Some(sum));
         Ok(())
     }
 
     fn linearize<K: Sink<T>>(
         &mut self,
-        Span { system, interval: Interval { t, h }, ends }: Span<'_, S, T>,
+        begin: &Begin<'_, S, T>,
+        delta: &[T],
+        node: &mut NodeWork<S, T>,
         d1: &mut [T],
         sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, method: self.method, t, h };
-        self.read_frequency(&step, ends)?;
-        add_linearized(&step, self.coefficients, ends, self.node, d1, sink);
-        self.vary_frequency(&step, ends, d1, None);
+        let Interval { t, h } = begin.interval;
+        let (step, ends) =
+            (Step { system: begin.system, method: self.method, t, h }, Ends { q0: begin.q, delta });
+        self.read_frequency(&step, begin, delta, node)?;
+        add_linearized(&step, self.coefficients, ends, node, d1, sink);
+        self.vary_frequency(&step, ends, node, d1, None);
         Ok(())
+    }
+
+    /// The stiffness of the fitted oscillator.
+    fn per_stiffness(&self) -> T {
+        self.coefficients.sums.inverse_kappa
     }
 }
 

@@ -10,7 +10,6 @@
 
 use super::Step;
 use super::coefficients::{Coefficients, Sums};
-use super::memory::{Parts, Work};
 use crate::discrete::NodeWork;
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{FrequencyIn, Reading};
@@ -18,6 +17,7 @@ use crate::discrete::quadrature::Rule;
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::PhasePoint;
+use crate::methods::step::{Carried, Work};
 use crate::scalar::blocks::blocks;
 use crate::scalar::norm;
 use crate::scalar::simd::widest_if;
@@ -29,7 +29,9 @@ use crate::{NondegenerateLagrangian, Real, Space, Vector};
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>(
     step: &Step<'_, S, F, R, T>,
-    Parts { coefficients, phase, inertial, work, weights, q, .. }: &mut Parts<'_, S, T>,
+    coefficients: &mut Coefficients<T>,
+    Carried { phase, inertial, work, weights }: &mut Carried<S, T>,
+    q: &mut Vector<S, T>,
     budget: usize,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -41,7 +43,7 @@ pub(super) fn step<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T:
     } else {
         work
     };
-    scratch!(weights = step.system, **weights);
+    scratch!(weights = step.system, *weights);
     widest_if(
         !<S::Space as Space>::ON_STACK,
         #[cfg_attr(not(debug_assertions), inline(always))]

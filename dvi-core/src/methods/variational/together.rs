@@ -58,9 +58,9 @@ where
         let Packs { now, kept, reciprocals, one } = packs;
         let [q, p, force] = &mut *now;
         load(q, |run| &*runs[run].q, runs.len());
-        load(p, |run| &runs[run].memory.phase.p, runs.len());
-        load(force, |run| &runs[run].memory.phase.force, runs.len());
-        let of_run = |run: usize| runs[run].memory.inertial.constant().and_then(Mass::reciprocals);
+        load(p, |run| &runs[run].memory.carried.phase.p, runs.len());
+        load(force, |run| &runs[run].memory.carried.phase.force, runs.len());
+        let of_run = |run: usize| runs[run].memory.carried.inertial.constant().and_then(Mass::reciprocals);
         if !load_if_all_have(reciprocals, of_run, runs.len()) {
             return 0;
         }
@@ -90,7 +90,7 @@ where
                 read_lane(lane, packs, one);
             }
             let [q, p, force] = &*one;
-            run.memory.phase.set(run.q, &Arrival { q, p, force });
+            run.memory.carried.phase.set(run.q, &Arrival { q, p, force });
             run.statistics.gradients += taken;
             run.statistics.steps += taken;
         }

@@ -6,17 +6,17 @@
 //! Source: Hairer, Lubich & Wanner 2003, "Geometric numerical integration illustrated by the Störmer–Verlet
 //! method".
 
-use super::Step;
-use super::memory::Work;
-use crate::discrete::frequency::Frequency;
-use crate::discrete::quadrature::Rule;
+use crate::discrete::Interval;
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
 use crate::methods::Clock;
+use crate::methods::step::{Work, set_force};
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
 use crate::space::scratch;
+use crate::state::Statistics;
+use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, Vector};
 
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
@@ -42,32 +42,53 @@ pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
     walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v, owed: false }, 0, count)
 }
 
-/// One step with compensated sums, forces being evaluated at these.
-#[inline(never)]
-pub(super) fn compensated<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real>(
-    step: &Step<'_, S, F, R, T>,
+/// One step, with sums of either kind.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(in crate::methods) fn step<S: NondegenerateLagrangian<T>, T: Real>(
+    system: &S,
     mass: &Mass<S, T>,
     phase: &mut PhasePoint<S, T>,
-    Work { node, increment, next, trial: force, sum }: &mut Work<S, T>,
+    work: &mut Work<S, T>,
     q: &mut Vector<S, T>,
+    (interval, summation): (Interval<T>, Summation),
+    statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let half = T::lift(0.5) * step.h;
+    if summation == Summation::Compensated {
+        statistics.gradients += 1;
+        return compensated(system, mass, phase, work, q, interval);
+    }
+    let (taken, result) = steps(system, mass, phase, work, q, Clock::new(interval.t, interval.h), 1);
+    statistics.gradients += taken;
+    result
+}
+
+/// One step with compensated sums, forces being evaluated at these.
+#[inline(never)]
+fn compensated<S: NondegenerateLagrangian<T>, T: Real>(
+    system: &S,
+    mass: &Mass<S, T>,
+    phase: &mut PhasePoint<S, T>,
+    Work { node, increment, next, trial: force, sum, .. }: &mut Work<S, T>,
+    q: &mut Vector<S, T>,
+    interval: Interval<T>,
+) -> Result<(), StepFailure> {
+    let half = T::lift(0.5) * interval.h;
     for (impulse, &f) in sum.iter_mut().zip(phase.force.iter()) {
         *impulse = half * f;
     }
     phase.kick(sum, &mut node.momentum);
     mass.solve(&node.momentum, increment);
     for delta in increment.iter_mut() {
-        *delta *= step.h;
+        *delta *= interval.h;
     }
     phase.reach(q, increment, next);
-    step.force(next, 1.0, force);
+    set_force(system, next, interval.time(T::lift(1.0)), force);
     for (impulse, &f) in sum.iter_mut().zip(force.iter()) {
         *impulse += half * f;
     }
     phase.kick(sum, &mut node.momentum);
     let by = Increments { q: increment, p: sum };
-    phase.advance(q, &Arrival { q: next, p: &node.momentum, force }, by, step.h)
+    phase.advance(q, &Arrival { q: next, p: &node.momentum, force }, by, interval.h)
 }
 
 /// The present point, momentum and force, and where they are kept.
