@@ -1,6 +1,7 @@
 //! Where a run stands, the energy is a number: steps whose ends lie outside of the domain of a formula are
 //! taken back.
 
+use dvi_core::Scalar;
 use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
 use dvi_core::run::Together;
@@ -40,6 +41,36 @@ struct Rubbing;
     force(x) = |j| 0.1 * x[j].ln(),
 )]
 struct Pushed<const N: usize>;
+
+/// A function of the user's, whose derivative is known beyond the end of its domain.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x - 0.1 * g(x), functions(g = [ln, reciprocal, slope]))]
+struct Given;
+
+fn ln<T: Scalar>(x: T) -> T {
+    x.ln()
+}
+
+fn reciprocal<T: Scalar>(x: T) -> T {
+    T::lift(1.0) / x
+}
+
+fn slope<T: Scalar>(x: T) -> T {
+    -T::lift(1.0) / (x * x)
+}
+
+/// A power whose exponent is a parameter: an integer is one of negative numbers too.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.powf(a) / 2.0)]
+struct Powers {
+    a: f64,
+}
+
+/// A domain on one side of a choice that velocities make.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - x,
+    force(x) = if dot(x) > -1.4 { 0.1 } else { (-1.0 - x * x).sqrt() },
+)]
+struct Chosen;
 
 /// A start for each number.
 type StartOf<S> = fn(f64) -> <S as System>::State<f64>;
@@ -102,8 +133,57 @@ fn no_run_stands_where_its_energy_is_no_number() -> Outcome {
         keeps_to_the_domain("one step, root", root, OneStep::midpoint)?,
     ];
     assert!(left.iter().all(|&left| left > 0), "{left:?}");
+    let given = (&Given, (|x| GivenState { x, dot_x: -0.3 }) as fn(f64) -> _);
+    assert!(keeps_to_the_domain("midpoint, function", given, Variational::midpoint)? > 0);
     // The end of its step is one of its nodes.
     assert_eq!(keeps_to_the_domain("projected, root", root, Projected::symmetric)?, 0);
+    Ok(())
+}
+
+#[test]
+fn a_power_with_an_integer_for_a_parameter_has_no_end() -> Outcome {
+    for (a, h) in [(2.0, 0.05), (4.0, 0.05)] {
+        let system = Powers { a };
+        let mut run =
+            Integrator::new(&system, Variational::midpoint(), h, PowersState { x: 1.0, dot_x: 0.0 })?;
+        run.take_steps(200)?;
+        assert!(run.q()[0].abs() < 1.01);
+    }
+    let start = PowersState { x: 0.3, dot_x: -1.0 };
+    let system = Powers { a: 2.5 };
+    let mut run = Integrator::new(&system, Variational::midpoint(), 0.05, start)?;
+    let error = run.take_steps(200).err().ok_or("no error")?;
+    assert!(run.q()[0] > 0.0, "{error}");
+    Ok(())
+}
+
+#[test]
+fn what_velocities_choose_has_a_step() -> Outcome {
+    let mut run =
+        Integrator::new(&Chosen, Variational::midpoint(), 0.1, ChosenState { x: 1.0, dot_x: 0.0 })?;
+    run.take_steps(10)?;
+    Ok(())
+}
+
+/// x falls with one unit a second onto the end of the logarithm, where H is infinite.
+#[test]
+fn no_run_stands_at_the_end_of_a_logarithm() -> Outcome {
+    #[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = -p + 0.1 * x.ln())]
+    struct Uniform;
+    let mut run = Integrator::new(&Uniform, Sigma::midpoint(), 0.125, UniformState { x: 1.0, p: 0.0 })?;
+    let error = run.take_steps(20).err().ok_or("no error")?;
+    assert_eq!((error.step, error.failure), (7, StepFailure::LeftDomain));
+    assert_eq!(run.q()[0], 0.125);
+    Ok(())
+}
+
+#[test]
+fn a_matrix_that_is_no_number_is_not_called_singular() -> Outcome {
+    #[degenerate_lagrangian(coordinates(x, y), one_form = y.sqrt() * d(x), hamiltonian = x * x / 2.0 + y)]
+    struct Falls;
+    let mut run = Integrator::new(&Falls, OneStep::midpoint(), -0.2, FallsState { x: -1.5, y: 0.1 })?;
+    let error = run.take_steps(5).err().ok_or("no error")?;
+    assert!(!matches!(error.failure, StepFailure::Singular { .. }), "{error}");
     Ok(())
 }
 

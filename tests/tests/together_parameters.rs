@@ -55,7 +55,7 @@ macro_rules! in_lanes {
 #[lagrangian(
     coordinates(x[2]),
     lagrangian = sum(0..2, |j| m[j] * dot(x[j]).powi(2) / 2.0 - k * x[j] * x[j] / 2.0)
-        - (x[1] - x[0]).powi(4) * count / weight(x[0]),
+        - (x[1] - x[0]).powi(4) * count / weight(k),
     functions(weight = [weight, no_slope, no_slope]),
 )]
 #[derive(Clone, Debug, PartialEq)]

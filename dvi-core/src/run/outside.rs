@@ -21,6 +21,13 @@ const SHORT: f64 = 1.0 / 1024.0;
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
     /// Why the step from time `t` to `t + h` has failed.
     pub(super) fn explained(&self, failure: StepFailure, t: T, h: T) -> StepFailure {
+        let failure = match failure {
+            // A matrix with entries that are no numbers is not singular: a formula has left its domain.
+            StepFailure::Singular { column, pivot } if pivot.is_nan() && column < self.q.len() => {
+                StepFailure::NotFinite { coordinate: column, value: pivot }
+            }
+            other => other,
+        };
         // What a number that is none can lead to.
         let is_suspect = match failure {
             StepFailure::NotFinite { .. }

@@ -1,9 +1,9 @@
 //! Where a formula is a number, as another one that costs less.
 //!
-//! √u stands for each root, logarithm and power of u, which are numbers where it is, and a table stands for
-//! itself. A function of the user's is left out: its derivatives, which steps evaluate, are no numbers where
-//! it is none. What velocities decide is left out too: they follow from momenta, and are in the domain of L
-//! where these have any.
+//! √u stands for a root of u, which is a number where it is, and 1/√u for a logarithm, which is infinite at
+//! the end of its domain. A power whose exponent has no value yet, a function of the user's and a table stand
+//! for themselves: nothing is known of them. What velocities decide is left out: they follow from momenta, and
+//! are in the domain of L where these have any.
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
@@ -32,6 +32,8 @@ impl Graph {
                     let inside = self.domain_below(body.node, known);
                     parts.push(self.fold(Fold::Sum, Atom::Bound(height), range, inside));
                 }
+                Node::Choose { left, right, .. }
+                    if [left, right].map(|id| self.has_velocity(id.node)) != [false; 2] => {}
                 Node::Choose { left, relation, right, then, otherwise } => {
                     let [then, otherwise] =
                         [then, otherwise].map(|branch| self.domain_below(branch.node, known));
@@ -51,22 +53,36 @@ impl Graph {
 
     /// The same of one node, whose operands are numbers.
     fn domain_of(&mut self, id: Id, node: &Node) -> Option<Expr> {
-        let inside = match node {
-            Node::Unary(Unary::Sqrt | Unary::Ln | Unary::Log2 | Unary::Log10, u)
-            | Node::Binary(Binary::Powf, u, _) => *u,
-            Node::Unary(Unary::Ln1p, u) => self.add(Expr::ONE, *u),
-            Node::Unary(Unary::Acosh, u) => self.subtract(*u, Expr::ONE),
-            Node::Unary(Unary::Asin | Unary::Acos | Unary::Atanh, u) => self.one_minus_square(*u),
-            Node::ScalarField(..) => return self.is_of_positions(id).then_some(id.into()),
+        let (inside, ends_in_infinity) = match node {
+            Node::Unary(Unary::Sqrt, u) => (*u, false),
+            Node::Unary(Unary::Ln | Unary::Log2 | Unary::Log10, u) => (*u, true),
+            Node::Binary(Binary::Powf, u, exponent) if exponent.as_number().is_some() => (*u, false),
+            Node::Unary(Unary::Ln1p, u) => (self.add(Expr::ONE, *u), true),
+            Node::Unary(Unary::Acosh, u) => (self.subtract(*u, Expr::ONE), false),
+            Node::Unary(Unary::Asin | Unary::Acos, u) => (self.one_minus_square(*u), false),
+            Node::Unary(Unary::Atanh, u) => (self.one_minus_square(*u), true),
+            Node::Binary(Binary::Powf, u, _) if u.scale > 0.0 && self.is_never_negative(u.node) => {
+                return None;
+            }
+            Node::Binary(Binary::Powf, ..) | Node::Call(..) | Node::ScalarField(..) => {
+                return self.is_of_positions(id).then_some(id.into());
+            }
             _ => return None,
         };
         let is_number = inside.scale > 0.0 && self.is_never_negative(inside.node);
-        (!is_number && self.is_of_positions(inside.node)).then(|| self.unary(Unary::Sqrt, inside))
+        if is_number || !self.is_of_positions(inside.node) {
+            return None;
+        }
+        let root = self.unary(Unary::Sqrt, inside);
+        Some(if ends_in_infinity { self.reciprocal(root) } else { root })
     }
 
     /// Whether positions or the time decide on its value, and no velocities.
     fn is_of_positions(&self, id: Id) -> bool {
-        self.depends(id, |node| matches!(node, Node::Coordinate(_) | Node::Time))
-            && !self.depends(id, |node| matches!(node, Node::Velocity(_)))
+        self.depends(id, |node| matches!(node, Node::Coordinate(_) | Node::Time)) && !self.has_velocity(id)
+    }
+
+    fn has_velocity(&self, id: Id) -> bool {
+        self.depends(id, |node| matches!(node, Node::Velocity(_)))
     }
 }
