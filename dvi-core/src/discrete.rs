@@ -29,57 +29,13 @@ use crate::space::{LinearEquations, LinearSolver, Storing, linear};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Scalar, Vector};
 
+pub use crate::mechanics::{Ends, Interval, Span};
 pub use frequency::{
     Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, Radial, Reading, Unfitted,
 };
 pub(crate) use node::NodeWork;
 pub use node::OneNode;
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
-
-/// The time from t to t + h.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval<T = f64> {
-    /// The time at which it begins.
-    pub t: T,
-    /// Its length, which may be negative.
-    pub h: T,
-}
-
-impl<T: Real> Interval<T> {
-    /// t + ch.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub fn time(&self, c: T) -> T {
-        self.t + c * self.h
-    }
-}
-
-/// The two ends of an interval: q0, and Δ = q1 − q0.
-#[derive(Clone, Copy, Debug)]
-pub struct Ends<'a, T> {
-    /// The coordinates where it begins.
-    pub q0: &'a [T],
-    /// The difference of the two points.
-    pub delta: &'a [T],
-}
-
-/// An interval of the motion of a system, with its two ends.
-#[derive(Debug)]
-pub struct Span<'a, S, T> {
-    /// The system.
-    pub system: &'a S,
-    /// The time.
-    pub interval: Interval<T>,
-    /// The coordinates.
-    pub ends: Ends<'a, T>,
-}
-
-impl<S, T: Copy> Clone for Span<'_, S, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S, T: Copy> Copy for Span<'_, S, T> {}
 
 /// What one interval contributes to the discrete equations of a system.
 ///

@@ -131,6 +131,7 @@ pub mod fast_sum;
 pub mod field;
 pub mod guide;
 pub mod mechanics;
+mod memory;
 pub mod methods;
 mod name;
 pub mod prelude;

@@ -15,9 +15,11 @@ mod on_constraints;
 pub(crate) mod orientation;
 pub(crate) mod pattern;
 pub(crate) mod phase;
+mod span;
 mod vector_field;
 
 pub use at_state::{AtState, AtTime};
 pub use constraints::{ConstrainedLagrangian, Constraints};
 pub use on_constraints::OnConstraints;
+pub use span::{Ends, Interval, Span};
 pub use vector_field::VectorField;

@@ -34,9 +34,9 @@ mod walk;
 
 use crate::discrete::{DiscreteLagrangian, Span};
 use crate::error::{StartError, StepFailure};
+use crate::memory::Memory;
 use crate::solve::{Solver, Stopping};
 use crate::state::Statistics;
-use crate::state::memory::Memory;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
 

@@ -1,8 +1,40 @@
-//! Names of the entries of a state, for tables and for errors.
+//! Names of the entries of a state, for tables and for errors, and where blocks of coordinates live.
 
 use core::fmt;
 
-use crate::system::Factor;
+/// Where the coordinates of a block live: the configuration space is the product of these.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Factor {
+    /// ℝⁿ: `x`, or `x[n]`.
+    #[default]
+    Line,
+    /// SO(3): `R: SO3`. The coordinates are the nine entries of a rotation matrix, row by row, which takes
+    /// vectors of the body to those of space. The velocities are the three entries of the angular velocity
+    /// in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
+    Rotation,
+    /// S²: `s: S2`. The coordinates are the entries of a unit vector, the velocities those of its rate of
+    /// change.
+    Sphere,
+}
+
+impl Factor {
+    /// How many velocities a block of so many coordinates has.
+    pub fn velocities(self, coordinates: usize) -> usize {
+        match self {
+            Self::Line | Self::Sphere => coordinates,
+            Self::Rotation => 3,
+        }
+    }
+
+    /// The dimension of a block of so many coordinates.
+    pub fn dimension(self, coordinates: usize) -> usize {
+        match self {
+            Self::Line => coordinates,
+            Self::Rotation => 3,
+            Self::Sphere => 2,
+        }
+    }
+}
 
 /// The name of an entry of a state: `x`, `x[3]`, `dot_x[3]`, `omega_R[2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,15 +4,14 @@
 pub(crate) mod sizes;
 mod stopping;
 
-use core::ops::DerefMut;
-
 use crate::Real;
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::scalar::carries_derivatives;
 use crate::space::linear::Storing;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 
+pub(crate) use crate::state::history::Guess;
 pub(crate) use sizes::Due;
 pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};
@@ -54,31 +53,6 @@ impl Solver {
         match self {
             Self::Automatic | Self::NewtonKrylov if carries_derivatives::<T>() => Self::Newton,
             solver => solver,
-        }
-    }
-}
-
-/// Where Newton begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Guess {
-    /// What the last steps let expect, which is best as a rule.
-    Extrapolated,
-    /// No increment: Newton's first iterate is then the linearly implicit step, which is safer where steps
-    /// are so long that extrapolation is off.
-    Zero,
-}
-
-impl Guess {
-    /// Sets `increment` to it, by what extrapolates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn begin<V: DerefMut<Target = [T]>, T: Real>(
-        self,
-        increment: &mut V,
-        extrapolate: impl FnOnce(&mut V),
-    ) {
-        match self {
-            Self::Extrapolated => extrapolate(increment),
-            Self::Zero => increment.fill(T::lift(0.0)),
         }
     }
 }

@@ -16,6 +16,7 @@ mod room;
 mod rows;
 pub mod sink;
 pub(crate) mod square;
+mod weights;
 
 /// An array of coordinates whose length is known at run time only.
 #[cfg(feature = "alloc")]
@@ -40,6 +41,7 @@ pub use sink::Sink;
 #[cfg(feature = "alloc")]
 pub use square::RunTimeSquare;
 pub use square::{FixedSquare, SquareMatrix};
+pub use weights::Weights;
 
 /// The shape of a configuration space and the storage for it.
 pub trait Space: Copy + Debug + PartialEq {

@@ -3,13 +3,12 @@
 #[cfg(feature = "alloc")]
 pub(crate) mod fingerprint;
 pub(crate) mod history;
-pub(crate) mod memory;
 pub(crate) mod rates;
 mod statistics;
 pub(crate) mod summation;
 
-pub use memory::Memory;
+pub use crate::memory::Memory;
 #[cfg(feature = "alloc")]
-pub use memory::{Reader, Record};
+pub use crate::memory::{Reader, Record};
 pub use statistics::Statistics;
 pub use summation::Summation;

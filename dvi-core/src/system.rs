@@ -32,13 +32,14 @@ use crate::error::{IndexError, LengthError, OutsideError, StartError};
 use crate::space::sink::Sink;
 use crate::{Real, Scalar, Space};
 
-pub use crate::name::Name;
+pub use crate::name::{Factor, Name};
+pub use crate::space::Weights;
 pub use constrained::ConstrainedSystem;
 pub use holonomic::HolonomicLagrangian;
 pub use kind::{
     Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Smooth, Unconstrained, Unilateral,
 };
-pub use manifold::{Factor, ManifoldLagrangian, ManifoldSystem};
+pub use manifold::{ManifoldLagrangian, ManifoldSystem};
 pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
 pub use packable::Packable;
@@ -72,28 +73,6 @@ pub trait State<T: Scalar>: Sized {
     -> Result<(), LengthError>;
     /// Reads the coordinates from `q` and the velocities from `v`, both in the order of declaration.
     fn read(block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) -> Self;
-}
-
-/// The weights of the four blocks of the second derivative of L(q, v, t).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weights<T> {
-    /// Weight of ∂²L/∂qⁱ∂qʲ.
-    pub qq: T,
-    /// Weight of ∂²L/∂qⁱ∂vʲ.
-    pub qv: T,
-    /// Weight of ∂²L/∂vⁱ∂qʲ.
-    pub vq: T,
-    /// Weight of ∂²L/∂vⁱ∂vʲ.
-    pub vv: T,
-}
-
-impl<T: Real> Weights<T> {
-    /// Those that leave the mass matrix, ∂²L/∂v∂v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn mass() -> Self {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        Self { qq: zero, qv: zero, vq: zero, vv: one }
-    }
 }
 
 /// A mechanical system, whatever numbers it is computed in: its configuration space, its states, its report.

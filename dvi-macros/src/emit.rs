@@ -24,9 +24,9 @@ use syn::{Ident, Path};
 use self::inlining::ForceInline;
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::model::Model;
-use crate::program::{Output, Place};
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
+use crate::statement::{Output, Place};
 use crate::symbolic::{Coordinate, Fold, Graph, Loop};
 
 mod indices;

@@ -18,8 +18,9 @@ use syn::{Generics, Ident, Path, parse_quote};
 
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, local, output_block, own_function, scalar_field};
-use crate::program::{Output, Programs};
+use crate::program::Programs;
 use crate::routine::Routine;
+use crate::statement::Output;
 use crate::symbolic::Node;
 use crate::syntax::{Constrained, Kind};
 

@@ -11,6 +11,7 @@
 mod emit;
 mod errors;
 mod expand;
+mod formulas;
 #[cfg(test)]
 mod fuzz_tests;
 mod implement;
@@ -25,12 +26,14 @@ mod program;
 mod routine;
 mod schedule;
 mod select;
+mod statement;
 mod structure;
 mod symbolic;
 mod syntax;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod words;
 mod work;
 
 use proc_macro::TokenStream;

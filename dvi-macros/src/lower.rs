@@ -27,9 +27,8 @@ mod names;
 mod reach;
 mod sums;
 mod unsupported;
-pub(crate) mod words;
 
-pub(crate) use words::reserved;
+use crate::words;
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
 #[derive(Clone, Copy, Debug, PartialEq)]

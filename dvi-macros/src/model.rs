@@ -9,9 +9,9 @@ use syn::ext::IdentExt as _;
 use syn::{Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
-use crate::lower::{reserved, words};
 use crate::symbolic::{Index, Names};
 use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, ScalarFieldPath};
+use crate::words::{self, reserved};
 
 mod parameters;
 mod shape;

@@ -1,12 +1,13 @@
 //! What the generated functions compute, as statements over the graph.
 //!
-//! A statement is a loop nest, a place and a value. Every formula of `dvi_core::Lagrangian` becomes a
+//! Every formula of `dvi_core::Lagrangian` becomes a
 //! list of them here, by differentiation alone: the discrete equations of any scheme are weighted sums of
 //! these, and the schemes supply the weights. `degenerate` and `regular` add what is special to each.
 
-use crate::internal::internal;
+use crate::formulas::{Constraint, DeclaredConstraints, Force, Variable, variable};
 use crate::routine::Routine;
-use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Loop, Node, SecondContribution, Weight};
+use crate::statement::{Output, Place, Statement};
+use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Loop, Node, SecondContribution, Weight};
 use crate::syntax::Constrained;
 
 mod constraints;
@@ -14,51 +15,10 @@ mod degenerate;
 mod pairs;
 mod regular;
 
-pub(crate) use constraints::{Constraint, Constraints, DeclaredConstraints, Row};
-pub(crate) use degenerate::{DegenerateFormulas, DegeneratePrograms, TimeTransform, dalpha};
+pub(crate) use constraints::Constraints;
+pub(crate) use degenerate::DegeneratePrograms;
 pub(crate) use pairs::{DegeneratePairs, PairPrograms, RegularPairs};
-pub(crate) use regular::{RegularFormulas, RegularPrograms};
-
-/// An array that a generated function writes to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Output {
-    /// ∂L/∂q + F
-    Lq,
-    /// ∂L/∂v
-    Lv,
-    /// The only vector of a function that sets one.
-    Vector,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) enum Place {
-    /// The value that the function returns.
-    Result,
-    Entry(Output, Coordinate),
-    MatrixEntry(Coordinate, Coordinate),
-    /// An entry of g or a.
-    Constraint(Row),
-    /// An entry of a derivative of g or a.
-    ConstraintDerivative(Row, Coordinate),
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct Statement {
-    pub(crate) loops: Vec<Loop>,
-    pub(crate) place: Place,
-    pub(crate) value: Expr,
-}
-
-/// A variable of a derivative: position or velocity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Variable {
-    Position,
-    Velocity,
-}
-
-/// A generalised force F: its components, each at the coordinate that it acts on. By the principle of
-/// Lagrange and d'Alembert, d/dt ∂L/∂v = ∂L/∂q + F: it stands wherever ∂L/∂q does.
-pub(crate) type Force = Vec<Contribution>;
+pub(crate) use regular::RegularPrograms;
 
 /// What is generated for every system.
 pub(crate) struct Programs {
@@ -75,15 +35,6 @@ pub(crate) struct Programs {
     pub(crate) momenta: Vec<Routine>,
     /// The second derivative of L, and the first ones of F.
     pub(crate) entries: Vec<SecondContribution>,
-}
-
-/// What a derivative is by.
-pub(crate) fn variable(graph: &Graph, id: Id) -> (Variable, Coordinate) {
-    match graph.node(id) {
-        Node::Coordinate(coordinate) => (Variable::Position, coordinate.clone()),
-        Node::Velocity(coordinate) => (Variable::Velocity, coordinate.clone()),
-        other => internal(format!("a derivative by {other:?}")),
-    }
 }
 
 impl Programs {

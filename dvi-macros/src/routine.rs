@@ -2,9 +2,9 @@
 //! loops in which these run. Printing, counting and the self-check read the same routine.
 
 use crate::instructions::Instructions;
-use crate::program::Statement;
 use crate::schedule::{Step, schedule};
 use crate::select::select;
+use crate::statement::Statement;
 use crate::symbolic::Graph;
 
 #[derive(Debug)]

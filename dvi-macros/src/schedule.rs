@@ -6,7 +6,7 @@
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
-use crate::program::Statement;
+use crate::statement::Statement;
 use crate::symbolic::{Fold, Loop};
 use crate::work::step;
 

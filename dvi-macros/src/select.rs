@@ -14,7 +14,7 @@ use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
-use crate::program::Statement;
+use crate::statement::Statement;
 use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node, signed_exponent};
 
 mod share;

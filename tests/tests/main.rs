@@ -24,6 +24,7 @@ mod gauss_guesses;
 mod gauss_newton;
 mod general_step;
 mod impacts;
+mod imports;
 mod lanes;
 mod langevin;
 mod manifold;

@@ -18,8 +18,8 @@ pub(crate) mod scales;
 mod solver;
 pub(crate) mod turning;
 
-use crate::discrete::Span;
 use crate::error::StepFailure;
+use crate::mechanics::Span;
 use crate::mechanics::legendre;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Stopping, iterate, sizes};

@@ -16,10 +16,10 @@ use core::ops::{Deref, DerefMut};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
-use crate::state::Statistics;
-use crate::state::memory::Memory;
+use crate::memory::Memory;
 #[cfg(feature = "alloc")]
-use crate::state::memory::{Reader, Record};
+use crate::memory::{Reader, Record};
+use crate::state::Statistics;
 use crate::system::Kind;
 use crate::{Real, Scalar, Sink, System, Vector, Weights};
 

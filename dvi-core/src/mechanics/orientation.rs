@@ -14,13 +14,13 @@ use core::slice;
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
+#[cfg(feature = "alloc")]
+use crate::memory::{Reader, Record};
 use crate::scalar::norm::reported;
 use crate::space::inertia::{Inertia, inertia};
 use crate::space::scratch;
 use crate::space::sink::Places;
-use crate::state::memory::{Memory, lasting};
-#[cfg(feature = "alloc")]
-use crate::state::memory::{Reader, Record};
 use crate::{
     DegenerateLagrangian, Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights,
 };

@@ -7,11 +7,11 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
+use crate::memory::{Memory, lasting};
+#[cfg(feature = "alloc")]
+use crate::memory::{Reader, Record};
 use crate::scalar::norm;
 use crate::state::history::History;
-use crate::state::memory::{Memory, lasting};
-#[cfg(feature = "alloc")]
-use crate::state::memory::{Reader, Record};
 use crate::state::rates::is_similar;
 use crate::state::summation::{Carried, Summation};
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector};

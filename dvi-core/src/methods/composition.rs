@@ -5,7 +5,7 @@
 //! (Hairer, Lubich & Wanner 2006, section V.3.2). Order 4 asks for Σ γᵢ³ = 0 besides; higher orders have
 //! the conditions that the tests of this file walk. Some of the γᵢ are negative: a composition steps back.
 
-use crate::state::memory::{Memory, lasting};
+use crate::memory::{Memory, lasting};
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};

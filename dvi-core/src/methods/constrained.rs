@@ -14,12 +14,12 @@ use crate::mechanics::constraints::{
     At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, OfStep, Tangent,
 };
 use crate::mechanics::orientation::MassOrientation;
+use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};

@@ -5,11 +5,11 @@
 //! energy says so.
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::methods::VariationalMethod;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, Tolerance, VariableStep};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::system::TimeTransform;
 use crate::system::start::extended;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};

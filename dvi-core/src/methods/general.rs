@@ -3,13 +3,13 @@
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, Span, solve_by_newton};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
+use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
 use crate::solve::Stopping;
 use crate::state::Statistics;
 use crate::state::history::History;
-use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
 use crate::system::Unconstrained;
 use crate::system::start::evaluate;

@@ -7,9 +7,9 @@ mod memory;
 mod passage;
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::Memory;
 use crate::methods::{Carries, FreeFlight, Method, PreservedForm, Scheme};
 use crate::state::Statistics;
-use crate::state::memory::Memory;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, UnilateralLagrangian, Vector};
 pub use memory::{Impact, ImpactsMemory};

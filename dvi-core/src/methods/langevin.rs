@@ -15,10 +15,10 @@ use rand_distr::{Distribution, StandardNormal};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::mechanics::mass_root::MassRoot;
+use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
 use crate::scalar::norm;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
 
 /// Langevin dynamics, for [`Separable`] systems: friction and noise as of a heat bath, by the splitting

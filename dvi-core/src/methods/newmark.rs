@@ -15,6 +15,7 @@
 use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
+use crate::memory::{Memory, lasting};
 use crate::methods::step::{Attempt, Begin, Carried, Equations, ladder};
 use crate::methods::variational::verlet;
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
@@ -22,7 +23,6 @@ use crate::scalar::norm::reported;
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::Sink;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
 use crate::{Linear, Real, RegularLagrangian, Separable, System, Vector, Weights};
 

@@ -6,9 +6,9 @@ use core::fmt;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
+use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::{Lagrangian, Real, System, Vector};
 
 const STAGES: usize = 4;

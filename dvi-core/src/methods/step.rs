@@ -11,12 +11,12 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
+use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
 use crate::scalar::simd::apart_if;
 use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate, sizes};
 use crate::space::Sink;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Vector};
 

@@ -3,11 +3,11 @@
 use alloc::vec::Vec;
 
 use crate::error::{CheckpointError, StartError};
+use crate::memory::{Memory, Reader, Record};
 use crate::methods::{Carries, Clock, Method};
 use crate::run::Stepper;
 use crate::state::Statistics;
 use crate::state::fingerprint::Fingerprint;
-use crate::state::memory::{Memory, Reader, Record};
 use crate::system::start::{finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
 

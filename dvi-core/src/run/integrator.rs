@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::error::{StartError, StepError, StepFailure};
 use crate::mechanics::VectorField;
+use crate::memory::Aside;
 use crate::methods::{Carries, Clock, Method, TwoPoint};
 use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
@@ -11,7 +12,6 @@ use crate::run::Checkpoint;
 use crate::run::kept::Kept;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
-use crate::state::memory::Aside;
 use crate::system::start::{consistent, evaluate, flatten, named, validate_step, velocities};
 use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 

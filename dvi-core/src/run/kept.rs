@@ -11,10 +11,10 @@
 //! backwards because ρ was negative in between.
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Aside, Memory};
 use crate::methods::{Carries, Clock, Method};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
-use crate::state::memory::{Aside, Memory};
 use crate::system::start::extended;
 use crate::{Lagrangian, Real, System, Vector};
 

@@ -5,10 +5,10 @@
 //! the length of that step. The run does not notice: what is moved is a copy.
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::Memory;
 use crate::methods::{Carries, Method};
 use crate::run::Run;
 use crate::state::Statistics;
-use crate::state::memory::Memory;
 use crate::system::start::velocities;
 use crate::{Lagrangian, Real, Space, State, System, Vector};
 

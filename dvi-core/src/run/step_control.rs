@@ -17,8 +17,8 @@ mod reversible;
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::Memory;
 use crate::methods::VariableStep;
-use crate::state::memory::Memory;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
 

@@ -5,8 +5,8 @@
 //! those of the blocks of D count. Source: Bunch & Kaufman 1977, Math. Comp. 31, 163–179.
 
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::scalar::norm::{larger, reported};
-use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar};
 
 /// The signs of the eigenvalues of a symmetric matrix that is not singular.

@@ -22,9 +22,10 @@ use crate::space::sink::Scaled;
 use crate::space::square::SquareMatrix;
 use crate::space::{Fixed, FixedSquare, FixedVector, InPlace, Room, Sink, Space};
 
+use crate::space::Weights;
 #[cfg(feature = "alloc")]
 use crate::space::square::{Layout, Pattern, RunTimeSquare};
-use crate::{Real, Scalar, Weights};
+use crate::{Real, Scalar};
 #[cfg(feature = "alloc")]
 use krylov::Krylov;
 

@@ -11,10 +11,10 @@ use core::ops::DerefMut;
 use crate::Scalar;
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
-use crate::space::Sink;
-use crate::state::memory::Memory;
+use crate::memory::Memory;
 #[cfg(feature = "alloc")]
-use crate::state::memory::{Reader, Record, lasting};
+use crate::memory::{Reader, Record, lasting};
+use crate::space::Sink;
 
 /// Rows that are filled entry by entry.
 pub trait RowMatrix<T>: Sink<T> + Memory<T> + Debug {

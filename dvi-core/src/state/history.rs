@@ -3,11 +3,36 @@
 //! The guess is the value at the next step of the polynomial through the last m increments:
 //! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
 
-use core::ops::Deref;
+use core::ops::{Deref, DerefMut};
 
+use crate::memory::{Memory, lasting};
 use crate::scalar::blocks::blocks;
-use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
+
+/// Where Newton begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Guess {
+    /// What the last steps let expect, which is best as a rule.
+    Extrapolated,
+    /// No increment: Newton's first iterate is then the linearly implicit step, which is safer where steps
+    /// are so long that extrapolation is off.
+    Zero,
+}
+
+impl Guess {
+    /// Sets `increment` to it, by what extrapolates.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn begin<V: DerefMut<Target = [T]>, T: Real>(
+        self,
+        increment: &mut V,
+        extrapolate: impl FnOnce(&mut V),
+    ) {
+        match self {
+            Self::Extrapolated => extrapolate(increment),
+            Self::Zero => increment.fill(T::lift(0.0)),
+        }
+    }
+}
 
 /// How many increments are kept.
 ///

@@ -1,9 +1,8 @@
 //! The mean rates of change of the last steps, extrapolated to guess those of the next, for methods whose
 //! steps are of any length.
 
-use super::history::{COEFFICIENTS, DEPTH};
-use crate::solve::Guess;
-use crate::state::memory::{Memory, lasting};
+use super::history::{COEFFICIENTS, DEPTH, Guess};
+use crate::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
 
 /// The length of a ring: a power of two, which is quick to go around in.

@@ -7,8 +7,8 @@
 //! order h.
 
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
-use crate::state::memory::{Memory, lasting};
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// How the increments of the steps are added to coordinates and momenta.

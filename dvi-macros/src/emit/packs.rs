@@ -41,8 +41,8 @@ use super::indices::open;
 use super::{Element, Function, local, name, output_array};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
-use crate::program::{Output, Place};
 use crate::schedule::{Accumulated, Step};
+use crate::statement::{Output, Place};
 use crate::symbolic::{Coordinate, Fold, Index, Loop, Node, Parameter, Unary};
 
 /// A range whose bounds are literals and that has fewer terms is not worth it.

@@ -32,8 +32,8 @@ use super::inlining::ForceInline;
 use super::values::parameter_slice;
 use super::{Element, Function, local, output_array};
 use crate::instructions::{Instruction, Register, Signed};
-use crate::program::{Output, Place};
 use crate::schedule::{Accumulated, Step};
+use crate::statement::{Output, Place};
 use crate::symbolic::{Atom, Index, Loop, Node};
 
 /// What is emitted where there are many bodies.

@@ -3,10 +3,10 @@
 use syn::Expr as Syntax;
 
 use super::Stages;
+use crate::formulas::{DeclaredConstraints, DegenerateFormulas, RegularFormulas, TimeTransform};
 use crate::internal::internal;
 use crate::lower::{Lowering, Role};
 use crate::model::Extended;
-use crate::program::{DeclaredConstraints, DegenerateFormulas, RegularFormulas, TimeTransform};
 use crate::structure::gauge::{self, Effort, Search};
 use crate::symbolic::{Coordinate, Expr, Graph, Index, Node};
 use crate::syntax::{self, Attribute, Gauge};

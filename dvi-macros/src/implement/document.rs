@@ -5,8 +5,10 @@ use quote::quote;
 use syn::ext::IdentExt as _;
 
 use crate::emit::Emitter;
+use crate::formulas::{Variable, variable};
 use crate::operations::Operations;
-use crate::program::{Output, Place, Programs, Row, Statement, Variable, variable};
+use crate::program::Programs;
+use crate::statement::{Output, Place, Row, Statement};
 use crate::symbolic::{
     Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops, print_velocity,
 };

@@ -6,7 +6,8 @@ use quote::quote;
 use super::in_numbers_with;
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, local};
-use crate::program::{DegeneratePairs, Output, PairPrograms, RegularPairs};
+use crate::program::{DegeneratePairs, PairPrograms, RegularPairs};
+use crate::statement::Output;
 use crate::symbolic::Index;
 
 pub(super) fn degenerate_pairs(emitter: &Emitter<'_>, pairs: &DegeneratePairs) -> TokenStream {

@@ -5,13 +5,13 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
-use super::words::{Arithmetic, Method, SUMS, VELOCITIES, callable, is_method};
 use super::{Lowering, Role};
 use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Node, Partial, Relation};
 use crate::syntax::{Constrained, Kind};
+use crate::words::{Arithmetic, Method, SUMS, VELOCITIES, callable, is_method};
 
 impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Expr> {

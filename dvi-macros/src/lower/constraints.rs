@@ -5,7 +5,7 @@ use syn::Expr as Syntax;
 use super::lints::uses;
 use super::sums::natural;
 use super::{Lowering, Role};
-use crate::program::Constraint;
+use crate::formulas::Constraint;
 use crate::symbolic::{Expr, Graph, Id, Index, Node};
 use crate::syntax::{self, Constrained, Family};
 

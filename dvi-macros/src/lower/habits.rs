@@ -2,10 +2,10 @@
 
 use syn::{BinOp, Expr as Syntax, ExprLit, ExprMethodCall, Ident, Lit, Pat};
 
-use super::words::{Method, is_method};
 use super::{Lowering, Role, is_number_type};
 use crate::errors::text;
 use crate::syntax::{Constrained, Factor};
+use crate::words::{Method, is_method};
 
 /// Functions by other names, and functions of functions, as they are written behind a number.
 #[rustfmt::skip]

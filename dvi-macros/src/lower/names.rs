@@ -5,9 +5,10 @@ use std::f64::consts;
 use syn::{Expr as Syntax, ExprField, Path};
 
 use super::habits::as_receiver;
-use super::{Binding, Lowering, words};
+use super::{Binding, Lowering};
 use crate::model::Shape;
 use crate::symbolic::{Coordinate, Expr, Index, Node};
+use crate::words;
 
 impl Lowering<'_> {
     pub(super) fn path(&mut self, path: &Path) -> Option<Expr> {

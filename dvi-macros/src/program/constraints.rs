@@ -1,34 +1,11 @@
 //! Constraints of the positions, g(q, t) = 0, or of the velocities, a(q, v, t) = 0, or gaps, g(q, t) ≥ 0:
 //! their values, their derivatives, and how they change along a motion.
 
-use super::{Place, Statement, Variable, variable};
+use crate::formulas::{Constraint, DeclaredConstraints, Variable, variable};
 use crate::routine::Routine;
-use crate::symbolic::{Contribution, Expr, Graph, Index, Loop, Node, Weight};
+use crate::statement::{Place, Row, Statement};
+use crate::symbolic::{Contribution, Expr, Graph, Index, Node, Weight};
 use crate::syntax::Constrained;
-
-/// A constraint as it is declared, a single one or a family.
-#[derive(Clone, Debug)]
-pub(crate) struct Constraint {
-    /// The loop over the members of a family.
-    pub(crate) over: Option<Loop>,
-    /// The number of a member, counted from 0.
-    pub(crate) member: Index,
-    pub(crate) value: Expr,
-}
-
-/// The constraints of a system in the order of declaration, and what they are of.
-#[derive(Clone, Debug)]
-pub(crate) struct DeclaredConstraints {
-    pub(crate) of: Constrained,
-    pub(crate) list: Vec<Constraint>,
-}
-
-/// An entry of g or a: the number of a declared constraint, and that of a member of it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Row {
-    pub(crate) constraint: u32,
-    pub(crate) member: Index,
-}
 
 /// What is generated for the constraints of a system.
 pub(crate) struct Constraints {
@@ -45,24 +22,6 @@ pub(crate) struct Constraints {
     pub(crate) rate: Routine,
     /// v·∂²g/∂q∂q v + 2 ∂²g/∂t∂q v + ∂²g/∂t∂t of constraints of the positions.
     pub(crate) curvature: Option<Routine>,
-}
-
-impl Constraint {
-    pub(crate) fn single(value: Expr) -> Self {
-        Self { over: None, member: Index::literal(0), value }
-    }
-
-    /// How many constraints these are; none if the number is negative.
-    pub(crate) fn length(&self) -> Index {
-        match &self.over {
-            Some(over) => over.range.upper.plus(&over.range.lower, -1),
-            None => Index::literal(1),
-        }
-    }
-
-    pub(crate) fn loops(&self) -> Vec<Loop> {
-        self.over.iter().cloned().collect()
-    }
 }
 
 impl Constraints {

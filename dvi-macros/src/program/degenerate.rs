@@ -1,38 +1,13 @@
 //! What is special to L = α·v − H: the one-form, the Hamiltonian, the right side of the flow.
 
 use super::pairs::DegeneratePairs;
-use super::{
-    Force, Output, Place, Programs, Statement, Variable, added, first_derivatives, mirrored_pair, rates,
-    result, statements, variable,
-};
+use super::{Programs, added, first_derivatives, mirrored_pair, rates, result, statements};
+use crate::formulas::{DegenerateFormulas, Force, TimeTransform, dalpha};
 use crate::internal::internal;
 use crate::routine::Routine;
+use crate::statement::{Output, Place, Statement};
 use crate::structure::PairSum;
-use crate::symbolic::{Contribution, Coordinate, Expr, Graph, SecondContribution, Weight};
-
-/// The formulas of a degenerate system.
-#[derive(Clone, Debug)]
-pub(crate) struct DegenerateFormulas {
-    /// α·v, with the differential of the gauge.
-    pub(crate) one_form: Expr,
-    pub(crate) hamiltonian: Expr,
-    /// F, if there is one.
-    pub(crate) gauge: Option<Expr>,
-    /// α·v without it.
-    pub(crate) declared: Expr,
-    pub(crate) time: Option<TimeTransform<Expr>>,
-    pub(crate) force: Force,
-    pub(crate) momenta: Vec<Expr>,
-}
-
-/// What a time transformation is made of.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TimeTransform<F> {
-    /// ρ = dt/dτ
-    pub(crate) rate: F,
-    /// H before the transformation.
-    pub(crate) hamiltonian: F,
-}
+use crate::symbolic::{Contribution, Expr, Graph, SecondContribution, Weight};
 
 /// What is generated for a degenerate system.
 pub(crate) struct DegeneratePrograms {
@@ -118,22 +93,6 @@ pub(super) fn flow_source(
 ) -> Vec<Statement> {
     let rates = rates(graph, one_form);
     hamiltonian_gradient.iter().cloned().chain(rates).collect()
-}
-
-/// The entries of Dα: ∂αᵢ/∂qʲ = ∂²(α·v)/∂vⁱ∂qʲ, as (i, j, entry).
-pub(crate) fn dalpha<'a>(
-    graph: &Graph,
-    entries: &'a [SecondContribution],
-) -> Vec<(Coordinate, Coordinate, &'a SecondContribution)> {
-    let pair =
-        |entry: &'a SecondContribution| match (variable(graph, entry.row), variable(graph, entry.column)) {
-            ((Variable::Velocity, i), (Variable::Position, j))
-            | ((Variable::Position, j), (Variable::Velocity, i)) => Some((i, j, entry)),
-            // α·v is linear in v, and the position part of its second derivative is not in Dα.
-            ((Variable::Position, _), (Variable::Position, _))
-            | ((Variable::Velocity, _), (Variable::Velocity, _)) => None,
-        };
-    entries.iter().filter_map(pair).collect()
 }
 
 fn one_form_jacobian(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Statement> {

@@ -1,9 +1,11 @@
 //! What is generated for an energy with a sum over pairs: everything without the sum, and its kernel.
 
-use super::degenerate::{DegenerateFormulas, flow_source, hamiltonian_gradient};
-use super::regular::{RegularFormulas, as_vector};
-use super::{Force, Output, Place, Statement, force_derivatives, gradient, linearize, result};
+use super::degenerate::{flow_source, hamiltonian_gradient};
+use super::regular::as_vector;
+use super::{force_derivatives, gradient, linearize, result};
+use crate::formulas::{DegenerateFormulas, Force, RegularFormulas};
 use crate::routine::Routine;
+use crate::statement::{Output, Place, Statement};
 use crate::structure::PairSum;
 use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Loop, Range};
 

@@ -1,21 +1,12 @@
 //! What is special to a regular L: the energy, the force, and the rate of the momentum.
 
 use super::pairs::RegularPairs;
-use super::{DeclaredConstraints, Force, Output, Place, Programs, Statement, rates, result};
+use super::{Programs, rates, result};
+use crate::formulas::RegularFormulas;
 use crate::routine::Routine;
+use crate::statement::{Output, Place, Statement};
 use crate::structure::PairSum;
-use crate::symbolic::{Expr, Graph, SecondContribution};
-
-/// The formulas of a regular system.
-#[derive(Clone, Debug)]
-pub(crate) struct RegularFormulas {
-    pub(crate) lagrangian: Expr,
-    /// Whether L is a polynomial of degree at most two in v.
-    pub(crate) quadratic: bool,
-    pub(crate) force: Force,
-    pub(crate) constraints: Option<DeclaredConstraints>,
-    pub(crate) momenta: Vec<Expr>,
-}
+use crate::symbolic::{Graph, SecondContribution};
 
 /// What is generated for a regular system.
 pub(crate) struct RegularPrograms {

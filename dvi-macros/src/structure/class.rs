@@ -6,8 +6,8 @@
 use syn::ext::IdentExt as _;
 
 use super::gauge::{self, Effort, Found, Search};
+use crate::formulas::{Variable, variable};
 use crate::model::Model;
-use crate::program::{Variable, variable};
 use crate::symbolic::{Atom, Coordinate, Expr, Graph, Index, Loop};
 
 /// Along which coordinates of a block the one-form has components.

@@ -6,8 +6,8 @@ use syn::ext::IdentExt as _;
 use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
 use crate::errors::{Errors, listed};
+use crate::formulas::{RegularFormulas, Variable, variable};
 use crate::model::{Block, Model};
-use crate::program::{RegularFormulas, Variable, variable};
 use crate::symbolic::{
     Binary, Contribution, Coordinate, Expr, Graph, Id, Index, Loop, Node, SecondContribution, Unary,
 };

@@ -4,8 +4,8 @@ use syn::Expr as Syntax;
 
 use super::{Class, has_matching};
 use crate::errors::Errors;
+use crate::formulas::dalpha;
 use crate::model::Model;
-use crate::program::dalpha;
 use crate::symbolic::{Coordinate, Expr, Graph, Index, Loop, Node, Range, SecondContribution};
 
 /// The structure of a one-form; see the constants of `dvi_core::DegenerateLagrangian`.

@@ -6,7 +6,7 @@ use super::machine::Machine;
 use super::point::{Directions, Point, Support};
 use super::system::{Outputs, Part, System, difference};
 use super::{Checked, Difference, TOLERANCE};
-use crate::program::Output;
+use crate::statement::Output;
 use crate::structure::{Components, MassMatrix, OneForm};
 use crate::symbolic::Graph;
 

@@ -4,8 +4,9 @@ use super::machine::{Machine, Results};
 use super::output::{Output, Quantity};
 use super::point::{Directions, Point};
 use crate::model::Model;
-use crate::program::{self, DegeneratePrograms, Programs, RegularPrograms};
+use crate::program::{DegeneratePrograms, Programs, RegularPrograms};
 use crate::routine::Routine;
+use crate::statement;
 use crate::symbolic::{Graph, Index};
 use crate::syntax::Constrained;
 
@@ -48,13 +49,13 @@ impl Functions<'_> {
         let mut found = Vec::new();
         let mut add = |function, quantity, value| found.push((Output::new(function, quantity), value));
         let value = |routine: &Routine| machine.run(routine).value;
-        let vector = |routine: &Routine| machine.run(routine).along_first(program::Output::Vector);
+        let vector = |routine: &Routine| machine.run(routine).along_first(statement::Output::Vector);
         let shared = self.shared();
         add("lagrangian", Quantity::Lagrangian, value(&shared.lagrangian));
         for (function, routine) in [("gradient", &shared.gradient), ("linearize", &shared.linearize)] {
             let results: Results = machine.run(routine);
-            add(function, Quantity::Lq, results.along_first(program::Output::Lq));
-            add(function, Quantity::Lv, results.along_first(program::Output::Lv));
+            add(function, Quantity::Lq, results.along_first(statement::Output::Lq));
+            add(function, Quantity::Lv, results.along_first(statement::Output::Lv));
             if function == "linearize" {
                 add(function, Quantity::Hessian, results.matrix);
             }
@@ -98,7 +99,7 @@ impl Functions<'_> {
                 let gradient = vector(&programs.hamiltonian_gradient);
                 add("hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
                 add("one_form", Quantity::OneForm, vector(&programs.one_form));
-                let source = machine.run(&programs.flow_source).along_second(program::Output::Vector);
+                let source = machine.run(&programs.flow_source).along_second(statement::Output::Vector);
                 add("flow_source", Quantity::FlowSource, source);
                 if let Some(time) = &programs.time {
                     add("time_transform", Quantity::TimeRate, value(&time.rate));
@@ -119,7 +120,7 @@ impl Functions<'_> {
                 add("energy", Quantity::Energy, value(&programs.energy));
                 add("force", Quantity::Force, vector(&programs.force));
                 add("conjugate_momentum", Quantity::Lv, vector(&programs.momentum));
-                let rate = machine.run(&programs.momentum_rate).along_second(program::Output::Vector);
+                let rate = machine.run(&programs.momentum_rate).along_second(statement::Output::Vector);
                 add("momentum_rate", Quantity::MomentumRate, rate);
                 if let Some(pairs) = &programs.pairs {
                     add("rest_energy", Quantity::Energy, value(&pairs.shared.together));

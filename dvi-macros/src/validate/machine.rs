@@ -7,9 +7,9 @@ use super::point::{Branches, Directions, Point, Variable};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
 use crate::model::Model;
-use crate::program::{Output, Place, Row};
 use crate::routine::Routine;
 use crate::schedule::Step;
+use crate::statement::{Output, Place, Row};
 use crate::symbolic::{Atom, Coordinate, Fold, Graph, Id, Index, Node, Relation};
 use crate::work::step;
 

@@ -1,7 +1,7 @@
 //! g(q, t) = 0: at the end of a step g(q1, t1) = 0, of velocities G v + ∂g/∂t = 0, with G = ∂g/∂q.
 
 use super::Constraints;
-use crate::discrete::{Ends, Span};
+use crate::mechanics::{Ends, Span};
 use crate::space::sink::Sink;
 use crate::system::Holonomic;
 use crate::{HolonomicLagrangian, Real};

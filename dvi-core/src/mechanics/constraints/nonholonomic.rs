@@ -2,7 +2,7 @@
 //! Martínez 2001).
 
 use super::Constraints;
-use crate::discrete::{Ends, Span};
+use crate::mechanics::{Ends, Span};
 use crate::space::sink::Sink;
 use crate::system::Nonholonomic;
 use crate::{NonholonomicLagrangian, Real};

@@ -11,13 +11,13 @@
 
 use super::residuals::Residuals;
 use super::{At, Augmented, Bordered, ConstrainedLagrangian, Constraints, Multipliers, scales};
-use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
 use crate::mechanics::pattern::visit_second_derivatives;
+use crate::mechanics::{Ends, Interval, Span};
+use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
 use crate::space::sink::{Places, Scaled};
 use crate::space::{LinearEquations, SquareMatrix, linear};
-use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, Real, Space, Vector};
 
 /// What solves equations with multipliers on a system, with the storage that it needs.

@@ -12,9 +12,9 @@
 use crate::error::StepFailure;
 use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{At, ConstrainedLagrangian, Constraints, Multipliers};
+use crate::memory::{Memory, lasting};
 use crate::space::RowMatrix;
 use crate::space::sink::Places;
-use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, Real, Space, System, Vector};
 
 type Rows<S, T> = <<S as System>::Space as Space>::Rows<<S as ConstrainedSystem>::Multipliers, T>;

@@ -4,10 +4,10 @@ use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, Slope
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
+use crate::memory::{Memory, lasting};
 use crate::scalar::{Lanes, norm};
 use crate::space::sink::Product;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::system::Degenerate;
 use crate::{DegenerateLagrangian, Real, Scalar, Sink, Space, System, Vector, Weights};
 

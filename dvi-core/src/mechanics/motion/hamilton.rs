@@ -9,13 +9,13 @@ use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
+use crate::memory::{Memory, lasting};
+#[cfg(feature = "alloc")]
+use crate::memory::{Reader, Record};
 use crate::scalar::{Lanes, norm};
 use crate::space::sink::Product;
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
-#[cfg(feature = "alloc")]
-use crate::state::memory::{Reader, Record};
 use crate::system::{Regular, Unilateral};
 use crate::{
     Linear, NondegenerateLagrangian, Real, RegularLagrangian, Scalar, Sink, Space, System,

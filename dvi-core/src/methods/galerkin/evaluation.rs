@@ -4,10 +4,10 @@ use core::fmt::Debug;
 
 use super::interior::Interior;
 use crate::mechanics::motion::{InLanes, OneByOne};
+use crate::memory::Memory;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::simd::{Task, widest};
-use crate::state::memory::Memory;
 use crate::{NondegenerateLagrangian, Real, System, Vector};
 
 /// In which packs the interior nodes of a step stand.

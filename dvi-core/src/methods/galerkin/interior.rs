@@ -21,6 +21,7 @@ use crate::discrete::Rule as _;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::motion::weigh;
 use crate::mechanics::phase::PhasePoint;
+use crate::memory::{Memory, lasting};
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::collocation::packs::{Nystrom, combine, continuation, sum};
 use crate::scalar::Lanes;
@@ -28,7 +29,6 @@ use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::simd::Task;
 use crate::solve::Due;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector};
 
 /// The interior nodes of a step, and what the step before leaves to it.

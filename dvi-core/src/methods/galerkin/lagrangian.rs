@@ -15,6 +15,7 @@ use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Rule, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::linear_of_all;
+use crate::memory::Aside;
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
@@ -23,7 +24,6 @@ use crate::space::linear::{self, blocks};
 use crate::space::lines;
 use crate::space::sink::{Sink, Transposed};
 use crate::state::Statistics;
-use crate::state::memory::Aside;
 use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.

@@ -7,13 +7,13 @@ use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
+use crate::memory::{Aside, Memory, lasting};
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver};
 use crate::space::Storing;
 use crate::state::Statistics;
 use crate::state::history::History;
-use crate::state::memory::{Aside, Memory, lasting};
 use crate::{Coupled, Lagrangian, NondegenerateLagrangian, Real, Space, System, Vector};
 
 /// Without a heap, a matrix of fixed size is made on the stack, where threads have two megabytes.

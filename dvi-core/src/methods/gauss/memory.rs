@@ -8,11 +8,11 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
     AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, Slopes, StageEvaluation, StageWork, weigh,
 };
+use crate::memory::{Aside, Memory, lasting};
 use crate::methods::collocation::packs::{combine, largest_of, sum};
 use crate::scalar::Lanes;
 use crate::solve::{Due, Ladder};
 use crate::state::Statistics;
-use crate::state::memory::{Aside, Memory, lasting};
 use crate::state::summation::{Summation, left_out};
 use crate::{Real, Space, System, Vector};
 

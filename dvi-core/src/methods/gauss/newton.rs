@@ -11,13 +11,13 @@ use super::memory::{GaussMemory, Path};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, Motion, PointOf, weigh};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
+use crate::memory::Aside;
 use crate::methods::collocation::Collocation;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::{Lanes, norm};
 use crate::solve::{Convergence, Due, Guess, Judge, Solver, Stopping, iterate};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing, linear};
 use crate::state::Statistics;
-use crate::state::memory::Aside;
 use crate::state::summation::Summation;
 use crate::{Coupled, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 

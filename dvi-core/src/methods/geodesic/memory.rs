@@ -2,7 +2,7 @@
 
 use super::node::Node;
 use super::orientation::TangentMass;
-use crate::state::memory::{Memory, lasting};
+use crate::memory::{Memory, lasting};
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
 use crate::system::ManifoldSystem;

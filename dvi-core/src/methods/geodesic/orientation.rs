@@ -5,8 +5,8 @@ use super::node::{Between, By, Node};
 use crate::discrete::NodeWork;
 use crate::error::StepFailure;
 use crate::mechanics::orientation::keep;
+use crate::memory::{Memory, lasting};
 use crate::space::inertia::{Inertia, inertia};
-use crate::state::memory::{Memory, lasting};
 use crate::system::ManifoldSystem;
 use crate::{ManifoldLagrangian, Real, Space, Weights};
 

@@ -5,10 +5,10 @@ use super::memory::{ImpactsMemory, Wall};
 use super::passage::Passage;
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
+use crate::memory::Memory;
 use crate::methods::FreeFlight;
 use crate::scalar::norm::reported;
 use crate::space::sink::Places;
-use crate::state::memory::Memory;
 use crate::{Real, Scalar, UnilateralLagrangian, Vector, Weights};
 
 /// Flights that are shorter, as a part of the step, have no discrete energy of their own: Δ/s has the

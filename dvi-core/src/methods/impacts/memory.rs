@@ -4,9 +4,9 @@ use core::fmt;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::Multipliers;
+use crate::memory::{Memory, lasting};
 use crate::scalar::norm::reported;
 use crate::space::sink::Places;
-use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, Real, Scalar, Space, State, System, UnilateralLagrangian, Vector};
 
 /// An impact of the last step.

@@ -12,13 +12,13 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
+use crate::memory::{Memory, lasting};
 use crate::methods::collocation::Collocation;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
 use crate::space::{CoupledSolver, NodeSum, Sink, Storing, linear};
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::state::rates::is_similar;
 use crate::{Coupled, ProperlyDegenerate, Real, Scalar, Space, System, Vector, Weights};
 

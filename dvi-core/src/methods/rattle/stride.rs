@@ -4,11 +4,11 @@
 use super::work::{Look, Place, Step, Work};
 use super::{Rattle, RattleMemory};
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::methods::Clock;
 use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
 
 /// What is kept of a point of the run, and what the next step is guessed from.

@@ -7,13 +7,13 @@ use crate::error::StepFailure;
 use crate::mechanics::constraints::Multipliers;
 use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::mass::Mass;
+use crate::memory::{Memory, lasting};
 use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Course, Due, Iteration, Judge, Quick, Stopping, repeat, sizes};
 use crate::space::sink::Places;
 use crate::space::{SquareMatrix, linear};
 use crate::state::Statistics;
-use crate::state::memory::{Memory, lasting};
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Scalar, Separable, Space, Vector};
 
 /// A vector of coordinates for each constraint.

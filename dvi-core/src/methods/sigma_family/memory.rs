@@ -11,11 +11,11 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
+use crate::memory::{Memory, lasting};
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
-use crate::state::memory::{Memory, lasting};
 use crate::state::summation::Carried;
 use crate::{DegenerateLagrangian, Lagrangian, Linear, Real, Space, System, Vector};
 

@@ -7,9 +7,9 @@
 //! mode is its mirror image, π − θ (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
 
 use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
 use crate::methods::walk::BLOCK;
 use crate::scalar::norm::{larger, reported};
-use crate::state::memory::{Memory, lasting};
 use crate::{Real, Scalar, Space, System, Vector};
 
 /// How many points are kept besides the present one.

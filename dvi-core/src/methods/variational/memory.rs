@@ -5,9 +5,9 @@ use super::{Step, Variational};
 use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::discrete::quadrature::Rule;
 use crate::error::StartError;
+use crate::memory::{Memory, lasting};
 use crate::methods::step::{Carried, ladder};
 use crate::solve::{Ladder, Solver};
-use crate::state::memory::{Memory, lasting};
 use crate::{Linear, NondegenerateLagrangian, Real, System, Vector};
 
 /// The phase point of a run of the quadrature family, its interpolation and its work space.

@@ -1,6 +1,6 @@
 //! A run that a step control moves on, step by step, and back.
 
-use crate::state::memory::{Aside, Memory};
+use crate::memory::{Aside, Memory};
 use core::fmt;
 
 use crate::error::{StartError, StepFailure};

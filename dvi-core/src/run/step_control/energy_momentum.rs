@@ -10,9 +10,9 @@
 use super::{ControlledRun, StepControl};
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::norm::reported;
-use crate::state::memory::{Memory, lasting};
 use crate::{Real, RegularLagrangian, Scalar, Space, Vector};
 
 /// Iterations of the secant method, and of that of false position.

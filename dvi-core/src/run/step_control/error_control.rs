@@ -10,9 +10,9 @@
 use super::rejection::{Accepted, Verdict, step_of_at_most};
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::methods::{Tolerance, VariableStep};
 use crate::scalar::norm::{larger, reported};
-use crate::state::memory::{Memory, lasting};
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real, Scalar};
 

@@ -6,12 +6,12 @@ use super::{ControlledRun, ErrorControl, Reversible, StepControl, reversible};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, VariableStep};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
-use crate::state::memory::{Memory, lasting};
 use crate::system::start::{evaluate, flatten, named, validate, velocities};
 use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
 

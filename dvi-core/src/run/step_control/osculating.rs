@@ -13,10 +13,10 @@ use super::rejection::{Accepted, Verdict, step_of_at_most};
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
+use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::norm::larger;
 use crate::space::sink::Product;
-use crate::state::memory::{Memory, lasting};
 use crate::{Real, RegularLagrangian, Scalar, Space, Vector, Weights};
 
 /// How far the centre of the osculating circle moves in a step.

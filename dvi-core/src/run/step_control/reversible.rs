@@ -12,9 +12,9 @@ use core::fmt::Debug;
 
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::norm::reported;
-use crate::state::memory::{Memory, lasting};
 use crate::{Real, RegularLagrangian, Space, Vector};
 
 /// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position

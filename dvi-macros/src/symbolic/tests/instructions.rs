@@ -8,10 +8,12 @@ use super::evaluate::{Bindings, Evaluation, Point, holds, own_function, scalar_f
 use super::properties::raw_value;
 use super::streams::NONLINEAR;
 use super::tree::{Tree, point, tree};
+use crate::formulas::DegenerateFormulas;
 use crate::instructions::{Instruction, Instructions, Register, Signed};
-use crate::program::{DegenerateFormulas, DegeneratePrograms, Place, Statement};
+use crate::program::DegeneratePrograms;
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
+use crate::statement::{Place, Statement};
 use crate::symbolic::rules::evaluate_binary;
 use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Node, Range, Size};
 

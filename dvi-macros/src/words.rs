@@ -7,7 +7,7 @@ use crate::symbolic::{Binary, Unary, binary_by_name, binary_names, unary_by_name
 
 /// A method of numbers.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Method {
+pub(crate) enum Method {
     Unary(Unary),
     Binary(Binary),
     Arithmetic(Arithmetic),
@@ -15,7 +15,7 @@ pub(super) enum Method {
 
 /// A method that is arithmetic rather than a function of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Arithmetic {
+pub(crate) enum Arithmetic {
     Powi,
     Recip,
     MulAdd,
@@ -38,10 +38,10 @@ const ARITHMETIC: [(&str, Arithmetic, usize); 7] = [
 ];
 
 /// Sums and products over indices.
-pub(super) const SUMS: [&str; 4] = ["sum", "sum_pairs", "sum_ordered_pairs", "product"];
+pub(crate) const SUMS: [&str; 4] = ["sum", "sum_pairs", "sum_ordered_pairs", "product"];
 
 /// Velocities, in a one-form and in a Lagrangian.
-pub(super) const VELOCITIES: [&str; 2] = ["d", "dot"];
+pub(crate) const VELOCITIES: [&str; 2] = ["d", "dot"];
 
 /// The time, unless a coordinate or a field has that name.
 pub(crate) const TIME: &str = "t";
@@ -51,7 +51,7 @@ pub(crate) const ENERGY: &str = "energy";
 
 /// The constant that goes without a path: a single name may be that of another one in the module of the
 /// user, which the macro cannot see; only this is taken for what it says.
-pub(super) const PI: &str = "PI";
+pub(crate) const PI: &str = "PI";
 
 /// Those of `std::f64::consts`, by their full paths.
 #[rustfmt::skip]
@@ -67,7 +67,7 @@ const CONSTANTS: [(&str, f64); 8] = [
 ];
 
 impl Method {
-    pub(super) fn by_name(name: &str) -> Option<Self> {
+    pub(crate) fn by_name(name: &str) -> Option<Self> {
         let arithmetic = || ARITHMETIC.iter().find(|(known, ..)| *known == name);
         unary_by_name(name)
             .map(Self::Unary)
@@ -76,7 +76,7 @@ impl Method {
     }
 
     /// The number of arguments, the receiver not counted.
-    pub(super) fn arity(self) -> usize {
+    pub(crate) fn arity(self) -> usize {
         match self {
             Self::Unary(_) => 0,
             Self::Binary(_) => 1,
@@ -98,12 +98,12 @@ pub(crate) fn is_method(name: &str) -> bool {
     Method::by_name(name).is_some()
 }
 
-pub(super) fn callable() -> impl Iterator<Item = &'static str> {
+pub(crate) fn callable() -> impl Iterator<Item = &'static str> {
     let arithmetic = ARITHMETIC.iter().map(|(name, ..)| *name);
     unary_names().chain(binary_names()).chain(arithmetic).chain(reserved())
 }
 
 /// The constant of `std::f64::consts` with this name.
-pub(super) fn constant(name: &str) -> Option<f64> {
+pub(crate) fn constant(name: &str) -> Option<f64> {
     CONSTANTS.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
 }

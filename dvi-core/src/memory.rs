@@ -148,18 +148,18 @@ macro_rules! lasting {
     ($T:ty; $($kind:ident $field:ident),* $(,)? $(; $sound:ident)?) => {
         #[inline]
         fn restore(&mut self, from: &Self) {
-            $($crate::state::memory::lasting!(@restore $T, $kind self.$field, from.$field);)*
+            $($crate::memory::lasting!(@restore $T, $kind self.$field, from.$field);)*
         }
         #[cfg(feature = "alloc")]
-        fn save(&self, record: &mut $crate::state::memory::Record<$T>) {
-            $($crate::state::memory::lasting!(@save $kind self.$field, record);)*
+        fn save(&self, record: &mut $crate::memory::Record<$T>) {
+            $($crate::memory::lasting!(@save $kind self.$field, record);)*
         }
         #[cfg(feature = "alloc")]
         fn load(
             &mut self,
-            reader: &mut $crate::state::memory::Reader<'_, $T>,
+            reader: &mut $crate::memory::Reader<'_, $T>,
         ) -> Result<(), $crate::error::CheckpointError> {
-            $($crate::state::memory::lasting!(@load $T, $kind self.$field, reader);)*
+            $($crate::memory::lasting!(@load $T, $kind self.$field, reader);)*
             $(
                 if !self.$sound() {
                     return Err($crate::error::CheckpointError::Damaged);
@@ -170,14 +170,14 @@ macro_rules! lasting {
     };
     (@restore $T:ty, numbers $to:expr, $from:expr) => { $to.copy_from_slice(&$from) };
     (@restore $T:ty, packs $to:expr, $from:expr) => {
-        $crate::state::memory::lasting!(@restore $T, vectors $to, $from)
+        $crate::memory::lasting!(@restore $T, vectors $to, $from)
     };
     (@restore $T:ty, part $to:expr, $from:expr) => {
-        $crate::state::memory::Memory::<$T>::restore(&mut $to, &$from)
+        $crate::memory::Memory::<$T>::restore(&mut $to, &$from)
     };
     (@restore $T:ty, parts $to:expr, $from:expr) => {
         for (to, from) in $to.iter_mut().zip($from.iter()) {
-            $crate::state::memory::Memory::<$T>::restore(to, from);
+            $crate::memory::Memory::<$T>::restore(to, from);
         }
     };
     (@restore $T:ty, vectors $to:expr, $from:expr) => {

@@ -1,0 +1,25 @@
+//! How much of the second derivatives of L is added to a matrix.
+
+use crate::Real;
+
+/// The weights of the four blocks of the second derivative of L(q, v, t).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights<T> {
+    /// Weight of ∂²L/∂qⁱ∂qʲ.
+    pub qq: T,
+    /// Weight of ∂²L/∂qⁱ∂vʲ.
+    pub qv: T,
+    /// Weight of ∂²L/∂vⁱ∂qʲ.
+    pub vq: T,
+    /// Weight of ∂²L/∂vⁱ∂vʲ.
+    pub vv: T,
+}
+
+impl<T: Real> Weights<T> {
+    /// Those that leave the mass matrix, ∂²L/∂v∂v.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn mass() -> Self {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        Self { qq: zero, qv: zero, vq: zero, vv: one }
+    }
+}

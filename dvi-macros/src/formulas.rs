@@ -1,0 +1,111 @@
+//! The formulas of a system, in the graph, and what they are differentiated by.
+
+use crate::internal::internal;
+use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Index, Loop, Node, SecondContribution};
+use crate::syntax::Constrained;
+
+/// The formulas of a degenerate system.
+#[derive(Clone, Debug)]
+pub(crate) struct DegenerateFormulas {
+    /// α·v, with the differential of the gauge.
+    pub(crate) one_form: Expr,
+    pub(crate) hamiltonian: Expr,
+    /// F, if there is one.
+    pub(crate) gauge: Option<Expr>,
+    /// α·v without it.
+    pub(crate) declared: Expr,
+    pub(crate) time: Option<TimeTransform<Expr>>,
+    pub(crate) force: Force,
+    pub(crate) momenta: Vec<Expr>,
+}
+
+/// What a time transformation is made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TimeTransform<F> {
+    /// ρ = dt/dτ
+    pub(crate) rate: F,
+    /// H before the transformation.
+    pub(crate) hamiltonian: F,
+}
+
+/// The formulas of a regular system.
+#[derive(Clone, Debug)]
+pub(crate) struct RegularFormulas {
+    pub(crate) lagrangian: Expr,
+    /// Whether L is a polynomial of degree at most two in v.
+    pub(crate) quadratic: bool,
+    pub(crate) force: Force,
+    pub(crate) constraints: Option<DeclaredConstraints>,
+    pub(crate) momenta: Vec<Expr>,
+}
+
+/// A generalised force F: its components, each at the coordinate that it acts on. By the principle of
+/// Lagrange and d'Alembert, d/dt ∂L/∂v = ∂L/∂q + F: it stands wherever ∂L/∂q does.
+pub(crate) type Force = Vec<Contribution>;
+
+/// A constraint as it is declared, a single one or a family.
+#[derive(Clone, Debug)]
+pub(crate) struct Constraint {
+    /// The loop over the members of a family.
+    pub(crate) over: Option<Loop>,
+    /// The number of a member, counted from 0.
+    pub(crate) member: Index,
+    pub(crate) value: Expr,
+}
+
+/// The constraints of a system in the order of declaration, and what they are of.
+#[derive(Clone, Debug)]
+pub(crate) struct DeclaredConstraints {
+    pub(crate) of: Constrained,
+    pub(crate) list: Vec<Constraint>,
+}
+
+impl Constraint {
+    pub(crate) fn single(value: Expr) -> Self {
+        Self { over: None, member: Index::literal(0), value }
+    }
+
+    /// How many constraints these are; none if the number is negative.
+    pub(crate) fn length(&self) -> Index {
+        match &self.over {
+            Some(over) => over.range.upper.plus(&over.range.lower, -1),
+            None => Index::literal(1),
+        }
+    }
+
+    pub(crate) fn loops(&self) -> Vec<Loop> {
+        self.over.iter().cloned().collect()
+    }
+}
+
+/// A variable of a derivative: position or velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Variable {
+    Position,
+    Velocity,
+}
+
+/// What a derivative is by.
+pub(crate) fn variable(graph: &Graph, id: Id) -> (Variable, Coordinate) {
+    match graph.node(id) {
+        Node::Coordinate(coordinate) => (Variable::Position, coordinate.clone()),
+        Node::Velocity(coordinate) => (Variable::Velocity, coordinate.clone()),
+        other => internal(format!("a derivative by {other:?}")),
+    }
+}
+
+/// The entries of Dα: ∂αᵢ/∂qʲ = ∂²(α·v)/∂vⁱ∂qʲ, as (i, j, entry).
+pub(crate) fn dalpha<'a>(
+    graph: &Graph,
+    entries: &'a [SecondContribution],
+) -> Vec<(Coordinate, Coordinate, &'a SecondContribution)> {
+    let pair =
+        |entry: &'a SecondContribution| match (variable(graph, entry.row), variable(graph, entry.column)) {
+            ((Variable::Velocity, i), (Variable::Position, j))
+            | ((Variable::Position, j), (Variable::Velocity, i)) => Some((i, j, entry)),
+            // α·v is linear in v, and the position part of its second derivative is not in Dα.
+            ((Variable::Position, _), (Variable::Position, _))
+            | ((Variable::Velocity, _), (Variable::Velocity, _)) => None,
+        };
+    entries.iter().filter_map(pair).collect()
+}
