@@ -1,6 +1,7 @@
 //! What a system says at one state: names and entries, rates of change, energy and Lagrangian, against the
 //! equations of motion put together from hyper-dual evaluations of L alone.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::mechanics::motion::Rates;
 use dvi_core::prelude::*;
 use dvi_core::{Scalar, Space};
@@ -68,7 +69,10 @@ fn check_regular<S: Lagrangian<HyperDual64> + AtState + System<Kind: Rates<S, f6
             (0..n).map(|i| v[i] * derivatives(system, [q, v], t, [n + i, 0])[1]).sum::<f64>() - value;
         let found = [system.at_time(t).lagrangian(&state)?, system.at_time(t).energy(&state)?];
         for (found, expected) in found.into_iter().zip([value, energy]) {
-            assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{name} at {t}: {found}");
+            assert!(
+                abs_diff_eq!(found, expected, epsilon = 1e-12 * (1.0 + expected.abs())),
+                "{name} at {t}: {found}"
+            );
         }
     }
     assert_eq!(system.energy_at(&state)?, system.at_time(0.0).energy(&state)?);
@@ -116,9 +120,9 @@ fn rates_of_degenerate_systems() -> Outcome {
         let off = (DVector::from_column_slice(&found) - &expected).amax();
         assert!(off <= 1e-12 * (1.0 + expected.amax()), "{}: {found:?}, not {expected}", S::REPORT.system);
         let energy = -derivatives(system, [&q, &rest], 0.0, [0, 0])[0];
-        assert!((system.energy_at(&state)? - energy).abs() < 1e-13);
+        assert_abs_diff_eq!(system.energy_at(&state)?, energy, epsilon = 1e-13);
         let along = derivatives(system, [&q, &found], 0.0, [0, 0])[0];
-        assert!((system.lagrangian_at(&state)? - along).abs() < 1e-12);
+        assert_abs_diff_eq!(system.lagrangian_at(&state)?, along, epsilon = 1e-12);
         Ok(())
     }
     let (vortices, start) = quasi_periodic();
@@ -216,7 +220,7 @@ fn single_coordinates_stand_beside_arrays_of_const_generic_size() -> Outcome {
                 run.take_steps(50)?;
                 other.take_steps(50)?;
                 for (a, b) in run.q().iter().zip(other.q()) {
-                    assert!((a - b).abs() < 1e-12, "{}, N = {N}: {a} and {b}", stringify!($method));
+                    assert!(abs_diff_eq!(a, b, epsilon = 1e-12), "{}, N = {N}: {a} and {b}", stringify!($method));
                 }
             )+};
         }

@@ -1,5 +1,6 @@
 //! Gauss collocation and explicit Runge–Kutta methods on Hamilton's equations of regular systems.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::Orbit;
@@ -38,7 +39,11 @@ fn check_order<S: Lagrangian, M: Method<S, f64> + Copy>(
         errors.push((1.0 / steps as f64, apart(&found, reference)));
     }
     let (order, name) = (convergence_order(&errors).ok_or("no slope")?, S::REPORT.system);
-    assert!((order - method.order() as f64).abs() < 0.3, "{name}, order {}: {order}", method.order());
+    assert!(
+        abs_diff_eq!(order, method.order() as f64, epsilon = 0.3),
+        "{name}, order {}: {order}",
+        method.order()
+    );
     Ok(())
 }
 
@@ -238,8 +243,8 @@ fn steps_from_rest_at_the_origin() -> Outcome {
     let gauss = last(&Pushed, Gauss::<3>::new(), start, 2.0, 40)?;
     let explicit = last(&Pushed, RungeKutta::classical(), start, 2.0, 400)?;
     let exact = 2.0 - 2.0_f64.sin();
-    assert!((gauss[0] - exact).abs() < 1e-12, "{gauss:?}");
-    assert!((explicit[0] - exact).abs() < 1e-10, "{explicit:?}");
+    assert!(abs_diff_eq!(gauss[0], exact, epsilon = 1e-12), "{gauss:?}");
+    assert!(abs_diff_eq!(explicit[0], exact, epsilon = 1e-10), "{explicit:?}");
     Ok(())
 }
 
@@ -249,10 +254,10 @@ fn velocities_are_those_of_the_momenta() -> Outcome {
     let start: RelativisticState = RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
     let system = Relativistic { m: 1.5 };
     let mut run = Integrator::new(&system, Gauss::<3>::new(), 0.01, start)?;
-    assert!((run.state().dot_x - 0.6).abs() < 1e-14);
+    assert_abs_diff_eq!(run.state().dot_x, 0.6, epsilon = 1e-14);
     let energy = run.energy();
     run.take_steps(1000)?;
-    assert!((run.energy() - energy).abs() < 1e-11, "{:e}", run.energy() - energy);
+    assert!(abs_diff_eq!(run.energy(), energy, epsilon = 1e-11), "{:e}", run.energy() - energy);
     let speed = run.state().dot_x.hypot(run.state().dot_y);
     assert!(speed < 1.0 && speed > 0.1);
     Ok(())

@@ -1,5 +1,6 @@
 //! Compositions of the implicit midpoint rule: orders, reversal, and failures that leave no trace.
 
+use approx::abs_diff_eq;
 use dvi_core::error::{CheckpointError, StepFailure};
 use dvi_core::methods::{Carries, Composition, Method, Scheme, VariableStep};
 use dvi_core::prelude::*;
@@ -55,7 +56,7 @@ fn the_midpoint_rule_gains_the_order_of_the_composition() -> Outcome {
             errors.push((time / steps as f64, error));
         }
         let (order, name) = (convergence_order(&errors).ok_or("no slope")?, method.name());
-        assert!((order - method.order() as f64).abs() < 0.1, "{name}: {order}, {errors:?}");
+        assert!(abs_diff_eq!(order, method.order() as f64, epsilon = 0.1), "{name}: {order}, {errors:?}");
     }
     Ok(())
 }
@@ -203,7 +204,7 @@ fn compositions_nest() -> Outcome {
     fine.take_steps(500)?;
     coarse.take_steps(100)?;
     for (a, b) in fine.q().iter().zip(coarse.q()) {
-        assert!((a - b).abs() < 1e-7, "{a} {b}");
+        assert!(abs_diff_eq!(a, b, epsilon = 1e-7), "{a} {b}");
     }
     Ok(())
 }

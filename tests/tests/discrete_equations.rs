@@ -1,6 +1,7 @@
 //! Every step solves the discrete Euler–Lagrange equations D₂L_d(q0, q1) + D₁L_d(q1, q2) = 0, whose
 //! derivatives are taken here by dual numbers from the value of L alone.
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, Lagrangian};
 use dvi_tests::configurations::quasi_periodic;
@@ -149,7 +150,7 @@ fn single_precision_steps_to_its_own_rounding() -> Outcome {
         double.advance()?;
     }
     for (a, b) in single.q().iter().zip(double.q()) {
-        assert!((f64::from(*a) - b).abs() < 2e-5, "{a} and {b}");
+        assert!(abs_diff_eq!(f64::from(*a), b, epsilon = 2e-5), "{a} and {b}");
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Steps whose length keeps the discrete energy: conservation, order, refusals, and where there is no such
 //! step.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::discrete::{Constant, Rule};
 use dvi_core::prelude::*;
 use dvi_tests::larger;
@@ -55,7 +56,7 @@ fn discrete_energy_and_momentum_are_conserved_to_rounding() -> Outcome {
                 let (q0, t) = ([run.q()[0], run.q()[1]], run.time());
                 run.advance()?;
                 let step = run.step_size();
-                assert!((run.time() - t - step).abs() < 1e-12);
+                assert_abs_diff_eq!(run.time() - t, step, epsilon = 1e-12);
                 let energy = discrete_energy(&rule, step, q0, [run.q()[0], run.q()[1]]);
                 worst = larger(worst, (energy - *first.get_or_insert(energy)).abs());
                 ratio = ratio.max(step / last).max(last / step);
@@ -101,7 +102,7 @@ fn an_oscillator_is_stepped_by_steps_of_one_length() -> Outcome {
         ControlledIntegrator::new(&Oscillator, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
     for _ in 0..200 {
         run.advance()?;
-        assert!((run.step_size() - 0.1).abs() < 1e-10, "{}", run.step_size());
+        assert!(abs_diff_eq!(run.step_size(), 0.1, epsilon = 1e-10), "{}", run.step_size());
     }
     Ok(())
 }
@@ -122,7 +123,7 @@ fn it_is_of_second_order_in_the_time() -> Outcome {
         errors.push((h, off));
     }
     let order = convergence_order(&errors).ok_or("no slope")?;
-    assert!((order - 2.0).abs() < 0.1, "{order}: {errors:?}");
+    assert!(abs_diff_eq!(order, 2.0, epsilon = 0.1), "{order}: {errors:?}");
     Ok(())
 }
 
@@ -150,7 +151,7 @@ fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Out
     let energy = run.control_memory().discrete_energy().ok_or("begun")?;
     let SpringState { x, y, dot_x, dot_y } = run.state();
     let of = |h: f64| of_trapezoid(h, [x, y], [dot_x, dot_y]) - energy;
-    assert!((of(h) - defect).abs() < 1e-12, "{} {defect}", of(h));
+    assert!(abs_diff_eq!(of(h), defect, epsilon = 1e-12), "{} {defect}", of(h));
     let last = run.step_size();
     for k in -1000..=1000 {
         let h = last * 4.0_f64.powf(f64::from(k) / 1000.0);

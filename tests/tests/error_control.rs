@@ -1,6 +1,7 @@
 //! Steps chosen by their error: that errors fall with the tolerance, that steps which are taken back leave
 //! no trace, how runs end, and that the long-time behaviour of the method is lost.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{PI, TAU};
 use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
@@ -37,7 +38,7 @@ fn errors<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
         let control = ErrorControl::new(tolerance, 0.01);
         let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
         run.advance_to(end)?;
-        assert!((run.time() - end).abs() <= 1e-15 * end.abs(), "{:e}", run.time() - end);
+        assert!(abs_diff_eq!(run.time(), end, epsilon = 1e-15 * end.abs()), "{:e}", run.time() - end);
         assert!(run.control_memory().error() <= 1.0);
         Ok(distance(run.q(), fine))
     };
@@ -55,7 +56,7 @@ fn check(errors: &[f64], order: f64, most: f64, band: f64) {
     let pairs: Vec<(f64, f64)> = TOLERANCES.into_iter().zip(errors.iter().copied()).collect();
     let slope = convergence_order(&pairs).unwrap_or(f64::NAN);
     let expected = order / (order + 1.0);
-    assert!((slope - expected).abs() < band, "{slope}, expected {expected}: {errors:?}");
+    assert!(abs_diff_eq!(slope, expected, epsilon = band), "{slope}, expected {expected}: {errors:?}");
 }
 
 #[test]
@@ -233,7 +234,7 @@ fn a_head_on_collision_ends_with_an_error_at_the_last_good_state() -> Outcome {
         let fall = PI * 0.5_f64.powf(1.5);
         println!("{error} {} {} {:e}", run.steps(), run.statistics().rejected, run.time() - fall);
         assert_eq!((error.step, error.time), (run.steps(), run.time()));
-        assert!((run.time() - fall).abs() < 10.0 * tolerance, "{} {}", run.time(), error);
+        assert!(abs_diff_eq!(run.time(), fall, epsilon = 10.0 * tolerance), "{} {}", run.time(), error);
         assert!(run.state().x.is_finite());
         assert!(
             matches!(
@@ -292,7 +293,7 @@ fn a_run_goes_on_in_the_direction_of_its_checkpoint() -> Outcome {
         whole.advance_to(9.0 * direction)?;
         resumed.advance_to(9.0 * direction)?;
         assert_eq!((whole.steps(), whole.state()), (resumed.steps(), resumed.state()));
-        assert!((resumed.time() - 9.0 * direction).abs() < 1e-14);
+        assert_abs_diff_eq!(resumed.time(), 9.0 * direction, epsilon = 1e-14);
     }
     Ok(())
 }
@@ -319,7 +320,7 @@ fn times_that_do_not_lie_ahead_are_refused() -> Outcome {
         assert_eq!((run.steps(), run.state()), (steps, state));
         assert!(run.next().is_some_and(|state| state.is_ok()));
         run.advance_to(7.0 * direction)?;
-        assert!((run.time() - 7.0 * direction).abs() < 1e-14);
+        assert_abs_diff_eq!(run.time(), 7.0 * direction, epsilon = 1e-14);
     }
     Ok(())
 }
@@ -349,7 +350,7 @@ fn an_energy_limit_lets_the_estimate_through() -> Outcome {
     let energy = run.energy();
     // A step that changes the energy too much is a failure, after which a shorter one is tried.
     while run.time() < 50.0 && run.advance().is_ok() {
-        assert!((run.energy() - energy).abs() <= 1e-5);
+        assert_abs_diff_eq!(run.energy(), energy, epsilon = 1e-5);
     }
     assert!(run.steps() > 10 && run.statistics().rejected > 0);
     Ok(())

@@ -1,5 +1,6 @@
 //! One-forms with the differential of a function added: what `gauge = F` and `gauge = auto` make of them.
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{ProperlyDegenerate, Space};
@@ -164,7 +165,7 @@ fn gauges_of_the_same_system_have_the_same_trajectory() -> Outcome {
         differences.push((h, apart(&reference, &other)));
     }
     let order = convergence_order(&differences).ok_or("no slope")?;
-    assert!((order - 2.0).abs() < 0.1, "{differences:?}");
+    assert!(abs_diff_eq!(order, 2.0, epsilon = 0.1), "{differences:?}");
     Ok(())
 }
 
@@ -187,7 +188,7 @@ fn a_gauge_may_depend_on_time() {
     have_the_same_motion(&Symmetric, &OneSided);
     for [x, y, ..] in POINTS {
         let energies = [Symmetric.hamiltonian(&[x, y], 0.3), OneSided.hamiltonian(&[x, y], 0.3)];
-        assert!((energies[0] - energies[1] - x * y / 2.0).abs() < 1e-14, "{energies:?}");
+        assert!(abs_diff_eq!(energies[0] - energies[1], x * y / 2.0, epsilon = 1e-14), "{energies:?}");
     }
 }
 

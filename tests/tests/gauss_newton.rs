@@ -1,5 +1,6 @@
 //! Gauss collocation where no fixed point contracts, by Newton's method: against closed forms of its steps.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq, relative_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Real};
@@ -89,7 +90,7 @@ fn planets_move_in_metres_and_seconds() -> Outcome {
         let (energy, momentum) = (run.energy(), r * r * start.dot_phi);
         run.take_steps(3 * u64::from(steps))?;
         let PlanetState { r, dot_phi, .. } = run.state();
-        assert!((r * r * dot_phi / momentum - 1.0).abs() < 1e-13);
+        assert_abs_diff_eq!(r * r * dot_phi / momentum, 1.0, epsilon = 1e-13);
         Ok([(run.energy() / energy - 1.0).abs(), run.state().phi])
     };
     let ([coarse, a], [fine, b], [_, exact]) = (after(50)?, after(200)?, after(3200)?);
@@ -198,10 +199,10 @@ fn derivatives_of_stiff_steps_converge() -> Outcome {
         }
         let (once, twice) = (after(method, Dual64::new(h, 1.0))?, after(method, Dual2_64::new(h, 1.0, 0.0))?);
         let [by_steps, of_slopes] = [slope(values, d), slope(slopes, d)];
-        assert!((once.re - after(method, h)?).abs() < 1e-13, "{stages} stages");
-        assert!((once.eps / by_steps - 1.0).abs() < 1e-8, "{stages} stages: {once}, {by_steps}");
-        assert!((twice.v1 / once.eps - 1.0).abs() < 1e-12, "{stages} stages: {twice}, {once}");
-        assert!((twice.v2 / of_slopes - 1.0).abs() < 1e-8, "{stages} stages: {twice}, {of_slopes}");
+        assert!(abs_diff_eq!(once.re, after(method, h)?, epsilon = 1e-13), "{stages} stages");
+        assert!(relative_eq!(once.eps, by_steps, epsilon = 0.0, max_relative = 1e-8), "{stages} stages: {once}, {by_steps}");
+        assert!(relative_eq!(twice.v1, once.eps, epsilon = 0.0, max_relative = 1e-12), "{stages} stages: {twice}, {once}");
+        assert!(relative_eq!(twice.v2, of_slopes, epsilon = 0.0, max_relative = 1e-8), "{stages} stages: {twice}, {of_slopes}");
     });
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! The fast steps of the methods against the general step of the same discrete Lagrangian.
 
+use approx::assert_abs_diff_eq;
 use dvi_core::Lagrangian;
 use dvi_core::methods::InnerScheme;
 use dvi_core::methods::{General, Method};
@@ -41,7 +42,7 @@ fn compare<
             general.advance()?;
             let apart = fast.q().iter().zip(general.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
             assert!(apart < 1e-13, "{}, {method:?}, step {}: {apart:e}", S::REPORT.system, fast.steps());
-            assert!((fast.energy() - general.energy()).abs() < 1e-12);
+            assert_abs_diff_eq!(fast.energy(), general.energy(), epsilon = 1e-12);
         }
     }
     Ok(())

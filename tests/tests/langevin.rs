@@ -1,5 +1,6 @@
 //! Langevin dynamics: distributions, limits, repetition.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::prelude::*;
 use num_dual::Dual64;
 
@@ -141,7 +142,7 @@ fn noise_is_normal_and_independent() -> Outcome {
         (moments[2], 0.0, 15.0_f64.sqrt()),
         (moments[3], 3.0, 96.0_f64.sqrt()),
     ] {
-        assert!((moment - expected).abs() < 4.0 * deviation * error, "{moments:?}");
+        assert!(abs_diff_eq!(moment, expected, epsilon = 4.0 * deviation * error), "{moments:?}");
     }
     assert!(products.iter().all(|product| product.abs() < 4.0 * error), "{products:?}");
     Ok(())
@@ -156,7 +157,7 @@ fn the_limits_are_the_trapezoidal_integrator_and_friction_alone() -> Outcome {
     let mut verlet = Integrator::new(&system, Variational::trapezoid(), 0.05, start)?;
     without.take_steps(1000)?;
     verlet.take_steps(1000)?;
-    assert!((without.q()[0] - verlet.q()[0]).abs() < 1e-11);
+    assert_abs_diff_eq!(without.q()[0], verlet.q()[0], epsilon = 1e-11);
 
     // x″ = −γx′ − kx, from (1, 0): the closed form, to the order two.
     let (spring, gamma) = (Pushed { k: 4.0, push: 0.0 }, 0.6);
@@ -172,7 +173,7 @@ fn the_limits_are_the_trapezoidal_integrator_and_friction_alone() -> Outcome {
         errors.push((h, (run.q()[0] - exact).abs()));
     }
     let order = convergence_order(&errors).ok_or("no slope")?;
-    assert!((order - 2.0).abs() < 0.05, "{order}");
+    assert!(abs_diff_eq!(order, 2.0, epsilon = 0.05), "{order}");
     Ok(())
 }
 
@@ -229,7 +230,7 @@ fn without_noise_it_is_a_deterministic_method() -> Outcome {
         let mut run = Integrator::new(&system, method, Dual64::from(0.1), DoubleWellState { x, dot_x })?;
         run.take_steps(20)?;
         let quotient = (end(1.2 + 1e-5)? - end(1.2 - 1e-5)?) / 2e-5;
-        assert!((run.q()[0].eps - quotient).abs() < 1e-7, "{} {quotient}", run.q()[0].eps);
+        assert!(abs_diff_eq!(run.q()[0].eps, quotient, epsilon = 1e-7), "{} {quotient}", run.q()[0].eps);
         let negative = DoubleWell { mass: -0.5 };
         Integrator::new(&negative, method, 0.1, DoubleWellState { x: 1.0, dot_x: 0.2 })?.take_steps(3)?;
     }

@@ -1,5 +1,6 @@
 //! Newmark's method: order, closed form, the potential of its own coordinates, and failures.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::methods::PreservedForm;
 use dvi_core::prelude::*;
 use dvi_core::{Scalar, Separable};
@@ -29,7 +30,7 @@ fn check_order<S: Separable + RegularLagrangian>(system: &S, start: S::State<f64
             errors.push((2.0 / steps as f64, apart(&found, &reference)));
         }
         let order = convergence_order(&errors).ok_or("no slope")?;
-        assert!((order - 2.0).abs() < 0.1, "{}, beta = {beta}: {order}", S::REPORT.system);
+        assert!(abs_diff_eq!(order, 2.0, epsilon = 0.1), "{}, beta = {beta}: {order}", S::REPORT.system);
     }
     Ok(())
 }
@@ -83,7 +84,7 @@ fn average_acceleration_is_stable_at_every_step() -> Outcome {
     let mut run = Integrator::new(&system, Newmark::new(0.25), 50.0, start)?;
     for _ in 0..1000 {
         run.advance()?;
-        assert!((run.energy() - 0.5).abs() < 1e-11, "{}", run.energy());
+        assert!(abs_diff_eq!(run.energy(), 0.5, epsilon = 1e-11), "{}", run.energy());
     }
     Ok(())
 }
@@ -127,7 +128,7 @@ fn newmark_is_conjugate_to_verlet_in_the_modified_potential() -> Outcome {
         let scale = Dual64::from_re(beta * h * h);
         let potential = -Dual64::from_re(1.0) / x[0].hypot(x[1]) + scale * 0.5 * (f[0] * f[0] + f[1] * f[1]);
         let along: f64 = (0..2).map(|i| -f[i].re * (x[i] - scale * f[i]).eps).sum();
-        assert!((potential.eps - along).abs() < 1e-14);
+        assert_abs_diff_eq!(potential.eps, along, epsilon = 1e-14);
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! One-step schemes of systems in class: orders, preserved forms, reversal, failures.
 
+use approx::abs_diff_eq;
 use dvi_core::methods::{Composition, Method};
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
@@ -72,7 +73,10 @@ impl<S: ProperlyDegenerate> Problem<'_, S> {
             errors.push((h, apart(&found, &reference)));
         }
         let (order, name) = (convergence_order(&errors).ok_or("no slope")?, S::REPORT.system);
-        assert!((order - method.order() as f64).abs() < 0.1, "{name}, {method:?}: {order}, {errors:?}");
+        assert!(
+            abs_diff_eq!(order, method.order() as f64, epsilon = 0.1),
+            "{name}, {method:?}: {order}, {errors:?}"
+        );
         Ok(())
     }
 
@@ -297,9 +301,12 @@ fn units_do_not_matter() -> Outcome {
         for m in [6e24, 1.9e27] {
             let heavy = orbit(m).map_err(|error| format!("{name}, {m:e} kg: {error}"))?;
             for i in 0..2 {
-                assert!((heavy[i] - light[i]).abs() < 1e-9 * METRES, "{name}, {m:e}: {heavy:?}, {light:?}");
                 assert!(
-                    (heavy[i + 2] / m - light[i + 2]).abs() < 1e-9 * speed,
+                    abs_diff_eq!(heavy[i], light[i], epsilon = 1e-9 * METRES),
+                    "{name}, {m:e}: {heavy:?}, {light:?}"
+                );
+                assert!(
+                    abs_diff_eq!(heavy[i + 2] / m, light[i + 2], epsilon = 1e-9 * speed),
                     "{name}, {m:e}: {heavy:?}, {light:?}"
                 );
             }
@@ -308,7 +315,7 @@ fn units_do_not_matter() -> Outcome {
         let end = stepped(&Oscillator { m, omega }, method, &[METRES, 0.0], [0.0, 86400.0], 1000)
             .map_err(|error| format!("{name}, oscillator: {error}"))?;
         let exact = METRES * (omega * 8.64e7).cos();
-        assert!((end[0] - exact).abs() < 1e-5 * METRES, "{name}: {end:?}, {exact}");
+        assert!(abs_diff_eq!(end[0], exact, epsilon = 1e-5 * METRES), "{name}: {end:?}, {exact}");
         Ok(())
     }
     check(&OneStep::midpoint(), "midpoint")?;

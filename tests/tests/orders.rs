@@ -1,5 +1,6 @@
 //! Orders of convergence, by regression.
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::{chaotic, leapfrogging};
 use dvi_tests::larger;
@@ -57,7 +58,7 @@ fn every_sigma_is_of_second_order_on_vortices() -> Outcome {
     for sigma in [0.0, 0.25, (3.0 - 3.0_f64.sqrt()) / 6.0, 0.5, 0.75, 1.0] {
         for (name, configuration) in [("chaotic", chaotic()), ("leapfrogging", leapfrogging())] {
             let order = observed(configuration, Sigma::new(sigma), 2.0, [256, 512, 1024, 2048])?;
-            assert!((order - 2.0).abs() < 0.02, "sigma = {sigma}, {name}: {order}");
+            assert!(abs_diff_eq!(order, 2.0, epsilon = 0.02), "sigma = {sigma}, {name}: {order}");
         }
     }
     Ok(())
@@ -76,7 +77,7 @@ fn baselines_have_their_orders_on_vortices() -> Outcome {
         (observed(chaotic(), Gauss::<3>::new(), 2.0, [12, 16, 24, 32])?, 6.0, "Gauss 3"),
         (observed(chaotic(), by_newton, 2.0, [12, 16, 24, 32])?, 6.0, "Gauss 3, Newton"),
     ] {
-        assert!((order - expected).abs() < 0.05, "{name}: {order}");
+        assert!(abs_diff_eq!(order, expected, epsilon = 0.05), "{name}: {order}");
     }
     Ok(())
 }
@@ -108,7 +109,7 @@ fn one_sigma_is_of_fourth_order_on_linear_systems() -> Outcome {
             errors.push((1.0 / steps as f64, oscillator_error(sigma, steps)?));
         }
         let order = convergence_order(&errors).ok_or("no slope")?;
-        assert!((order - expected).abs() < 0.02, "sigma = {sigma}: {order}");
+        assert!(abs_diff_eq!(order, expected, epsilon = 0.02), "sigma = {sigma}: {order}");
     }
     Ok(())
 }
@@ -169,10 +170,10 @@ fn where_the_one_form_depends_on_time_the_order_is_one_unless_sigma_is_a_half() 
         let expected = Sigma::new(sigma).order() as f64;
         assert_eq!(expected, if sigma == 0.5 { 2.0 } else { 1.0 });
         let shaken = order_in_time(&Shaken, ShakenState { x: 0.8, y: 0.3 }, sigma)?;
-        assert!((shaken - expected).abs() < 0.1, "sigma = {sigma}: {shaken}");
+        assert!(abs_diff_eq!(shaken, expected, epsilon = 0.1), "sigma = {sigma}: {shaken}");
         if sigma > 0.0 && sigma < 1.0 {
             let breathing = order_in_time(&Breathing, BreathingState { x: 0.8, y: 0.3 }, sigma)?;
-            assert!((breathing - expected).abs() < 0.1, "sigma = {sigma}: {breathing}");
+            assert!(abs_diff_eq!(breathing, expected, epsilon = 0.1), "sigma = {sigma}: {breathing}");
         }
     }
     Ok(())
@@ -199,7 +200,7 @@ fn a_rule_that_is_exact_for_linear_functions_is_of_second_order() -> Outcome {
     let radau = Quadrature::new(&[1.0 / 3.0, 1.0], &[0.75, 0.25])?;
     for rule in [radau, Quadrature::sigma(0.3), Quadrature::gauss(2)?] {
         let (found, claimed) = (pendulum_order(rule)?, Variational::new(rule).order() as f64);
-        assert!((found - claimed).abs() < 0.1, "{rule:?}: {found} {claimed}");
+        assert!(abs_diff_eq!(found, claimed, epsilon = 0.1), "{rule:?}: {found} {claimed}");
     }
     assert_eq!(Variational::new(radau).order(), 2);
     Ok(())
@@ -260,14 +261,14 @@ fn sigma_away_from_one_half_is_of_first_order_where_dalpha_is_not_antisymmetric(
         (0.3, 0.8, 1.0),
     ] {
         let order = of(share, sigma)?;
-        assert!((order - expected).abs() < 0.06, "share {share}, sigma {sigma}: {order}");
+        assert!(abs_diff_eq!(order, expected, epsilon = 0.06), "share {share}, sigma {sigma}: {order}");
     }
     // Of a form that is not affine Dα is not antisymmetric either.
     let (prey, start) =
         (LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] }, LotkaVolterraState { x: 1.4, y: 1.7 });
     for (sigma, expected) in [(0.5, 2.0), (0.4, 1.0)] {
         let order = order_of_a_step(&prey, start, sigma)?;
-        assert!((order - expected).abs() < 0.15, "Lotka-Volterra, sigma {sigma}: {order}");
+        assert!(abs_diff_eq!(order, expected, epsilon = 0.15), "Lotka-Volterra, sigma {sigma}: {order}");
     }
     Ok(())
 }

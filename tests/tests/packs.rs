@@ -4,6 +4,7 @@
 
 mod neighbours;
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::{DegenerateLagrangian, Lagrangian, Varied};
@@ -228,7 +229,7 @@ fn sums_with_neighbours() {
         agree(&gradient, &expected, &format!("{n} terms"));
         let found = system.hamiltonian(&q, 0.0);
         assert!(
-            (found - energy).abs() <= 1e-14 * (n * n) as f64,
+            abs_diff_eq!(found, energy, epsilon = 1e-14 * (n * n) as f64),
             "{n} terms: H = {found}, by hand {energy}"
         );
         lanes_agree(

@@ -1,5 +1,6 @@
 //! Systems that are generic over the type of their parameters.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::Varied;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -62,7 +63,7 @@ fn a_step_is_differentiated_in_a_parameter() -> Outcome {
     let theta = (1.0 - k * h * h / 2.0).acos();
     let slope = h * h / 2.0 / theta.sin();
     let (sin, cos) = (n as f64 * theta).sin_cos();
-    assert!((run.q()[0].re - cos).abs() < 1e-11);
+    assert_abs_diff_eq!(run.q()[0].re, cos, epsilon = 1e-11);
     assert!((run.q()[0].eps + n as f64 * slope * sin).abs() < 1e-8 * (n as f64 * slope));
     Ok(())
 }
@@ -79,7 +80,7 @@ fn a_degenerate_step_is_differentiated_in_the_one_form_and_in_the_hamiltonian() 
         let method = Gauss::<1>::new();
         let mut run = Integrator::new(&system, method, dual(h), start)?;
         run.take_steps(n)?;
-        assert!((run.q()[0].re - angle.cos()).abs() < 1e-12);
+        assert_abs_diff_eq!(run.q()[0].re, angle.cos(), epsilon = 1e-12);
         let error = run.q()[0].eps + slope * angle.sin();
         assert!(error.abs() < 1e-11 * slope.abs(), "{error:e}");
     }
@@ -115,8 +116,12 @@ fn runs_are_differentiated_in_a_circulation() -> Outcome {
         let same = end(1.0)?;
         for i in 0..same.len() {
             let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * dx);
-            assert!((run.q()[i].re - same[i]).abs() < 1e-12, "{method:?}");
-            assert!((run.q()[i].eps - slope).abs() < 1e-9, "{method:?}: {} {slope}", run.q()[i].eps);
+            assert!(abs_diff_eq!(run.q()[i].re, same[i], epsilon = 1e-12), "{method:?}");
+            assert!(
+                abs_diff_eq!(run.q()[i].eps, slope, epsilon = 1e-9),
+                "{method:?}: {} {slope}",
+                run.q()[i].eps
+            );
         }
         Ok(())
     }
@@ -162,7 +167,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     let system = Turn { a: varied(0.0) };
     let mut run = Integrator::new(&system, Gauss::<1>::new(), one(h), start)?;
     run.take_steps(n)?;
-    assert!((run.q()[0].eps - turned).abs() < 1e-13);
+    assert_abs_diff_eq!(run.q()[0].eps, turned, epsilon = 1e-13);
 
     // Second derivatives, against differences of first ones.
     let first = |a: f64| -> Result<f64, Box<dyn core::error::Error>> {

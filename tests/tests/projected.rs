@@ -1,5 +1,6 @@
 //! Projected schemes: orders, what becomes of Ω, reversal, and the scheme that they are where α is affine.
 
+use approx::abs_diff_eq;
 use dvi_core::Real;
 use dvi_core::methods::{Composition, Method, Scheme};
 use dvi_core::prelude::*;
@@ -50,11 +51,15 @@ fn schemes_have_their_orders() -> Outcome {
     fn check<S: DegenerateLagrangian>(system: &S, q0: &[f64]) -> Outcome {
         for method in [Projected::symmetric(), Projected::standard()] {
             let found = order(system, &method, q0, 64)?;
-            assert!((found - 2.0).abs() < 0.1, "{}, {method:?}: {found}", S::REPORT.system);
+            assert!(abs_diff_eq!(found, 2.0, epsilon = 0.1), "{}, {method:?}: {found}", S::REPORT.system);
         }
         let method = Composition::suzuki(Projected::symmetric());
         let found = order(system, &method, q0, 8)?;
-        assert!((found - method.order() as f64).abs() < 0.5, "{}, composition: {found}", S::REPORT.system);
+        assert!(
+            abs_diff_eq!(found, method.order() as f64, epsilon = 0.5),
+            "{}, composition: {found}",
+            S::REPORT.system
+        );
         Ok(())
     }
     check(&PREY, &[1.0, 1.0])?;

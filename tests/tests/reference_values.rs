@@ -1,5 +1,6 @@
 //! Energies of runs that independent programs have computed in double precision.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::prelude::*;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
 use dvi_tests::systems::{PointVortices, PointVorticesState};
@@ -27,7 +28,7 @@ where
 #[track_caller]
 fn assert_close(found: [f64; 3], expected: [f64; 3]) {
     for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() < 1e-11, "{found} instead of {expected}");
+        assert!(abs_diff_eq!(*found, expected, epsilon = 1e-11), "{found} instead of {expected}");
     }
 }
 
@@ -38,7 +39,7 @@ fn initial_energies() -> Outcome {
     let expected = [-0.697_421_199_668_691, 0.432_172_186_162_708, 0.571_774_897_847_477];
     for ((system, state), expected) in [leapfrogging(), quasi_periodic(), chaotic()].iter().zip(expected) {
         let run = Integrator::new(system, Sigma::midpoint(), 0.1, *state)?;
-        assert!((run.energy() - expected).abs() < 1e-14);
+        assert_abs_diff_eq!(run.energy(), expected, epsilon = 1e-14);
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Poincaré sections and Lyapunov exponents.
 
+use approx::abs_diff_eq;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use dvi_core::prelude::*;
@@ -31,7 +32,11 @@ fn check_against_closed_form(h: f64, direction: Direction) -> Outcome {
         };
         let steps = ((angle - phase) / turn(h)).floor();
         let time = steps * h + 2.0 * ((angle - phase - steps * turn(h)) / 2.0).tan();
-        assert!((crossing.time - time).abs() < 1e-12, "{direction:?}, {h}: {} {time}", crossing.time);
+        assert!(
+            abs_diff_eq!(crossing.time, time, epsilon = 1e-12),
+            "{direction:?}, {h}: {} {time}",
+            crossing.time
+        );
         let in_place = larger(crossing.state.x.abs(), (crossing.state.y - y).abs());
         assert!(in_place < 1e-13, "{direction:?}, {h}: {in_place:e}");
     }
@@ -86,7 +91,7 @@ fn crossings_of_long_steps_are_as_accurate_as_the_run() -> Outcome {
             errors.push((h, largest_error(Integrator::new(&Planar, method, h, PLANAR)?, 5)?));
         }
         let slope = convergence_order(&errors).ok_or("no slope")?;
-        assert!((slope - order).abs() < 0.2, "{order}: {slope}");
+        assert!(abs_diff_eq!(slope, order, epsilon = 0.2), "{order}: {slope}");
     }
     Ok(())
 }
@@ -98,7 +103,7 @@ fn crossings_of_an_eccentric_orbit_are_at_its_pericentre() -> Outcome {
     let mut run = ControlledIntegrator::new(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
     for (k, crossing) in Section::new(&mut run, Direction::Rising, |q: &[f64]| q[1])?.take(3).enumerate() {
         let Crossing { time, state } = crossing?;
-        assert!((time - TAU * (k + 1) as f64).abs() < 1e-6, "{time}");
+        assert!(abs_diff_eq!(time, TAU * (k + 1) as f64, epsilon = 1e-6), "{time}");
         assert!((state.x - 0.4).abs() < 1e-7 && (state.dot_y - 2.0).abs() < 1e-6, "{state:?}");
     }
     Ok(())
@@ -115,7 +120,7 @@ fn two_crossings_within_a_step_are_seen() -> Outcome {
             let nearest = TAU * k.div_ceil(2) as f64;
             let exact = if k % 2 == 0 { nearest + half } else { nearest - half };
             let time = crossing?.time;
-            assert!((time - exact).abs() < 1e-8, "{level}, {h}: {time} {exact}");
+            assert!(abs_diff_eq!(time, exact, epsilon = 1e-8), "{level}, {h}: {time} {exact}");
         }
     }
     Ok(())
@@ -238,7 +243,7 @@ fn the_first_crossing_may_lie_in_the_first_step() -> Outcome {
     let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
     let first = Section::new(&mut run, Direction::Falling, |q: &[f64]| q[0])?.next();
     let crossing = first.ok_or("no crossing")??;
-    assert!((crossing.time - 0.01).abs() < 1e-4, "{}", crossing.time);
+    assert!(abs_diff_eq!(crossing.time, 0.01, epsilon = 1e-4), "{}", crossing.time);
     Ok(())
 }
 
@@ -291,7 +296,7 @@ fn a_saddle_has_its_own_exponent() -> Outcome {
     }
     let rate = (lyapunov.growth() - settled) / 20.0;
     let exact = ((1.0 + h / 2.0) / (1.0 - h / 2.0)).ln() / h;
-    assert!((rate - exact).abs() < 1e-12, "{rate} and {exact}");
+    assert!(abs_diff_eq!(rate, exact, epsilon = 1e-12), "{rate} and {exact}");
     Ok(())
 }
 
@@ -314,9 +319,9 @@ fn crossings_of_a_regular_system_have_velocities() -> Outcome {
     for (k, crossing) in section.take(5).enumerate() {
         let Crossing { time, state, .. } = crossing?;
         let exact = 3.0 * FRAC_PI_2 + TAU * k as f64;
-        assert!((time - exact).abs() < 1e-10, "{time}");
+        assert!(abs_diff_eq!(time, exact, epsilon = 1e-10), "{time}");
         for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {
-            assert!((found - exact).abs() < 1e-9, "{state:?}");
+            assert!(abs_diff_eq!(found, exact, epsilon = 1e-9), "{state:?}");
         }
     }
     Ok(())
@@ -342,9 +347,9 @@ fn crossings_of_a_run_with_controlled_steps_lie_on_its_orbit() -> Outcome {
     for (k, crossing) in section.take(5).enumerate() {
         let Crossing { time, state, .. } = crossing?;
         let exact = 3.0 * FRAC_PI_2 + TAU * (first + k as f64);
-        assert!((time - exact).abs() < 1e-9, "{time} {exact}");
+        assert!(abs_diff_eq!(time, exact, epsilon = 1e-9), "{time} {exact}");
         for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {
-            assert!((found - exact).abs() < 1e-7, "{state:?}");
+            assert!(abs_diff_eq!(found, exact, epsilon = 1e-7), "{state:?}");
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! A two-form Ω whose matrix is full: regular ones run in any units, and those of a lower rank are refused.
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 
 type Outcome = Result<(), Box<dyn core::error::Error>>;
@@ -66,7 +67,7 @@ fn regular_forms_are_regular_in_any_units() -> Outcome {
                 .map_err(|error| format!("seed {seed}, {exponents:?}: {error}"))?;
             for (found, expected) in found.iter().zip(expected) {
                 assert!(
-                    (found - expected).abs() < 1e-11,
+                    abs_diff_eq!(*found, expected, epsilon = 1e-11),
                     "seed {seed}, {exponents:?}: {found} and {expected}"
                 );
             }

@@ -1,6 +1,7 @@
 //! Sizes that are const generics, from none to a thousand: what is right at each of them, on the stack of a
 //! small thread.
 
+use approx::abs_diff_eq;
 use std::error::Error;
 use std::thread;
 
@@ -95,9 +96,9 @@ macro_rules! none_and_one {
         assert_eq!(long(0)?, [0.0; 0], "{name}");
         let one = end(&$fixed::<1> {}, $method, 100, $state { $q: [START[0]], $v: [START[1]] })?;
         let exact: f64 = $exact;
-        assert!((one[0] - exact).abs() < 4e-5, "{name}: {one:?}, not {exact}");
+        assert!(abs_diff_eq!(one[0], exact, epsilon = 4e-5), "{name}: {one:?}, not {exact}");
         let long = long(1)?;
-        assert!((one[0] - long[0]).abs() < 1e-12, "{name}: {one:?} and {long:?}");
+        assert!(abs_diff_eq!(one[0], long[0], epsilon = 1e-12), "{name}: {one:?} and {long:?}");
     })+};
 }
 

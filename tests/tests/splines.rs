@@ -1,6 +1,7 @@
 //! Splines of a table: they take its values, are smooth, have the derivatives that they say, and know where
 //! they end.
 
+use approx::abs_diff_eq;
 use dvi_core::Scalar;
 use dvi_core::field::{Axis, AxisError, Expansion, ScalarField, Spline};
 use dvi_tests::larger;
@@ -141,7 +142,7 @@ fn a_spline_takes_the_values_of_the_table() -> Outcome {
                     x
                 });
                 let (found, expected) = (spline(at).value, smooth(at));
-                assert!((found - expected).abs() < 1e-13, "{at:?}: {found} {expected}");
+                assert!(abs_diff_eq!(found, expected, epsilon = 1e-13), "{at:?}: {found} {expected}");
             }
         })
     }
@@ -160,9 +161,9 @@ fn the_smallest_tables() -> Outcome {
             assert_eq!(quintic.is_ok(), count == 6);
             for (&x, expected) in axis.points().iter().zip(values) {
                 let found = cubic.expansion([x]).value;
-                assert!((found - expected).abs() < 1e-13, "{axis:?} {x}: {found}");
+                assert!(abs_diff_eq!(found, expected, epsilon = 1e-13), "{axis:?} {x}: {found}");
                 let found = quintic.as_ref().map_or(expected, |quintic| quintic.expansion([x]).value);
-                assert!((found - expected).abs() < 1e-13, "{axis:?} {x}: {found}");
+                assert!(abs_diff_eq!(found, expected, epsilon = 1e-13), "{axis:?} {x}: {found}");
             }
         }
     }
@@ -199,7 +200,7 @@ fn derivatives_are_those_of_the_value() -> Outcome {
                     if (at[i] - 0.5).abs() < 1.49 {
                         let slope = (8.0 * (f(1.0) - f(-1.0)) - (f(2.0) - f(-2.0))) / (12.0 * h);
                         assert!(
-                            (slope - found.gradient[i]).abs() < 1e-4,
+                            abs_diff_eq!(slope, found.gradient[i], epsilon = 1e-4),
                             "{at:?}: {slope} {:?}",
                             found.gradient
                         );
@@ -296,12 +297,18 @@ fn periods_are_taken_off() -> Outcome {
             let (near, found): (Expansion<1>, Expansion<1>) =
                 (spline.expansion([x]), spline.expansion([far]));
             let rounding = 1e-14 + 4.0 * f64::EPSILON * far.abs() * std::f64::consts::TAU / period;
-            assert!((near.value - found.value).abs() < rounding, "{first} {period} {x} {turns}");
+            assert!(
+                abs_diff_eq!(near.value, found.value, epsilon = rounding),
+                "{first} {period} {x} {turns}"
+            );
         }
         for end in [first, first + period, first - period, first + 5.0 * period] {
             for x in [end.next_down(), end, end.next_up()] {
                 let there: Expansion<1> = spline.expansion([x]);
-                assert!((there.value - wave(x)).abs() < 1e-13, "{first} {period} {x}: {there:?}");
+                assert!(
+                    abs_diff_eq!(there.value, wave(x), epsilon = 1e-13),
+                    "{first} {period} {x}: {there:?}"
+                );
             }
         }
     }

@@ -1,5 +1,6 @@
 //! What the schemes preserve, and how far they are stable.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::DegenerateLagrangian;
 use dvi_core::diagnostics::{AlternatingComponent, DiscreteHessian};
 use dvi_core::discrete::Interval;
@@ -131,7 +132,7 @@ fn second_derivatives_of_the_discrete_lagrangian_agree_with_hyper_dual_numbers()
                 let expected = discrete_lagrangian(&system, sigma, 0.0, h, &a, &b).eps1eps2;
                 let found = matrix[2 * i + j];
                 assert!(
-                    (found - expected).abs() < 1e-14,
+                    abs_diff_eq!(found, expected, epsilon = 1e-14),
                     "({first}, {second}) ({i}, {j}): {found} {expected}"
                 );
             }
@@ -258,7 +259,7 @@ fn the_tangent_map_agrees_with_differences_of_steps() -> Outcome {
                     (false, true) => -before.d12[8 * b + a - 8],
                     _ => 0.0,
                 };
-                assert!((pulled_back - original).abs() < 1e-6, "sigma = {sigma}, ({a}, {b})");
+                assert!(abs_diff_eq!(pulled_back, original, epsilon = 1e-6), "sigma = {sigma}, ({a}, {b})");
             }
         }
     }
@@ -323,7 +324,7 @@ fn an_alternating_component_is_measured_and_a_smooth_one_is_not() -> Outcome {
             run.advance()?;
         }
         assert_eq!(amplitudes.len(), 196);
-        assert!((run.parasitic_amplitude() - first).abs() <= 1e-18);
+        assert_abs_diff_eq!(run.parasitic_amplitude(), first, epsilon = 1e-18);
         assert_eq!(first > 0.0, alternates);
         // Γ = 1: p = α + c, and an alternating part a of q has |c| = |a|, up to the smooth remainder.
         let smooth = 1e-6;

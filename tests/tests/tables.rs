@@ -1,5 +1,6 @@
 //! Tables in text: what is read, and what is said where it cannot be.
 
+use approx::abs_diff_eq;
 use dvi_core::ScalarField;
 use dvi_core::field::{Axis, Spline, Table, TableError};
 
@@ -192,7 +193,7 @@ fn from_text_to_a_spline() -> Outcome {
         let psi = Spline::new([Axis::new(r)?, Axis::periodic(z, 6.0)?], &grid.values("psi")?)?;
         for (r, z) in [(1.0, 0.5), (1.25, 5.5), (2.0, -60.5), (1.75, 7.5)] {
             let value = psi.expansion([r, z]).value;
-            assert!((value - f(r, z)).abs() < 1e-13, "({r}, {z}): {value} {}", f(r, z));
+            assert!(abs_diff_eq!(value, f(r, z), epsilon = 1e-13), "({r}, {z}): {value} {}", f(r, z));
         }
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! Systems whose time is transformed: the motion is that of the untransformed system, with its time; what
 //! the schemes preserve is preserved; and a time that would stand still is an error.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::methods::{Composition, Method, Scheme};
 use dvi_core::prelude::*;
 use dvi_core::system::TimeTransform;
@@ -57,11 +58,11 @@ fn the_motion_is_that_of_the_untransformed_system() -> Outcome {
     let plain = stepped(&Plain, &Gauss::<4>::new(), &start()?[..4], [0.2, (t - 0.2) / 256.0], 256)?;
     assert!(apart(q, &plain) < 1e-13, "{q:?}, {plain:?}");
     let hamiltonian = Plain.hamiltonian(&plain, t);
-    assert!((energy - hamiltonian).abs() < 1e-13, "{energy}, {hamiltonian}");
+    assert!(abs_diff_eq!(energy, hamiltonian, epsilon = 1e-13), "{energy}, {hamiltonian}");
     let TimeTransform { rate, hamiltonian: untransformed } =
         dvi_core::Lagrangian::time_transform(&Transformed, &end).ok_or("its time is transformed")?;
-    assert!((untransformed - hamiltonian).abs() < 1e-13);
-    assert!((rate - (1.0 + 0.2 * t.cos()) / (0.7 + q[0] * q[0] + q[3] * q[3])).abs() < 1e-13);
+    assert_abs_diff_eq!(untransformed, hamiltonian, epsilon = 1e-13);
+    assert_abs_diff_eq!(rate, (1.0 + 0.2 * t.cos()) / (0.7 + q[0] * q[0] + q[3] * q[3]), epsilon = 1e-13);
     // ρ is far from constant on the way: an untransformed run of as many steps would not be the same one.
     assert!((t - 0.2 - 3.0 * rate).abs() > 0.1, "{t}, {rate}");
     Ok(())
@@ -92,7 +93,7 @@ fn schemes_have_their_orders() -> Outcome {
         (OneStep::trapezoid(), 96),
     ] {
         let (found, expected) = (order(&method, &reference, steps)?, method.order() as f64);
-        assert!((found - expected).abs() < 0.1, "{method:?}: {found}");
+        assert!(abs_diff_eq!(found, expected, epsilon = 0.1), "{method:?}: {found}");
     }
     for (found, expected) in [
         (order(&OneStepGauss::<2>::new(), &reference, 32)?, 4.0),
@@ -101,7 +102,7 @@ fn schemes_have_their_orders() -> Outcome {
         (order(&Projected::symmetric(), &reference, 96)?, 2.0),
         (order(&Sigma::midpoint(), &reference, 192)?, 2.0),
     ] {
-        assert!((found - expected).abs() < 0.3, "order {expected}: {found}");
+        assert!(abs_diff_eq!(found, expected, epsilon = 0.3), "order {expected}: {found}");
     }
     Ok(())
 }
@@ -191,7 +192,7 @@ fn a_fall_takes_its_time() -> Outcome {
     assert_eq!(energy, -1.0);
     assert_eq!(run.physical_time(), t);
     let expected = 0.5_f64.sqrt() * ((x * (1.0 - x)).sqrt() + x.sqrt().acos());
-    assert!((t - expected).abs() < 1e-8, "{t}, {expected}");
+    assert!(abs_diff_eq!(t, expected, epsilon = 1e-8), "{t}, {expected}");
     Ok(())
 }
 

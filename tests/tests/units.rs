@@ -7,6 +7,7 @@
 
 mod systems;
 
+use approx::relative_eq;
 use dvi_core::methods::{General, Method};
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
@@ -242,7 +243,11 @@ fn stays_on_its_circle<M: Method<Planet, f64>>(m: f64, method: M) {
     let planet = Planet { m, mu };
     let mut run = Integrator::new(&planet, method, 86_400.0, start).expect("a start");
     run.take_steps(400).unwrap_or_else(|error| panic!("a mass of {m:e}: {error}"));
-    assert!((run.state().r / r - 1.0).abs() < 1e-13, "a mass of {m:e}: {:e}", run.state().r);
+    assert!(
+        relative_eq!(run.state().r, r, epsilon = 0.0, max_relative = 1e-13),
+        "a mass of {m:e}: {:e}",
+        run.state().r
+    );
 }
 
 /// The radial momentum is nothing but rounding errors, and is not known to any part of itself.

@@ -1,5 +1,6 @@
 //! Kernels, places and sizes at which a fast sum cannot be had in the usual way.
 
+use approx::abs_diff_eq;
 use dvi_core::fast_sum::{FastSum, FastSumError};
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
@@ -122,7 +123,10 @@ fn strong_and_weak_forces() {
         discs.hamiltonian_gradient(&q, 0.0, &mut expected);
         let largest = expected.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
         for (found, expected) in found.iter().zip(&expected) {
-            assert!((found - expected).abs() < 1e-5 * largest, "{strength:e}: {found:e}, {expected:e}");
+            assert!(
+                abs_diff_eq!(found, expected, epsilon = 1e-5 * largest),
+                "{strength:e}: {found:e}, {expected:e}"
+            );
         }
         let state = DiscsState { x: q[..n].to_vec(), y: q[n..].to_vec() };
         let error = fast.measured_error(&state, n).unwrap();

@@ -5,6 +5,7 @@
 mod limits;
 mod regular;
 
+use approx::abs_diff_eq;
 use dvi_core::fast_sum::{FastSum, FastSumError};
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
@@ -171,7 +172,7 @@ fn forces_are_the_derivative_of_the_energy() {
             let energy = fast.hamiltonian(&q, 0.0);
             let rounding = 1e-15 * energy.abs() / step;
             assert!(
-                (slope - gradient[i]).abs() < 1e-6 * gradient[i].abs() + 30.0 * rounding,
+                abs_diff_eq!(slope, gradient[i], epsilon = 1e-6 * gradient[i].abs() + 30.0 * rounding),
                 "{i}: {slope:e}, {:e}",
                 gradient[i]
             );
@@ -218,7 +219,7 @@ fn few_bodies_are_summed_one_by_one() {
         fast.hamiltonian_gradient(&q, 0.0, &mut found);
         blobs.hamiltonian_gradient(&q, 0.0, &mut expected);
         for (found, expected) in found.iter().zip(&expected) {
-            assert!((found - expected).abs() < 1e-14, "{n}: {found:e}, {expected:e}");
+            assert!(abs_diff_eq!(found, expected, epsilon = 1e-14), "{n}: {found:e}, {expected:e}");
         }
     }
 }
@@ -341,7 +342,7 @@ fn runs_conserve_the_energy_and_go_on_from_checkpoints() {
         exact.take_steps(40).unwrap();
         let (found, expected) = (run.state(), exact.state());
         for (a, b) in found.x.iter().zip(&expected.x) {
-            assert!((a - b).abs() < 1e-7, "{a} {b}");
+            assert!(abs_diff_eq!(a, b, epsilon = 1e-7), "{a} {b}");
         }
         run = Integrator::resume(&fast, Gauss::<2>::new(), &checkpoint).unwrap();
         run.take_steps(20).unwrap();

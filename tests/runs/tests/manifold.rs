@@ -3,6 +3,7 @@
 // Rotations are called R.
 #![allow(non_snake_case)]
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
@@ -20,7 +21,7 @@ fn rotations_stay_orthogonal_and_unit_vectors_of_length_one() {
         run.take_steps(1000).expect("a step that is short enough");
         let CoupledState { R, s, dot_s, .. } = run.state();
         assert!(rotations::defect(&R) < 2e-15, "{:e}", rotations::defect(&R));
-        assert!((norm(&s) - 1.0).abs() < 1e-15, "{:e}", norm(&s) - 1.0);
+        assert!(abs_diff_eq!(norm(&s), 1.0, epsilon = 1e-15), "{:e}", norm(&s) - 1.0);
         assert!(dot(s, dot_s).abs() < 1e-15);
     }
 }
@@ -36,7 +37,7 @@ fn a_free_body_keeps_its_angular_momentum_in_space() {
         run.take_steps(1000).expect("a step that is short enough");
         for (k, before) in before.iter().enumerate() {
             assert!(
-                (run.momentum(k).expect("declared") - before).abs() < 1e-12,
+                abs_diff_eq!(run.momentum(k).expect("declared"), before, epsilon = 1e-12),
                 "{k}: {}",
                 run.momentum(k).expect("declared") - before
             );
@@ -60,8 +61,8 @@ fn a_top_keeps_its_integrals() {
                 run.take_steps(5).expect("a step that is short enough");
                 *part = part.max((run.energy() - energy).abs());
             }
-            assert!((run.momentum(2).expect("declared") - vertical).abs() < 1e-11);
-            assert!((run.momentum(3).expect("declared") - spin).abs() < 1e-11);
+            assert_abs_diff_eq!(run.momentum(2).expect("declared"), vertical, epsilon = 1e-11);
+            assert_abs_diff_eq!(run.momentum(3).expect("declared"), spin, epsilon = 1e-11);
         }
         // Bounded, and of second order: measured 0.1 h² E.
         assert!(largest[1] < 1.02 * largest[0], "{largest:?}");
@@ -80,7 +81,7 @@ fn a_system_of_all_kinds_keeps_its_angular_momentum() {
         run.take_steps(10_000).expect("a step that is short enough");
         let after = angular_momentum(&run);
         for (before, after) in before.iter().zip(after) {
-            assert!((before - after).abs() < 1e-11, "{rule:?}: {:e}", before - after);
+            assert!(abs_diff_eq!(*before, after, epsilon = 1e-11), "{rule:?}: {:e}", before - after);
         }
     }
 }

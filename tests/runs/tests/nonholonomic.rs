@@ -2,6 +2,7 @@
 //! from a step of no length without a jump. Random systems and discs with light wheels, against that
 //! continuation.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::PI;
 
 use dvi_core::prelude::*;
@@ -202,12 +203,12 @@ fn a_disc_with_a_light_wheel_rolls_in_a_circle() -> Outcome {
         let DiscState { x, y, heading, dot_x, dot_y, dot_heading, dot_roll, .. }: DiscState<f64> =
             run.state();
         assert!((heading - 900.0 * h).abs() < 1e-11 && (dot_heading - 0.9).abs() < 1e-12);
-        assert!((dot_roll - 2.0).abs() < 1e-11);
+        assert_abs_diff_eq!(dot_roll, 2.0, epsilon = 1e-11);
         let off = [dot_x - heading.cos() * dot_roll, dot_y - heading.sin() * dot_roll];
         assert!(off.iter().all(|off| off.abs() < 1e-15), "{off:?}");
         // To order h² the points lie on the circle of the motion.
         let radius = 2.0 / 0.9;
-        assert!((x.hypot(y - radius) - radius).abs() < 0.6 * h * h, "{x} {y}");
+        assert!(abs_diff_eq!(x.hypot(y - radius), radius, epsilon = 0.6 * h * h), "{x} {y}");
     }
     Ok(())
 }

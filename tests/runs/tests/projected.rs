@@ -1,5 +1,6 @@
 //! Projected schemes in many steps, on the guiding centre in a magnetic mirror.
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 use dvi_tests::zoo::particles::{Mirror, MirrorState};
@@ -54,7 +55,7 @@ fn energies_drift_by_their_orders() -> Result<(), Box<dyn core::error::Error>> {
     for (method, order) in [(Projected::symmetric(), 4.0), (Projected::standard(), 3.0)] {
         let drifts = [(0.2, drift(method, 0.2)?), (0.1, drift(method, 0.1)?)];
         let found = convergence_order(&drifts).ok_or("no slope")?;
-        assert!((found - order).abs() < 0.7, "{method:?}: {drifts:?}");
+        assert!(abs_diff_eq!(found, order, epsilon = 0.7), "{method:?}: {drifts:?}");
     }
     Ok(())
 }

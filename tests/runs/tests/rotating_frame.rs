@@ -1,5 +1,6 @@
 //! Arenstorf's orbit in the frame that turns with the Earth and the Moon: where it closes, and as p dq − H.
 
+use approx::abs_diff_eq;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::{
@@ -34,14 +35,14 @@ fn arenstorfs_orbit_closes() -> Result<(), Box<dyn core::error::Error>> {
     let gauss = Gauss::<8>::new();
     for ends in [after(&system, gauss, 1, start)?, after(&system, gauss.in_lanes(), 1, start)?] {
         for (found, exact) in ends.iter().zip([X, 0.0, 0.0, DOT_Y]) {
-            assert!((found - exact).abs() < 1e-6, "{ends:?}");
+            assert!(abs_diff_eq!(*found, exact, epsilon = 1e-6), "{ends:?}");
         }
     }
     // Before rounding errors have grown: v = p + (y, −x).
     let [x, y, p_x, p_y] = after(&form, gauss, 8, start_of_form)?[..] else { panic!("four coordinates") };
     for ends in [after(&system, gauss, 8, start)?, after(&system, gauss.in_lanes(), 8, start)?] {
         for (found, other) in ends.iter().zip([x, y, p_x + y, p_y - x]) {
-            assert!((found - other).abs() < 1e-11, "{ends:?} and {:?}", [x, y, p_x, p_y]);
+            assert!(abs_diff_eq!(*found, other, epsilon = 1e-11), "{ends:?} and {:?}", [x, y, p_x, p_y]);
         }
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! The equations of constrained steps as they were written by hand, and the fast step against the general
 //! one.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
@@ -55,8 +56,8 @@ fn rattle_by_hand() -> Outcome {
             for i in 0..2 {
                 assert!((q[i] - by_hand.q[i]).abs() < 1e-12 && (p[i] - by_hand.p[i]).abs() < 1e-12);
             }
-            assert!((impulses[0][0] - first).abs() < 1e-12, "{impulses:?} {first}");
-            assert!((impulses[1][0] - last).abs() < 1e-12, "{impulses:?} {last}");
+            assert!(abs_diff_eq!(impulses[0][0], first, epsilon = 1e-12), "{impulses:?} {first}");
+            assert!(abs_diff_eq!(impulses[1][0], last, epsilon = 1e-12), "{impulses:?} {last}");
         }
     }
     Ok(())
@@ -153,7 +154,7 @@ fn midpoint_equations_by_hand() -> Outcome {
         assert!(on.abs() < 1e-15 * 4.0 && along.abs() < 1e-15 * 4.0, "{on:e} {along:e}");
         let momentum = [dot_r[0] - b / 2.0 * r[1], dot_r[1] + b / 2.0 * r[0], dot_r[2]];
         for i in 0..3 {
-            assert!((momentum[i] - p1[i]).abs() < 1e-14);
+            assert_abs_diff_eq!(momentum[i], p1[i], epsilon = 1e-14);
         }
     }
     Ok(())
@@ -194,7 +195,7 @@ fn without_a_constraint_rattle_is_verlet() -> Outcome {
     let mut bound = Integrator::new(&Rods { rods: 1 }, Rattle::default(), 0.1, start)?;
     bound.take_steps(10)?;
     let apart: f64 = bound.q()[0] - bound.q()[1];
-    assert!((apart - 1.0).abs() < 1e-15);
+    assert_abs_diff_eq!(apart, 1.0, epsilon = 1e-15);
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! The orders of constrained steps, against the same motion in coordinates without constraints.
 
+use approx::abs_diff_eq;
 use dvi_core::discrete::Constant;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -42,7 +43,7 @@ fn order<S: Lagrangian, M: Method<S, f64> + Clone>(
 macro_rules! of_order {
     ($system:expr, $ends:expr => $($method:expr, $expected:literal, $steps:literal;)*) => {$(
         let found = order(&$system, &$method, $ends, $steps)?;
-        assert!((found - $expected).abs() < 0.12, "{}: {found}", stringify!($method));
+        assert!(abs_diff_eq!(found, $expected, epsilon = 0.12), "{}: {found}", stringify!($method));
     )*};
 }
 
@@ -130,7 +131,7 @@ fn multipliers_of_a_step_are_those_of_the_motion() -> Outcome {
     }
     for errors in errors {
         let order = convergence_order(&errors).ok_or("no slope")?;
-        assert!((order - 2.0).abs() < 0.12, "{order}, {errors:?}");
+        assert!(abs_diff_eq!(order, 2.0, epsilon = 0.12), "{order}, {errors:?}");
     }
     Ok(())
 }

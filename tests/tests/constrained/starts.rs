@@ -1,5 +1,6 @@
 //! Where runs with constraints can begin, and what is said where they cannot.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq, relative_eq};
 use dvi_core::error::StartError;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -174,9 +175,12 @@ fn far_and_near_states_are_projected() -> Outcome {
             let radius = f64::hypot(x, y);
             // Some 500 iterations lead from the farthest, each with rounding errors.
             for (found, expected) in [(found.x, x / radius), (found.y, y / radius)] {
-                assert!((found - expected).abs() <= 1e-14, "{size:e} ({x}, {y}): {found}");
+                assert!(abs_diff_eq!(found, expected, epsilon = 1e-14), "{size:e} ({x}, {y}): {found}");
             }
-            assert!((found.x * found.x + found.y * found.y - 1.0).abs() <= 3.0 * f64::EPSILON, "{found:?}");
+            assert!(
+                abs_diff_eq!(found.x * found.x + found.y * found.y, 1.0, epsilon = 3.0 * f64::EPSILON),
+                "{found:?}"
+            );
             Integrator::new(&PENDULUM, Rattle::default(), 0.01, found)?;
         }
     }
@@ -242,7 +246,10 @@ fn several_constraints_are_met_from_far_away() -> Outcome {
         for i in 0..20 {
             let (before, here) = (if i == 0 { (0.0, 0.0) } else { joint(i - 1) }, joint(i));
             let length = f64::hypot(here.0 - before.0, here.1 - before.1);
-            assert!((length / system.rod[i] - 1.0).abs() < 1e-13, "{size:e}, rod {i}: {length}");
+            assert!(
+                relative_eq!(length, system.rod[i], epsilon = 0.0, max_relative = 1e-13),
+                "{size:e}, rod {i}: {length}"
+            );
         }
         Integrator::new(&system, Rattle::default(), 0.01, found)?;
     }
@@ -339,8 +346,8 @@ fn multipliers_and_accelerations_at_a_state_in_closed_form() -> Outcome {
         assert!((multipliers[0] + tension / 2.6).abs() < 1e-14, "{}", multipliers[0]);
         let PendulumState { dot_x, dot_y, .. } = system.vector_field(&state)?;
         let [outward, along] = [-speed * speed / 1.3, -2.0 * sin];
-        assert!((dot_x - (outward * sin + along * cos)).abs() < 1e-14);
-        assert!((dot_y - (-outward * cos + along * sin)).abs() < 1e-14);
+        assert_abs_diff_eq!(dot_x, (outward * sin + along * cos), epsilon = 1e-14);
+        assert_abs_diff_eq!(dot_y, (-outward * cos + along * sin), epsilon = 1e-14);
     }
     // A moved pivot: with its time derivatives.
     let (swing, t) = (Swing { gamma: 0.3 }, 0.8);

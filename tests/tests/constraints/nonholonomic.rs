@@ -1,5 +1,6 @@
 //! Constraints of the velocities: what is generated for them, against closed forms and num-dual.
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{
@@ -107,7 +108,7 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
         assert!(
-            (found - expected).abs() <= 1e-12 * (1.0 + expected.abs()),
+            abs_diff_eq!(found, expected, epsilon = 1e-12 * (1.0 + expected.abs())),
             "{what} {k}: {found} {expected}"
         );
     }

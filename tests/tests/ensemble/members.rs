@@ -1,5 +1,6 @@
 //! The records of members, beside runs by hand.
 
+use approx::assert_abs_diff_eq;
 use dvi_core::ensemble::{Draws, Ensemble, Outcome};
 use dvi_core::prelude::*;
 
@@ -139,8 +140,8 @@ fn draws_depend_on_seed_and_member_alone() {
     let moment = |of: &dyn Fn(&[f64; 2]) -> f64| many.iter().map(of).sum::<f64>() / many.len() as f64;
     // Five standard errors of the means and of the mean square.
     assert!(moment(&|x| x[0]).abs() < 5.0 / 20_000_f64.sqrt());
-    assert!((moment(&|x| x[0] * x[0]) - 1.0).abs() < 5.0 * (2.0 / 20_000_f64).sqrt());
-    assert!((moment(&|x| x[1]) - 1.0).abs() < 5.0 * 4.0 / (12.0 * 20_000_f64).sqrt());
+    assert_abs_diff_eq!(moment(&|x| x[0] * x[0]), 1.0, epsilon = 5.0 * (2.0 / 20_000_f64).sqrt());
+    assert_abs_diff_eq!(moment(&|x| x[1]), 1.0, epsilon = 5.0 * 4.0 / (12.0 * 20_000_f64).sqrt());
     assert!(many.iter().all(|x| (-1.0..3.0).contains(&x[1])));
 }
 

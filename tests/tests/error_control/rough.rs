@@ -1,6 +1,7 @@
 //! Forces and Hamiltonians that are switched on, with jumps, corners and pulses: errors fall with the
 //! tolerance all the same.
 
+use approx::assert_abs_diff_eq;
 use core::f64::consts::PI;
 use dvi_core::field::{Axis, Spline};
 use dvi_core::methods::VariableStep;
@@ -151,7 +152,7 @@ fn errors_fall_with_the_tolerance_where_forces_jump() -> Outcome {
     let well = Rough { kink: 1.0, right: 0.0, left: 0.0, ..SMOOTH };
     let after = 2.0 - 2_f64.sqrt();
     let x = -2_f64.sqrt() * after + after * after / 2.0;
-    assert!((x - (-1.0 + (2.0 - 8_f64.sqrt()).powi(2) / 2.0)).abs() < 1e-15);
+    assert_abs_diff_eq!(x, (-1.0 + (2.0 - 8_f64.sqrt()).powi(2) / 2.0), epsilon = 1e-15);
     check_rough(&well, &at_rest(1.0), [2.0, ANY], &[x], [30.0, 30.0])?;
     // A pulse on an oscillator, and on a body at rest. Points in a step of 0.6 are nearer to one another
     // than it lasts.

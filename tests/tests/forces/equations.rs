@@ -1,5 +1,6 @@
 //! The discrete equations of Lagrange and d'Alembert, with their forces by hand, and what follows from them.
 
+use approx::abs_diff_eq;
 use dvi_core::Space;
 use dvi_core::discrete::{Interval, Rule};
 use dvi_core::methods::{General, Method, VariationalMethod};
@@ -86,7 +87,7 @@ fn the_angular_momentum_changes_by_the_moment_of_the_discrete_forces() -> Outcom
             let turned = |s: &DampedState| s.x * force[1] - s.y * force[0];
             let expected = H * ((1.0 - c) * turned(from) + c * turned(to));
             let change = moment(to) - moment(from);
-            assert!((change - expected).abs() < 1e-12, "{change:e} {expected:e}");
+            assert!(abs_diff_eq!(change, expected, epsilon = 1e-12), "{change:e} {expected:e}");
         }
     }
     Ok(())
@@ -169,7 +170,7 @@ fn the_energy_changes_by_the_work_of_the_forces() -> Outcome {
         errors.push((2.0 / steps as f64, balance(&DAMPED, Galerkin::<5>::new(), steps)?));
     }
     let order = convergence_order(&errors).ok_or("no slope")?;
-    assert!((order - 4.0).abs() < 0.3, "{order}: {errors:?}");
+    assert!(abs_diff_eq!(order, 4.0, epsilon = 0.3), "{order}: {errors:?}");
     let driven = Driven { drag: [0.5, 0.8] };
     assert!(balance(&driven, Galerkin::<4>::new(), 200)? < 1e-8);
     assert!(balance(&super::systems::Pendulum { gamma: 0.2 }, OneStepGauss::<3>::new(), 200)? < 1e-8);

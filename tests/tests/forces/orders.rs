@@ -1,5 +1,6 @@
 //! All methods have their orders with forces, against the motion by another program.
 
+use approx::abs_diff_eq;
 use dvi_core::discrete::Constant;
 use dvi_core::mechanics::motion::Rates;
 use dvi_core::methods::{General, Method};
@@ -38,7 +39,7 @@ where
 macro_rules! of_order {
     ($system:expr => $($method:expr, $expected:literal, $steps:literal;)*) => {$(
         let found = order(&$system, &$method, $steps)?;
-        assert!((found - $expected).abs() < 0.12, "{}: {found}", stringify!($method));
+        assert!(abs_diff_eq!(found, $expected, epsilon = 0.12), "{}: {found}", stringify!($method));
     )*};
 }
 
@@ -51,7 +52,7 @@ fn the_equations_of_motion_are_those_derived_by_hand() -> Outcome {
         for t in [0.0, 0.7] {
             let rates = system.at_time(t).vector_field(&S::state(S::start()))?;
             for (found, expected) in system.values(&rates)?.zip(system.rate(&S::start(), t)) {
-                assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+                assert!(abs_diff_eq!(found, expected, epsilon = 1e-14), "{found} {expected}");
             }
         }
         Ok(())

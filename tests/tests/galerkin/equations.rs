@@ -1,6 +1,7 @@
 //! A step solves the equations that define it, whose derivatives are taken here by dual numbers from the
 //! value of L alone, however it solves them.
 
+use approx::abs_diff_eq;
 use dvi_core::discrete::{FrequencyIn, Unfitted};
 use dvi_core::prelude::*;
 use dvi_tests::oracle::{self, displaced_lagrangian};
@@ -144,7 +145,7 @@ fn single_precision_steps_to_its_own_rounding() -> Outcome {
     single.take_steps(50)?;
     double.take_steps(50)?;
     for (a, b) in single.q().iter().zip(double.q()) {
-        assert!((f64::from(*a) - b).abs() < 1e-4, "{a} and {b}");
+        assert!(abs_diff_eq!(f64::from(*a), b, epsilon = 1e-4), "{a} and {b}");
     }
     Ok(())
 }

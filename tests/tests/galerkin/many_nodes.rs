@@ -1,5 +1,6 @@
 //! Six to nine nodes, of orders 10 to 16, and ∂L/∂q at the interior nodes in lanes.
 
+use approx::abs_diff_eq;
 use core::f64::consts::TAU;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -37,7 +38,7 @@ fn orders_are_ten_to_sixteen_on_the_oscillator() -> Outcome {
             errors.push((u, phase_error::<S>(u)?));
         }
         let found = convergence_order(&errors).ok_or("no slope")?;
-        assert!((found - (2 * S - 1) as f64).abs() < 0.1, "{S} nodes: {found}, {errors:?}");
+        assert!(abs_diff_eq!(found, (2 * S - 1) as f64, epsilon = 0.1), "{S} nodes: {found}, {errors:?}");
         assert_eq!(Galerkin::<S>::new().order(), 2 * S - 2);
         Ok(())
     }
@@ -208,7 +209,7 @@ fn a_matrix_of_many_coordinates_has_a_place() {
             run.q().to_vec()
         });
         for (a, b) in newton.iter().zip(&fixed_point) {
-            assert!((a - b).abs() < 1e-13 * 12.0, "{a} and {b}");
+            assert!(abs_diff_eq!(a, b, epsilon = 1e-13 * 12.0), "{a} and {b}");
         }
     });
     assert!(on_small_stack.expect("a thread").join().is_ok());

@@ -1,5 +1,6 @@
 //! Orders 4, 6 and 8, also where the interpolation is fitted.
 
+use approx::abs_diff_eq;
 use core::f64::consts::TAU;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -32,7 +33,7 @@ fn orders_are_four_six_and_eight_on_kepler() -> Outcome {
     let four = observed(at, Galerkin::<4>::new(), time, [320, 400, 480, 640], &reference)?;
     let five = observed(at, Galerkin::<5>::new(), time, [160, 180, 200, 240], &reference)?;
     for (found, order) in [(three, 4.0), (four, 6.0), (five, 8.0)] {
-        assert!((found - order).abs() < 0.2, "{found}, not {order}");
+        assert!(abs_diff_eq!(found, order, epsilon = 0.2), "{found}, not {order}");
     }
     let orders = [Galerkin::<3>::new().order(), Galerkin::<4>::new().order(), Galerkin::<5>::new().order()];
     assert_eq!(orders, [4, 6, 8]);
@@ -67,19 +68,19 @@ fn fitted_interpolation_keeps_the_orders() -> Outcome {
             &reference,
         )?;
         for (found, order) in [(three, 4.0), (four, 6.0), (five, 8.0)] {
-            assert!((found - order).abs() < 0.2, "omega = {omega}: {found}, not {order}");
+            assert!(abs_diff_eq!(found, order, epsilon = 0.2), "omega = {omega}: {found}, not {order}");
         }
     }
     let averaged = Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged));
     let found = observed(at, averaged, time, [200, 240, 280, 320], &reference)?;
-    assert!((found - 4.0).abs() < 0.2, "averaged: {found}");
+    assert!(abs_diff_eq!(found, 4.0, epsilon = 0.2), "averaged: {found}");
     Ok(())
 }
 
 fn check_order<const S: usize>(steps: [u64; 4], reference: &[f64]) -> Outcome {
     let (system, start) = double_pendulum();
     let found = observed((&system, &start), Galerkin::<S>::new(), 1.0, steps, reference)?;
-    assert!((found - (2 * S - 2) as f64).abs() < 0.2, "{S} nodes: {found}");
+    assert!(abs_diff_eq!(found, (2 * S - 2) as f64, epsilon = 0.2), "{S} nodes: {found}");
     Ok(())
 }
 

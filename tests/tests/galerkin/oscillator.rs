@@ -1,5 +1,6 @@
 //! What fitting does on the oscillator that it is fitted to.
 
+use approx::abs_diff_eq;
 use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
@@ -55,8 +56,11 @@ fn fitted_interpolation_gains_two_orders_of_phase() -> Outcome {
         let ratio = (u[1] / u[0]).ln();
         let by_plain = (phase_error(plain, u[1])? / phase_error(plain, u[0])?).ln() / ratio;
         let by_fitted = (phase_error(fitted, u[1])? / phase_error(fitted, u[0])?).ln() / ratio;
-        assert!((by_plain - (2 * NODES - 1) as f64).abs() < 0.2, "{NODES} nodes: {by_plain}");
-        assert!((by_fitted - (2 * NODES + 1) as f64).abs() < 0.2, "{NODES} nodes: {by_fitted}");
+        assert!(abs_diff_eq!(by_plain, (2 * NODES - 1) as f64, epsilon = 0.2), "{NODES} nodes: {by_plain}");
+        assert!(
+            abs_diff_eq!(by_fitted, (2 * NODES + 1) as f64, epsilon = 0.2),
+            "{NODES} nodes: {by_fitted}"
+        );
         Ok(())
     }
     check::<3>([0.3, 0.6])?;

@@ -1,5 +1,6 @@
 //! The same unfriendliness for systems with constraints.
 
+use approx::assert_abs_diff_eq;
 use dvi_core::space::sink::Dense;
 use dvi_core::{
     ConstrainedSystem, HolonomicLagrangian, Lagrangian, ManifoldSystem, NonholonomicLagrangian, Space,
@@ -174,5 +175,5 @@ fn systems_with_rotations_and_unfriendly_names_work() {
     assert_eq!((&names[1][..], &names[14][..], &names[17][..]), ("type[1]", "omega_type[0]", "dot_dot[0]"));
     let (q, v) = ([0.5; 14], [0.25; 14]);
     let value: f64 = turning.lagrangian(&q, &v, 0.0);
-    assert!((value - (5.0 / 16.0 + 3.0 / 16.0 + 0.75 - 1.25)).abs() < 1e-15);
+    assert_abs_diff_eq!(value, (5.0 / 16.0 + 3.0 / 16.0 + 0.75 - 1.25), epsilon = 1e-15);
 }

@@ -1,5 +1,6 @@
 //! One name in two spellings, one expression from a macro or written out, names of all shapes.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::degenerate_lagrangian;
 use dvi_core::lagrangian;
 use dvi_core::{Scalar, System};
@@ -38,9 +39,9 @@ fn one_name_has_one_value() {
     let system = Raw { g: 2.0, h: vec![1.0, 3.0], n: 2, r#match: 5.0 };
     // x·v_y + type·v_z − H at q = 1/2, v = 1/4
     let energy = 0.5 * 2.0 + 2.0 * 0.25 + 2.0 * 0.5 + 0.5 * 10.0 + 0.5 + 2.0 + 5.0 * 2.0;
-    assert!((super::value(&system, 4) - (0.25 - energy)).abs() < 1e-14);
+    assert_abs_diff_eq!(super::value(&system, 4), (0.25 - energy), epsilon = 1e-14);
     let start = RawState { x: 1.0, y: 0.0, r#type: 0.5, z: 0.0 };
-    assert!((start.x - 1.0_f64).abs() < f64::EPSILON);
+    assert_abs_diff_eq!(start.x, 1.0_f64, epsilon = f64::EPSILON);
 }
 
 macro_rules! body {
@@ -97,13 +98,13 @@ fn what_a_macro_writes_is_what_is_written() {
         dvi_core::Lagrangian::lagrangian(&WrittenOut { g, w }, &q, &v, 0.0),
     ];
     let by_hand = 3.0 * 0.04 - 0.6 * g + 3.0 * (0.04 + 3.0 * 1.5 + (3.0_f64 - 3.5).powi(2)) + 6.0;
-    assert!((from_macro - by_hand).abs() < 1e-13, "{from_macro} {by_hand}");
+    assert!(abs_diff_eq!(from_macro, by_hand, epsilon = 1e-13), "{from_macro} {by_hand}");
     assert_eq!(from_macro.to_bits(), written_out.to_bits());
     let hidden = dvi_core::Lagrangian::lagrangian(&Hidden, &q[..11], &v[..11], 0.0_f64);
     let by_hand = 3.0 * 0.04 + 1.7 * 1.7 + 2.0 * 0.04 - 1.5 - 2.5 + 0.5;
-    assert!((hidden - by_hand).abs() < 1e-13, "{hidden} {by_hand}");
+    assert!(abs_diff_eq!(hidden, by_hand, epsilon = 1e-13), "{hidden} {by_hand}");
     // α = x dy and H = 3 x y at q = 1/2, v = 1/4
-    assert!((super::value(&Listed, 2) - (0.125 - 0.75)).abs() < 1e-15);
+    assert_abs_diff_eq!(super::value(&Listed, 2), (0.125 - 0.75), epsilon = 1e-15);
 }
 
 /// A name that Rust would write otherwise.

@@ -1,6 +1,7 @@
 //! Impacts that are hard to see: within a step, at its end, behind other surfaces, near the end of the
 //! domain of L.
 
+use approx::{abs_diff_eq, relative_eq};
 use dvi_core::prelude::*;
 use dvi_tests::zoo::impacts::{Ball, BallState};
 
@@ -30,7 +31,11 @@ fn a_post_is_not_passed() -> Outcome {
             }
             assert_eq!(run.memory().total(), 1, "{r} by {h} before {wall}");
             let expected = -r - (run.time() - (1.3 - r));
-            assert!((run.state().x - expected).abs() < 1e-12, "{} for {expected}", run.state().x);
+            assert!(
+                abs_diff_eq!(run.state().x, expected, epsilon = 1e-12),
+                "{} for {expected}",
+                run.state().x
+            );
         }
     }
     Ok(())
@@ -47,8 +52,16 @@ fn a_bounce_at_the_end_of_a_step_is_one() -> Outcome {
             let method = Impacts::reflecting(Variational::trapezoid());
             let mut run = Integrator::new(&ball, method, h, BallState { y: height, dot_y: 0.0 })?;
             run.take_steps(10 * parts as u64)?;
-            assert!((run.energy() / height - 1.0).abs() < 1e-12, "{height}: {}", run.energy());
-            assert!((run.state().y / height - 1.0).abs() < 1e-7, "{height}: {}", run.state().y);
+            assert!(
+                relative_eq!(run.energy(), height, epsilon = 0.0, max_relative = 1e-12),
+                "{height}: {}",
+                run.energy()
+            );
+            assert!(
+                relative_eq!(run.state().y, height, epsilon = 0.0, max_relative = 1e-7),
+                "{height}: {}",
+                run.state().y
+            );
         }
     }
     Ok(())
@@ -67,7 +80,7 @@ fn the_place_of_an_impact_is_on_the_surface() -> Outcome {
                 run.advance()?;
                 assert!(run.state().r > 0.1 - 1e-14, "{}", run.state().r);
                 for impact in run.memory().impacts() {
-                    assert!((impact.q()[0] - 0.1).abs() < 1e-14, "{:?}", impact.q());
+                    assert!(abs_diff_eq!(impact.q()[0], 0.1, epsilon = 1e-14), "{:?}", impact.q());
                 }
             }
         }
@@ -92,7 +105,7 @@ fn a_surface_before_the_end_of_the_domain_is_met() -> Outcome {
         run.advance()?;
         assert_eq!(run.memory().impacts().len(), 1, "{d}");
         let expected = d + (1.2 - (1.0 - d));
-        assert!((run.state().y - expected).abs() < 1e-2, "{} for {expected}", run.state().y);
+        assert!(abs_diff_eq!(run.state().y, expected, epsilon = 1e-2), "{} for {expected}", run.state().y);
     }
     Ok(())
 }
@@ -119,7 +132,7 @@ fn free_balls_that_touch_stay_together() -> Outcome {
             run.take_steps(1000)?;
             for (i, &x) in run.state().x.iter().enumerate() {
                 let expected = i as f64 * d + 100.0 * speed;
-                assert!((x - expected).abs() < 1e-10, "{x} for {expected}");
+                assert!(abs_diff_eq!(x, expected, epsilon = 1e-10), "{x} for {expected}");
             }
         }
         // One ball comes in, and one goes out.
@@ -130,7 +143,7 @@ fn free_balls_that_touch_stay_together() -> Outcome {
         let mut run = Integrator::new(&cradle, method, 0.1, start)?;
         run.take_steps(30)?;
         for (found, expected) in run.state().dot_x.iter().zip([0.0, 0.0, 0.0, 0.0, 1.0]) {
-            assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+            assert!(abs_diff_eq!(*found, expected, epsilon = 1e-12), "{found} for {expected}");
         }
     }
     Ok(())

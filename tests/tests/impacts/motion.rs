@@ -1,5 +1,6 @@
 //! The motion, against closed forms and a reference by hand.
 
+use approx::abs_diff_eq;
 use dvi_core::discrete::Midpoint;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -53,7 +54,7 @@ fn order<S: Lagrangian + ByHand<N>, M: Method<S, f64> + Clone, const N: usize>(
 macro_rules! of_order {
     ($system:expr, $start:expr => $($method:expr, $expected:literal, $steps:literal;)*) => {$(
         let found = order(&$system, &$method, $start, $steps)?;
-        assert!((found - $expected).abs() < 0.25, "{}: {found}", stringify!($method));
+        assert!(abs_diff_eq!(found, $expected, epsilon = 0.25), "{}: {found}", stringify!($method));
     )*};
 }
 
@@ -118,13 +119,21 @@ fn a_ball_above_the_floor_bounces_at_the_right_times() -> Outcome {
         run.advance()?;
         for impact in run.memory().impacts() {
             let expected = 2.0_f64.sqrt() * (1.0 + 2.0 * f64::from(impacts));
-            assert!((impact.time() - expected).abs() < 1e-12, "{} for {expected}", impact.time());
-            assert!((impact.impulse() - 6.0 * 2.0_f64.sqrt()).abs() < 1e-12, "{}", impact.impulse());
+            assert!(
+                abs_diff_eq!(impact.time(), expected, epsilon = 1e-12),
+                "{} for {expected}",
+                impact.time()
+            );
+            assert!(
+                abs_diff_eq!(impact.impulse(), 6.0 * 2.0_f64.sqrt(), epsilon = 1e-12),
+                "{}",
+                impact.impulse()
+            );
             impacts += 1;
         }
         let since = (run.time() + 2.0_f64.sqrt()) % 8.0_f64.sqrt() - 2.0_f64.sqrt();
         let height = 1.0 - since * since / 2.0;
-        assert!((run.state().y - height).abs() < 1e-12, "{} for {height}", run.state().y);
+        assert!(abs_diff_eq!(run.state().y, height, epsilon = 1e-12), "{} for {height}", run.state().y);
     }
     assert_eq!((impacts, run.memory().total()), (13, 13));
     Ok(())

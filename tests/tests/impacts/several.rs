@@ -1,5 +1,6 @@
 //! Several impacts in a step, and several surfaces.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq, relative_eq};
 use dvi_core::prelude::*;
 use dvi_tests::zoo::impacts::*;
 
@@ -19,7 +20,11 @@ fn a_particle_between_two_walls() -> Outcome {
             let before = run.time();
             run.advance()?;
             let expected = folded(0.25 + 7.3 * run.time());
-            assert!((run.state().x - expected).abs() < 1e-11, "{} for {expected}", run.state().x);
+            assert!(
+                abs_diff_eq!(run.state().x, expected, epsilon = 1e-11),
+                "{} for {expected}",
+                run.state().x
+            );
             let impacts = run.memory().impacts();
             let walls = |t: f64| (0.25 + 7.3 * t).floor() as i64;
             assert_eq!(impacts.len() as i64, walls(run.time()) - walls(before));
@@ -43,7 +48,7 @@ fn a_corner_turns_a_particle_around() -> Outcome {
             assert_eq!(run.memory().impacts().len(), surfaces);
             let CornerState { x, y: height, dot_x, dot_y } = run.state();
             for (found, expected) in [x, height, dot_x, dot_y].into_iter().zip([2.0, 3.0 - y, 1.0, 1.0]) {
-                assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+                assert!(abs_diff_eq!(found, expected, epsilon = 1e-12), "{found} for {expected}");
             }
         }
     }
@@ -70,7 +75,11 @@ fn balls_of_equal_mass_exchange_their_velocities() -> Outcome {
         while run.time() < 5.0 {
             run.advance()?;
             for (found, expected) in run.state().x.iter().zip(free(run.time())) {
-                assert!((found - expected).abs() < 1e-11, "{found} for {expected} at {}", run.time());
+                assert!(
+                    abs_diff_eq!(*found, expected, epsilon = 1e-11),
+                    "{found} for {expected} at {}",
+                    run.time()
+                );
             }
         }
     }
@@ -86,8 +95,12 @@ fn balls_of_unequal_mass_keep_momentum_and_energy() -> Outcome {
     let [energy, momentum] = [run.energy(), run.momentum(0).ok_or("declared")?];
     run.take_steps(200)?;
     assert!(run.memory().total() > 5, "{}", run.memory().total());
-    assert!((run.energy() / energy - 1.0).abs() < 1e-13, "{}", run.energy() / energy - 1.0);
-    assert!((run.momentum(0).ok_or("declared")? - momentum).abs() < 1e-12);
+    assert!(
+        relative_eq!(run.energy(), energy, epsilon = 0.0, max_relative = 1e-13),
+        "{}",
+        run.energy() / energy - 1.0
+    );
+    assert_abs_diff_eq!(run.momentum(0).ok_or("declared")?, momentum, epsilon = 1e-12);
     Ok(())
 }
 
@@ -111,7 +124,10 @@ fn a_surface_that_is_left_within_the_step_is_seen() -> Outcome {
             for (found, expected) in
                 [x, y, dot_x, dot_y].into_iter().zip([u * left - cosine, height + w * left, u, w])
             {
-                assert!((found - expected).abs() < 1e-11, "{found} for {expected} at {height} by {h}");
+                assert!(
+                    abs_diff_eq!(found, expected, epsilon = 1e-11),
+                    "{found} for {expected} at {height} by {h}"
+                );
             }
         }
     }

@@ -1,5 +1,6 @@
 //! What runs with impacts preserve: the symplectic form, momenta, energy at impacts, the way back.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::State;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
@@ -112,7 +113,7 @@ fn the_discrete_equations_by_hand() -> Outcome {
         run.advance()?;
         let [impact] = run.memory().impacts() else { return Err("one impact".into()) };
         let at = [impact.q()[0], impact.q()[1]];
-        assert!((at[1] - a * at[0].cos()).abs() < 1e-15, "{at:?} is on the floor");
+        assert!(abs_diff_eq!(at[1], a * at[0].cos(), epsilon = 1e-15), "{at:?} is on the floor");
         let (before, after) = (impact.time(), h - impact.time());
         let (p0, into, energy_before) = ends([x, y], at, before);
         let (out_of, p1, energy_after) = ends(at, [run.q()[0], run.q()[1]], after);
@@ -121,9 +122,9 @@ fn the_discrete_equations_by_hand() -> Outcome {
         let normal = [a * at[0].sin(), 1.0];
         for i in 0..2 {
             let jump = out_of[i] - into[i] - impact.impulse() * normal[i];
-            assert!((p0[i] - [dot_x, dot_y][i]).abs() < rounding);
+            assert_abs_diff_eq!(p0[i], [dot_x, dot_y][i], epsilon = rounding);
             assert!(jump.abs() < 2.0 * rounding, "{jump:e} for {rounding:e}");
-            assert!((p1[i] - run.memory().inner().p()[i]).abs() < rounding);
+            assert_abs_diff_eq!(p1[i], run.memory().inner().p()[i], epsilon = rounding);
         }
         let difference = energy_after - energy_before;
         assert!(difference.abs() < 4.0 * rounding, "{difference:e} for {rounding:e}");

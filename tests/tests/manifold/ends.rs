@@ -1,5 +1,6 @@
 //! Starts and steps that are none, sizes that are known at run time, and what is generated.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::error::{StartError, StepFailure};
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
@@ -32,7 +33,7 @@ fn starts_off_the_manifold_are_named_with_their_defect() {
     assert!(block == "s" && (defect - 0.17).abs() < 1e-12, "{block} {defect:e}");
     let (_, defect) =
         refused(&pendulum, SphericalPendulumState { s: [0.0, 0.6, 0.8], dot_s: [0.3, 0.1, 0.0] });
-    assert!((defect - 0.06 / 0.1_f64.sqrt()).abs() < 1e-12, "{defect:e}");
+    assert!(abs_diff_eq!(defect, 0.06 / 0.1_f64.sqrt(), epsilon = 1e-12), "{defect:e}");
 }
 
 #[test]
@@ -40,7 +41,9 @@ fn a_step_by_half_a_turn_is_an_error_that_says_by_how_much() {
     let start = BodyState { R: rotations::exp([0.0; 3]), omega_R: [0.0, 0.0, 2.0] };
     let mut run = Integrator::new(&FREE, Geodesic::trapezoid(), 1.6, start).expect("begins");
     match run.take_steps(1).map_err(|error| error.failure) {
-        Err(StepFailure::HalfTurn { block: "R", angle }) => assert!((angle - 3.2).abs() < 1e-12, "{angle}"),
+        Err(StepFailure::HalfTurn { block: "R", angle }) => {
+            assert!(abs_diff_eq!(angle, 3.2, epsilon = 1e-12), "{angle}")
+        }
         other => panic!("{other:?}"),
     }
     assert_eq!(run.state(), start);
@@ -66,9 +69,9 @@ fn what_rests_begins_to_move() -> Outcome {
     let body: BodyState = BodyState { R: rotations::exp([0.4, 0.0, 0.0]), omega_R: [0.0; 3] };
     let mut run = Integrator::new(&UNEVEN, Geodesic::trapezoid(), 0.01, body)?;
     let energy = run.energy();
-    assert!((UNEVEN.energy_at(&body)? - energy).abs() < 1e-15);
+    assert_abs_diff_eq!(UNEVEN.energy_at(&body)?, energy, epsilon = 1e-15);
     run.take_steps(1000)?;
-    assert!((run.energy() - energy).abs() < 1e-3);
+    assert_abs_diff_eq!(run.energy(), energy, epsilon = 1e-3);
     Ok(())
 }
 
@@ -135,8 +138,8 @@ fn a_unit_vector_at_rest_has_no_derivatives_and_a_body_has() -> Outcome {
     let mut run = Integrator::new(&top, Geodesic::trapezoid(), dual(0.001), start)?;
     run.take_steps(1000)?;
     let rate = 1.5_f64.sqrt();
-    assert!((run.state().omega_R[0].eps - rate * rate.sinh()).abs() < 1e-5);
-    assert!((run.state().R[7].eps - rate.cosh()).abs() < 1e-5);
+    assert_abs_diff_eq!(run.state().omega_R[0].eps, rate * rate.sinh(), epsilon = 1e-5);
+    assert_abs_diff_eq!(run.state().R[7].eps, rate.cosh(), epsilon = 1e-5);
     Ok(())
 }
 

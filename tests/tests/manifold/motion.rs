@@ -1,5 +1,6 @@
 //! Convergence to the motion.
 
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 
 use crate::manifold::reference;
@@ -35,7 +36,7 @@ where
 fn check_order(errors: [f64; 3], order: i32) {
     for pair in errors.windows(2) {
         let rate = (pair[0] / pair[1]).log2();
-        assert!((rate - f64::from(order)).abs() < 0.15, "order {rate}, {errors:?}");
+        assert!(abs_diff_eq!(rate, f64::from(order), epsilon = 0.15), "order {rate}, {errors:?}");
     }
 }
 

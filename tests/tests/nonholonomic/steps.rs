@@ -1,5 +1,6 @@
 //! Steps on constraints of the velocities.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq, relative_eq};
 use dvi_core::error::StartError;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -99,7 +100,7 @@ fn order<S: Lagrangian, M: Method<S, f64> + Clone>(
 macro_rules! of_order {
     ($system:expr, $ends:expr, $time:expr => $($method:expr, $expected:literal;)*) => {$(
         let found = order(&$system, &$method, $ends, $time)?;
-        assert!((found - $expected).abs() < 0.12, "{}: {found}", stringify!($method));
+        assert!(abs_diff_eq!(found, $expected, epsilon = 0.12), "{}: {found}", stringify!($method));
     )*};
 }
 
@@ -119,9 +120,9 @@ fn a_knife_edge_moves_as_in_closed_form() -> Outcome {
         let (state, sin) = (blade(t), (1.3 * t).sin());
         let rates = BLADE.vector_field(&state)?;
         let acceleration = BLADE.slope * (2.0 * 1.3 * t).cos();
-        assert!((rates.dot_x - acceleration).abs() < 1e-14, "{} {acceleration}", rates.dot_x);
+        assert!(abs_diff_eq!(rates.dot_x, acceleration, epsilon = 1e-14), "{} {acceleration}", rates.dot_x);
         let multiplier = BLADE.multipliers_at(0.0, &state)?[0];
-        assert!((multiplier * sin / BLADE.m + BLADE.slope - acceleration).abs() < 1e-14);
+        assert_abs_diff_eq!(multiplier * sin / BLADE.m + BLADE.slope, acceleration, epsilon = 1e-14);
     }
     Ok(())
 }
@@ -148,7 +149,7 @@ const PARTICLE: ParticleState =
 fn a_particle_against_equations_by_hand() -> Outcome {
     let (mut q, mut v) = ([1.0, 0.5, 0.2], [0.4, -0.8, 0.2]);
     let (_, multiplier) = of_particle(q, v);
-    assert!((Particle.multipliers_at(0.0, &PARTICLE)?[0] - multiplier).abs() < 1e-15);
+    assert_abs_diff_eq!(Particle.multipliers_at(0.0, &PARTICLE)?[0], multiplier, epsilon = 1e-15);
     for _ in 0..4000 {
         (q, v) = classical(q, v, 2.0 / 4000.0);
     }
@@ -226,7 +227,7 @@ fn the_energy_of_a_reversible_motion_has_no_trend() -> Outcome {
         }
     }
     assert!(quarters.iter().all(|&error| error < 4e-3), "{quarters:?}");
-    assert!((quarters[3] / quarters[0] - 1.0).abs() < 0.02, "{quarters:?}");
+    assert!(relative_eq!(quarters[3], quarters[0], epsilon = 0.0, max_relative = 0.02), "{quarters:?}");
     Ok(())
 }
 
@@ -251,7 +252,7 @@ fn a_disc_rolls_in_a_circle() -> Outcome {
         run.advance()?;
         let DiscState { heading, roll: angle, dot_x, dot_y, dot_heading, dot_roll, .. } = run.state();
         assert!((dot_heading - turn).abs() < 1e-13 && (dot_roll - roll).abs() < 1e-12);
-        assert!((heading - turn * h * f64::from(step)).abs() < 1e-11);
+        assert_abs_diff_eq!(heading, turn * h * f64::from(step), epsilon = 1e-11);
         // By how much it rolls in a step differs from h times that by a factor of order h², the same in all
         // steps.
         first = if step == 1 { angle } else { first };
@@ -262,7 +263,7 @@ fn a_disc_rolls_in_a_circle() -> Outcome {
     let DiscState { x, y, .. } = run.state();
     // To order h² the points lie on the circle of the motion.
     let (radius, distance) = (0.8 / turn, x.hypot(y - 0.8 / turn));
-    assert!((distance - radius).abs() < 2e-3, "{distance} {radius}");
+    assert!(abs_diff_eq!(distance, radius, epsilon = 2e-3), "{distance} {radius}");
     Ok(())
 }
 
@@ -282,8 +283,8 @@ fn constraints_may_depend_on_time() -> Outcome {
     let rates = Driven.at_time(0.3).vector_field(&DrivenState { dot_y: 0.5 + 0.3_f64.cos(), ..start })?;
     let (x, u) = (0.5, 1.0);
     let acceleration = (-x - 0.2 * u - x * (u * u - 0.3_f64.sin())) / (1.0 + x * x);
-    assert!((rates.dot_x - acceleration).abs() < 1e-14, "{} {acceleration}", rates.dot_x);
-    assert!((rates.dot_y - (u * u + x * acceleration - 0.3_f64.sin())).abs() < 1e-14);
+    assert!(abs_diff_eq!(rates.dot_x, acceleration, epsilon = 1e-14), "{} {acceleration}", rates.dot_x);
+    assert_abs_diff_eq!(rates.dot_y, (u * u + x * acceleration - 0.3_f64.sin()), epsilon = 1e-14);
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! Splines on axes whose points are at very different distances.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::field::{Axis, Expansion, ScalarField, Spline, SplineError};
 use dvi_tests::larger;
 
@@ -129,7 +130,7 @@ fn close_points_are_met_or_refused() -> Outcome {
                 };
                 let exact = bowl(at);
                 let rounding = 1e8 * f64::EPSILON * largest;
-                assert!((there.value - exact.value).abs() < rounding, "{at:?}, {gap:e}");
+                assert!(abs_diff_eq!(there.value, exact.value, epsilon = rounding), "{at:?}, {gap:e}");
                 let off = difference(&all(&there), &all(&exact));
                 assert!(off < 200.0 * rounding, "{at:?}, {gap:e}: {off:e}");
             }
@@ -176,6 +177,8 @@ fn close_points_are_met_or_refused() -> Outcome {
     let next = |x: &f64| Some(x.next_up());
     let points: Vec<f64> = core::iter::successors(Some(1.0), next).take(6).collect();
     let spline = Spline::sample([Axis::new(&points)?], |at| bowl(at).value)?;
-    points.iter().for_each(|&x| assert!((spline.expansion([x]).value - bowl([x]).value).abs() < 1e-14));
+    points
+        .iter()
+        .for_each(|&x| assert_abs_diff_eq!(spline.expansion([x]).value, bowl([x]).value, epsilon = 1e-14));
     Ok(())
 }

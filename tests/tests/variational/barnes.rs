@@ -1,6 +1,7 @@
 //! Kick–drift–kick on Barnes's second-order systems, against the values of independent programs.
 
 use super::Outcome;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::TAU;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
@@ -62,17 +63,21 @@ macro_rules! area {
 #[test]
 fn a_polygon_keeps_its_area_under_linear_flows_and_loses_only_its_corners_under_others() -> Outcome {
     let exact = 50.0 * 0.25 * (TAU / 100.0).sin();
-    assert!((exact - 0.784_881_494_116_417_2).abs() < 1e-15);
+    assert_abs_diff_eq!(exact, 0.784_881_494_116_417_2, epsilon = 1e-15);
     for k in [-1.0, 1.0] {
         let found: f64 = area!(Linear { k }, LinearState, 100, 128);
-        assert!((found - exact).abs() < 1e-12, "{k}: {found}");
+        assert!(abs_diff_eq!(found, exact, epsilon = 1e-12), "{k}: {found}");
     }
     // At t = 2.
     let found = area!(Pendulum, PendulumState, 100, 64);
-    assert!((found - 0.784_858_871_043).abs() < 1e-12, "{found}");
+    assert!(abs_diff_eq!(found, 0.784_858_871_043, epsilon = 1e-12), "{found}");
     let circle = core::f64::consts::PI / 4.0;
     let coarse = circle - area!(Pendulum, PendulumState, 100, 128);
     let fine = circle - area!(Pendulum, PendulumState, 400, 128);
-    assert!((coarse / fine / 16.0 - 1.0).abs() < 0.01, "the deficit falls by {}", coarse / fine);
+    assert!(
+        abs_diff_eq!(coarse / fine / 16.0, 1.0, epsilon = 0.01),
+        "the deficit falls by {}",
+        coarse / fine
+    );
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Failures are values, and the last good state is kept.
 
 use super::Outcome;
+use approx::abs_diff_eq;
 use dvi_core::discrete::{Frequency, FrequencyIn};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -254,7 +255,11 @@ fn momenta_of_a_bounded_velocity_have_one() -> Outcome {
             }
             let p: f64 = run.memory().p()[0];
             let (found, exact): (f64, f64) = (run.state().dot_x, p / (1.0 + p * p).sqrt());
-            assert!((found - exact).abs() < 1e-12, "h = {h}, step {}: {found} {exact}", run.steps());
+            assert!(
+                abs_diff_eq!(found, exact, epsilon = 1e-12),
+                "h = {h}, step {}: {found} {exact}",
+                run.steps()
+            );
         }
         assert!(run.steps() >= 5, "h = {h}: {} steps", run.steps());
     }

@@ -1,5 +1,6 @@
 //! One period of Kepler's problem against the values of independent programs, orders, and invariants.
 
+use approx::abs_diff_eq;
 use core::f64::consts::TAU;
 use dvi_core::discrete::{FrequencyIn, Rule};
 use dvi_core::methods::Method;
@@ -36,14 +37,14 @@ fn period<F: FrequencyIn<f64>, R: Rule>(
 #[test]
 fn one_period_has_the_reference_values() -> Outcome {
     let (verlet, energy) = period(Variational::trapezoid(), 0.2, 200)?;
-    assert!((verlet.x - 0.799_989_183_048_22).abs() < 1e-11, "{verlet:?}");
+    assert!(abs_diff_eq!(verlet.x, 0.799_989_183_048_22, epsilon = 1e-11), "{verlet:?}");
     assert!((verlet.y + 0.004_327_113_757_24).abs() < 1e-11, "{verlet:?}");
-    assert!((energy - 1.287_935_994_34e-4).abs() < 1e-13, "{energy:e}");
+    assert!(abs_diff_eq!(energy, 1.287_935_994_34e-4, epsilon = 1e-13), "{energy:e}");
     let fitted = Variational::trapezoid().phase_fitted(Curvature(Reading::LeftFrozen));
     let (fitted, energy) = period(fitted, 0.2, 200)?;
-    assert!((fitted.x - 0.799_914_909_563_45).abs() < 1e-11, "{fitted:?}");
+    assert!(abs_diff_eq!(fitted.x, 0.799_914_909_563_45, epsilon = 1e-11), "{fitted:?}");
     assert!((fitted.y + 0.011_460_521_261_26).abs() < 1e-11, "{fitted:?}");
-    assert!((energy - 3.101_285_800_05e-4).abs() < 1e-13, "{energy:e}");
+    assert!(abs_diff_eq!(energy, 3.101_285_800_05e-4, epsilon = 1e-13), "{energy:e}");
     Ok(())
 }
 
@@ -109,12 +110,12 @@ fn the_order_is_that_of_the_interpolation_whatever_the_rule() -> Outcome {
         Quadrature::gauss(5)?,
     ] {
         let found = order(Variational::new(rule), 0.2)?;
-        assert!((found - 2.0).abs() < 0.1, "{rule:?}: {found}");
+        assert!(abs_diff_eq!(found, 2.0, epsilon = 0.1), "{rule:?}: {found}");
         let found = order(Variational::new(rule).phase_fitted(Constant(1.0)), 0.2)?;
-        assert!((found - 2.0).abs() < 0.1, "fitted {rule:?}: {found}");
+        assert!(abs_diff_eq!(found, 2.0, epsilon = 0.1), "fitted {rule:?}: {found}");
     }
     let found = order(Variational::sigma(0.3), 0.2)?;
-    assert!((found - 1.0).abs() < 0.1, "{found}");
+    assert!(abs_diff_eq!(found, 1.0, epsilon = 0.1), "{found}");
     Ok(())
 }
 
@@ -125,12 +126,12 @@ fn a_radial_frequency_has_order_three_if_frozen_and_else_four() -> Outcome {
     {
         for rule in [Quadrature::lobatto(3)?, Quadrature::lobatto(4)?, Quadrature::gauss(3)?] {
             let found = order(Variational::new(rule).phase_fitted(Radial(reading)), 0.2)?;
-            assert!((found - expected).abs() < 0.1, "{reading:?}, {rule:?}: {found}");
+            assert!(abs_diff_eq!(found, expected, epsilon = 0.1), "{reading:?}, {rule:?}: {found}");
         }
     }
     for reading in [Reading::LeftFrozen, Reading::Averaged, Reading::Variational] {
         let found = order(Variational::simpson().phase_fitted(Curvature(reading)), 0.2)?;
-        assert!((found - 2.0).abs() < 0.1, "{reading:?}: {found}");
+        assert!(abs_diff_eq!(found, 2.0, epsilon = 0.1), "{reading:?}: {found}");
     }
     Ok(())
 }
@@ -147,7 +148,7 @@ fn compositions_of_verlet_have_orders_four_six_and_eight() -> Outcome {
         (Composition::kahan_li_8(verlet), 10, 8.0),
     ] {
         let found = order_from(method, 0.2, steps)?;
-        assert!((found - expected).abs() < 0.2, "{}: {found}", method.name());
+        assert!(abs_diff_eq!(found, expected, epsilon = 0.2), "{}: {found}", method.name());
     }
     Ok(())
 }

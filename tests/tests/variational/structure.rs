@@ -2,6 +2,7 @@
 
 use super::Outcome;
 use super::phase_space::{Start, return_error, symplectic_defect};
+use approx::abs_diff_eq;
 use dvi_core::methods::{Method, PreservedForm};
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
@@ -86,7 +87,7 @@ fn the_defect_of_a_frozen_frequency_is_of_third_order() -> Outcome {
         defects.push((h, symplectic_defect(&kepler, &method, h, &start, 1)?));
     }
     let order = convergence_order(&defects).ok_or("an order")?;
-    assert!((order - 3.0).abs() < 0.2, "{order}: {defects:?}");
+    assert!(abs_diff_eq!(order, 3.0, epsilon = 0.2), "{order}: {defects:?}");
     Ok(())
 }
 

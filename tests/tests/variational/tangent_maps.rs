@@ -4,6 +4,7 @@
 use super::Outcome;
 use super::equations::{Omega, discrete_lagrangian};
 use super::phase_space::Start;
+use approx::abs_diff_eq;
 use dvi_core::diagnostics::DiscreteHessian;
 use dvi_core::discrete::{FrequencyIn, GivenFrequency, Interval, Rule, TwiceDifferentiable};
 use dvi_core::methods::VariationalMethod;
@@ -113,7 +114,7 @@ where
         map.apply(&mut dq, &mut dp);
         for (k, &found) in dq.iter().chain(dp.iter()).enumerate() {
             let expected = (plus[k] - minus[k]) / (2.0 * epsilon);
-            assert!((found - expected).abs() < 1e-9, "({k}, {direction}): {found} {expected}");
+            assert!(abs_diff_eq!(found, expected, epsilon = 1e-9), "({k}, {direction}): {found} {expected}");
         }
     }
     let defect = map.symplectic_defect(&system);
@@ -151,6 +152,6 @@ fn an_unstable_equilibrium_has_its_own_exponent() -> Outcome {
     }
     let rate = (lyapunov.growth() - settled) / (100.0 * h);
     let exact = (1.0 + h * h / 2.0).acosh() / h;
-    assert!((rate - exact).abs() < 1e-9, "{rate} and {exact}");
+    assert!(abs_diff_eq!(rate, exact, epsilon = 1e-9), "{rate} and {exact}");
     Ok(())
 }
