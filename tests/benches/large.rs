@@ -71,16 +71,51 @@ fn newton(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Steps by Newton on square lattices, whose matrices are sparse.
+/// Steps by Newton on square lattices, with sparse matrices and without a matrix.
 fn lattice(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("lattice, midpoint, Newton, h = 1");
     group.sample_size(10);
-    for side in [50, 100, 200] {
+    let sides = [50, 100, 200].into_iter();
+    for (side, solver) in sides.flat_map(|side| [(side, Solver::Newton), (side, Solver::NewtonKrylov)]) {
         let n = side * side;
-        let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
+        let method = Variational { solver, ..Variational::midpoint() };
         let start = LatticeState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
         let system = Lattice { n, side };
         let Ok(mut run) = Integrator::new(&system, method, 1.0, start) else { panic!("it starts") };
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(BenchmarkId::new(format!("{solver:?}"), n), |bencher| {
+            bencher.iter(|| assert!(run.advance().is_ok()));
+        });
+    }
+    group.finish();
+}
+
+/// Masses on rods in a plane, two below each.
+#[lagrangian(
+    coordinates(x[2 * half + 1], y[2 * half + 1]),
+    lagrangian = sum(0..2 * half + 1, |j| (dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0 - y[j]),
+    constraint = x[0] * x[0] + y[0] * y[0] - 1.0,
+    constraint(j in 0..half) = (x[2 * j + 1] - x[j]).powi(2) + (y[2 * j + 1] - y[j]).powi(2) - 1.0,
+    constraint(j in 0..half) = (x[2 * j + 2] - x[j]).powi(2) + (y[2 * j + 2] - y[j]).powi(2) - 1.0,
+)]
+struct Mobile {
+    half: usize,
+}
+
+/// Steps with constraints on a tree, whose matrix is sparse and has no narrow band.
+fn rods(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("rods in a tree, constrained midpoint, h = 0.01");
+    group.sample_size(10);
+    for n in [63, 127, 255] {
+        let side = |j: usize| if j % 2 == 1 { -0.6 } else { 0.6 };
+        let (mut x, mut y) = (vec![0.6; n], vec![-0.8; n]);
+        for j in 1..n {
+            let above = (j - 1) / 2;
+            (x[j], y[j]) = (x[above] + side(j), y[above] - 0.8);
+        }
+        let start = MobileState { x, y, dot_x: vec![0.0; n], dot_y: vec![0.0; n] };
+        let (system, method) = (Mobile { half: n / 2 }, Constrained::new(Variational::midpoint()));
+        let Ok(mut run) = Integrator::new(&system, method, 0.01, start) else { panic!("it starts") };
         group.throughput(Throughput::Elements(n as u64));
         group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
             bencher.iter(|| assert!(run.advance().is_ok()));
@@ -308,5 +343,5 @@ fn rings(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, rings, newton, lattice, fixed_point, many_bodies, verlet);
+criterion_group!(benches, rings, newton, lattice, rods, fixed_point, many_bodies, verlet);
 criterion_main!(benches);
