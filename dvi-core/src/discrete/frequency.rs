@@ -91,7 +91,6 @@ impl Frequency for Unfitted {
 }
 
 impl<T: Real> FrequencyIn<T> for Unfitted {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fixed(&self) -> T {
         T::lift(0.0)
     }
@@ -338,7 +337,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
 ///
 /// # Errors
 /// [`StepFailure::Frequency`].
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn defined<T: Real>(omega: T) -> Result<(), StepFailure> {
     if omega.is_finite() { Ok(()) } else { Err(StepFailure::Frequency { omega: norm::reported(omega) }) }
 }

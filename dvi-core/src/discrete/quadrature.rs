@@ -38,7 +38,6 @@ pub trait Rule: Copy + core::fmt::Debug {
     }
 
     /// How many nodes are neither 0 nor 1.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn interior_nodes(&self) -> usize {
         self.nodes().iter().filter(|&&c| c != 0.0 && c != 1.0).count()
     }
@@ -51,11 +50,9 @@ macro_rules! rules {
         pub struct $name;
 
         impl Rule for $name {
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn nodes(&self) -> &[f64] {
                 &$nodes
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn weights(&self) -> &[f64] {
                 &$weights
             }
@@ -205,11 +202,9 @@ impl Quadrature {
 }
 
 impl Rule for Quadrature {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn nodes(&self) -> &[f64] {
         &self.nodes[..self.len]
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weights(&self) -> &[f64] {
         &self.weights[..self.len]
     }

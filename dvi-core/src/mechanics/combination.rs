@@ -175,7 +175,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 
     /// One over the only entry of each column, if that is what the inverse is.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn reciprocals(&self) -> Option<&[T]> {
         match self {
             Self::Reciprocals(reciprocals) => Some(reciprocals),
@@ -188,7 +187,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     ///
     /// # Errors
     /// As [`prepare`](Self::prepare), of the first lane that fails.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_entries_in_lanes<const W: usize>(
         system: &S,
         entries: &[Lanes<W, T>],
@@ -259,7 +257,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
     }
 
     /// Sets `out` to (a Dα + b (Dα)ᵀ) x.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn apply(&self, system: &S, x: &[T], out: &mut [T]) {
         match self {
             Self::Entries(entries) => {

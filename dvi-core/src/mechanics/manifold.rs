@@ -39,7 +39,6 @@ impl Block {
     }
 
     /// The places of its velocities.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn velocities(self) -> Range<usize> {
         self.at..self.at + self.factor.velocities(self.coordinates)
     }
@@ -68,13 +67,11 @@ pub(crate) fn blocks<S: ManifoldSystem>(system: &S) -> impl Iterator<Item = Bloc
 }
 
 /// The three numbers at these places.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn vector<T: Real>(numbers: &[T], block: Block) -> Vector3<T> {
     Vector3::from_column_slice(&numbers[block.vector()])
 }
 
 /// Sets the three numbers at these places.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn set<T: Real>(numbers: &mut [T], block: Block, value: Vector3<T>) {
     numbers[block.vector()].copy_from_slice(value.as_slice());
 }

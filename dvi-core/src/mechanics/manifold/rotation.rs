@@ -7,13 +7,11 @@ use crate::scalar::norm;
 use crate::{Real, Scalar};
 
 /// The matrix with these entries, row by row.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn matrix<T: Real>(entries: &[T]) -> Matrix3<T> {
     Matrix3::from_row_slice(entries)
 }
 
 /// Sets the entries, row by row, to those of a matrix.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn set<T: Real>(entries: &mut [T], matrix: &Matrix3<T>) {
     entries.copy_from_slice(matrix.transpose().as_slice());
 }
@@ -24,7 +22,6 @@ pub(crate) fn quaternion<T: Real>(rotation: &Matrix3<T>) -> Quaternion<T> {
 }
 
 /// The rotation of a quaternion of any length.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn of_quaternion<T: Real>(quaternion: &Quaternion<T>) -> Matrix3<T> {
     let axis = quaternion.imag();
     let once = axis.cross_matrix();
@@ -33,7 +30,6 @@ pub(crate) fn of_quaternion<T: Real>(quaternion: &Quaternion<T>) -> Matrix3<T> {
 }
 
 /// What a turn by u in the body adds to a quaternion of the length one.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn increment<T: Real>(quaternion: &Quaternion<T>, u: Vector3<T>) -> Quaternion<T> {
     let half = u * T::lift(0.5);
     let square = half.dot(&half);
@@ -43,13 +39,11 @@ pub(crate) fn increment<T: Real>(quaternion: &Quaternion<T>, u: Vector3<T>) -> Q
 
 /// f with f·η = A : R η̂, from M = RᵀA: what a derivative A with respect to the entries of R is as a torque
 /// in the body.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn torque<T: Real>(m: &Matrix3<T>) -> Vector3<T> {
     Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)])
 }
 
 /// How that torque changes with η where A is the same: ∂fᵢ/∂ηⱼ = A : R êⱼ êᵢ = Mᵢⱼ − δᵢⱼ tr M.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn torque_change<T: Real>(m: &Matrix3<T>) -> Matrix3<T> {
     m - Matrix3::identity() * m.trace()
 }

@@ -29,7 +29,6 @@ const NEAR: f64 = 1e-8;
 impl<T: Real> GreatCircle<T> {
     /// The circle from a unit vector along the rotation vector `w`, of which the part along the unit vector
     /// is left out. Where nothing is left, its direction is any.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(start: Vector3<T>, w: Vector3<T>) -> Self {
         let along = w - start * start.dot(&w);
         let angle = along.norm();
@@ -37,7 +36,6 @@ impl<T: Real> GreatCircle<T> {
         Self { start, direction: axis.cross(&start), axis, angle }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn at(&self, c: T) -> Passing<T> {
         let Self { start, direction, angle, .. } = self;
         let (sine, cosine) = (Scalar::sin(c * *angle), Scalar::cos(c * *angle));
@@ -80,7 +78,6 @@ impl<T: Real> GreatCircle<T> {
     }
 
     /// s(1) − s0.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn increment(&self) -> Vector3<T> {
         let half = Scalar::sin(T::lift(0.5) * self.angle);
         self.direction * Scalar::sin(self.angle) - self.start * (T::lift(2.0) * half * half)

@@ -89,7 +89,6 @@ impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
     }
 
     /// Column j of the continuation into a step whose length is `ratio` times that of the one before.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn continuation_over(&self, ratio: T) -> [Lanes<STAGES, T>; STAGES] {
         continuation(&self.lagrange, self.c, ratio)
     }
