@@ -96,8 +96,8 @@ pub trait System {
     /// Whether functions that hold data stand in its formulas, of which some may not be known everywhere.
     const HAS_SCALAR_FIELDS: bool = false;
 
-    /// Whether L or a force may be no number on a whole region of positions, as a root or a logarithm of what may be
-    /// negative is: then a run looks at its [domain](Lagrangian::domain) where steps end.
+    /// Whether L or a force may be no number on a whole region of positions, as a root or a logarithm of
+    /// what may be negative is: then a run looks at its [domain](Lagrangian::domain) where steps end.
     const HAS_DOMAIN: bool = false;
 
     /// Whether the time is transformed ([`TimeTransformed`]).
@@ -199,8 +199,8 @@ pub trait Lagrangian<T: Scalar = f64>: System {
         None
     }
 
-    /// A finite number where L and forces are numbers, as far as that does not depend on velocities, and none outside, if
-    /// the system [has a domain](System::HAS_DOMAIN).
+    /// A finite number where L and forces are numbers, as far as that does not depend on velocities, and
+    /// none outside, if the system [has a domain](System::HAS_DOMAIN).
     fn domain(&self, _q: &[T], _t: T) -> T {
         T::lift(0.0)
     }

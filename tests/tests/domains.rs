@@ -177,6 +177,24 @@ fn no_run_stands_at_the_end_of_a_logarithm() -> Outcome {
     Ok(())
 }
 
+/// What the guide says of domains that velocities decide.
+#[test]
+fn a_force_that_velocities_end_fails_in_the_next_step() -> Outcome {
+    #[lagrangian(
+        coordinates(x),
+        lagrangian = dot(x).powi(2) / 2.0 - x,
+        force(x) = 0.1 * (1.0 - dot(x).powi(2)).sqrt(),
+    )]
+    struct Fast;
+    let start = FastState { x: 1.0, dot_x: -0.6 };
+    let mut run = Integrator::new(&Fast, Variational::midpoint(), 0.09, start)?;
+    while run.state().dot_x.abs() <= 1.0 {
+        run.advance()?;
+    }
+    assert!(matches!(run.advance(), Err(error) if matches!(error.failure, StepFailure::NotFinite { .. })));
+    Ok(())
+}
+
 #[test]
 fn a_matrix_that_is_no_number_is_not_called_singular() -> Outcome {
     #[degenerate_lagrangian(coordinates(x, y), one_form = y.sqrt() * d(x), hamiltonian = x * x / 2.0 + y)]

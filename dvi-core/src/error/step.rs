@@ -281,7 +281,7 @@ pub enum StepFailure {
     /// Where the motion itself stays inside, a smaller step helps.
     #[error("the step leaves a table: {0}")]
     Outside(OutsideError),
-    /// The step ends outside of the domain of a formula of L or of a force: the argument of a root, a logarithm or a power
+    /// The step ends outside of the domain of L or of a force: the argument of a root, a logarithm or a power
     /// is negative there, that of an inverse function out of its range, or a function that is called is no
     /// number.
     #[error(

@@ -85,19 +85,17 @@ impl<S: System, T: Real> Memory<T> for NewmarkMemory<S, T> {
 }
 
 impl<T: Real> Newmark<T> {
-    /// Sets `node.point` to q1 and `node.gradient` to F(q1), and adds r to `r`.
+    /// Adds r to `r`, where F(q1) is `f1`.
     fn add_residual<S: Separable<T>>(
         &self,
-        &Begin { system, interval, q, phase, mass }: &Begin<'_, S, T>,
+        &Begin { interval, phase, mass, .. }: &Begin<'_, S, T>,
         delta: &[T],
-        NodeWork { point, gradient, .. }: &mut NodeWork<S, T>,
+        f1: &[T],
         r: &mut [T],
     ) -> Result<(), StepFailure> {
         let Some(mass) = mass else { return Err(StepFailure::NO_MATRIX) };
         let (h, half) = (interval.h, T::lift(0.5));
-        phase.reach(q, delta, point);
-        system.force(point, &[], interval.time(T::lift(1.0)), gradient);
-        for ((r, &f0), &f1) in r.iter_mut().zip(phase.force.iter()).zip(gradient.iter()) {
+        for ((r, &f0), &f1) in r.iter_mut().zip(phase.force.iter()).zip(f1) {
             *r += h * (half * f0 + self.beta * (f1 - f0));
         }
         mass.multiply_add(-T::lift(1.0) / h, delta, r);
@@ -116,8 +114,11 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
         [r, sum]: [&mut [T]; 2],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.add_residual(begin, delta, node, r)?;
+        let Begin { system, interval, q, phase, .. } = begin;
+        phase.reach(q, delta, &mut node.point);
+        system.force(&node.point, &[], interval.time(T::lift(1.0)), &mut node.gradient);
         statistics.gradients += 1;
+        self.add_residual(begin, delta, &node.gradient, r)?;
         let half = T::lift(0.5) * begin.interval.h;
         for ((sum, &f0), &f1) in sum.iter_mut().zip(begin.phase.force.iter()).zip(node.gradient.iter()) {
             *sum += half * (f0 + f1);
@@ -133,15 +134,15 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
         node: &mut NodeWork<S, T>,
         r: &mut [T],
         sink: &mut K,
-        statistics: &mut Statistics,
+        _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.add_residual(begin, delta, node, r)?;
-        statistics.gradients += 1;
         let (h, zero, end) = (begin.interval.h, T::lift(0.0), begin.interval.time(T::lift(1.0)));
         let weights = Weights { qq: self.beta * h, qv: zero, vq: zero, vv: -T::lift(1.0) / h };
         let NodeWork { point, velocity, gradient, momentum } = node;
+        begin.phase.reach(begin.q, delta, point);
+        // ∂L/∂q is the force, which comes along.
         begin.system.linearize(point, velocity, end, weights, gradient, momentum, sink);
-        Ok(())
+        self.add_residual(begin, delta, gradient, r)
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! √u stands for a root of u, which is a number where it is, and 1/√u for a logarithm, which is infinite at
 //! the end of its domain. A power whose exponent has no value yet, a function of the user's and a table stand
-//! for themselves: nothing is known of them. What velocities decide is left out: they follow from momenta, and
-//! are in the domain of L where these have any.
+//! for themselves: nothing is known of them. What velocities decide is left out: they follow from momenta,
+//! and are in the domain of L where these have any.
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
@@ -33,7 +33,7 @@ impl Graph {
                     parts.push(self.fold(Fold::Sum, Atom::Bound(height), range, inside));
                 }
                 Node::Choose { left, right, .. }
-                    if [left, right].map(|id| self.has_velocity(id.node)) != [false; 2] => {}
+                    if self.has_velocity(left.node) || self.has_velocity(right.node) => {}
                 Node::Choose { left, relation, right, then, otherwise } => {
                     let [then, otherwise] =
                         [then, otherwise].map(|branch| self.domain_below(branch.node, known));
