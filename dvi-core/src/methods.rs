@@ -21,6 +21,7 @@ mod impacts;
 #[cfg(feature = "random")]
 mod langevin;
 mod newmark;
+mod one_point;
 mod one_step;
 mod projected;
 mod rattle;

@@ -1,6 +1,7 @@
 //! How the equation of an implicit step is solved: one loop for all iterations, and one order in which they
 //! are tried.
 
+mod coupled;
 pub(crate) mod sizes;
 mod stopping;
 
@@ -12,6 +13,7 @@ use crate::space::linear::Storing;
 use crate::state::Statistics;
 
 pub(crate) use crate::state::history::Guess;
+pub(crate) use coupled::{CoupledEquations, solve_coupled};
 pub(crate) use sizes::Due;
 pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};
@@ -138,6 +140,18 @@ pub(crate) fn repeat<T: Real>(
     result
 }
 
+/// Attempts a step from what the last steps let expect, and from zero where that fails: where steps are long,
+/// extrapolation is off, or leads to another branch.
+///
+/// # Errors
+/// That of the last attempt.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn from_either_guess(
+    mut attempt: impl FnMut(Guess) -> Result<(), StepFailure>,
+) -> Result<(), StepFailure> {
+    attempt(Guess::Extrapolated).or_else(|_| attempt(Guess::Zero))
+}
+
 /// How the implicit steps of a run are solved, decided when it begins: by the fixed point, by Newton, or by
 /// Newton where the fixed point fails.
 #[derive(Debug)]
@@ -227,8 +241,7 @@ impl<N> Newton<N> {
         statistics: &mut Statistics,
         mut solve: impl FnMut(&mut A, &mut N, Guess, &mut Statistics) -> Result<(), StepFailure>,
     ) -> Result<(), StepFailure> {
-        solve(attempt, &mut self.storage, Guess::Extrapolated, statistics)
-            .or_else(|_| solve(attempt, &mut self.storage, Guess::Zero, statistics))?;
+        from_either_guess(|guess| solve(attempt, &mut self.storage, guess, statistics))?;
         // A step that failed leaves no trace.
         self.steps_left = if self.steps_left == 0 { STEPS_BEFORE_RETRY - 1 } else { self.steps_left - 1 };
         Ok(())

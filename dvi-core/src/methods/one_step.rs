@@ -17,14 +17,12 @@ mod split;
 mod stage;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::VectorField;
-use crate::mechanics::orientation::FormOrientation;
 use crate::memory::{Memory, lasting};
+use crate::methods::one_point::OnePoint;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Guess, Judge, Quick, Stopping};
+use crate::solve::{Convergence, Guess, Judge, Quick, Stopping, from_either_guess};
 use crate::state::Statistics;
-use crate::state::rates::Rates;
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
 pub use gauss::{OneStepGauss, OneStepGaussMemory};
 use split::{Split, copy_x, is_x};
@@ -113,19 +111,10 @@ impl Scheme for OneStep {
 /// What a run of a one-step scheme carries.
 #[derive(Debug)]
 pub struct OneStepMemory<S: System, T: Real> {
+    /// With the rates of x, and those of y to where it stands in the equations; and along y, for symmetric
+    /// schemes, by how much the rate from there to the end was another. α is zero along y.
     point: Point<S, T>,
     work: Work<S, T>,
-}
-
-/// What a step leaves to the next.
-#[derive(Debug)]
-struct Point<S: System, T: Real> {
-    /// ϑ at the current point, zero along y.
-    p: Vector<S, T>,
-    /// The mean rates of change of the last steps, that of y to where it stands in the equations; and along
-    /// y, for symmetric schemes, by how much the rate from there to the end was another.
-    rates: Rates<S, T, 2>,
-    orientation: FormOrientation<S, T>,
 }
 
 /// What is written before it is read.
@@ -143,9 +132,7 @@ impl<S: System, T: Real> Memory<T> for OneStepMemory<S, T> {
     lasting!(T; part point);
 }
 
-impl<S: System, T: Real> Memory<T> for Point<S, T> {
-    lasting!(T; numbers p, part rates, part orientation);
-}
+type Point<S, T> = OnePoint<S, T, 2>;
 
 impl<S: System, T: Real> Carries<S, T> for OneStep {
     type Memory = OneStepMemory<S, T>;
@@ -161,12 +148,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
         _h: T,
     ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        let mut p = system.space().vector();
-        system.one_form(q, t, &mut p);
-        let rates = VectorField::starting(system, q, t)?;
-        let (rates, orientation) =
-            (Rates::new(system, [rates, system.space().vector()]), FormOrientation::new(system, q, t));
-        let point = Point { p, rates, orientation };
+        let point = Point::new(system, q, t, |rates| [rates, system.space().vector()])?;
         Ok(OneStepMemory { point, work: Work::new(system, q, t) })
     }
 
@@ -215,17 +197,15 @@ impl OneStep {
         OneStepMemory { point, work }: &mut OneStepMemory<S, T>,
         q: &mut Vector<S, T>,
         [t, h]: [T; 2],
-        mut guess: Guess,
+        guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let step = Step { system, q: &*q, t, h, nodes: self.rule.nodes() };
-        // Where steps are long, extrapolation is off, or leads to another branch.
-        loop {
-            match (self.attempt::<Convergence<T>, _, _>(&step, point, work, guess, statistics), guess) {
-                (Ok(()), _) => break,
-                (Err(_), Guess::Extrapolated) => guess = Guess::Zero,
-                (failed, Guess::Zero) => return failed,
-            }
+        let mut attempt =
+            |guess| self.attempt::<Convergence<T>, _, _>(&step, point, work, guess, statistics);
+        match guess {
+            Guess::Extrapolated => from_either_guess(attempt)?,
+            Guess::Zero => attempt(guess)?,
         }
         work.leave(q, point, h);
         Ok(())
@@ -245,7 +225,7 @@ impl OneStep {
         let Step { system, q, t, h, .. } = *step;
         let half = T::lift(0.5);
         let until_y = if self.is_symmetric() { half } else { T::lift(1.0) };
-        point.guess(step, guess, until_y, [&mut work.stage.unknown, &mut work.turn]);
+        begin(point, step, guess, until_y, [&mut work.stage.unknown, &mut work.turn]);
         copy_x(system, &point.p, &mut work.stage.momentum);
         let begin = if self.is_symmetric() { t } else { self.depart(step, point, work, statistics) };
         let from = if self.is_symmetric() { q } else { &work.next };
@@ -382,20 +362,21 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn leave(&self, q: &mut Vector<S, T>, point: &mut Point<S, T>, h: T) {
         let Self { stage, next, turn, .. } = self;
-        q.copy_from_slice(next);
-        point.p.copy_from_slice(&stage.momentum);
-        point.rates.push(h, [&stage.rates, turn]);
+        point.arrive(q, (next, &stage.momentum), h, [&stage.rates, turn]);
     }
 }
 
-impl<S: ProperlyDegenerate<T>, T: Real> Point<S, T> {
-    /// Sets `unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn guess(&self, step: &Step<'_, S, T>, guess: Guess, c: T, [unknown, turn]: [&mut Vector<S, T>; 2]) {
-        let Step { system, q, h, .. } = *step;
-        self.rates.guess(h, guess, [unknown, turn]);
-        for (i, unknown) in unknown.iter_mut().enumerate() {
-            *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
-        }
+/// Sets `unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn begin<S: ProperlyDegenerate<T>, T: Real>(
+    point: &Point<S, T>,
+    &Step { system, q, h, .. }: &Step<'_, S, T>,
+    guess: Guess,
+    c: T,
+    [unknown, turn]: [&mut Vector<S, T>; 2],
+) {
+    point.rates.guess(h, guess, [unknown, turn]);
+    for (i, unknown) in unknown.iter_mut().enumerate() {
+        *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
     }
 }

@@ -10,17 +10,15 @@
 //! surface; the standard one has a = 0, b = −1.
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::VectorField;
-use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Memory, lasting};
+use crate::methods::one_point::OnePoint;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
-use crate::space::{CoupledSolver, NodeSum, Sink, Storing, linear};
+use crate::solve::{CoupledEquations, Stopping, from_either_guess, solve_coupled};
+use crate::space::{NodeSum, Sink, Storing};
 use crate::state::Statistics;
-use crate::state::rates::Rates;
-use crate::{Coupled, DegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights};
+use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights};
 
 /// The variational midpoint scheme with a projection onto p = α(q), for any degenerate system.
 ///
@@ -98,17 +96,14 @@ impl Scheme for Projected {
 /// What a run of a projected scheme carries.
 #[derive(Debug)]
 pub struct ProjectedMemory<S: System, T: Real> {
-    /// α at the current point.
-    p: Vector<S, T>,
-    rates: Rates<S, T>,
-    orientation: FormOrientation<S, T>,
+    point: OnePoint<S, T>,
     solver: Coupled<NODES, S, T>,
-    /// Δ = q1 − q0 and λ.
-    unknowns: [Vector<S, T>; 2],
+    /// From 1: Δ = q1 − q0 and λ.
+    unknowns: [Vector<S, T>; NODES],
     /// The residuals from 1, and then the corrections.
     residuals: [Vector<S, T>; NODES],
-    /// In which the iteration judges coordinates.
-    weights: Vector<S, T>,
+    /// In which the iteration judges coordinates, and work space.
+    weights: [Vector<S, T>; 2],
     work: Work<S, T>,
 }
 
@@ -133,7 +128,7 @@ struct Work<S: System, T: Real> {
 }
 
 impl<S: System, T: Real> Memory<T> for ProjectedMemory<S, T> {
-    lasting!(T; numbers p, part rates, part orientation);
+    lasting!(T; part point);
 }
 
 impl<S: System, T: Real> Carries<S, T> for Projected {
@@ -150,30 +145,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
         _h: T,
     ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        let vector = || system.space().vector();
-        let mut p: Vector<S, T> = vector();
-        system.one_form(q, t, &mut p);
-        let rates = VectorField::starting(system, q, t)?;
-        let rest: Vector<S, T> = vector();
+        let space = system.space();
+        let [middle, velocity, end, gradient, one_form, slope, lifted, force, rest] = space.vectors();
         Ok(ProjectedMemory {
-            p,
-            rates: Rates::new(system, [rates]),
-            orientation: FormOrientation::new(system, q, t),
+            point: OnePoint::new(system, q, t, |rates| [rates])?,
             solver: coupled_by_second_derivatives(system, [q, &rest], t, NODES - 1, Storing::Always),
-            unknowns: system.space().vectors(),
-            residuals: system.space().vectors(),
-            weights: vector(),
-            work: Work {
-                middle: vector(),
-                velocity: vector(),
-                end: vector(),
-                gradient: vector(),
-                one_form: vector(),
-                slope: vector(),
-                lifted: vector(),
-                force: vector(),
-                rest,
-            },
+            unknowns: space.vectors(),
+            residuals: space.vectors(),
+            weights: space.vectors(),
+            work: Work { middle, velocity, end, gradient, one_form, slope, lifted, force, rest },
         })
     }
 
@@ -187,26 +167,49 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let [a, b] = self.factors();
-        let step = Step { system, q, t, h, a, b };
-        // Where steps are long, extrapolation is off, or leads to another branch.
-        memory
-            .attempt(&step, self.stopping, Guess::Extrapolated, statistics)
-            .or_else(|_| memory.attempt(&step, self.stopping, Guess::Zero, statistics))?;
-        memory.arrive(q, h);
+        let ProjectedMemory { point, solver, unknowns, residuals, weights, work } = memory;
+        from_either_guess(|guess| {
+            let OnePoint { p, rates, orientation } = &mut *point;
+            // λ is smaller than the error of Δ.
+            let [_, delta, lambda] = &mut *unknowns;
+            rates.guess(h, guess, [&mut *delta]);
+            delta.iter_mut().for_each(|delta| *delta *= h);
+            lambda.fill(T::lift(0.0));
+            let mut step = Step { system, q, p, t, h, a, b, unknowns, work, node: 0 };
+            solve_coupled(&mut step, (system, q), solver, (residuals, weights), self.stopping, statistics)?;
+            step.place();
+            let [centre, after] = step.times();
+            let Work { middle, end, one_form, .. } = &mut *work;
+            norm::finite(end)?;
+            system.one_form(end, after, one_form);
+            // Between two branches Ω changes its sign.
+            orientation.pass(system, &[(middle, centre)], (end, after))
+        })?;
+        let [_, delta, _] = unknowns;
+        delta.iter_mut().for_each(|delta| *delta /= h);
+        point.arrive(q, (&work.end, &work.one_form), h, [delta]);
         Ok(())
     }
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {}
 
-/// A step from `q` at `t`.
-struct Step<'a, S, T> {
+/// The equations of a step from `q` at `t`:
+///
+/// r₁ = α(q0) + a Dα(q0)ᵀλ − α(q̃) + ½h ∂L/∂q(q̃, ṽ)      r₂ = α(q̃) + ½h ∂L/∂q(q̃, ṽ) − α(q1) − b Dα(q1)ᵀλ
+struct Step<'a, S: System, T: Real> {
     system: &'a S,
     q: &'a [T],
+    /// α(q0)
+    p: &'a [T],
     t: T,
     h: T,
     a: T,
     b: T,
+    unknowns: &'a mut [Vector<S, T>; NODES],
+    work: &'a mut Work<S, T>,
+    /// Where second derivatives are taken.
+    node: usize,
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Step<'_, S, T> {
@@ -215,13 +218,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> Step<'_, S, T> {
         [T::lift(0.5) * (self.a + self.b), self.b - self.a]
     }
 
-    /// Sets the points and the velocity.
-    fn place(&self, [delta, lambda]: &[Vector<S, T>; 2], work: &mut Work<S, T>) {
+    /// Sets the points and velocities.
+    fn place(&mut self) {
         let [in_middle, in_velocity] = self.lambda();
-        for i in 0..self.q.len() {
-            work.middle[i] = self.q[i] + T::lift(0.5) * delta[i] + in_middle * lambda[i];
-            work.velocity[i] = (delta[i] + in_velocity * lambda[i]) / self.h;
-            work.end[i] = self.q[i] + delta[i];
+        let Self { q, h, unknowns: [_, delta, lambda], work, .. } = self;
+        for i in 0..q.len() {
+            work.middle[i] = q[i] + T::lift(0.5) * delta[i] + in_middle * lambda[i];
+            work.velocity[i] = (delta[i] + in_velocity * lambda[i]) / *h;
+            work.end[i] = q[i] + delta[i];
+            work.slope[i] = lambda[i] / *h;
         }
     }
 
@@ -231,71 +236,27 @@ impl<S: DegenerateLagrangian<T>, T: Real> Step<'_, S, T> {
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
-    /// Sets `work.end` to q1 and `work.one_form` to α there, if it is on the branch that q0 is on.
-    fn attempt(
+impl<S: DegenerateLagrangian<T>, T: Real> CoupledEquations<NODES, S, T> for Step<'_, S, T> {
+    fn unknowns(&mut self) -> &mut [Vector<S, T>; NODES] {
+        self.unknowns
+    }
+
+    fn evaluate(
         &mut self,
-        step: &Step<'_, S, T>,
-        stopping: Stopping,
-        guess: Guess,
+        [_, r1, r2]: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.guess(step.h, guess);
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        iterate(convergence, statistics, |due, statistics| {
-            due.prepare_all(step.system, &mut self.weights, step.q, &mut self.unknowns);
-            self.differentiate(step, statistics);
-            self.residuals[1..].iter().try_for_each(|residual| norm::finite(residual))?;
-            statistics.linearizations += NODES as u64;
-            statistics.factorisations += 1;
-            if *due == Due::Residual {
-                return self.residual(step);
-            }
-            self.solve(step)?;
-            let mut correction = T::lift(0.0);
-            for (unknown, change) in self.unknowns.iter_mut().zip(&self.residuals[1..]) {
-                correction =
-                    norm::larger(correction, sizes::reduce(step.system, &self.weights, unknown, change));
-            }
-            Ok(correction)
-        })?;
-        step.place(&self.unknowns, &mut self.work);
-        let Self { orientation, work: Work { middle, end, one_form, .. }, .. } = self;
-        norm::finite(end)?;
-        let [centre, after] = step.times();
-        step.system.one_form(end, after, one_form);
-        // Between two branches Ω changes its sign.
-        orientation.compare(step.system, middle, centre)?;
-        orientation.check(step.system, end, after)
-    }
-
-    /// Sets Δ to what the last steps let expect, and λ to zero: it is smaller than the error of Δ.
-    fn guess(&mut self, h: T, guess: Guess) {
-        let Self { rates, unknowns: [delta, lambda], .. } = self;
-        rates.guess(h, guess, [delta]);
-        delta.iter_mut().for_each(|delta| *delta *= h);
-        lambda.fill(T::lift(0.0));
-    }
-
-    /// Sets the residuals:
-    ///
-    /// r₁ = α(q0) + a Dα(q0)ᵀλ − α(q̃) + ½h ∂L/∂q(q̃, ṽ) r₂ = α(q̃) + ½h ∂L/∂q(q̃, ṽ) − α(q1) − b Dα(q1)ᵀλ
-    fn differentiate(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) {
-        step.place(&self.unknowns, &mut self.work);
-        let Self { p, unknowns: [_, lambda], residuals: [_, r1, r2], work, .. } = self;
-        let Work { middle, velocity, end, gradient, one_form, slope, lifted, force, .. } = work;
-        let Step { system, q, t, h, a, b } = *step;
-        let [centre, after] = step.times();
-        let half = T::lift(0.5) * h;
+        self.place();
+        let [centre, after] = self.times();
+        let Self { system, q, p, t, h, a, b, work, .. } = self;
+        let Work { middle, velocity, end, gradient, one_form, slope, lifted, force, .. } = &mut **work;
+        let half = T::lift(0.5) * *h;
         system.gradient(middle, velocity, centre, gradient, one_form);
         for i in 0..q.len() {
             r1[i] = p[i] - one_form[i] + half * gradient[i];
             r2[i] = one_form[i] + half * gradient[i];
         }
-        for (slope, &lambda) in slope.iter_mut().zip(lambda.iter()) {
-            *slope = lambda / h;
-        }
-        for (row, factor, point, time) in [(&mut *r1, a, q, t), (&mut *r2, -b, &**end, after)] {
+        for (row, factor, point, time) in [(&mut *r1, *a, *q, *t), (&mut *r2, -*b, &**end, after)] {
             if factor == T::lift(0.0) {
                 continue;
             }
@@ -304,7 +265,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
             system.gradient(point, slope, time, lifted, one_form);
             system.hamiltonian_gradient(point, time, force);
             for i in 0..q.len() {
-                row[i] += factor * h * (lifted[i] + force[i]);
+                row[i] += factor * *h * (lifted[i] + force[i]);
             }
         }
         // The last point was q1, and b is not zero.
@@ -312,54 +273,25 @@ impl<S: DegenerateLagrangian<T>, T: Real> ProjectedMemory<S, T> {
             *r2 -= form;
         }
         statistics.gradients += NODES as u64;
-    }
-
-    /// How large the residuals are against what they are made of.
-    fn residual(&mut self, step: &Step<'_, S, T>) -> Result<T, StepFailure> {
-        let Self { p, unknowns: [delta, _], residuals, weights, work, .. } = self;
-        let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(delta[j]);
-        linear::residual_of_nodes(
-            &mut Linearized { step, node: 0, work },
-            size,
-            |i| p[i],
-            residuals,
-            weights,
-        )
-    }
-
-    /// Overwrites the residuals with the corrections.
-    fn solve(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
-        let Self { residuals, weights, solver, work, .. } = self;
-        let mut matrix = Linearized { step, node: 0, work };
-        solver.solve(&mut matrix, weights, residuals)
-    }
-
-    fn arrive(&mut self, q: &mut Vector<S, T>, h: T) {
-        let Self { p, rates, unknowns: [delta, _], work, .. } = self;
-        q.copy_from_slice(&work.end);
-        p.copy_from_slice(&work.one_form);
-        delta.iter_mut().for_each(|delta| *delta /= h);
-        rates.push(h, [delta]);
+        Ok(())
     }
 }
 
 /// The derivatives of r₁ and r₂ by Δ and λ. L_qq of node 2, at q1, stands for the second derivative of α·λ.
-struct Linearized<'a, S: System, T: Real> {
-    step: &'a Step<'a, S, T>,
-    node: usize,
-    work: &'a mut Work<S, T>,
-}
-
-impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S, T> {
+impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Step<'_, S, T> {
     const FIRST: usize = 1;
 
     fn place(&mut self, j: usize) {
         self.node = j;
     }
 
+    fn given(&self, i: usize) -> T {
+        self.p[i]
+    }
+
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        let Step { h, a, b, .. } = *self.step;
-        let [in_middle, in_velocity] = self.step.lambda();
+        let Self { h, a, b, .. } = *self;
+        let [in_middle, in_velocity] = self.lambda();
         let (zero, one, half) = (T::lift(0.0), T::lift(1.0), T::lift(0.5));
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         match (self.node, r, k) {
@@ -377,12 +309,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S
     }
 
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
-        let Work { middle, velocity, end, gradient, one_form, slope, rest, .. } = &mut *self.work;
-        let Step { system, q, t, h, .. } = *self.step;
-        let [centre, after] = self.step.times();
+        let [centre, after] = self.times();
+        let Self { system, q, t, h, work, .. } = self;
+        let Work { middle, velocity, end, gradient, one_form, slope, rest, .. } = &mut **work;
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let (point, time): (&[T], T) = [(q, t), (&**middle, centre), (&**end, after)][self.node];
+        let (point, time): (&[T], T) = [(*q, *t), (&**middle, centre), (&**end, after)][self.node];
         system.linearize(point, rest, time, Weights { qv: one, ..none }, gradient, one_form, qv);
         match self.node {
             1 => {
@@ -390,9 +322,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Linearized<'_, S
             }
             2 => {
                 // h L_qq at (q, λ/h) without that at (q, 0), which is of H.
-                let w = Weights { qq: h, ..none };
+                let w = Weights { qq: *h, ..none };
                 system.linearize(point, slope, time, w, gradient, one_form, qq);
-                let w = Weights { qq: -h, ..none };
+                let w = Weights { qq: -*h, ..none };
                 system.linearize(point, rest, time, w, gradient, one_form, qq);
             }
             _ => {}

@@ -76,7 +76,8 @@ pub(crate) fn relative<T: Real>(rows: impl Iterator<Item = (T, T)>) -> Result<T,
     Ok(largest)
 }
 
-/// The same of equations for several vectors, whose residuals are in `vectors`, but the first.
+/// The same of equations for several vectors, whose residuals are in `vectors`, and whose unknowns have the
+/// sizes one over `weights`.
 #[cold]
 #[inline(never)]
 pub(crate) fn residual_of_nodes<
@@ -86,16 +87,15 @@ pub(crate) fn residual_of_nodes<
     V: Deref<Target = [T]>,
 >(
     matrix: &mut M,
-    size: impl Fn(usize) -> T,
-    given: impl Fn(usize) -> T,
+    weights: &[T],
     vectors: &[V; NODES],
     sums: &mut [T],
 ) -> Result<T, StepFailure> {
     let mut largest = T::lift(0.0);
     for (r, vector) in vectors.iter().enumerate().skip(M::FIRST) {
-        sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(given(i)));
+        sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(matrix.given(i)));
         let sums = RefCell::new(&mut *sums);
-        let add = |i: usize, j: usize, entry: T| sums.borrow_mut()[i] += Scalar::abs(entry * size(j));
+        let add = |i: usize, j: usize, entry: T| sums.borrow_mut()[i] += Scalar::abs(entry / weights[j]);
         for node in 0..NODES {
             matrix.place(node);
             let of = |weight: fn(&Weights<T>) -> T| {

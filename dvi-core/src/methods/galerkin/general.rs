@@ -18,7 +18,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Guess, iterate, sizes};
 use crate::space::{CoupledSolver, NodeSum, Sink, linear, scratch};
 use crate::state::Statistics;
-use crate::{Coupled, NondegenerateLagrangian, Real, Scalar, System, Vector, Weights};
+use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector, Weights};
 use core::ops::DerefMut;
 
 /// The unknowns.
@@ -48,12 +48,12 @@ where
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         let Path { rule, coefficients, phase, work, .. } = &mut *path;
-        let Work { unknowns, residuals, weights, point, velocity, gradient, momentum, .. } = work;
+        let Work { unknowns, residuals, weights, point, velocity, gradient, momentum, next, .. } = work;
         let node = [point, velocity, gradient, momentum];
-        let mut equations = Linearized { step, rule, coefficients, unknowns, node, j: 0, t: step.t };
-        let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(unknowns[NODES - 1][j]);
+        let p = &phase.p;
+        let mut equations = Linearized { step, rule, coefficients, unknowns, p, node, j: 0, t: step.t };
         if *due == Due::Residual {
-            return linear::residual_of_nodes(&mut equations, size, |i| phase.p[i], residuals, weights);
+            return linear::residual_of_nodes(&mut equations, weights, residuals, next);
         }
         solver.solve(&mut equations, weights, residuals)?;
         let mut correction = T::lift(0.0);
@@ -121,6 +121,7 @@ struct Linearized<'a, 'b, const NODES: usize, S: System, F, T: Real, E> {
     rule: &'a Lobatto<NODES>,
     coefficients: &'a Coefficients<NODES, T>,
     unknowns: &'a [Vector<S, T>; NODES],
+    p: &'a [T],
     /// Work space: point and velocity of a node, and the first derivatives of L there.
     node: [&'a mut Vector<S, T>; 4],
     /// The node, and its time.
@@ -139,6 +140,10 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, E
         place(j, step.h, coefficients, unknowns, [point, velocity]);
         self.j = j;
         self.t = step.node_time(rule.nodes()[j]);
+    }
+
+    fn given(&self, i: usize) -> T {
+        self.p[i]
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -156,10 +156,9 @@ where
             let at = [&mut point[0], &mut slope[0]];
             // Those of coordinates over h.
             let weights = &*path.weights;
-            let size = |j: usize| T::lift(1.0) / weights[j];
             let mut matrix = Linearized { system, tableau, path, at, derivatives, t, h, stage: 0 };
             if *due == Due::Residual {
-                return linear::residual_of_nodes(&mut matrix, size, |_| T::lift(0.0), residuals, sums);
+                return linear::residual_of_nodes(&mut matrix, weights, residuals, sums);
             }
             solver.solve(&mut matrix, weights, residuals)?;
             let (correction, was_farther) = self.correct(path, h);
@@ -283,6 +282,10 @@ where
         let [point, velocity] = &mut self.at;
         read_lane(j, &self.path.stages[0], point);
         read_lane(j, &self.path.slopes[0], velocity);
+    }
+
+    fn given(&self, _i: usize) -> T {
+        T::lift(0.0)
     }
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {

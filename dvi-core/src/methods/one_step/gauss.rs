@@ -9,18 +9,16 @@
 
 use super::split::{Split, is_x};
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::VectorField;
-use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::Collocation;
+use crate::methods::one_point::OnePoint;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
-use crate::space::{CoupledSolver, NodeSum, Sink, Storing, linear};
+use crate::solve::{Convergence, CoupledEquations, Guess, Stopping, from_either_guess, solve_coupled};
+use crate::space::{NodeSum, Sink, Storing};
 use crate::state::Statistics;
-use crate::state::rates::is_similar;
-use crate::{Coupled, ProperlyDegenerate, Real, Scalar, Space, System, Vector, Weights};
+use crate::{Coupled, ProperlyDegenerate, Real, Space, System, Vector, Weights};
 
 /// Gauss collocation of a degenerate Lagrangian in class ([`ProperlyDegenerate`]) with `S` stages, 1 ≤ `S` ≤
 /// 4.
@@ -64,29 +62,24 @@ impl<const S: usize> Scheme for OneStepGauss<S> {
 /// What a run of a method with `STAGES` stages carries.
 #[derive(Debug)]
 pub struct OneStepGaussMemory<const STAGES: usize, S: System, T: Real> {
-    /// ϑ at the current point, zero along y.
-    p: Vector<S, T>,
-    /// The velocities V of the last step.
-    completed: [Vector<S, T>; STAGES],
-    last_step: T,
-    orientation: FormOrientation<S, T>,
-    tableau: Collocation<STAGES>,
-    continuation: [[f64; STAGES]; STAGES],
+    /// With the velocities V of each stage. α is zero along y.
+    point: OnePoint<S, T, STAGES>,
     split: Split<S, T>,
     solver: Coupled<STAGES, S, T>,
-    /// The unknowns W, and F at the stages.
+    /// W
     increments: [Vector<S, T>; STAGES],
-    forces: [Vector<S, T>; STAGES],
     /// The residuals, and then the corrections.
     residuals: [Vector<S, T>; STAGES],
-    /// In which the iteration judges coordinates.
-    weights: Vector<S, T>,
-    work: Work<S, T>,
+    /// In which the iteration judges coordinates, and work space.
+    weights: [Vector<S, T>; 2],
+    work: Work<STAGES, S, T>,
 }
 
 /// Vectors that are written before they are read.
 #[derive(Debug)]
-struct Work<S: System, T: Real> {
+struct Work<const STAGES: usize, S: System, T: Real> {
+    /// F
+    forces: [Vector<S, T>; STAGES],
     point: Vector<S, T>,
     velocity: Vector<S, T>,
     gradient: Vector<S, T>,
@@ -96,232 +89,7 @@ struct Work<S: System, T: Real> {
 }
 
 impl<const STAGES: usize, S: System, T: Real> Memory<T> for OneStepGaussMemory<STAGES, S, T> {
-    lasting!(T; numbers p, vectors completed, number last_step, part orientation);
-}
-
-/// Sets `point` to Qᵢ.
-fn place<const STAGES: usize, T: Real>(
-    row: &[f64; STAGES],
-    q: &[T],
-    increments: &[impl core::ops::Deref<Target = [T]>; STAGES],
-    point: &mut [T],
-) {
-    for (n, (point, &q)) in point.iter_mut().zip(q).enumerate() {
-        *point = row.iter().zip(increments).fold(q, |sum, (&a, w)| sum + T::lift(a) * w[n]);
-    }
-}
-
-impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> OneStepGaussMemory<STAGES, S, T> {
-    fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StartError> {
-        let space = system.space();
-        let mut p = space.vector();
-        system.one_form(q, t, &mut p);
-        let rates = VectorField::starting(system, q, t)?;
-        let tableau = Collocation::gauss();
-        let rest: Vector<S, T> = space.vector();
-        Ok(Self {
-            p,
-            completed: core::array::from_fn(|_| rates.clone()),
-            last_step: T::lift(0.0),
-            orientation: FormOrientation::new(system, q, t),
-            tableau,
-            continuation: tableau.continuation(),
-            split: Split::new(system),
-            solver: coupled_by_second_derivatives(system, [q, &rest], t, STAGES, Storing::Always),
-            increments: space.vectors(),
-            weights: space.vector(),
-            forces: space.vectors(),
-            residuals: space.vectors(),
-            work: Work {
-                point: space.vector(),
-                velocity: space.vector(),
-                gradient: space.vector(),
-                one_form: space.vector(),
-                next: space.vector(),
-                momentum: space.vector(),
-            },
-        })
-    }
-
-    /// The increments of the last polynomial continued, those of its last slope where the step has another
-    /// length, or zero.
-    fn guess(&mut self, h: T, guess: Guess) {
-        let continues = is_similar(h, self.last_step);
-        for (i, increment) in self.increments.iter_mut().enumerate() {
-            for (n, w) in increment.iter_mut().enumerate() {
-                let row = self.continuation[i].iter().zip(&self.completed);
-                *w = match guess {
-                    Guess::Zero => T::lift(0.0),
-                    Guess::Extrapolated if continues => {
-                        h * row.fold(T::lift(0.0), |sum, (&l, v)| sum + T::lift(l) * v[n])
-                    }
-                    Guess::Extrapolated => h * self.completed[STAGES - 1][n],
-                };
-            }
-        }
-    }
-
-    fn step(
-        &mut self,
-        system: &S,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        stopping: Stopping,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        // Where steps are long, extrapolation is off, or leads to another branch.
-        self.attempt(system, q, [t, h], stopping, Guess::Extrapolated, statistics)
-            .or_else(|_| self.attempt(system, q, [t, h], stopping, Guess::Zero, statistics))?;
-        q.copy_from_slice(&self.work.next);
-        self.p.copy_from_slice(&self.work.momentum);
-        for (completed, increment) in self.completed.iter_mut().zip(&self.increments) {
-            for (v, &w) in completed.iter_mut().zip(increment.iter()) {
-                *v = w / h;
-            }
-        }
-        self.last_step = h;
-        Ok(())
-    }
-
-    /// Sets `work.next` to q1 and `work.momentum` to p1, if q1 and the stages are on the branch of ϑ(x, y) =
-    /// p that q0 is on.
-    fn attempt(
-        &mut self,
-        system: &S,
-        q: &Vector<S, T>,
-        [t, h]: [T; 2],
-        stopping: Stopping,
-        guess: Guess,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.newton(system, q, [t, h], stopping, guess, statistics)?;
-        self.differentiate(system, q, [t, h], statistics);
-        let Self { p, orientation, tableau, split, increments, forces, work, .. } = &mut *self;
-        let Work { point, next, momentum, .. } = work;
-        place(&tableau.b, q, increments, next);
-        for (i, (momentum, &p)) in momentum.iter_mut().zip(p.iter()).enumerate() {
-            let impulse = tableau.b.iter().zip(forces.iter()).map(|(&b, f)| T::lift(b) * f[i]);
-            let impulse = impulse.fold(T::lift(0.0), |sum, term| sum + term);
-            *momentum = if is_x(system, i) { p + h * impulse } else { T::lift(0.0) };
-        }
-        split.solve_y::<Convergence<T>>(system, next, t + h, momentum, stopping, statistics)?;
-        norm::finite(next)?;
-        // Between two branches Ω changes its sign.
-        for (row, &c) in tableau.a.iter().zip(&tableau.c) {
-            place(row, q, increments, point);
-            orientation.compare(system, point, t + T::lift(c) * h)?;
-        }
-        norm::mean(q, next, point);
-        orientation.compare(system, point, t + T::lift(0.5) * h)?;
-        orientation.check(system, next, t + h)
-    }
-
-    /// Solves for the increments.
-    fn newton(
-        &mut self,
-        system: &S,
-        q: &Vector<S, T>,
-        [t, h]: [T; 2],
-        stopping: Stopping,
-        guess: Guess,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.guess(h, guess);
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        iterate(convergence, statistics, |due, statistics| {
-            due.prepare_all(system, &mut self.weights, q, &mut self.increments);
-            self.differentiate(system, q, [t, h], statistics);
-            self.residuals.iter().try_for_each(|residual| norm::finite(residual))?;
-            statistics.linearizations += STAGES as u64;
-            statistics.factorisations += 1;
-            let Self { p, tableau, increments, residuals, weights, solver, work, .. } = &mut *self;
-            let mut matrix = Linearized { system, tableau, q, increments, t, h, node: 0, work };
-            let size =
-                |j: usize| increments.iter().fold(Scalar::abs(q[j]), |size, w| size + Scalar::abs(w[j]));
-            if *due == Due::Residual {
-                return linear::residual_of_nodes(&mut matrix, size, |i| p[i], residuals, weights);
-            }
-            solver.solve(&mut matrix, weights, residuals)?;
-            let mut correction = T::lift(0.0);
-            for (increment, change) in increments.iter_mut().zip(&*residuals) {
-                correction = norm::larger(correction, sizes::reduce(system, weights, increment, change));
-            }
-            Ok(correction)
-        })?;
-        self.increments.iter().try_for_each(|increment| norm::finite(increment))
-    }
-
-    /// Sets `forces` to F and `residuals` to r.
-    fn differentiate(&mut self, system: &S, q: &[T], [t, h]: [T; 2], statistics: &mut Statistics) {
-        let Self { p, tableau, increments, forces, residuals, work, .. } = self;
-        let Work { point, velocity, one_form, .. } = work;
-        for (i, force) in forces.iter_mut().enumerate() {
-            place(&tableau.a[i], q, increments, point);
-            for (v, &w) in velocity.iter_mut().zip(increments[i].iter()) {
-                *v = w / h;
-            }
-            system.gradient(point, velocity, t + T::lift(tableau.c[i]) * h, force, one_form);
-            statistics.gradients += 1;
-            for ((r, &form), &p) in residuals[i].iter_mut().zip(one_form.iter()).zip(p.iter()) {
-                *r = form - p;
-            }
-        }
-        for (row, residual) in tableau.a.iter().zip(residuals.iter_mut()) {
-            for (&a, force) in row.iter().zip(forces.iter()) {
-                let factor = h * T::lift(a);
-                for (r, &force) in residual.iter_mut().zip(force.iter()) {
-                    *r -= factor * force;
-                }
-            }
-        }
-    }
-}
-
-/// The matrix ∂rᵢ/∂Wₖ at the current increments; a node of the sum is a stage.
-struct Linearized<'a, const STAGES: usize, S: System, T: Real> {
-    system: &'a S,
-    tableau: &'a Collocation<STAGES>,
-    q: &'a [T],
-    increments: &'a [Vector<S, T>; STAGES],
-    t: T,
-    h: T,
-    node: usize,
-    work: &'a mut Work<S, T>,
-}
-
-impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> NodeSum<STAGES, T>
-    for Linearized<'_, STAGES, S, T>
-{
-    const FIRST: usize = 0;
-
-    fn place(&mut self, j: usize) {
-        self.node = j;
-        let Work { point, velocity, .. } = &mut *self.work;
-        place(&self.tableau.a[j], self.q, self.increments, point);
-        for (v, &w) in velocity.iter_mut().zip(self.increments[j].iter()) {
-            *v = w / self.h;
-        }
-    }
-
-    fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        let (j, zero) = (self.node, T::lift(0.0));
-        let a = |i: usize, k: usize| T::lift(self.tableau.a[i][k]);
-        Weights {
-            qq: -self.h * a(r, j) * a(j, k),
-            qv: if j == k { -a(r, j) } else { zero },
-            vq: if j == r { a(r, k) } else { zero },
-            vv: zero,
-        }
-    }
-
-    fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let time = self.t + T::lift(self.tableau.c[self.node]) * self.h;
-        let Work { point, velocity, gradient, one_form, .. } = &mut *self.work;
-        self.system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq);
-        self.system.linearize(point, velocity, time, Weights { qv: one, ..none }, gradient, one_form, qv);
-    }
+    lasting!(T; part point);
 }
 
 impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for OneStepGauss<STAGES> {
@@ -338,7 +106,17 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
         _h: T,
     ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        OneStepGaussMemory::new(system, q, t)
+        let space = system.space();
+        let [point, velocity, gradient, one_form, next, momentum, rest] = space.vectors();
+        Ok(OneStepGaussMemory {
+            point: OnePoint::new(system, q, t, |rates| core::array::from_fn(|_| rates.clone()))?,
+            split: Split::new(system),
+            solver: coupled_by_second_derivatives(system, [q, &rest], t, STAGES, Storing::Always),
+            increments: space.vectors(),
+            residuals: space.vectors(),
+            weights: space.vectors(),
+            work: Work { forces: space.vectors(), point, velocity, gradient, one_form, next, momentum },
+        })
     }
 
     fn step(
@@ -350,8 +128,144 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        memory.step(system, q, [t, h], self.stopping, statistics)
+        let (tableau, stopping) = (&Collocation::gauss(), self.stopping);
+        let OneStepGaussMemory { point, split, solver, increments, residuals, weights, work } = memory;
+        from_either_guess(|guess: Guess| {
+            let OnePoint { p, rates, orientation } = &mut *point;
+            rates.guess(h, guess, increments.each_mut());
+            increments.iter_mut().for_each(|w| w.iter_mut().for_each(|w| *w *= h));
+            let mut step = Step { system, tableau, q, p, t, h, increments, work, stage: 0 };
+            solve_coupled(&mut step, (system, q), solver, (residuals, weights), stopping, statistics)?;
+            step.evaluate(residuals, statistics)?;
+            step.end();
+            let Work { next, momentum, .. } = &mut *step.work;
+            split.solve_y::<Convergence<T>>(system, next, t + h, momentum, stopping, statistics)?;
+            norm::finite(next)?;
+            // Between two branches Ω changes its sign.
+            for stage in 0..STAGES {
+                step.place(stage);
+                orientation.compare(system, &step.work.point, step.time())?;
+            }
+            let Work { next, point, .. } = &mut *step.work;
+            norm::mean(q, next, point);
+            orientation.pass(system, &[(point, t + T::lift(0.5) * h)], (next, t + h))
+        })?;
+        increments.iter_mut().for_each(|w| w.iter_mut().for_each(|w| *w /= h));
+        point.arrive(q, (&work.next, &work.momentum), h, increments.each_ref());
+        Ok(())
     }
 }
 
 impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {}
+
+/// The equations of a step from `q` at `t`, and the matrix ∂rᵢ/∂Wₖ, in which a node of the sum is a stage.
+struct Step<'a, const STAGES: usize, S: System, T: Real> {
+    system: &'a S,
+    tableau: &'a Collocation<STAGES>,
+    q: &'a [T],
+    p: &'a [T],
+    t: T,
+    h: T,
+    increments: &'a mut [Vector<S, T>; STAGES],
+    work: &'a mut Work<STAGES, S, T>,
+    stage: usize,
+}
+
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Step<'_, STAGES, S, T> {
+    /// The time of the stage.
+    fn time(&self) -> T {
+        self.t + T::lift(self.tableau.c[self.stage]) * self.h
+    }
+
+    /// Sets `work.next` to q0 + Σᵢ bᵢ Wᵢ, and `work.momentum` to p1.
+    fn end(&mut self) {
+        let Self { system, tableau: Collocation { b, .. }, q, p, h, increments, work, .. } = self;
+        let Work { forces, next, momentum, .. } = &mut **work;
+        for i in 0..q.len() {
+            next[i] = weighted(b, increments, i, q[i]);
+            momentum[i] = if is_x(*system, i) {
+                p[i] + *h * weighted(b, forces, i, T::lift(0.0))
+            } else {
+                T::lift(0.0)
+            };
+        }
+    }
+}
+
+/// `from` + Σₖ `row`ₖ xₖ of coordinate `i`.
+fn weighted<const STAGES: usize, T: Real>(
+    row: &[f64; STAGES],
+    x: &[impl core::ops::Deref<Target = [T]>; STAGES],
+    i: usize,
+    from: T,
+) -> T {
+    row.iter().zip(x).fold(from, |sum, (&a, x)| sum + T::lift(a) * x[i])
+}
+
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> CoupledEquations<STAGES, S, T>
+    for Step<'_, STAGES, S, T>
+{
+    fn unknowns(&mut self) -> &mut [Vector<S, T>; STAGES] {
+        self.increments
+    }
+
+    fn evaluate(
+        &mut self,
+        residuals: &mut [Vector<S, T>; STAGES],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        for (stage, residual) in residuals.iter_mut().enumerate() {
+            self.place(stage);
+            let time = self.time();
+            let Work { forces, point, velocity, one_form, .. } = &mut *self.work;
+            self.system.gradient(point, velocity, time, &mut forces[stage], one_form);
+            statistics.gradients += 1;
+            for ((r, &form), &p) in residual.iter_mut().zip(one_form.iter()).zip(self.p) {
+                *r = form - p;
+            }
+        }
+        for (row, residual) in self.tableau.a.iter().zip(residuals) {
+            for (i, r) in residual.iter_mut().enumerate() {
+                *r -= self.h * weighted(row, &self.work.forces, i, T::lift(0.0));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> NodeSum<STAGES, T> for Step<'_, STAGES, S, T> {
+    const FIRST: usize = 0;
+
+    fn place(&mut self, j: usize) {
+        self.stage = j;
+        let Self { tableau, q, h, increments, work: Work { point, velocity, .. }, .. } = self;
+        for i in 0..q.len() {
+            point[i] = weighted(&tableau.a[j], increments, i, q[i]);
+            velocity[i] = increments[j][i] / *h;
+        }
+    }
+
+    fn given(&self, i: usize) -> T {
+        self.p[i]
+    }
+
+    fn weights(&self, r: usize, k: usize) -> Weights<T> {
+        let (j, zero) = (self.stage, T::lift(0.0));
+        let a = |i: usize, k: usize| T::lift(self.tableau.a[i][k]);
+        Weights {
+            qq: -self.h * a(r, j) * a(j, k),
+            qv: if j == k { -a(r, j) } else { zero },
+            vq: if j == r { a(r, k) } else { zero },
+            vv: zero,
+        }
+    }
+
+    fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let time = self.time();
+        let Work { point, velocity, gradient, one_form, .. } = &mut *self.work;
+        self.system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq);
+        self.system.linearize(point, velocity, time, Weights { qv: one, ..none }, gradient, one_form, qv);
+    }
+}

@@ -35,6 +35,9 @@ pub trait NodeSum<const NODES: usize, T> {
     /// Adds the second derivatives of L at the node to sinks: L_qq, L_qv and L_vv.
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>);
 
+    /// What is given in row `i` of each equation, beside what the unknowns add.
+    fn given(&self, i: usize) -> T;
+
     /// Whether L_vq is (L_qv)ᵀ: not where forces that depend on velocities stand beside ∂L/∂q.
     const MIXED_ARE_TRANSPOSED: bool = true;
     /// Where [`MIXED_ARE_TRANSPOSED`](Self::MIXED_ARE_TRANSPOSED) does not hold: adds L_vq at the node to a
